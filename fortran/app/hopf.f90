@@ -1,0 +1,23 @@
+!> Hopf curves in one plane of parameters.
+program hopf
+   use errors, only: error_type
+   use hopf_curves, only: curve_plane, curve_point, trace_curves
+   use hopf_input, only: hopf_settings, read_plane
+   use hopf_output, only: write_curves
+   use program_arguments, only: get_paths, stop_on
+   implicit none
+   character(len=:), allocatable :: namelist_path, output_path
+   type(error_type), allocatable :: error
+   type(hopf_settings) :: settings
+   class(curve_plane), allocatable :: plane
+   type(curve_point), allocatable :: points(:)
+
+   call get_paths(namelist_path, output_path, error)
+   call stop_on(error)
+   call read_plane(namelist_path, settings, plane, error)
+   call stop_on(error)
+   call trace_curves(plane, points, error)
+   call stop_on(error)
+   call write_curves(output_path, settings, points, error)
+   call stop_on(error)
+end program hopf

@@ -1,0 +1,48 @@
+!> Power spectrum of v over a trajectory after its transient, with its peaks labelled.
+program spectrum_program
+   use errors, only: error_type
+   use kinds, only: wp
+   use program_arguments, only: get_paths, stop_on
+   use spectral_peaks, only: find_peaks, label_peaks, line_share, peak_type
+   use spectrum, only: power_spectrum
+   use spectrum_input, only: read_spectrum_settings, spectrum_settings
+   use spectrum_output, only: write_spectrum
+   use trajectory_input, only: read_trajectory, trajectory_type
+   implicit none
+   character(len=:), allocatable :: namelist_path, output_path
+   type(error_type), allocatable :: error
+   type(peak_type), allocatable :: peaks(:)
+   type(spectrum_settings) :: settings
+   type(trajectory_type) :: trajectory
+   real(wp), allocatable :: frequency(:), power(:)
+   integer :: first
+
+   call get_paths(namelist_path, output_path, error)
+   call stop_on(error)
+   call read_spectrum_settings(namelist_path, settings, error)
+   call stop_on(error)
+   call read_trajectory(trim(settings%trajectory), 'v', trajectory, error)
+   call stop_on(error)
+
+   first = 1 + ceiling(trajectory%t_transient/trajectory%sample_interval)
+   associate (v => trajectory%samples(first:))
+      call power_spectrum(v, trajectory%sample_interval, settings%window, settings%segments, &
+                          settings%overlap, frequency, power, error)
+      call stop_on(error)
+      peaks = find_peaks(frequency, power, settings%peak_floor, settings%peak_prominence)
+      call label_peaks(peaks, frequency(2))
+      call write_spectrum(output_path, trim(trajectory%scene), settings, frequency, power, &
+                          variance(v), peaks, line_share(power, peaks), error)
+      call stop_on(error)
+   end associate
+
+contains
+
+   !> Mean square distance from the mean.
+   pure real(wp) function variance(x)
+      !> Samples
+      real(wp), intent(in) :: x(:)
+
+      variance = sum((x - sum(x)/size(x))**2)/size(x)
+   end function variance
+end program spectrum_program

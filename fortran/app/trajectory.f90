@@ -1,0 +1,35 @@
+!> Trajectory of one scene: the delayed block integrated from its history to t_end.
+program trajectory
+   use dde, only: integrate, integration_options, integration_result
+   use errors, only: error_type
+   use kinds, only: wp
+   use program_arguments, only: get_paths, stop_on
+   use scene_input, only: read_scene, scene_type
+   use spring_block, only: spring_block_type
+   use trajectory_output, only: trajectory_writer
+   implicit none
+   character(len=:), allocatable :: namelist_path, output_path
+   type(error_type), allocatable :: error
+   type(integration_options) :: options
+   type(integration_result) :: outcome
+   type(scene_type) :: scene
+   type(spring_block_type) :: block_model
+   type(trajectory_writer) :: writer
+
+   call get_paths(namelist_path, output_path, error)
+   call stop_on(error)
+   call read_scene(namelist_path, scene, error)
+   call stop_on(error)
+
+   block_model = spring_block_type(scene%tau, scene%epsilon, scene%xi, scene%gamma, &
+                                   scene%history%theta, scene%history%u, scene%history%v)
+   options = integration_options(method=scene%method, relative=scene%tolerance, &
+                                 absolute=scene%tolerance)
+   writer = trajectory_writer(output_path, scene)
+   call stop_on(writer%file%error)
+   call integrate(block_model, 0.0_wp, scene%t_end, options, outcome, error, writer)
+   if (allocated(error)) call writer%file%discard()
+   call stop_on(error)
+   call writer%finish(outcome, error)
+   call stop_on(error)
+end program trajectory

@@ -1,0 +1,22 @@
+!> Response of friction to an up-step and a down-step of the imposed velocity.
+program velocity_step_program
+   use errors, only: error_type
+   use program_arguments, only: get_paths, stop_on
+   use velocity_step, only: friction_response, respond, step_protocol
+   use velocity_step_input, only: read_protocol
+   use velocity_step_output, only: write_response
+   implicit none
+   character(len=:), allocatable :: namelist_path, output_path
+   type(error_type), allocatable :: error
+   type(friction_response) :: response
+   type(step_protocol) :: protocol
+
+   call get_paths(namelist_path, output_path, error)
+   call stop_on(error)
+   call read_protocol(namelist_path, protocol, error)
+   call stop_on(error)
+   call respond(protocol, response, error)
+   call stop_on(error)
+   call write_response(output_path, protocol, response, error)
+   call stop_on(error)
+end program velocity_step_program

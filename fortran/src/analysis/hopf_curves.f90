@@ -1,0 +1,381 @@
+!> Hopf curves in a plane of two parameters, drawn over the frequency omega: the pieces inside a
+!> window are found by a scan, their ends by root finding, and points are set where the line bends.
+module hopf_curves
+   use characteristic_function, only: block_parameters, delta_by_s, delta_by_tau, relative_residual
+   use errors, only: error_type
+   use gsl_roots, only: find_root, scalar_function
+   use hopf_condition, only: hopf_epsilon, hopf_tau, hopf_xi, printed_tau, two_pi
+   use kinds, only: wp
+   implicit none
+   private
+   public :: curve_plane, curve_point, tau_of_epsilon, trace_curves, xi_of_epsilon
+
+   !> Omegas of the scan for pieces inside the window.
+   integer, parameter :: scan_points = 20000
+   !> Farthest a chord may lie from the curve, and longest chord, in units of the window.
+   real(wp), parameter :: chord_deviation = 1.0e-4_wp, chord_length = 0.02_wp
+   !> Most halvings of one piece.
+   integer, parameter :: most_halvings = 14
+
+   !> A plane (epsilon, ordinate) with a window; gamma is fixed, nondimensional.
+   type, abstract :: curve_plane
+      !> Frequency of the block
+      real(wp) :: gamma = 1.0_wp
+      !> Window on epsilon: least, most
+      real(wp) :: epsilon_window(2) = [0.0_wp, 1.0_wp]
+      !> Window on the ordinate: least, most
+      real(wp) :: ordinate_window(2) = [0.0_wp, 1.0_wp]
+   contains
+      !> Parameters at which branch k has the pair i omega
+      procedure(branch_at), deferred :: at
+      !> The ordinate among the parameters
+      procedure(ordinate_of), deferred, nopass :: ordinate
+      !> Least omega, and highest branch, that the window can hold
+      procedure(reach), deferred :: bounds
+   end type curve_plane
+
+   abstract interface
+      !> Parameters at which branch k has the pair i omega; xi <= 0 where it has none.
+      pure type(block_parameters) function branch_at(self, omega, k)
+         import :: block_parameters, curve_plane, wp
+         !> The plane
+         class(curve_plane), intent(in) :: self
+         !> Frequency of the pair
+         real(wp), intent(in) :: omega
+         !> Branch
+         integer, intent(in) :: k
+      end function branch_at
+
+      !> The ordinate among the parameters.
+      pure real(wp) function ordinate_of(p)
+         import :: block_parameters, wp
+         !> Parameters
+         type(block_parameters), intent(in) :: p
+      end function ordinate_of
+
+      !> Least omega and highest branch in the window, given the largest omega.
+      pure subroutine reach(self, omega_most, omega_least, k_most)
+         import :: curve_plane, wp
+         !> The plane
+         class(curve_plane), intent(in) :: self
+         !> Largest omega in the window
+         real(wp), intent(in) :: omega_most
+         !> Least omega
+         real(wp), intent(out) :: omega_least
+         !> Highest branch
+         integer, intent(out) :: k_most
+      end subroutine reach
+   end interface
+
+   !> Figure 2: tau over epsilon at fixed xi.
+   type, extends(curve_plane) :: tau_of_epsilon
+      !> Spring constant
+      real(wp) :: xi = 1.0_wp
+   contains
+      procedure :: at => tau_branch
+      procedure, nopass :: ordinate => tau_ordinate
+      procedure :: bounds => tau_bounds
+   end type tau_of_epsilon
+
+   !> Figure 3: xi over epsilon at fixed tau.
+   type, extends(curve_plane) :: xi_of_epsilon
+      !> Delay
+      real(wp) :: tau = 0.0_wp
+   contains
+      procedure :: at => xi_branch
+      procedure, nopass :: ordinate => xi_ordinate
+      procedure :: bounds => xi_bounds
+   end type xi_of_epsilon
+
+   !> One point of a Hopf curve.
+   type :: curve_point
+      !> Parameters, nondimensional
+      type(block_parameters) :: parameters
+      !> Frequency of the pair
+      real(wp) :: omega = 0.0_wp
+      !> Branch k of equation (10)
+      integer :: branch = 0
+      !> Number of the unbroken piece of curve it belongs to, from 1
+      integer :: piece = 0
+      !> |Delta(i omega)| over its largest term
+      real(wp) :: residual = 0.0_wp
+      !> +1 where a growing tau makes the pair unstable, -1 where it makes it stable
+      integer :: crossing = 0
+      !> Delay by equation (10) as printed
+      real(wp) :: printed_tau = 0.0_wp
+      !> Residual there
+      real(wp) :: printed_residual = 0.0_wp
+   end type curve_point
+
+   !> How far inside the window branch k is at omega, -1..1 (negative: outside).
+   type, extends(scalar_function) :: margin_function
+      !> The plane
+      class(curve_plane), allocatable :: plane
+      !> Branch
+      integer :: k = 0
+   contains
+      procedure :: value => window_margin
+   end type margin_function
+
+contains
+
+   !> All points of all branches in the window of `plane`, piece by piece, omega ascending.
+   subroutine trace_curves(plane, points, error)
+      !> The plane and its window
+      class(curve_plane), intent(in) :: plane
+      !> Points
+      type(curve_point), allocatable, intent(out) :: points(:)
+      !> A root was not found
+      type(error_type), allocatable, intent(out) :: error
+      type(margin_function) :: margin
+      real(wp), allocatable :: omega(:)
+      logical, allocatable :: inside(:)
+      real(wp) :: ends(2), omega_least, omega_most
+      integer :: first, i, k, k_most, last, piece
+
+      allocate (points(0), omega(0:scan_points), inside(0:scan_points))
+      allocate (margin%plane, source=plane)
+      ! 1 + epsilon >= sqrt(1 + omega^2) on every Hopf curve
+      omega_most = sqrt((1.0_wp + plane%epsilon_window(2))**2 - 1.0_wp)
+      call plane%bounds(omega_most, omega_least, k_most)
+      omega(:) = [(omega_least + (omega_most - omega_least)*i/scan_points, i=0, scan_points)]
+      piece = 0
+      do k = 0, k_most
+         margin%k = k
+         do i = 0, scan_points
+            inside(i) = margin%value(omega(i)) >= 0.0_wp
+         end do
+         last = -1
+         do
+            first = findloc(inside(last + 1:), .true., dim=1) + last
+            if (first == last) exit
+            last = findloc(inside(first:), .false., dim=1) + first - 2
+            if (last < first) last = scan_points
+            call refine_end(margin, omega, first, first - 1, ends(1), error)
+            if (.not. allocated(error)) call refine_end(margin, omega, last, last + 1, ends(2), error)
+            if (allocated(error)) return
+            piece = piece + 1
+            points = [points, piece_of_curve(plane, k, ends, piece)]
+            if (last == scan_points) exit
+         end do
+      end do
+   end subroutine trace_curves
+
+   !> Where a piece leaves the window, between scan points `inner` and `outer`.
+   subroutine refine_end(margin, omega, inner, outer, end_of_piece, error)
+      !> Margin to the window
+      type(margin_function), intent(in) :: margin
+      !> Scan points
+      real(wp), intent(in) :: omega(0:)
+      !> Last one inside
+      integer, intent(in) :: inner
+      !> First one outside, beyond the scan if there is none
+      integer, intent(in) :: outer
+      !> The omega between them at which the window ends
+      real(wp), intent(out) :: end_of_piece
+      !> No root found
+      type(error_type), allocatable, intent(out) :: error
+
+      end_of_piece = omega(inner)
+      if (outer < 0 .or. outer > ubound(omega, 1)) return
+      call find_root(margin, min(omega(inner), omega(outer)), max(omega(inner), omega(outer)), &
+                     end_of_piece, error)
+   end subroutine refine_end
+
+   !> Distance of branch k at omega to the nearest edge of the window, in units of the window.
+   real(wp) function window_margin(self, x) result(margin)
+      !> Plane and branch
+      class(margin_function), intent(in) :: self
+      !> omega
+      real(wp), intent(in) :: x
+      type(block_parameters) :: p
+      real(wp) :: place(2)
+
+      margin = -1.0_wp
+      p = self%plane%at(x, self%k)
+      if (.not. p%xi > 0.0_wp) return
+      place = place_in_window(self%plane, p)
+      margin = max(-1.0_wp, min(minval(place), minval(1.0_wp - place)))
+   end function window_margin
+
+   !> (epsilon, ordinate) in units of the window, 0..1 inside.
+   pure function place_in_window(plane, p) result(place)
+      !> The plane
+      class(curve_plane), intent(in) :: plane
+      !> Parameters
+      type(block_parameters), intent(in) :: p
+      real(wp) :: place(2)
+
+      associate (x => plane%epsilon_window, y => plane%ordinate_window)
+         place = [(p%epsilon - x(1))/(x(2) - x(1)), (plane%ordinate(p) - y(1))/(y(2) - y(1))]
+      end associate
+   end function place_in_window
+
+   !> Points of branch k between two omegas, set so close that the chords look like the curve.
+   pure function piece_of_curve(plane, k, ends, piece) result(points)
+      !> The plane
+      class(curve_plane), intent(in) :: plane
+      !> Branch
+      integer, intent(in) :: k
+      !> First and last omega
+      real(wp), intent(in) :: ends(2)
+      !> Number of the piece
+      integer, intent(in) :: piece
+      type(curve_point), allocatable :: points(:)
+      real(wp), allocatable :: omega(:)
+      logical, allocatable :: bent(:)
+      integer :: halving, i
+
+      allocate (omega, source=[(ends(1) + (ends(2) - ends(1))*i/16.0_wp, i=0, 16)])
+      do halving = 1, most_halvings
+         bent = [(chord_is_bad(plane, k, omega(i), omega(i + 1)), i=1, size(omega) - 1)]
+         if (.not. any(bent)) exit
+         omega = [omega(1), (pack([0.5_wp*(omega(i) + omega(i + 1)), omega(i + 1)], &
+                                  [bent(i), .true.]), i=1, size(bent))]
+      end do
+      points = [(point_of_curve(plane, k, omega(i), piece), i=1, size(omega))]
+   end function piece_of_curve
+
+   !> Whether the chord between two omegas misses the curve's middle or is too long.
+   pure logical function chord_is_bad(plane, k, omega_1, omega_2)
+      !> The plane
+      class(curve_plane), intent(in) :: plane
+      !> Branch
+      integer, intent(in) :: k
+      !> One end
+      real(wp), intent(in) :: omega_1
+      !> The other end
+      real(wp), intent(in) :: omega_2
+      real(wp), dimension(2) :: chord, middle, start
+
+      start = place_in_window(plane, plane%at(omega_1, k))
+      chord = place_in_window(plane, plane%at(omega_2, k)) - start
+      middle = place_in_window(plane, plane%at(0.5_wp*(omega_1 + omega_2), k)) - start
+      chord_is_bad = norm2(chord) > chord_length
+      if (norm2(chord) > 0.0_wp) then
+         chord_is_bad = chord_is_bad .or. &
+                        abs(chord(1)*middle(2) - chord(2)*middle(1)) > chord_deviation*norm2(chord)
+      end if
+   end function chord_is_bad
+
+   !> The point of branch k at omega with all that is known of it.
+   pure type(curve_point) function point_of_curve(plane, k, omega, piece) result(point)
+      !> The plane
+      class(curve_plane), intent(in) :: plane
+      !> Branch
+      integer, intent(in) :: k
+      !> Frequency of the pair
+      real(wp), intent(in) :: omega
+      !> Number of the piece
+      integer, intent(in) :: piece
+      type(block_parameters) :: printed
+      complex(wp) :: s
+
+      s = cmplx(0.0_wp, omega, kind=wp)
+      point%omega = omega
+      point%branch = k
+      point%piece = piece
+      point%parameters = plane%at(omega, k)
+      associate (p => point%parameters)
+         point%residual = relative_residual(p, s)
+         point%crossing = nint(sign(1.0_wp, real(-delta_by_tau(p, s)/delta_by_s(p, s))))
+         printed = p
+         printed%tau = printed_tau(omega, p%xi, p%gamma, k)
+      end associate
+      point%printed_tau = printed%tau
+      point%printed_residual = relative_residual(printed, s)
+   end function point_of_curve
+
+   !> Equations (7) and (10) at fixed xi.
+   pure type(block_parameters) function tau_branch(self, omega, k) result(p)
+      !> The plane
+      class(tau_of_epsilon), intent(in) :: self
+      !> Frequency of the pair
+      real(wp), intent(in) :: omega
+      !> Branch
+      integer, intent(in) :: k
+
+      p = block_parameters(tau=hopf_tau(omega, self%xi, self%gamma, k), xi=self%xi, &
+                           epsilon=hopf_epsilon(omega, self%xi, self%gamma), gamma=self%gamma)
+   end function tau_branch
+
+   !> tau.
+   pure real(wp) function tau_ordinate(p)
+      !> Parameters
+      type(block_parameters), intent(in) :: p
+
+      tau_ordinate = p%tau
+   end function tau_ordinate
+
+   !> Least omega: where xi |gamma^2 - omega^2|/(gamma^2 omega) falls to omega_most; highest branch:
+   !> where (2 pi k - pi)/omega_most exceeds tau.
+   pure subroutine tau_bounds(self, omega_most, omega_least, k_most)
+      !> The plane
+      class(tau_of_epsilon), intent(in) :: self
+      !> Largest omega in the window
+      real(wp), intent(in) :: omega_most
+      !> Least omega
+      real(wp), intent(out) :: omega_least
+      !> Highest branch
+      integer, intent(out) :: k_most
+
+      omega_least = least_omega(self%xi, self%gamma, omega_most)
+      k_most = ceiling(self%ordinate_window(2)*omega_most/two_pi + 0.5_wp)
+   end subroutine tau_bounds
+
+   !> Equations (7) and (9) at fixed tau, as far as (10) gives that tau back on branch k.
+   pure type(block_parameters) function xi_branch(self, omega, k) result(p)
+      !> The plane
+      class(xi_of_epsilon), intent(in) :: self
+      !> Frequency of the pair
+      real(wp), intent(in) :: omega
+      !> Branch
+      integer, intent(in) :: k
+
+      p = block_parameters(tau=self%tau, xi=hopf_xi(omega, self%tau, self%gamma), gamma=self%gamma)
+      if (.not. p%xi > 0.0_wp) return
+      if (abs(omega*(hopf_tau(omega, p%xi, p%gamma, k) - self%tau)) > 1.0_wp) then
+         p%xi = -1.0_wp
+      else
+         p%epsilon = hopf_epsilon(omega, p%xi, p%gamma)
+      end if
+   end function xi_branch
+
+   !> xi.
+   pure real(wp) function xi_ordinate(p)
+      !> Parameters
+      type(block_parameters), intent(in) :: p
+
+      xi_ordinate = p%xi
+   end function xi_ordinate
+
+   !> Least omega: as in `tau_bounds` for the least xi; highest branch: from omega_most and tau.
+   pure subroutine xi_bounds(self, omega_most, omega_least, k_most)
+      !> The plane
+      class(xi_of_epsilon), intent(in) :: self
+      !> Largest omega in the window
+      real(wp), intent(in) :: omega_most
+      !> Least omega
+      real(wp), intent(out) :: omega_least
+      !> Highest branch
+      integer, intent(out) :: k_most
+
+      omega_least = least_omega(self%ordinate_window(1), self%gamma, omega_most)
+      k_most = ceiling(self%tau*omega_most/two_pi + 0.5_wp)
+   end subroutine xi_bounds
+
+   !> The omega at which xi (gamma^2 - omega^2)/(gamma^2 omega) = omega_most: below it epsilon lies
+   !> beyond the window, for 1 + epsilon = sqrt((1 + omega^2)(1 + B^2)) with B that ratio.
+   pure real(wp) function least_omega(xi, gamma, omega_most)
+      !> Spring constant
+      real(wp), intent(in) :: xi
+      !> Frequency of the block
+      real(wp), intent(in) :: gamma
+      !> Largest omega in the window
+      real(wp), intent(in) :: omega_most
+      real(wp) :: half
+
+      half = 0.5_wp*gamma**2*omega_most/xi
+      least_omega = gamma**2/(half + sqrt(half**2 + gamma**2))
+   end function least_omega
+end module hopf_curves

@@ -1,0 +1,159 @@
+!> Root finding by GSL (Brent's method).
+module gsl_roots
+   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_funptr, &
+                                          c_int, c_loc, c_ptr
+   use errors, only: error_type, raise, text
+   use kinds, only: wp
+   implicit none
+   private
+   public :: find_root, scalar_function
+
+   !> Most iterations of one search.
+   integer, parameter :: most_iterations = 200
+   !> GSL's status for success.
+   integer(c_int), parameter :: gsl_success = 0
+
+   !> A continuous function of one variable; its parameters are components of the extension.
+   type, abstract :: scalar_function
+   contains
+      !> Value at x
+      procedure(function_value), deferred :: value
+   end type scalar_function
+
+   abstract interface
+      !> Value of the function at x.
+      real(wp) function function_value(self, x)
+         import :: scalar_function, wp
+         !> The function
+         class(scalar_function), intent(in) :: self
+         !> Where
+         real(wp), intent(in) :: x
+      end function function_value
+   end interface
+
+   !> What GSL hands back to the callback.
+   type :: callback_data
+      class(scalar_function), pointer :: f => null()
+   end type callback_data
+
+   !> The C type gsl_function.
+   type, bind(c) :: gsl_function
+      type(c_funptr) :: evaluate
+      type(c_ptr) :: params
+   end type gsl_function
+
+   interface
+      type(c_ptr) function brent_of_gsl() bind(c)
+         import :: c_ptr
+      end function brent_of_gsl
+
+      type(c_ptr) function gsl_set_error_handler_off() bind(c)
+         import :: c_ptr
+      end function gsl_set_error_handler_off
+
+      type(c_ptr) function gsl_root_fsolver_alloc(method) bind(c)
+         import :: c_ptr
+         type(c_ptr), value :: method
+      end function gsl_root_fsolver_alloc
+
+      integer(c_int) function gsl_root_fsolver_set(solver, f, lower, upper) bind(c)
+         import :: c_double, c_int, c_ptr, gsl_function
+         type(c_ptr), value :: solver
+         type(gsl_function), intent(in) :: f
+         real(c_double), value :: lower, upper
+      end function gsl_root_fsolver_set
+
+      integer(c_int) function gsl_root_fsolver_iterate(solver) bind(c)
+         import :: c_int, c_ptr
+         type(c_ptr), value :: solver
+      end function gsl_root_fsolver_iterate
+
+      real(c_double) function gsl_root_fsolver_root(solver) bind(c)
+         import :: c_double, c_ptr
+         type(c_ptr), value :: solver
+      end function gsl_root_fsolver_root
+
+      real(c_double) function gsl_root_fsolver_x_lower(solver) bind(c)
+         import :: c_double, c_ptr
+         type(c_ptr), value :: solver
+      end function gsl_root_fsolver_x_lower
+
+      real(c_double) function gsl_root_fsolver_x_upper(solver) bind(c)
+         import :: c_double, c_ptr
+         type(c_ptr), value :: solver
+      end function gsl_root_fsolver_x_upper
+
+      integer(c_int) function gsl_root_test_interval(lower, upper, absolute, relative) bind(c)
+         import :: c_double, c_int
+         real(c_double), value :: lower, upper, absolute, relative
+      end function gsl_root_test_interval
+
+      subroutine gsl_root_fsolver_free(solver) bind(c)
+         import :: c_ptr
+         type(c_ptr), value :: solver
+      end subroutine gsl_root_fsolver_free
+   end interface
+
+contains
+
+   !> The root of `f` between `lower` and `upper`, where its signs differ, to the last few bits.
+   subroutine find_root(f, lower, upper, root, error)
+      !> The function
+      class(scalar_function), intent(in), target :: f
+      !> One end of the bracket
+      real(wp), intent(in) :: lower
+      !> The other end
+      real(wp), intent(in) :: upper
+      !> The root
+      real(wp), intent(out) :: root
+      !> The signs do not differ, or no convergence
+      type(error_type), allocatable, intent(out) :: error
+      type(callback_data), target :: context
+      type(c_ptr) :: old_handler, solver
+      integer(c_int) :: status
+      integer :: i
+
+      root = lower
+      context%f => f
+      old_handler = gsl_set_error_handler_off()
+      solver = gsl_root_fsolver_alloc(brent_of_gsl())
+      if (.not. c_associated(solver)) then
+         call raise(error, 'find_root: out of memory')
+         return
+      end if
+      status = gsl_root_fsolver_set(solver, gsl_function(c_funloc(callback), c_loc(context)), &
+                                    lower, upper)
+      if (status /= gsl_success) then
+         call raise(error, 'find_root: f('//text(lower)//') = '//text(f%value(lower))//' and f(' &
+                    //text(upper)//') = '//text(f%value(upper))//'; values of opposite sign expected')
+      end if
+      do i = 1, most_iterations
+         if (allocated(error)) exit
+         status = gsl_root_fsolver_iterate(solver)
+         root = gsl_root_fsolver_root(solver)
+         if (status == gsl_success) then
+            status = gsl_root_test_interval(gsl_root_fsolver_x_lower(solver), &
+                                            gsl_root_fsolver_x_upper(solver), 0.0_wp, &
+                                            4.0_wp*epsilon(1.0_wp))
+            if (status == gsl_success) exit
+         end if
+         if (i == most_iterations) then
+            call raise(error, 'find_root: no convergence in '//text(most_iterations)//' iterations')
+         end if
+      end do
+      call gsl_root_fsolver_free(solver)
+   end subroutine find_root
+
+   !> What GSL calls.
+   function callback(x, params) result(value) bind(c)
+      !> Where
+      real(c_double), value :: x
+      !> The callback_data
+      type(c_ptr), value :: params
+      real(c_double) :: value
+      type(callback_data), pointer :: context
+
+      call c_f_pointer(params, context)
+      value = context%f%value(x)
+   end function callback
+end module gsl_roots

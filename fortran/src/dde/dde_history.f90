@@ -1,0 +1,209 @@
+!> The past: the polynomials of accepted steps for the delayed components only, in a ring that
+!> forgets what no delay can reach any more; before the first instant, the problem's own history.
+module dde_history
+   use dde_interpolant, only: newton_value
+   use dde_problem, only: dde_problem_type
+   use dde_time, only: elapsed, instant, later
+   use kinds, only: int64, wp
+   implicit none
+   private
+   public :: history_type
+
+   !> Slots of a new ring; it doubles when the longest delay spans more steps.
+   integer, parameter :: first_capacity = 64
+
+   !> The past of one integration.
+   type :: history_type
+      private
+      !> Components of y that are kept, without repetition
+      integer, allocatable, public :: kept(:)
+      !> First instant of the integration
+      type(instant) :: origin
+      !> Nodes of the method's interpolant
+      real(wp), allocatable :: nodes(:)
+      !> Numbers of the oldest and the newest step kept; step i lives in slot modulo(i, capacity)
+      integer(int64) :: oldest = 0, newest = -1
+      !> Start of each step kept, per slot
+      type(instant), allocatable :: start(:)
+      !> Length of each step kept, per slot
+      real(wp), allocatable :: length(:)
+      !> Interpolant (0:degree, kept component, slot)
+      real(wp), allocatable :: coefficients(:, :, :)
+      !> Row of `kept` that each delayed value reads
+      integer, allocatable :: row(:)
+      !> Step that each delayed value was last found in
+      integer(int64), allocatable :: found(:)
+      !> Slot of that step
+      integer, allocatable :: slot(:)
+      !> Current step's start less the delay, for each delayed value
+      type(instant), allocatable :: delayed_start(:)
+      !> The same, measured from the start of the step it was last found in
+      real(wp), allocatable :: offset(:)
+      !> Whether the current step's delayed value lies before the first instant
+      logical, allocatable :: before_origin(:)
+      !> Start of the current step as an ordinary number
+      real(wp) :: now = 0.0_wp
+   contains
+      !> Take in an accepted step
+      procedure :: append
+      !> Drop what ended before a given instant
+      procedure :: forget
+      !> Turn to the step that starts at a given instant
+      procedure :: face
+      !> All delayed values at a place of the current step
+      procedure :: values
+   end type history_type
+
+   interface history_type
+      module procedure :: new_history
+   end interface history_type
+
+contains
+
+   !> An empty past that begins at `origin`.
+   pure function new_history(problem, origin, nodes) result(past)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> First instant of the integration
+      type(instant), intent(in) :: origin
+      !> Nodes of the method's interpolant
+      real(wp), intent(in) :: nodes(:)
+      type(history_type) :: past
+      integer :: i, k, terms
+
+      terms = size(problem%lag)
+      past%origin = origin
+      allocate (past%nodes, source=nodes)
+      past%kept = pack([(i, i=1, problem%n)], [(any(problem%component == i), i=1, problem%n)])
+      past%row = [(findloc(past%kept, problem%component(k), dim=1), k=1, terms)]
+      allocate (past%start(0:first_capacity - 1), past%length(0:first_capacity - 1))
+      allocate (past%coefficients(0:size(nodes), size(past%kept), 0:first_capacity - 1))
+      allocate (past%found(terms), source=0_int64)
+      allocate (past%slot(terms), source=0)
+      allocate (past%delayed_start(terms), past%offset(terms), past%before_origin(terms))
+   end function new_history
+
+   !> Take in the polynomial of the step from `start`, `length` long.
+   pure subroutine append(self, start, length, coefficients)
+      !> The past
+      class(history_type), intent(inout) :: self
+      !> Start of the step
+      type(instant), intent(in) :: start
+      !> Length of the step
+      real(wp), intent(in) :: length
+      !> Interpolant of the kept components, shape (0:degree, kept)
+      real(wp), intent(in) :: coefficients(0:, :)
+      integer :: slot
+
+      if (self%newest - self%oldest + 1 == size(self%start)) call double_capacity(self)
+      self%newest = self%newest + 1
+      slot = int(modulo(self%newest, size(self%start, kind=int64)))
+      self%start(slot) = start
+      self%length(slot) = length
+      self%coefficients(:, :, slot) = coefficients
+   end subroutine append
+
+   !> Drop the steps that ended before `horizon`; the newest stays.
+   pure subroutine forget(self, horizon)
+      !> The past
+      class(history_type), intent(inout) :: self
+      !> Nothing before this instant will be asked for
+      type(instant), intent(in) :: horizon
+      integer :: slot
+
+      do while (self%oldest < self%newest)
+         slot = int(modulo(self%oldest, size(self%start, kind=int64)))
+         if (elapsed(self%start(slot), horizon) < self%length(slot)) exit
+         self%oldest = self%oldest + 1
+      end do
+   end subroutine forget
+
+   !> Turn to the step of length `length` that starts at `start`. Steps land on every instant where a
+   !> delayed time passes the origin, so one side holds for the whole step.
+   pure subroutine face(self, problem, start, length)
+      !> The past
+      class(history_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Start of the step to come
+      type(instant), intent(in) :: start
+      !> Its length
+      real(wp), intent(in) :: length
+      integer :: k
+
+      self%now = start%hi
+      do k = 1, size(self%offset)
+         self%delayed_start(k) = later(start, -problem%lag(k))
+         self%before_origin(k) = elapsed(self%origin, self%delayed_start(k)) + 0.5_wp*length < 0.0_wp
+         if (.not. self%before_origin(k)) call point_at(self, k, max(self%found(k), self%oldest))
+      end do
+   end subroutine face
+
+   !> Delayed values z(k) at `ahead` after the start of the current step.
+   pure subroutine values(self, problem, ahead, z)
+      !> The past
+      class(history_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Time since the start of the current step, 0..length
+      real(wp), intent(in) :: ahead
+      !> Delayed values, shape (size(problem%lag))
+      real(wp), intent(out) :: z(:)
+      integer :: k
+
+      do k = 1, size(z)
+         if (self%before_origin(k)) then
+            z(k) = problem%history(self%now + (ahead - problem%lag(k)), problem%component(k))
+         else
+            do while (self%offset(k) + ahead > self%length(self%slot(k)))
+               if (self%found(k) == self%newest) exit
+               call point_at(self, k, self%found(k) + 1)
+            end do
+            do while (self%offset(k) + ahead < 0.0_wp)
+               if (self%found(k) == self%oldest) exit
+               call point_at(self, k, self%found(k) - 1)
+            end do
+            z(k) = newton_value(self%nodes, self%coefficients(:, self%row(k), self%slot(k)), &
+                                (self%offset(k) + ahead)/self%length(self%slot(k)))
+         end if
+      end do
+   end subroutine values
+
+   !> Let delayed value k read step number `step`.
+   pure subroutine point_at(self, k, step)
+      !> The past
+      class(history_type), intent(inout) :: self
+      !> Which delayed value
+      integer, intent(in) :: k
+      !> Number of the step
+      integer(int64), intent(in) :: step
+
+      self%found(k) = step
+      self%slot(k) = int(modulo(step, size(self%start, kind=int64)))
+      self%offset(k) = elapsed(self%start(self%slot(k)), self%delayed_start(k))
+   end subroutine point_at
+
+   !> Twice the slots, the same steps.
+   pure subroutine double_capacity(self)
+      !> The past
+      class(history_type), intent(inout) :: self
+      type(instant), allocatable :: start(:)
+      real(wp), allocatable :: length(:), coefficients(:, :, :)
+      integer :: capacity, from, to
+      integer(int64) :: step
+
+      capacity = size(self%start)
+      allocate (start(0:2*capacity - 1), length(0:2*capacity - 1))
+      allocate (coefficients(0:size(self%nodes), size(self%kept), 0:2*capacity - 1))
+      do step = self%oldest, self%newest
+         from = int(modulo(step, int(capacity, int64)))
+         to = int(modulo(step, int(2*capacity, int64)))
+         start(to) = self%start(from)
+         length(to) = self%length(from)
+         coefficients(:, :, to) = self%coefficients(:, :, from)
+      end do
+      call move_alloc(start, self%start)
+      call move_alloc(length, self%length)
+      call move_alloc(coefficients, self%coefficients)
+   end subroutine double_capacity
+end module dde_history

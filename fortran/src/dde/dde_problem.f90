@@ -1,0 +1,67 @@
+!> What a user of the solver writes: an initial value problem with constant delays,
+!>
+!>     dy/dt = f(t, y(t), z),   z(k) = y_c(k)(t - lag(k)),   y(t0) given,   y_c(t) given for t < t0.
+!>
+!> Extend `dde_problem`, fill `n`, `lag` and `component`, and write the three procedures.
+!> Without delays leave `lag` and `component` of size zero: no history is kept then.
+module dde_problem
+   use kinds, only: wp
+   implicit none
+   private
+   public :: dde_problem_type
+
+   !> A system of delay differential equations; its parameters are components of the extension.
+   type, abstract :: dde_problem_type
+      !> Number of equations
+      integer :: n = 0
+      !> Delay of each delayed value z(k), > 0
+      real(wp), allocatable :: lag(:)
+      !> Which component of y each delayed value z(k) is, 1..n
+      integer, allocatable :: component(:)
+   contains
+      !> y at the first instant; may differ from the history there (a jump)
+      procedure(initial_state), deferred :: initial
+      !> One component before the first instant
+      procedure(past_value), deferred :: history
+      !> Right-hand side f(t, y, z)
+      procedure(right_hand_side), deferred :: rhs
+   end type dde_problem_type
+
+   abstract interface
+      !> State at the first instant.
+      pure subroutine initial_state(self, y)
+         import :: dde_problem_type, wp
+         !> The problem
+         class(dde_problem_type), intent(in) :: self
+         !> y(t0), shape (n)
+         real(wp), intent(out) :: y(self%n)
+      end subroutine initial_state
+
+      !> Component `component` of y at time t <= t0 (t0 itself: the limit from the left).
+      pure function past_value(self, t, component) result(value)
+         import :: dde_problem_type, wp
+         !> The problem
+         class(dde_problem_type), intent(in) :: self
+         !> Time
+         real(wp), intent(in) :: t
+         !> Index into y, one of self%component
+         integer, intent(in) :: component
+         real(wp) :: value
+      end function past_value
+
+      !> Right-hand side; a value that is not finite makes the solver take a smaller step.
+      pure subroutine right_hand_side(self, t, y, z, dydt)
+         import :: dde_problem_type, wp
+         !> The problem
+         class(dde_problem_type), intent(in) :: self
+         !> Time
+         real(wp), intent(in) :: t
+         !> State, shape (n)
+         real(wp), intent(in) :: y(self%n)
+         !> Delayed values z(k) = y_component(k)(t - lag(k)), shape (size(lag))
+         real(wp), intent(in) :: z(size(self%lag))
+         !> dy/dt, shape (n)
+         real(wp), intent(out) :: dydt(self%n)
+      end subroutine right_hand_side
+   end interface
+end module dde_problem

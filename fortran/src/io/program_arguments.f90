@@ -1,0 +1,48 @@
+!> The command line of every program: a namelist file and the path of the output.
+module program_arguments
+   use, intrinsic :: iso_fortran_env, only: error_unit
+   use errors, only: error_type, raise
+   implicit none
+   private
+   public :: get_paths, stop_on
+
+contains
+
+   !> The two arguments.
+   subroutine get_paths(namelist_path, output_path, error)
+      !> First argument
+      character(len=:), allocatable, intent(out) :: namelist_path
+      !> Second argument
+      character(len=:), allocatable, intent(out) :: output_path
+      !> There are not two
+      type(error_type), allocatable, intent(out) :: error
+
+      namelist_path = argument(1)
+      output_path = argument(2)
+      if (command_argument_count() /= 2) then
+         call raise(error, 'usage: '//argument(0)//' NAMELIST OUTPUT.nc')
+      end if
+   end subroutine get_paths
+
+   !> One word of the command line.
+   function argument(i) result(word)
+      !> Its place
+      integer, intent(in) :: i
+      character(len=:), allocatable :: word
+      integer :: length
+
+      call get_command_argument(i, length=length)
+      allocate (character(len=length) :: word)
+      call get_command_argument(i, value=word)
+   end function argument
+
+   !> End the program with a message and status 1 if there is an error.
+   subroutine stop_on(error)
+      !> What went wrong, if anything
+      type(error_type), allocatable, intent(in) :: error
+
+      if (.not. allocated(error)) return
+      write (error_unit, '(2a)') 'error: ', error%message
+      stop 1, quiet=.true.
+   end subroutine stop_on
+end module program_arguments

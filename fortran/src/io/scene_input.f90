@@ -1,0 +1,138 @@
+!> A scene: one parameter set of the delayed block, from the namelist group &scene.
+module scene_input
+   use errors, only: error_type
+   use kinds, only: wp
+   use namelist_input, only: check_choice, check_number, not_given, open_namelist, reject_namelist
+   implicit none
+   private
+   public :: read_scene, scene_type, variable_names
+
+   !> Variables that a scene can store.
+   character(len=5), parameter :: variable_names(3) = ['theta', 'u    ', 'v    ']
+   !> Methods that a scene can ask for.
+   character(len=8), parameter :: methods(2) = ['auto    ', 'explicit']
+
+   !> Constant values for t <= 0, nondimensional.
+   type :: history_values
+      !> Friction state
+      real(wp) :: theta
+      !> Displacement
+      real(wp) :: u
+      !> Velocity
+      real(wp) :: v
+   end type history_values
+
+   !> One parameter set; all nondimensional.
+   type :: scene_type
+      !> Name of the scene
+      character(len=64) :: name = ''
+      !> Delay
+      real(wp) :: tau
+      !> Sensitivity of the velocity relaxation
+      real(wp) :: epsilon
+      !> Spring constant
+      real(wp) :: xi
+      !> Frequency
+      real(wp) :: gamma
+      !> Values for t <= 0
+      type(history_values) :: history
+      !> Last time
+      real(wp) :: t_end
+      !> Time up to which spectra and portraits leave the trajectory out
+      real(wp) :: t_transient
+      !> Time between stored samples
+      real(wp) :: sample_interval
+      !> Relative and absolute tolerance of one step
+      real(wp) :: tolerance
+      !> 'auto' or 'explicit'
+      character(len=8) :: method = ''
+      !> Variables to store, blank where there are fewer
+      character(len=5) :: variables(3) = ''
+   end type scene_type
+
+contains
+
+   !> Read and check a scene.
+   subroutine read_scene(path, scene, error)
+      !> Path of the namelist file
+      character(len=*), intent(in) :: path
+      !> The scene
+      type(scene_type), intent(out) :: scene
+      !> It cannot be read, or a value is out of range
+      type(error_type), allocatable, intent(out) :: error
+
+      call read_group(path, scene, error)
+      if (.not. allocated(error)) call check_scene(path//": scene '"//trim(scene%name)//"'", scene, error)
+   end subroutine read_scene
+
+   !> Read the group &scene, whose keys are those of the config.
+   subroutine read_group(path, filled, error)
+      !> Path of the namelist file
+      character(len=*), intent(in) :: path
+      !> The scene
+      type(scene_type), intent(out) :: filled
+      !> It cannot be read
+      type(error_type), allocatable, intent(out) :: error
+      character(len=64) :: name
+      character(len=8) :: method
+      character(len=5) :: variables(3)
+      type(history_values) :: history
+      real(wp) :: tau, epsilon, xi, gamma, t_end, t_transient, sample_interval, tolerance
+      character(len=256) :: reason
+      integer :: status, unit
+      namelist /scene/ name, tau, epsilon, xi, gamma, history, t_end, t_transient, &
+         sample_interval, tolerance, method, variables
+
+      name = ''
+      method = ''
+      variables = ''
+      tau = not_given()
+      epsilon = tau
+      xi = tau
+      gamma = tau
+      history = history_values(tau, tau, tau)
+      t_end = tau
+      t_transient = tau
+      sample_interval = tau
+      tolerance = tau
+      call open_namelist(path, unit, error)
+      if (allocated(error)) return
+      read (unit, nml=scene, iostat=status, iomsg=reason)
+      call reject_namelist(path, 'scene', unit, status, reason, error)
+      filled = scene_type(name, tau, epsilon, xi, gamma, history, t_end, t_transient, &
+                          sample_interval, tolerance, method, variables)
+   end subroutine read_group
+
+   !> Refuse what the config schema refuses.
+   pure subroutine check_scene(place, scene, error)
+      !> File and scene, for messages
+      character(len=*), intent(in) :: place
+      !> The scene
+      type(scene_type), intent(in) :: scene
+      !> A value is out of range
+      type(error_type), allocatable, intent(out) :: error
+      integer :: i
+
+      call check_number(error, place, 'tau', scene%tau, at_least=0.0_wp)
+      call check_number(error, place, 'epsilon', scene%epsilon, above=-1.0_wp)
+      call check_number(error, place, 'xi', scene%xi, above=0.0_wp)
+      call check_number(error, place, 'gamma', scene%gamma, above=0.0_wp)
+      call check_number(error, place, 'history%theta', scene%history%theta)
+      call check_number(error, place, 'history%u', scene%history%u)
+      call check_number(error, place, 'history%v', scene%history%v, above=0.0_wp)
+      call check_number(error, place, 't_end', scene%t_end, above=0.0_wp)
+      call check_number(error, place, 't_transient', scene%t_transient, at_least=0.0_wp, &
+                        below=scene%t_end)
+      call check_number(error, place, 'sample_interval', scene%sample_interval, above=0.0_wp, &
+                        at_most=scene%t_end)
+      call check_number(error, place, 'tolerance', scene%tolerance, at_least=1.0e-13_wp, &
+                        at_most=1.0e-2_wp)
+      call check_choice(error, place, 'method', scene%method, methods)
+      call check_choice(error, place, 'variables', scene%variables(1), variable_names)
+      do i = 2, size(scene%variables)
+         if (scene%variables(i) /= '') then
+            call check_choice(error, place, 'variables', scene%variables(i), variable_names)
+         end if
+      end do
+   end subroutine check_scene
+end module scene_input

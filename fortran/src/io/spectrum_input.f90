@@ -1,0 +1,76 @@
+!> What a spectrum is made from and how, from the namelist group &spectrum.
+module spectrum_input
+   use errors, only: error_type
+   use kinds, only: wp
+   use namelist_input, only: check_choice, check_count, check_number, not_given, open_namelist, &
+                             reject_namelist
+   implicit none
+   private
+   public :: read_spectrum_settings, spectrum_settings
+
+   !> Windows to choose from.
+   character(len=6), parameter :: windows(2) = ['hann  ', 'boxcar']
+
+   !> Source and method of a spectrum.
+   type :: spectrum_settings
+      !> Trajectory file to read
+      character(len=4096) :: trajectory = ''
+      !> 'hann' or 'boxcar'
+      character(len=6) :: window = ''
+      !> Number of Welch segments
+      integer :: segments = 0
+      !> Share of a segment that the next one repeats
+      real(wp) :: overlap
+      !> Least height of a peak over the highest peak's
+      real(wp) :: peak_floor
+      !> Least height of a peak over the valleys beside it
+      real(wp) :: peak_prominence
+   end type spectrum_settings
+
+contains
+
+   !> Read and check the settings.
+   subroutine read_spectrum_settings(path, settings, error)
+      !> Path of the namelist file
+      character(len=*), intent(in) :: path
+      !> The settings
+      type(spectrum_settings), intent(out) :: settings
+      !> They cannot be read, or a value is out of range
+      type(error_type), allocatable, intent(out) :: error
+
+      call read_group(path, settings, error)
+      call check_choice(error, path, 'window', settings%window, windows)
+      call check_count(error, path, 'segments', settings%segments, at_least=1)
+      call check_number(error, path, 'overlap', settings%overlap, at_least=0.0_wp, below=1.0_wp)
+      call check_number(error, path, 'peak_floor', settings%peak_floor, above=0.0_wp, at_most=1.0_wp)
+      call check_number(error, path, 'peak_prominence', settings%peak_prominence, at_least=1.0_wp)
+   end subroutine read_spectrum_settings
+
+   !> Read the group &spectrum.
+   subroutine read_group(path, settings, error)
+      !> Path of the namelist file
+      character(len=*), intent(in) :: path
+      !> The settings
+      type(spectrum_settings), intent(out) :: settings
+      !> They cannot be read
+      type(error_type), allocatable, intent(out) :: error
+      character(len=len(settings%trajectory)) :: trajectory
+      character(len=len(settings%window)) :: window
+      character(len=256) :: reason
+      real(wp) :: overlap, peak_floor, peak_prominence
+      integer :: segments, status, unit
+      namelist /spectrum/ trajectory, window, segments, overlap, peak_floor, peak_prominence
+
+      trajectory = ''
+      window = ''
+      segments = 0
+      overlap = not_given()
+      peak_floor = overlap
+      peak_prominence = overlap
+      call open_namelist(path, unit, error)
+      if (allocated(error)) return
+      read (unit, nml=spectrum, iostat=status, iomsg=reason)
+      call reject_namelist(path, 'spectrum', unit, status, reason, error)
+      settings = spectrum_settings(trajectory, window, segments, overlap, peak_floor, peak_prominence)
+   end subroutine read_group
+end module spectrum_input

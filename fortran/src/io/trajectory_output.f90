@@ -1,0 +1,141 @@
+!> Trajectory files: samples go to disk in blocks while the integration runs, only the variables that
+!> the scene lists.
+module trajectory_output
+   use dde, only: integration_result, sampler_type
+   use errors, only: error_type
+   use kinds, only: wp
+   use netcdf_output, only: output_file
+   use scene_input, only: scene_type
+   use spring_block, only: index_of_ln_v, index_of_theta, index_of_u
+   implicit none
+   private
+   public :: trajectory_writer
+
+   !> Samples held before they are written.
+   integer, parameter :: block_length = 8192
+
+   !> Sampler that writes a trajectory file.
+   type, extends(sampler_type) :: trajectory_writer
+      private
+      !> The file
+      type(output_file), public :: file
+      !> The scene
+      type(scene_type) :: scene
+      !> Ids of time and of the variables, in the order of `wanted`
+      integer, allocatable :: ids(:)
+      !> Samples not written yet: time and variables, shape (block_length, 1 + variables)
+      real(wp), allocatable :: block(:, :)
+      !> Number of samples in the file, and in all
+      integer :: written = 0, samples = 0
+      !> Number of samples in the block
+      integer :: held = 0
+   contains
+      procedure :: take
+      !> Complete the file with what the integration did
+      procedure :: finish
+      procedure, private :: flush => flush_block
+   end type trajectory_writer
+
+   interface trajectory_writer
+      module procedure :: new_writer
+   end interface trajectory_writer
+
+contains
+
+   !> Begin the file of a scene.
+   function new_writer(path, scene) result(writer)
+      !> Path of the file
+      character(len=*), intent(in) :: path
+      !> The scene
+      type(scene_type), intent(in) :: scene
+      type(trajectory_writer) :: writer
+      integer :: dimension, i, variables
+
+      writer%scene = scene
+      variables = count(scene%variables /= '')
+      ! the quotient may be one rounding below a whole number
+      writer%samples = floor(scene%t_end/scene%sample_interval*(1.0_wp + epsilon(1.0_wp))) + 1
+      allocate (writer%wanted(variables), writer%ids(0:variables))
+      allocate (writer%block(block_length, 0:variables))
+      call writer%file%create(path, 'Trajectory of the spring block with delayed friction')
+      dimension = writer%file%dimension('time', writer%samples)
+      writer%ids(0) = writer%file%real_variable('time', dimension, 'time', '1')
+      do i = 1, variables
+         select case (scene%variables(i))
+         case ('theta')
+            writer%wanted(i) = index_of_theta
+            writer%ids(i) = writer%file%real_variable('theta', dimension, 'friction state', '1')
+         case ('u')
+            writer%wanted(i) = index_of_u
+            writer%ids(i) = writer%file%real_variable('u', dimension, 'displacement', '1')
+         case ('v')
+            writer%wanted(i) = index_of_ln_v
+            writer%ids(i) = writer%file%real_variable('v', dimension, 'velocity', '1')
+         end select
+      end do
+      writer%next = 0.0_wp
+   end function new_writer
+
+   !> Take one sample.
+   subroutine take(self, y)
+      !> The writer
+      class(trajectory_writer), intent(inout) :: self
+      !> theta, u, ln v as wanted
+      real(wp), intent(in) :: y(:)
+      integer :: taken
+
+      if (self%held == block_length) call self%flush()
+      self%held = self%held + 1
+      self%block(self%held, 0) = self%next
+      self%block(self%held, 1:) = merge(exp(y), y, self%wanted == index_of_ln_v)
+      taken = self%written + self%held
+      self%next = huge(1.0_wp)
+      if (taken < self%samples) self%next = min(taken*self%scene%sample_interval, self%scene%t_end)
+   end subroutine take
+
+   !> Write the block.
+   subroutine flush_block(self)
+      !> The writer
+      class(trajectory_writer), intent(inout) :: self
+      integer :: i
+
+      do i = 0, size(self%wanted)
+         call self%file%put(self%ids(i), self%block(:self%held, i), first=self%written + 1)
+      end do
+      self%written = self%written + self%held
+      self%held = 0
+   end subroutine flush_block
+
+   !> Write what is left, the scene and what the integration did, and complete the file.
+   subroutine finish(self, outcome, error)
+      !> The writer
+      class(trajectory_writer), intent(inout) :: self
+      !> What the integration did
+      type(integration_result), intent(in) :: outcome
+      !> It could not be written
+      type(error_type), allocatable, intent(out) :: error
+
+      call self%flush()
+      associate (file => self%file, scene => self%scene)
+         call file%attribute('scene', trim(scene%name))
+         call file%attribute('tau', scene%tau)
+         call file%attribute('epsilon', scene%epsilon)
+         call file%attribute('xi', scene%xi)
+         call file%attribute('gamma', scene%gamma)
+         call file%attribute('history_theta', scene%history%theta)
+         call file%attribute('history_u', scene%history%u)
+         call file%attribute('history_v', scene%history%v)
+         call file%attribute('t_end', scene%t_end)
+         call file%attribute('t_transient', scene%t_transient)
+         call file%attribute('sample_interval', scene%sample_interval)
+         call file%attribute('tolerance', scene%tolerance)
+         call file%attribute('method', trim(scene%method))
+         call file%attribute('method_used', trim(outcome%method))
+         call file%attribute('steps_accepted', outcome%accepted)
+         call file%attribute('steps_rejected', outcome%rejected)
+         call file%attribute('evaluations', outcome%evaluations)
+         call file%attribute('breaking_points', int(outcome%breaking_points, kind(outcome%accepted)))
+         call file%finish(error)
+      end associate
+   end subroutine finish
+end module trajectory_output

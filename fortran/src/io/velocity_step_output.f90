@@ -1,0 +1,56 @@
+!> Files of the response to velocity steps.
+module velocity_step_output
+   use errors, only: error_type
+   use friction_law, only: friction_coefficient, steady_state
+   use netcdf_output, only: output_file
+   use velocity_step, only: friction_response, step_protocol
+   implicit none
+   private
+   public :: write_response
+
+contains
+
+   !> Write the response, and the sizes of the two effects in the up-step.
+   subroutine write_response(path, protocol, response, error)
+      !> Path of the file
+      character(len=*), intent(in) :: path
+      !> What was imposed
+      type(step_protocol), intent(in) :: protocol
+      !> What was seen
+      type(friction_response), intent(in) :: response
+      !> It could not be written
+      type(error_type), allocatable, intent(out) :: error
+      type(output_file) :: file
+      integer :: mu, rows, slip, theta, time, velocity
+
+      call file%create(path, 'Response of friction to steps of the imposed velocity')
+      rows = file%dimension('sample', size(response%time))
+      time = file%real_variable('time', rows, 'time', 's')
+      slip = file%real_variable('slip', rows, 'slip', 'm')
+      velocity = file%real_variable('velocity', rows, 'imposed velocity', 'm s-1')
+      theta = file%real_variable('theta', rows, 'state', 's')
+      mu = file%real_variable('mu', rows, 'friction coefficient', '1')
+      associate (law => protocol%law, v => protocol%law%v0 + protocol%delta_v)
+         call file%attribute('mu0', law%mu0)
+         call file%attribute('a', law%a)
+         call file%attribute('b', law%b)
+         call file%attribute('dc', law%dc)
+         call file%attribute('v0', law%v0)
+         call file%attribute('b_state', law%b_state)
+         call file%attribute('delta_v', protocol%delta_v)
+         call file%attribute('tolerance', protocol%tolerance)
+         call file%attribute('direct_effect', &
+                             friction_coefficient(law, v, steady_state(law, law%v0)) &
+                             - friction_coefficient(law, law%v0, steady_state(law, law%v0)))
+         call file%attribute('evolution_effect', &
+                             friction_coefficient(law, v, steady_state(law, v)) &
+                             - friction_coefficient(law, v, steady_state(law, law%v0)))
+      end associate
+      call file%put(time, response%time)
+      call file%put(slip, response%slip)
+      call file%put(velocity, response%velocity)
+      call file%put(theta, response%theta)
+      call file%put(mu, response%mu)
+      call file%finish(error)
+   end subroutine write_response
+end module velocity_step_output

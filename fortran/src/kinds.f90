@@ -1,0 +1,10 @@
+!> The kinds of number used everywhere.
+module kinds
+   use, intrinsic :: iso_fortran_env, only: int64, real64
+   implicit none
+   private
+   public :: int64, wp
+
+   !> Working precision of every real number of the project.
+   integer, parameter :: wp = real64
+end module kinds

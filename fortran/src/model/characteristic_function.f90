@@ -1,0 +1,89 @@
+!> The characteristic function of the steady state (0, 0, 1), equation (5) of the paper, as
+!>
+!>     Delta(s) = s^3 + s^2 (1 + gamma^2/xi) + s gamma^2 (1 + 1/xi) + gamma^2
+!>                - s (1 + epsilon) (gamma^2/xi) exp(-s tau).
+!>
+!> All quantities are nondimensional.
+module characteristic_function
+   use kinds, only: wp
+   implicit none
+   private
+   public :: block_parameters, delta, delta_by_s, delta_by_tau, relative_residual
+
+   !> Parameters of the delayed block.
+   type :: block_parameters
+      !> Delay
+      real(wp) :: tau = 0.0_wp
+      !> Sensitivity of the velocity relaxation
+      real(wp) :: epsilon = 0.0_wp
+      !> Spring constant
+      real(wp) :: xi = 1.0_wp
+      !> Frequency
+      real(wp) :: gamma = 1.0_wp
+   end type block_parameters
+
+contains
+
+   !> The five terms of Delta(s).
+   pure function terms(p, s) result(term)
+      !> Parameters
+      type(block_parameters), intent(in) :: p
+      !> Point of the complex plane
+      complex(wp), intent(in) :: s
+      complex(wp) :: term(5)
+
+      term = [s**3, s**2*(1.0_wp + p%gamma**2/p%xi), s*p%gamma**2*(1.0_wp + 1.0_wp/p%xi), &
+              cmplx(p%gamma**2, kind=wp), delayed_term(p, s)]
+   end function terms
+
+   !> The delayed term -s (1 + epsilon) (gamma^2/xi) exp(-s tau).
+   pure complex(wp) function delayed_term(p, s)
+      !> Parameters
+      type(block_parameters), intent(in) :: p
+      !> Point of the complex plane
+      complex(wp), intent(in) :: s
+
+      delayed_term = -s*(1.0_wp + p%epsilon)*(p%gamma**2/p%xi)*exp(-s*p%tau)
+   end function delayed_term
+
+   !> Delta(s).
+   pure complex(wp) function delta(p, s)
+      !> Parameters
+      type(block_parameters), intent(in) :: p
+      !> Point of the complex plane
+      complex(wp), intent(in) :: s
+
+      delta = sum(terms(p, s))
+   end function delta
+
+   !> Derivative of Delta by s.
+   pure complex(wp) function delta_by_s(p, s)
+      !> Parameters
+      type(block_parameters), intent(in) :: p
+      !> Point of the complex plane, not 0
+      complex(wp), intent(in) :: s
+
+      delta_by_s = 3.0_wp*s**2 + 2.0_wp*s*(1.0_wp + p%gamma**2/p%xi) &
+                   + p%gamma**2*(1.0_wp + 1.0_wp/p%xi) + delayed_term(p, s)*(1.0_wp/s - p%tau)
+   end function delta_by_s
+
+   !> Derivative of Delta by tau.
+   pure complex(wp) function delta_by_tau(p, s)
+      !> Parameters
+      type(block_parameters), intent(in) :: p
+      !> Point of the complex plane
+      complex(wp), intent(in) :: s
+
+      delta_by_tau = -s*delayed_term(p, s)
+   end function delta_by_tau
+
+   !> |Delta(s)| over its largest term: how well s is a characteristic root.
+   pure real(wp) function relative_residual(p, s)
+      !> Parameters
+      type(block_parameters), intent(in) :: p
+      !> Point of the complex plane
+      complex(wp), intent(in) :: s
+
+      relative_residual = abs(delta(p, s))/maxval(abs(terms(p, s)))
+   end function relative_residual
+end module characteristic_function

@@ -1,0 +1,98 @@
+!> Where a pair of characteristic roots lies at s = i omega: equations (6) to (10) of the paper,
+!> corrected where the README, "What differs from the paper", says so. With
+!>
+!>     X sin(omega tau) = -[omega^2 (gamma^2/xi + 1) - gamma^2]
+!>     X cos(omega tau) = -[omega^3 - omega gamma^2 (1 + xi)/xi],   X = omega (1 + epsilon) gamma^2/xi.
+!>
+!> All quantities are nondimensional.
+module hopf_condition
+   use kinds, only: wp
+   implicit none
+   private
+   public :: hopf_epsilon, hopf_tau, hopf_xi, printed_tau, two_pi
+
+   !> One turn.
+   real(wp), parameter :: two_pi = 2.0_wp*acos(-1.0_wp)
+
+contains
+
+   !> X sin(omega tau), which does not depend on epsilon and tau.
+   elemental real(wp) function sine_part(omega, xi, gamma)
+      !> Frequency of the pair
+      real(wp), intent(in) :: omega
+      !> Spring constant
+      real(wp), intent(in) :: xi
+      !> Frequency of the block
+      real(wp), intent(in) :: gamma
+
+      sine_part = -(omega**2*(gamma**2/xi + 1.0_wp) - gamma**2)
+   end function sine_part
+
+   !> X cos(omega tau), which does not depend on epsilon and tau.
+   elemental real(wp) function cosine_part(omega, xi, gamma)
+      !> Frequency of the pair
+      real(wp), intent(in) :: omega
+      !> Spring constant
+      real(wp), intent(in) :: xi
+      !> Frequency of the block
+      real(wp), intent(in) :: gamma
+
+      cosine_part = -(omega**3 - omega*gamma**2*(1.0_wp + xi)/xi)
+   end function cosine_part
+
+   !> Equations (7) and (8), with gamma^2 where (8) prints gamma^1: the epsilon of a pair i omega.
+   elemental real(wp) function hopf_epsilon(omega, xi, gamma)
+      !> Frequency of the pair, > 0
+      real(wp), intent(in) :: omega
+      !> Spring constant
+      real(wp), intent(in) :: xi
+      !> Frequency of the block
+      real(wp), intent(in) :: gamma
+
+      hopf_epsilon = -1.0_wp + hypot(cosine_part(omega, xi, gamma), sine_part(omega, xi, gamma)) &
+                     /(omega*gamma**2/xi)
+   end function hopf_epsilon
+
+   !> Equation (9): the xi of a pair i omega at delay tau; it holds where hopf_tau gives tau back.
+   elemental real(wp) function hopf_xi(omega, tau, gamma)
+      !> Frequency of the pair, > 0
+      real(wp), intent(in) :: omega
+      !> Delay
+      real(wp), intent(in) :: tau
+      !> Frequency of the block
+      real(wp), intent(in) :: gamma
+
+      hopf_xi = (omega*gamma**2*sin(omega*tau) + omega**2*gamma**2*cos(omega*tau)) &
+                /((omega**3 - omega*gamma**2)*sin(omega*tau) + (gamma**2 - omega**2)*cos(omega*tau))
+   end function hopf_xi
+
+   !> Equation (10) with its full numerator and the arctangent of two arguments: the delay of a pair
+   !> i omega on branch k. The angle is continuous in omega, so each branch is one smooth curve.
+   elemental real(wp) function hopf_tau(omega, xi, gamma, k)
+      !> Frequency of the pair, > 0
+      real(wp), intent(in) :: omega
+      !> Spring constant
+      real(wp), intent(in) :: xi
+      !> Frequency of the block
+      real(wp), intent(in) :: gamma
+      !> Branch
+      integer, intent(in) :: k
+
+      hopf_tau = (atan2(sine_part(omega, xi, gamma), cosine_part(omega, xi, gamma)) + two_pi*k)/omega
+   end function hopf_tau
+
+   !> Equation (10) as printed: numerator without + gamma^2, plain arctangent.
+   elemental real(wp) function printed_tau(omega, xi, gamma, k)
+      !> Frequency of the pair, > 0
+      real(wp), intent(in) :: omega
+      !> Spring constant
+      real(wp), intent(in) :: xi
+      !> Frequency of the block
+      real(wp), intent(in) :: gamma
+      !> Branch
+      integer, intent(in) :: k
+
+      printed_tau = (atan(-omega**2*(gamma**2/xi + 1.0_wp) &
+                          /(-omega**3 + omega*gamma**2*(1.0_wp + xi)/xi)) + two_pi*k)/omega
+   end function printed_tau
+end module hopf_condition

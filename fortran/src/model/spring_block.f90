@@ -1,0 +1,116 @@
+!> The spring block with delayed friction, equations (3) and (4) of the paper as corrected (see the
+!> README, "What differs from the paper"). All quantities are nondimensional.
+module spring_block
+   use dde, only: dde_problem_type
+   use kinds, only: wp
+   implicit none
+   private
+   public :: index_of_ln_v, index_of_theta, index_of_u, spring_block_type
+
+   !> Place of the friction state theta in the state vector.
+   integer, parameter :: index_of_theta = 1
+   !> Place of the displacement u.
+   integer, parameter :: index_of_u = 2
+   !> Place of w = ln v: in w no step can leave the domain v > 0.
+   integer, parameter :: index_of_ln_v = 3
+
+   !> The block with its parameters; all nondimensional.
+   type, extends(dde_problem_type) :: spring_block_type
+      !> Sensitivity of the velocity relaxation, (B - A)/A
+      real(wp) :: epsilon = 0.0_wp
+      !> Spring constant, k L/A
+      real(wp) :: xi = 1.0_wp
+      !> Frequency, sqrt(k/M) L/v0
+      real(wp) :: gamma = 1.0_wp
+      !> State theta, u, ln v for t <= 0
+      real(wp) :: past(3) = 0.0_wp
+   contains
+      procedure :: initial => state_at_zero
+      procedure :: history => constant_history
+      procedure :: rhs => equation_4
+   end type spring_block_type
+
+   interface spring_block_type
+      module procedure :: new_spring_block
+   end interface spring_block_type
+
+contains
+
+   !> A block at delay tau >= 0; tau = 0 is a problem without delays, equation (3).
+   pure function new_spring_block(tau, epsilon, xi, gamma, theta, u, v) result(block)
+      !> Delay
+      real(wp), intent(in) :: tau
+      !> Sensitivity of the velocity relaxation
+      real(wp), intent(in) :: epsilon
+      !> Spring constant
+      real(wp), intent(in) :: xi
+      !> Frequency
+      real(wp), intent(in) :: gamma
+      !> Friction state for t <= 0
+      real(wp), intent(in) :: theta
+      !> Displacement for t <= 0
+      real(wp), intent(in) :: u
+      !> Velocity for t <= 0
+      real(wp), intent(in) :: v
+      type(spring_block_type) :: block
+
+      block%n = 3
+      block%lag = pack([tau], tau > 0.0_wp)
+      block%component = pack([index_of_ln_v], tau > 0.0_wp)
+      block%epsilon = epsilon
+      block%xi = xi
+      block%gamma = gamma
+      block%past = [theta, u, log(v)]
+   end function new_spring_block
+
+   !> The constant history holds up to t = 0.
+   pure subroutine state_at_zero(self, y)
+      !> The block
+      class(spring_block_type), intent(in) :: self
+      !> theta, u, ln v at t = 0
+      real(wp), intent(out) :: y(self%n)
+
+      y = self%past
+   end subroutine state_at_zero
+
+   !> Constant history.
+   pure function constant_history(self, t, component) result(value)
+      !> The block
+      class(spring_block_type), intent(in) :: self
+      !> Time <= 0, without influence
+      real(wp), intent(in) :: t
+      !> Index into the state
+      integer, intent(in) :: component
+      real(wp) :: value
+
+      value = self%past(component)
+   end function constant_history
+
+   !> Equation (4), and (3) where there is no delay, with w = ln v:
+   !>
+   !>     theta' = -v [theta + (1 + epsilon) w(t - tau)]
+   !>     u'     =  v - 1
+   !>     w'     = -(gamma^2/v) [u + (theta + w)/xi]
+   pure subroutine equation_4(self, t, y, z, dydt)
+      !> The block
+      class(spring_block_type), intent(in) :: self
+      !> Time, without influence
+      real(wp), intent(in) :: t
+      !> theta, u, w
+      real(wp), intent(in) :: y(self%n)
+      !> w(t - tau), or nothing
+      real(wp), intent(in) :: z(size(self%lag))
+      !> Time derivatives of theta, u, w
+      real(wp), intent(out) :: dydt(self%n)
+      real(wp) :: delayed_w, v
+
+      associate (theta => y(index_of_theta), u => y(index_of_u), w => y(index_of_ln_v))
+         delayed_w = w
+         if (size(z) > 0) delayed_w = z(1)
+         v = exp(w)
+         dydt(index_of_theta) = -v*(theta + (1.0_wp + self%epsilon)*delayed_w)
+         dydt(index_of_u) = v - 1.0_wp
+         dydt(index_of_ln_v) = -self%gamma**2/v*(u + (theta + w)/self%xi)
+      end associate
+   end subroutine equation_4
+end module spring_block
