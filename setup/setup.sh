@@ -1,0 +1,96 @@
+#!/usr/bin/env bash
+# Sets up what is missing: the Debian packages of setup/apt-packages.txt, then
+# the Python packages of requirements.lock in .venv. When all is there it does
+# nothing and needs no network. An interrupted run is repaired by the next one.
+set -euo pipefail
+cd -P "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
+
+say() { printf 'set-up: %s\n' "$*" >&2; }
+
+missing_packages() {
+    local wanted
+    wanted=$(sed 's/#.*//' setup/apt-packages.txt | xargs -n 1 | sort -u)
+    # dpkg-query fails when it knows nothing of a package, and still lists the others
+    # shellcheck disable=SC2016,SC2086
+    { dpkg-query --show --showformat='${Package} ${db:Status-Status}\n' $wanted 2>/dev/null || true; } |
+        sed -n 's/ installed$//p' | sort -u | comm -23 <(printf '%s\n' "$wanted") - | xargs
+}
+
+as_root=()
+become_root() {
+    if ((EUID == 0)); then
+        as_root=(env)
+    elif sudo -n true 2>/dev/null; then
+        as_root=(sudo -n env)
+    elif [[ -t 0 ]] && command -v sudo >/dev/null; then
+        as_root=(sudo env)
+    else
+        return 1
+    fi
+    as_root+=(DEBIAN_FRONTEND=noninteractive)
+}
+
+install_packages() {
+    say "installing Debian packages: $*"
+    # finish what an interrupted installation left half done
+    "${as_root[@]}" dpkg --configure -a &&
+        { "${as_root[@]}" apt-get update -qq || say "apt-get update failed, trying the lists at hand"; } &&
+        "${as_root[@]}" apt-get install -y -qq --no-install-recommends -o DPkg::Lock::Timeout=600 "$@"
+}
+
+ask_for_packages() {
+    say "Debian packages are missing; install them with this line, then run this again:"
+    printf '    sudo apt-get install -y --no-install-recommends %s\n' "$*" >&2
+    exit 1
+}
+
+# What .venv must have been made from: the locked packages, the interpreter,
+# and the folder, since the scripts of a virtual environment hold its path.
+venv_source() {
+    sha256sum requirements.lock
+    /usr/bin/python3 --version
+    pwd
+}
+
+venv_is_ready() {
+    [[ -x .venv/bin/python && $(cat .venv/made-from 2>/dev/null) == "$(venv_source)" ]]
+}
+
+make_venv() {
+    say "making .venv with the Python packages of requirements.lock"
+    # settings that would send the packages elsewhere or change their versions
+    unset PYTHONHOME PYTHONPATH PIP_CONSTRAINT PIP_PREFIX PIP_ROOT PIP_TARGET PIP_USER
+    /usr/bin/python3 -m venv --clear .venv
+    .venv/bin/python -W ignore:DEPRECATION -m pip install --quiet --no-input --no-user \
+        --disable-pip-version-check --require-hashes -r requirements.lock
+    # Snakemake leaves its interpreter unquoted, so that scripts fail in a folder
+    # whose name holds a space (snakemake issue 2645, open)
+    sed -i 's/"{py_exec} {fname:q}"/"{py_exec:q} {fname:q}"/' \
+        .venv/lib/python3.*/site-packages/snakemake/script/__init__.py
+    venv_source >.venv/made-from
+}
+
+# A build, too, holds the path of its folder: drop those made before a move.
+drop_moved_builds() {
+    local cache source
+    for cache in build/*/CMakeCache.txt; do
+        [[ -f $cache ]] || continue
+        source=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$cache")
+        [[ $source -ef fortran ]] || { say "dropping a build of another folder: ${cache%/*}" && rm -r "${cache%/*}"; }
+    done
+}
+
+drop_moved_builds
+missing=$(missing_packages)
+if [[ -z $missing ]] && venv_is_ready; then
+    exit
+fi
+[[ -z $missing ]] || become_root || ask_for_packages "$missing"
+
+exec 9>>.setup.lock
+flock --nonblock 9 || { say "waiting for another set-up of this folder" && flock 9; }
+missing=$(missing_packages)
+# shellcheck disable=SC2086
+[[ -z $missing ]] || install_packages $missing >/dev/null 9>&- || ask_for_packages "$missing"
+venv_is_ready || make_venv >&2
+say "done"
