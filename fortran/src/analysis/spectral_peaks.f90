@@ -3,7 +3,8 @@ module spectral_peaks
    use kinds, only: wp
    implicit none
    private
-   public :: base_peak, find_peaks, harmonic_peak, label_peaks, line_share, other_peak, peak_type
+   public :: base_peak, find_peaks, harmonic_peak, is_periodic, label_peaks, line_share, other_peak
+   public :: peak_type
 
    !> What a peak is.
    enum, bind(c)
@@ -15,6 +16,9 @@ module spectral_peaks
    real(wp), parameter :: bins_of_a_multiple = 0.5_wp, bins_of_the_base = 0.02_wp
    !> Half width, in bins, of a line through a Hann window.
    integer, parameter :: line_half_width = 4
+
+   !> Share of the power that the lines of a periodic signal hold at least.
+   real(wp), parameter :: periodic_share = 0.99_wp
 
    !> One peak.
    type :: peak_type
@@ -148,4 +152,15 @@ contains
       end do
       share = sum(power, mask=in_line)/sum(power)
    end function line_share
+
+   !> Whether the spectrum is one of a periodic signal: a base frequency, harmonics, nothing else.
+   pure logical function is_periodic(peaks, share)
+      !> Labelled peaks
+      type(peak_type), intent(in) :: peaks(:)
+      !> Share of the power in their lines
+      real(wp), intent(in) :: share
+
+      is_periodic = any(peaks%kind == base_peak) .and. .not. any(peaks%kind == other_peak) &
+                    .and. share >= periodic_share
+   end function is_periodic
 end module spectral_peaks

@@ -3,7 +3,7 @@ module spectrum_output
    use errors, only: error_type
    use kinds, only: int64, wp
    use netcdf_output, only: output_file
-   use spectral_peaks, only: base_peak, harmonic_peak, other_peak, peak_type
+   use spectral_peaks, only: base_peak, harmonic_peak, is_periodic, other_peak, peak_type
    use spectrum_input, only: spectrum_settings
    implicit none
    private
@@ -53,6 +53,7 @@ contains
       call file%attribute('peak_prominence', settings%peak_prominence)
       call file%attribute('variance', variance)
       call file%attribute('line_share', share)
+      call file%attribute('signal', trim(merge('periodic    ', 'not periodic', is_periodic(peaks, share))))
       call file%put(f, frequency)
       call file%put(p, power)
       call file%put(pf, peaks%frequency)

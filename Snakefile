@@ -1,0 +1,28 @@
+# The reproduction of "Time-delay in spring-block model for aperiodicity in earthquakes".
+# Data flow: config -> namelist -> Fortran program -> NetCDF -> figure.
+from snakemake.utils import min_version
+
+min_version("9.0")
+
+
+configfile: "config/config.yaml"
+
+
+report: "scripts/report.rst"
+
+
+include: "rules/common.smk"
+
+
+rule all:
+    default_target: True
+    input:
+        expand("results/figures/figure_{n}.{ending}", n=range(1, 9), ending=["pdf", "png"]),
+
+
+include: "rules/build.smk"
+include: "rules/trajectories.smk"
+include: "rules/curves.smk"
+include: "rules/spectra.smk"
+include: "rules/friction.smk"
+include: "rules/figures.smk"

@@ -1,0 +1,30 @@
+# Hopf curves, one file a plane.
+def plane_values(wildcards):
+    """The plane's namelist group."""
+    return config["hopf_curves"][wildcards.plane]
+
+
+rule hopf_namelist:
+    output:
+        "results/namelists/hopf/{plane}.nml",
+    params:
+        group="hopf_curves",
+        values=plane_values,
+    log:
+        "results/logs/namelists/hopf/{plane}.log",
+    script:
+        "../scripts/write_namelist.py"
+
+
+rule hopf_curves:
+    input:
+        program="build/release/bin/hopf",
+        namelist="results/namelists/hopf/{plane}.nml",
+    output:
+        "results/hopf/{plane}.nc",
+    log:
+        "results/logs/hopf/{plane}.log",
+    benchmark:
+        "results/benchmarks/hopf/{plane}.tsv"
+    shell:
+        "{input.program} {input.namelist} {output} 2> {log} || {{ cat {log} >&2; exit 1; }}"

@@ -1,0 +1,106 @@
+# The paper's figures, each with its caption for the report.
+rule figure_1:
+    output:
+        pdf="results/figures/figure_1.pdf",
+        png=report("results/figures/figure_1.png", caption="../scripts/figure_1.rst", category="Figures"),
+    log:
+        "results/logs/figures/figure_1.log",
+    script:
+        "../scripts/figure_1.py"
+
+
+rule figure_2:
+    input:
+        "results/hopf/tau_of_epsilon.nc",
+    output:
+        pdf="results/figures/figure_2.pdf",
+        png=report("results/figures/figure_2.png", caption="../scripts/figure_2.rst", category="Figures"),
+    params:
+        scenes=places_of_scenes(),
+    log:
+        "results/logs/figures/figure_2.log",
+    script:
+        "../scripts/figure_2.py"
+
+
+rule figure_3:
+    input:
+        "results/hopf/xi_of_epsilon.nc",
+    output:
+        pdf="results/figures/figure_3.pdf",
+        png=report("results/figures/figure_3.png", caption="../scripts/figure_3.rst", category="Figures"),
+    params:
+        scenes=places_of_scenes(),
+    log:
+        "results/logs/figures/figure_3.log",
+    script:
+        "../scripts/figure_3.py"
+
+
+rule figure_4:
+    input:
+        trajectories=trajectories_of("figure_4"),
+    output:
+        pdf="results/figures/figure_4.pdf",
+        png=report("results/figures/figure_4.png", caption="../scripts/figure_4.rst", category="Figures"),
+    params:
+        settings=config["figures"]["figure_4"],
+    log:
+        "results/logs/figures/figure_4.log",
+    script:
+        "../scripts/figure_4.py"
+
+
+rule figure_5:
+    input:
+        trajectories=trajectories_of("figure_5"),
+        spectra=spectra_of("figure_5"),
+    output:
+        pdf="results/figures/figure_5.pdf",
+        png=report("results/figures/figure_5.png", caption="../scripts/figure_5.rst", category="Figures"),
+    params:
+        settings=config["figures"]["figure_5"],
+    log:
+        "results/logs/figures/figure_5.log",
+    script:
+        "../scripts/figure_5.py"
+
+
+rule figure_6:
+    input:
+        spectra=spectra_of("figure_6"),
+    output:
+        pdf="results/figures/figure_6.pdf",
+        png=report("results/figures/figure_6.png", caption="../scripts/figure_6.rst", category="Figures"),
+    params:
+        settings=config["figures"]["figure_6"],
+    log:
+        "results/logs/figures/figure_6.log",
+    script:
+        "../scripts/figure_6.py"
+
+
+rule figure_7:
+    input:
+        spectra=spectra_of("figure_7"),
+    output:
+        pdf="results/figures/figure_7.pdf",
+        png=report("results/figures/figure_7.png", caption="../scripts/figure_7.rst", category="Figures"),
+    params:
+        settings=config["figures"]["figure_7"],
+    log:
+        "results/logs/figures/figure_7.log",
+    script:
+        "../scripts/figure_7.py"
+
+
+rule figure_8:
+    input:
+        "results/friction/velocity_step.nc",
+    output:
+        pdf="results/figures/figure_8.pdf",
+        png=report("results/figures/figure_8.png", caption="../scripts/figure_8.rst", category="Figures"),
+    log:
+        "results/logs/figures/figure_8.log",
+    script:
+        "../scripts/figure_8.py"

@@ -1,0 +1,25 @@
+# Response of friction to a velocity step.
+rule velocity_step_namelist:
+    output:
+        "results/namelists/velocity_step.nml",
+    params:
+        group="velocity_step",
+        values=config["velocity_step"],
+    log:
+        "results/logs/namelists/velocity_step.log",
+    script:
+        "../scripts/write_namelist.py"
+
+
+rule velocity_step:
+    input:
+        program="build/release/bin/velocity_step",
+        namelist="results/namelists/velocity_step.nml",
+    output:
+        "results/friction/velocity_step.nc",
+    log:
+        "results/logs/friction/velocity_step.log",
+    benchmark:
+        "results/benchmarks/friction/velocity_step.tsv"
+    shell:
+        "{input.program} {input.namelist} {output} 2> {log} || {{ cat {log} >&2; exit 1; }}"

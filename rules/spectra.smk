@@ -1,0 +1,31 @@
+# Power spectra of v, one a scene.
+def spectrum_values(wildcards):
+    """The spectrum's namelist group."""
+    return {"trajectory": f"results/trajectories/{wildcards.scene}.nc", **config["spectra"]}
+
+
+rule spectrum_namelist:
+    output:
+        "results/namelists/spectra/{scene}.nml",
+    params:
+        group="spectrum",
+        values=spectrum_values,
+    log:
+        "results/logs/namelists/spectra/{scene}.log",
+    script:
+        "../scripts/write_namelist.py"
+
+
+rule spectrum:
+    input:
+        program="build/release/bin/spectrum",
+        namelist="results/namelists/spectra/{scene}.nml",
+        trajectory="results/trajectories/{scene}.nc",
+    output:
+        "results/spectra/{scene}.nc",
+    log:
+        "results/logs/spectra/{scene}.log",
+    benchmark:
+        "results/benchmarks/spectra/{scene}.tsv"
+    shell:
+        "{input.program} {input.namelist} {output} 2> {log} || {{ cat {log} >&2; exit 1; }}"

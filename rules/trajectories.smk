@@ -1,0 +1,30 @@
+# One trajectory a scene.
+def scene_values(wildcards):
+    """The scene's namelist group."""
+    return {"name": wildcards.scene, **config["scenes"][wildcards.scene]}
+
+
+rule scene_namelist:
+    output:
+        "results/namelists/trajectories/{scene}.nml",
+    params:
+        group="scene",
+        values=scene_values,
+    log:
+        "results/logs/namelists/trajectories/{scene}.log",
+    script:
+        "../scripts/write_namelist.py"
+
+
+rule trajectory:
+    input:
+        program="build/release/bin/trajectory",
+        namelist="results/namelists/trajectories/{scene}.nml",
+    output:
+        "results/trajectories/{scene}.nc",
+    log:
+        "results/logs/trajectories/{scene}.log",
+    benchmark:
+        "results/benchmarks/trajectories/{scene}.tsv"
+    shell:
+        "{input.program} {input.namelist} {output} 2> {log} || {{ cat {log} >&2; exit 1; }}"

@@ -1,0 +1,153 @@
+"""Check a configuration against its schema, in words, and fill in the defaults."""
+
+import math
+from pathlib import Path
+
+import jsonschema
+import yaml
+
+SCHEMA = Path(__file__).parent.parent / "config" / "schema.yaml"
+
+FIGURE_VARIABLES = {
+    "figure_4": {"u", "v"},
+    "figure_5": {"u", "v"},
+    "figure_6": {"v"},
+    "figure_7": {"v"},
+}
+"""Variables of a trajectory that each figure uses."""
+
+
+class ConfigError(ValueError):
+    """All that is wrong with a configuration, one line each."""
+
+
+def checked(config: dict) -> dict:
+    """Return `config` with its defaults; raise ConfigError naming place, key, value and range."""
+    schema = yaml.safe_load(SCHEMA.read_text())
+    validator = _validator_with_defaults(schema)
+    problems = [_in_words(error) for error in validator.iter_errors(config)]
+    if not problems:
+        _fill_in_variables(config)
+        problems = list(_contradictions(config))
+    if problems:
+        raise ConfigError("\n".join(["the configuration is refused:", *sorted(problems)]))
+    return config
+
+
+def variables_used(config: dict, scene: str) -> set[str]:
+    """Variables of a scene that its figures use."""
+    used = set()
+    for figure, settings in config["figures"].items():
+        if any(row["scene"] == scene for row in settings["rows"].values()):
+            used |= FIGURE_VARIABLES[figure]
+    return used
+
+
+def _validator_with_defaults(schema: dict):
+    """A validator for which NaN and infinity are no numbers and which sets missing keys."""
+    base = jsonschema.Draft202012Validator
+
+    def is_finite_number(_, value):
+        return (
+            isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+        )
+
+    def fill_then_check(validator, properties, instance, subschema):
+        if validator.is_type(instance, "object"):
+            for key, rules in properties.items():
+                if "default" in rules:
+                    default = rules["default"]
+                    instance.setdefault(key, {} if default == {} else default)
+        yield from base.VALIDATORS["properties"](validator, properties, instance, subschema)
+
+    types = base.TYPE_CHECKER.redefine("number", is_finite_number)
+    extended = jsonschema.validators.extend(base, {"properties": fill_then_check}, type_checker=types)
+    return extended(schema)
+
+
+def _in_words(error: jsonschema.ValidationError) -> str:
+    """One problem as a line: place, key, value met, what is allowed."""
+    path = [str(part) for part in error.absolute_path]
+    if error.validator == "additionalProperties" and isinstance(error.instance, dict):
+        known = list(error.schema.get("properties", {}))
+        unknown = sorted(set(error.instance) - set(known), key=str)
+        return f"{_place(path)}: unknown key {unknown}; allowed: {', '.join(known)}"
+    if error.validator == "required":
+        missing = [key for key in error.validator_value if key not in error.instance]
+        return f"{_place(path)}: key {missing} is missing"
+    if "propertyNames" in error.absolute_schema_path:
+        return (
+            f"{_place(path)}: name {error.instance!r}; expected small letters, digits and"
+            " underscores, a letter first"
+        )
+    return _value_in_words(path, error.instance, error.schema.get("description", error.message))
+
+
+def _value_in_words(path: list[str], value, expected: str) -> str:
+    line = f"{_place(path[:-1])}: {path[-1] if path else 'value'} = {value!r}; expected {expected}"
+    if isinstance(value, str):
+        try:
+            line += f" (this is text; write {float(value)!r}, with a dot, for the number)"
+        except ValueError:
+            pass
+    return line
+
+
+def _place(path: list[str]) -> str:
+    """Where a key stands, for people."""
+    if len(path) >= 2 and path[0] == "scenes":
+        return " ".join([f"scene '{path[1]}'", *path[2:]])
+    return " ".join(["config", *path])
+
+
+def _fill_in_variables(config: dict) -> None:
+    """Scenes store what their figures use, or everything where they are in none."""
+    order = ["theta", "u", "v"]
+    for name, scene in config["scenes"].items():
+        used = variables_used(config, name) or set(order)
+        scene.setdefault("variables", [variable for variable in order if variable in used])
+
+
+def _contradictions(config: dict):
+    """Problems that involve more than one key."""
+    for name, scene in config["scenes"].items():
+        place = f"scene '{name}'"
+        if scene["t_transient"] >= scene["t_end"]:
+            yield (
+                f"{place}: t_transient = {scene['t_transient']}; expected a finite number >= 0"
+                f" and < t_end = {scene['t_end']}"
+            )
+        if scene["sample_interval"] > scene["t_end"]:
+            yield (
+                f"{place}: sample_interval = {scene['sample_interval']}; expected a finite number"
+                f" > 0 and <= t_end = {scene['t_end']}"
+            )
+        lacking = variables_used(config, name) - set(scene["variables"])
+        if lacking:
+            yield (
+                f"{place}: variables = {scene['variables']}; its figures also use {sorted(lacking)}"
+            )
+    for figure, settings in config["figures"].items():
+        for row, shown in settings["rows"].items():
+            if shown["scene"] not in config["scenes"]:
+                yield (
+                    f"config figures {figure} {row}: scene = {shown['scene']!r}; expected one of:"
+                    f" {', '.join(config['scenes'])}"
+                )
+    for name, plane in config["hopf_curves"].items():
+        place = f"config hopf_curves {name}"
+        for key, least in (
+            ("epsilon_window", -1.0),
+            ("ordinate_window", 0.0),
+        ):
+            low, high = plane[key]
+            strict = key == "epsilon_window" or plane["ordinate"] == "xi"
+            if not low < high or low < least or (strict and low == least):
+                yield (
+                    f"{place}: {key} = {plane[key]}; expected two ascending numbers"
+                    f" {'>' if strict else '>='} {least}"
+                )
+        if plane["epsilon_window"][1] <= 0:
+            yield f"{place}: epsilon_window = {plane['epsilon_window']}; expected an end > 0"
+        if plane["ordinate"] == "tau" and plane["fixed"] <= 0:
+            yield f"{place}: fixed (xi) = {plane['fixed']}; expected a finite number > 0"

@@ -1,0 +1,113 @@
+"""Hopf curves in a plane of epsilon and another parameter, for figures 2 and 3."""
+
+import math
+
+import numpy as np
+import xarray as xr
+from drawing import INK
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+SYMBOLS = {"tau": r"$\tau$", "xi": r"$\xi$"}
+NAMES = {"tau": r"delay $\tau$", "xi": r"spring constant $\xi$"}
+
+
+def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
+    """Curves by branch, solid where a growing delay makes a pair unstable, and the scenes."""
+    ordinate = curves.attrs["ordinate"]
+    fixed = "xi" if ordinate == "tau" else "tau"
+    figure, axes = plt.subplots(figsize=(4.6, 4.2))
+    axes.set(xlim=(0, float(curves.epsilon.max())), ylim=(0, float(curves[ordinate].max())))
+    branches = np.unique(curves.branch)
+    for branch in branches:
+        colour = f"C{branch % 8}"
+        of_branch = curves.isel(point=curves.branch.values == branch)
+        for piece in np.unique(of_branch.piece):
+            line = of_branch.isel(point=of_branch.piece.values == piece)
+            label_branch(axes, line, ordinate, float(curves.epsilon.max()), colour)
+            draw_piece(axes, line.epsilon.values, line[ordinate].values, line.crossing.values, colour)
+    marked = mark_scenes(axes, scenes, ordinate, fixed, curves.attrs[fixed], curves.attrs["gamma"])
+    axes.set_title(
+        rf"{SYMBOLS[fixed]} = {curves.attrs[fixed]:g}, $\gamma$ = {curves.attrs['gamma']:g}", pad=14
+    )
+    axes.set(
+        xlabel=r"sensitivity of the velocity relaxation $\varepsilon$",
+        ylabel=NAMES[ordinate],
+    )
+    handles = [
+        Line2D([], [], color=INK, label=r"a pair becomes unstable as $\tau$ grows"),
+        Line2D([], [], color=INK, ls=(0, (3, 1.5)), label=r"a pair becomes stable as $\tau$ grows"),
+    ]
+    figure.legend(handles=handles + marked, loc="outside lower center", ncols=2)
+    return figure
+
+
+def draw_piece(axes: Axes, x: np.ndarray, y: np.ndarray, crossing: np.ndarray, colour: str) -> None:
+    """One unbroken piece, dashed where the sign of d Re(lambda)/d tau is negative."""
+    ends = np.flatnonzero(np.diff(crossing)) + 1
+    for part in np.split(np.arange(x.size), ends):
+        part = np.append(part, part[-1] + 1) if part[-1] + 1 < x.size else part
+        style = "-" if crossing[part[0]] > 0 else (0, (3, 1.5))
+        axes.plot(x[part], y[part], color=colour, ls=style)
+
+
+def label_branch(
+    axes: Axes, line: xr.Dataset, ordinate: str, right_edge: float, colour: str
+) -> None:
+    """Name a piece of a branch where it leaves the window, to the right or above."""
+    right = line.isel(point=int(line.epsilon.argmax()))
+    top = line.isel(point=int(line[ordinate].argmax()))
+    at_right = float(right.epsilon) > 0.99 * right_edge
+    place = right if at_right else top
+    axes.annotate(
+        f"$k$ = {int(line.branch[0])}",
+        (float(place.epsilon), float(place[ordinate])),
+        xytext=(3, 0) if at_right else (0, 3),
+        textcoords="offset points",
+        ha="left" if at_right else "center",
+        va="center" if at_right else "bottom",
+        color=colour,
+        fontsize=7,
+        annotation_clip=False,
+    )
+
+
+def mark_scenes(
+    axes: Axes,
+    scenes: dict[str, dict[str, float]],
+    ordinate: str,
+    fixed: str,
+    fixed_value: float,
+    gamma: float,
+) -> list[Line2D]:
+    """Mark scenes: filled where they lie in the plane, open where they are projected on it."""
+    kinds = {}
+    places: dict[tuple[float, float], list[str]] = {}
+    for name, scene in scenes.items():
+        place = (scene["epsilon"], scene[ordinate])
+        lies_in = math.isclose(scene[fixed], fixed_value) and math.isclose(scene["gamma"], gamma)
+        kinds[lies_in] = Line2D(
+            [],
+            [],
+            ls="",
+            marker="o",
+            color=INK,
+            mfc=INK if lies_in else "white",
+            label="scene in this plane" if lies_in else f"scene at another {SYMBOLS[fixed]}",
+        )
+        axes.plot(*place, "o", color=INK, mfc=INK if lies_in else "white", clip_on=False, zorder=5)
+        places.setdefault(place, []).append(name.replace("_", " "))
+    for i, (place, names) in enumerate(sorted(places.items())):
+        above = i % 2 == 0
+        axes.annotate(
+            ", ".join(names),
+            place,
+            xytext=(-2, 5) if above else (2, -5),
+            textcoords="offset points",
+            ha="right" if above and place[0] > 0.2 * axes.get_xlim()[1] else "left",
+            va="bottom" if above else "top",
+            fontsize=7,
+        )
+    return [kinds[key] for key in sorted(kinds, reverse=True)]
