@@ -1,11 +1,12 @@
 !> Hopf curves in one plane of parameters.
 program hopf
    use errors, only: error_type
-   use hopf_curves, only: curve_plane, curve_point, trace_curves
+   use hopf_curves, only: curve_point, trace_curves
    use hopf_input, only: hopf_settings, read_plane
    use hopf_output, only: write_curves
+   use hopf_planes, only: curve_plane
    use program_arguments, only: get_paths, stop_on
-   implicit none
+   implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
    type(error_type), allocatable :: error
    type(hopf_settings) :: settings

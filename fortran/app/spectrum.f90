@@ -8,7 +8,7 @@ program spectrum_program
    use spectrum_input, only: read_spectrum_settings, spectrum_settings
    use spectrum_output, only: write_spectrum
    use trajectory_input, only: read_trajectory, trajectory_type
-   implicit none
+   implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
    type(error_type), allocatable :: error
    type(peak_type), allocatable :: peaks(:)
@@ -21,7 +21,7 @@ program spectrum_program
    call stop_on(error)
    call read_spectrum_settings(namelist_path, settings, error)
    call stop_on(error)
-   call read_trajectory(trim(settings%trajectory), 'v', trajectory, error)
+   call read_trajectory(trim(settings%trajectory), "v", trajectory, error)
    call stop_on(error)
 
    first = 1 + ceiling(trajectory%t_transient/trajectory%sample_interval)
@@ -39,10 +39,10 @@ program spectrum_program
 contains
 
    !> Mean square distance from the mean.
-   pure real(wp) function variance(x)
+   pure real(wp) function variance(x) result(value)
       !> Samples
       real(wp), intent(in) :: x(:)
 
-      variance = sum((x - sum(x)/size(x))**2)/size(x)
+      value = sum((x - sum(x)/size(x))**2)/size(x)
    end function variance
 end program spectrum_program

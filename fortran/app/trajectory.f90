@@ -7,7 +7,7 @@ program trajectory
    use scene_input, only: read_scene, scene_type
    use spring_block, only: spring_block_type
    use trajectory_output, only: trajectory_writer
-   implicit none
+   implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
    type(error_type), allocatable :: error
    type(integration_options) :: options

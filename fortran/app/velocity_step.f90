@@ -5,7 +5,7 @@ program velocity_step_program
    use velocity_step, only: friction_response, respond, step_protocol
    use velocity_step_input, only: read_protocol
    use velocity_step_output, only: write_response
-   implicit none
+   implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
    type(error_type), allocatable :: error
    type(friction_response) :: response

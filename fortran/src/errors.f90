@@ -1,7 +1,8 @@
-!> Errors as values: a procedure that can fail ends with `error`, its caller tests `allocated(error)`.
+!> Errors as values: a procedure that can fail ends with `error`, its caller tests
+!> `allocated(error)`.
 module errors
    use kinds, only: int64, wp
-   implicit none
+   implicit none (type, external)
    private
    public :: error_type, raise, text
 
@@ -38,7 +39,7 @@ contains
       character(len=:), allocatable :: words
       character(len=32) :: buffer
 
-      write (buffer, '(g0.7)') value
+      write (buffer, "(g0.7)") value
       words = trim(adjustl(buffer))
    end function text_of_real
 
@@ -58,7 +59,7 @@ contains
       character(len=:), allocatable :: words
       character(len=32) :: buffer
 
-      write (buffer, '(i0)') value
+      write (buffer, "(i0)") value
       words = trim(buffer)
    end function text_of_long_integer
 end module errors

@@ -1,7 +1,7 @@
 !> The kinds of number used everywhere.
 module kinds
    use, intrinsic :: iso_fortran_env, only: int64, real64
-   implicit none
+   implicit none (type, external)
    private
    public :: int64, wp
 

@@ -4,11 +4,12 @@ module hopf_curves
    use characteristic_function, only: block_parameters, delta_by_s, delta_by_tau, relative_residual
    use errors, only: error_type
    use gsl_roots, only: find_root, scalar_function
-   use hopf_condition, only: hopf_epsilon, hopf_tau, hopf_xi, printed_tau, two_pi
+   use hopf_condition, only: printed_tau
+   use hopf_planes, only: curve_plane
    use kinds, only: wp
-   implicit none
+   implicit none (type, external)
    private
-   public :: curve_plane, curve_point, tau_of_epsilon, trace_curves, xi_of_epsilon
+   public :: curve_point, trace_curves
 
    !> Omegas of the scan for pieces inside the window.
    integer, parameter :: scan_points = 20000
@@ -16,76 +17,6 @@ module hopf_curves
    real(wp), parameter :: chord_deviation = 1.0e-4_wp, chord_length = 0.02_wp
    !> Most halvings of one piece.
    integer, parameter :: most_halvings = 14
-
-   !> A plane (epsilon, ordinate) with a window; gamma is fixed, nondimensional.
-   type, abstract :: curve_plane
-      !> Frequency of the block
-      real(wp) :: gamma = 1.0_wp
-      !> Window on epsilon: least, most
-      real(wp) :: epsilon_window(2) = [0.0_wp, 1.0_wp]
-      !> Window on the ordinate: least, most
-      real(wp) :: ordinate_window(2) = [0.0_wp, 1.0_wp]
-   contains
-      !> Parameters at which branch k has the pair i omega
-      procedure(branch_at), deferred :: at
-      !> The ordinate among the parameters
-      procedure(ordinate_of), deferred, nopass :: ordinate
-      !> Least omega, and highest branch, that the window can hold
-      procedure(reach), deferred :: bounds
-   end type curve_plane
-
-   abstract interface
-      !> Parameters at which branch k has the pair i omega; xi <= 0 where it has none.
-      pure type(block_parameters) function branch_at(self, omega, k)
-         import :: block_parameters, curve_plane, wp
-         !> The plane
-         class(curve_plane), intent(in) :: self
-         !> Frequency of the pair
-         real(wp), intent(in) :: omega
-         !> Branch
-         integer, intent(in) :: k
-      end function branch_at
-
-      !> The ordinate among the parameters.
-      pure real(wp) function ordinate_of(p)
-         import :: block_parameters, wp
-         !> Parameters
-         type(block_parameters), intent(in) :: p
-      end function ordinate_of
-
-      !> Least omega and highest branch in the window, given the largest omega.
-      pure subroutine reach(self, omega_most, omega_least, k_most)
-         import :: curve_plane, wp
-         !> The plane
-         class(curve_plane), intent(in) :: self
-         !> Largest omega in the window
-         real(wp), intent(in) :: omega_most
-         !> Least omega
-         real(wp), intent(out) :: omega_least
-         !> Highest branch
-         integer, intent(out) :: k_most
-      end subroutine reach
-   end interface
-
-   !> Figure 2: tau over epsilon at fixed xi.
-   type, extends(curve_plane) :: tau_of_epsilon
-      !> Spring constant
-      real(wp) :: xi = 1.0_wp
-   contains
-      procedure :: at => tau_branch
-      procedure, nopass :: ordinate => tau_ordinate
-      procedure :: bounds => tau_bounds
-   end type tau_of_epsilon
-
-   !> Figure 3: xi over epsilon at fixed tau.
-   type, extends(curve_plane) :: xi_of_epsilon
-      !> Delay
-      real(wp) :: tau = 0.0_wp
-   contains
-      procedure :: at => xi_branch
-      procedure, nopass :: ordinate => xi_ordinate
-      procedure :: bounds => xi_bounds
-   end type xi_of_epsilon
 
    !> One point of a Hopf curve.
    type :: curve_point
@@ -152,7 +83,8 @@ contains
             last = findloc(inside(first:), .false., dim=1) + first - 2
             if (last < first) last = scan_points
             call refine_end(margin, omega, first, first - 1, ends(1), error)
-            if (.not. allocated(error)) call refine_end(margin, omega, last, last + 1, ends(2), error)
+            if (allocated(error)) return
+            call refine_end(margin, omega, last, last + 1, ends(2), error)
             if (allocated(error)) return
             piece = piece + 1
             points = [points, piece_of_curve(plane, k, ends, piece)]
@@ -237,7 +169,7 @@ contains
    end function piece_of_curve
 
    !> Whether the chord between two omegas misses the curve's middle or is too long.
-   pure logical function chord_is_bad(plane, k, omega_1, omega_2)
+   pure logical function chord_is_bad(plane, k, omega_1, omega_2) result(value)
       !> The plane
       class(curve_plane), intent(in) :: plane
       !> Branch
@@ -251,10 +183,10 @@ contains
       start = place_in_window(plane, plane%at(omega_1, k))
       chord = place_in_window(plane, plane%at(omega_2, k)) - start
       middle = place_in_window(plane, plane%at(0.5_wp*(omega_1 + omega_2), k)) - start
-      chord_is_bad = norm2(chord) > chord_length
+      value = norm2(chord) > chord_length
       if (norm2(chord) > 0.0_wp) then
-         chord_is_bad = chord_is_bad .or. &
-                        abs(chord(1)*middle(2) - chord(2)*middle(1)) > chord_deviation*norm2(chord)
+         value = value .or. abs(chord(1)*middle(2) - chord(2)*middle(1)) &
+                 > chord_deviation*norm2(chord)
       end if
    end function chord_is_bad
 
@@ -285,97 +217,4 @@ contains
       point%printed_tau = printed%tau
       point%printed_residual = relative_residual(printed, s)
    end function point_of_curve
-
-   !> Equations (7) and (10) at fixed xi.
-   pure type(block_parameters) function tau_branch(self, omega, k) result(p)
-      !> The plane
-      class(tau_of_epsilon), intent(in) :: self
-      !> Frequency of the pair
-      real(wp), intent(in) :: omega
-      !> Branch
-      integer, intent(in) :: k
-
-      p = block_parameters(tau=hopf_tau(omega, self%xi, self%gamma, k), xi=self%xi, &
-                           epsilon=hopf_epsilon(omega, self%xi, self%gamma), gamma=self%gamma)
-   end function tau_branch
-
-   !> tau.
-   pure real(wp) function tau_ordinate(p)
-      !> Parameters
-      type(block_parameters), intent(in) :: p
-
-      tau_ordinate = p%tau
-   end function tau_ordinate
-
-   !> Least omega: where xi |gamma^2 - omega^2|/(gamma^2 omega) falls to omega_most; highest branch:
-   !> where (2 pi k - pi)/omega_most exceeds tau.
-   pure subroutine tau_bounds(self, omega_most, omega_least, k_most)
-      !> The plane
-      class(tau_of_epsilon), intent(in) :: self
-      !> Largest omega in the window
-      real(wp), intent(in) :: omega_most
-      !> Least omega
-      real(wp), intent(out) :: omega_least
-      !> Highest branch
-      integer, intent(out) :: k_most
-
-      omega_least = least_omega(self%xi, self%gamma, omega_most)
-      k_most = ceiling(self%ordinate_window(2)*omega_most/two_pi + 0.5_wp)
-   end subroutine tau_bounds
-
-   !> Equations (7) and (9) at fixed tau, as far as (10) gives that tau back on branch k.
-   pure type(block_parameters) function xi_branch(self, omega, k) result(p)
-      !> The plane
-      class(xi_of_epsilon), intent(in) :: self
-      !> Frequency of the pair
-      real(wp), intent(in) :: omega
-      !> Branch
-      integer, intent(in) :: k
-
-      p = block_parameters(tau=self%tau, xi=hopf_xi(omega, self%tau, self%gamma), gamma=self%gamma)
-      if (.not. p%xi > 0.0_wp) return
-      if (abs(omega*(hopf_tau(omega, p%xi, p%gamma, k) - self%tau)) > 1.0_wp) then
-         p%xi = -1.0_wp
-      else
-         p%epsilon = hopf_epsilon(omega, p%xi, p%gamma)
-      end if
-   end function xi_branch
-
-   !> xi.
-   pure real(wp) function xi_ordinate(p)
-      !> Parameters
-      type(block_parameters), intent(in) :: p
-
-      xi_ordinate = p%xi
-   end function xi_ordinate
-
-   !> Least omega: as in `tau_bounds` for the least xi; highest branch: from omega_most and tau.
-   pure subroutine xi_bounds(self, omega_most, omega_least, k_most)
-      !> The plane
-      class(xi_of_epsilon), intent(in) :: self
-      !> Largest omega in the window
-      real(wp), intent(in) :: omega_most
-      !> Least omega
-      real(wp), intent(out) :: omega_least
-      !> Highest branch
-      integer, intent(out) :: k_most
-
-      omega_least = least_omega(self%ordinate_window(1), self%gamma, omega_most)
-      k_most = ceiling(self%tau*omega_most/two_pi + 0.5_wp)
-   end subroutine xi_bounds
-
-   !> The omega at which xi (gamma^2 - omega^2)/(gamma^2 omega) = omega_most: below it epsilon lies
-   !> beyond the window, for 1 + epsilon = sqrt((1 + omega^2)(1 + B^2)) with B that ratio.
-   pure real(wp) function least_omega(xi, gamma, omega_most)
-      !> Spring constant
-      real(wp), intent(in) :: xi
-      !> Frequency of the block
-      real(wp), intent(in) :: gamma
-      !> Largest omega in the window
-      real(wp), intent(in) :: omega_most
-      real(wp) :: half
-
-      half = 0.5_wp*gamma**2*omega_most/xi
-      least_omega = gamma**2/(half + sqrt(half**2 + gamma**2))
-   end function least_omega
 end module hopf_curves

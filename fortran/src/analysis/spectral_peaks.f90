@@ -1,7 +1,7 @@
 !> Peaks of a power spectrum and what each is: the base frequency, a harmonic of it, or another.
 module spectral_peaks
    use kinds, only: wp
-   implicit none
+   implicit none (type, external)
    private
    public :: base_peak, find_peaks, harmonic_peak, is_periodic, label_peaks, line_share, other_peak
    public :: peak_type
@@ -11,8 +11,8 @@ module spectral_peaks
       enumerator :: base_peak, harmonic_peak, other_peak
    end enum
 
-   !> A peak is the m-th multiple of the base frequency within this many bins, and as many more per m
-   !> as interpolation may have misplaced the base.
+   !> A peak is the m-th multiple of the base frequency within this many bins, and as many more per
+   !> m as interpolation may have misplaced the base.
    real(wp), parameter :: bins_of_a_multiple = 0.5_wp, bins_of_the_base = 0.02_wp
    !> Half width, in bins, of a line through a Hann window.
    integer, parameter :: line_half_width = 4
@@ -154,13 +154,13 @@ contains
    end function line_share
 
    !> Whether the spectrum is one of a periodic signal: a base frequency, harmonics, nothing else.
-   pure logical function is_periodic(peaks, share)
+   pure logical function is_periodic(peaks, share) result(value)
       !> Labelled peaks
       type(peak_type), intent(in) :: peaks(:)
       !> Share of the power in their lines
       real(wp), intent(in) :: share
 
-      is_periodic = any(peaks%kind == base_peak) .and. .not. any(peaks%kind == other_peak) &
+      value = any(peaks%kind == base_peak) .and. .not. any(peaks%kind == other_peak) &
                     .and. share >= periodic_share
    end function is_periodic
 end module spectral_peaks

@@ -5,7 +5,7 @@ module spectrum
    use errors, only: error_type, raise, text
    use fftw, only: fftw_destroy_plan, fftw_estimate, fftw_execute_dft_r2c, fftw_plan_dft_r2c_1d
    use kinds, only: wp
-   implicit none
+   implicit none (type, external)
    private
    public :: power_spectrum, window_of
 
@@ -25,11 +25,12 @@ contains
       integer :: i
 
       window = 1.0_wp
-      if (name == 'hann') window = [(sin(pi*i/n)**2, i=0, n - 1)]
+      if (name == "hann") window = [(sin(pi*i/n)**2, i=0, n - 1)]
    end function window_of
 
    !> Spectrum of `signal`, its mean removed; the mean of `segments` segments.
-   subroutine power_spectrum(signal, interval, window_name, segments, overlap, frequency, power, error)
+   subroutine power_spectrum(signal, interval, window_name, segments, overlap, frequency, power, &
+                             error)
       !> Samples
       real(wp), intent(in) :: signal(:)
       !> Time between them
@@ -55,8 +56,9 @@ contains
 
       length = int(size(signal)/(1.0_wp + (segments - 1)*(1.0_wp - overlap)))
       if (length < fewest_samples) then
-         call raise(error, 'power_spectrum: '//text(size(signal))//' samples make '//text(segments) &
-                    //' segments of '//text(length)//'; at least '//text(fewest_samples)//' expected')
+         call raise(error, "power_spectrum: "//text(size(signal))//" samples make " &
+                    //text(segments)//" segments of "//text(length)//"; at least " &
+                    //text(fewest_samples)//" expected")
          return
       end if
       allocate (windowed(length), transform(length/2 + 1), power(length/2 + 1))

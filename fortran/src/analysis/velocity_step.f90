@@ -5,7 +5,7 @@ module velocity_step
    use errors, only: error_type
    use friction_law, only: friction_coefficient, friction_parameters, state_evolution, steady_state
    use kinds, only: wp
-   implicit none
+   implicit none (type, external)
    private
    public :: friction_response, respond, step_protocol
 
@@ -70,8 +70,8 @@ contains
          table = table_sampler([1], time)
          options%relative = protocol%tolerance
          options%absolute = protocol%tolerance*theta
-         call integrate(state_evolution(protocol%law, v, theta), 0.0_wp, duration, options, outcome, &
-                        error, table)
+         call integrate(state_evolution(protocol%law, v, theta), 0.0_wp, duration, options, &
+                        outcome, error, table)
          if (allocated(error)) return
          response%time = [response%time, time_start + time]
          response%slip = [response%slip, slip_start + v*time]

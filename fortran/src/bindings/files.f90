@@ -2,18 +2,20 @@
 module files
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char
    use errors, only: error_type, raise
-   implicit none
+   implicit none (type, external)
    private
    public :: remove_file, rename_file
 
    interface
-      integer(c_int) function c_rename(from, to) bind(c, name='rename')
+      integer(c_int) function c_rename(from, to) result(value) bind(c, name="rename")
          import :: c_char, c_int
+         implicit none (type, external)
          character(kind=c_char), intent(in) :: from(*), to(*)
       end function c_rename
 
-      integer(c_int) function c_remove(path) bind(c, name='remove')
+      integer(c_int) function c_remove(path) result(value) bind(c, name="remove")
          import :: c_char, c_int
+         implicit none (type, external)
          character(kind=c_char), intent(in) :: path(*)
       end function c_remove
    end interface

@@ -4,7 +4,7 @@ module gsl_roots
                                           c_int, c_loc, c_ptr
    use errors, only: error_type, raise, text
    use kinds, only: wp
-   implicit none
+   implicit none (type, external)
    private
    public :: find_root, scalar_function
 
@@ -22,8 +22,9 @@ module gsl_roots
 
    abstract interface
       !> Value of the function at x.
-      real(wp) function function_value(self, x)
+      real(wp) function function_value(self, x) result(value)
          import :: scalar_function, wp
+         implicit none (type, external)
          !> The function
          class(scalar_function), intent(in) :: self
          !> Where
@@ -43,53 +44,64 @@ module gsl_roots
    end type gsl_function
 
    interface
-      type(c_ptr) function brent_of_gsl() bind(c)
+      type(c_ptr) function brent_of_gsl() result(value) bind(c)
          import :: c_ptr
+         implicit none (type, external)
       end function brent_of_gsl
 
-      type(c_ptr) function gsl_set_error_handler_off() bind(c)
+      type(c_ptr) function gsl_set_error_handler_off() result(value) bind(c)
          import :: c_ptr
+         implicit none (type, external)
       end function gsl_set_error_handler_off
 
-      type(c_ptr) function gsl_root_fsolver_alloc(method) bind(c)
+      type(c_ptr) function gsl_root_fsolver_alloc(method) result(value) bind(c)
          import :: c_ptr
+         implicit none (type, external)
          type(c_ptr), value :: method
       end function gsl_root_fsolver_alloc
 
-      integer(c_int) function gsl_root_fsolver_set(solver, f, lower, upper) bind(c)
+      integer(c_int) function gsl_root_fsolver_set(solver, f, lower, upper) result(value) bind(c)
          import :: c_double, c_int, c_ptr, gsl_function
+         implicit none (type, external)
          type(c_ptr), value :: solver
          type(gsl_function), intent(in) :: f
          real(c_double), value :: lower, upper
       end function gsl_root_fsolver_set
 
-      integer(c_int) function gsl_root_fsolver_iterate(solver) bind(c)
+      integer(c_int) function gsl_root_fsolver_iterate(solver) result(value) bind(c)
          import :: c_int, c_ptr
+         implicit none (type, external)
          type(c_ptr), value :: solver
       end function gsl_root_fsolver_iterate
 
-      real(c_double) function gsl_root_fsolver_root(solver) bind(c)
+      real(c_double) function gsl_root_fsolver_root(solver) result(value) bind(c)
          import :: c_double, c_ptr
+         implicit none (type, external)
          type(c_ptr), value :: solver
       end function gsl_root_fsolver_root
 
-      real(c_double) function gsl_root_fsolver_x_lower(solver) bind(c)
+      real(c_double) function gsl_root_fsolver_x_lower(solver) result(value) bind(c)
          import :: c_double, c_ptr
+         implicit none (type, external)
          type(c_ptr), value :: solver
       end function gsl_root_fsolver_x_lower
 
-      real(c_double) function gsl_root_fsolver_x_upper(solver) bind(c)
+      real(c_double) function gsl_root_fsolver_x_upper(solver) result(value) bind(c)
          import :: c_double, c_ptr
+         implicit none (type, external)
          type(c_ptr), value :: solver
       end function gsl_root_fsolver_x_upper
 
-      integer(c_int) function gsl_root_test_interval(lower, upper, absolute, relative) bind(c)
+      integer(c_int) function gsl_root_test_interval(lower, upper, absolute, relative) &
+         result(value) bind(c)
          import :: c_double, c_int
+         implicit none (type, external)
          real(c_double), value :: lower, upper, absolute, relative
       end function gsl_root_test_interval
 
       subroutine gsl_root_fsolver_free(solver) bind(c)
          import :: c_ptr
+         implicit none (type, external)
          type(c_ptr), value :: solver
       end subroutine gsl_root_fsolver_free
    end interface
@@ -118,14 +130,14 @@ contains
       old_handler = gsl_set_error_handler_off()
       solver = gsl_root_fsolver_alloc(brent_of_gsl())
       if (.not. c_associated(solver)) then
-         call raise(error, 'find_root: out of memory')
+         call raise(error, "find_root: out of memory")
          return
       end if
       status = gsl_root_fsolver_set(solver, gsl_function(c_funloc(callback), c_loc(context)), &
                                     lower, upper)
       if (status /= gsl_success) then
-         call raise(error, 'find_root: f('//text(lower)//') = '//text(f%value(lower))//' and f(' &
-                    //text(upper)//') = '//text(f%value(upper))//'; values of opposite sign expected')
+         call raise(error, "find_root: f("//text(lower)//") = "//text(f%value(lower))//" and f(" &
+                    //text(upper)//") = "//text(f%value(upper))//"; opposite signs expected")
       end if
       do i = 1, most_iterations
          if (allocated(error)) exit
@@ -138,7 +150,7 @@ contains
             if (status == gsl_success) exit
          end if
          if (i == most_iterations) then
-            call raise(error, 'find_root: no convergence in '//text(most_iterations)//' iterations')
+            call raise(error, "find_root: no convergence in "//text(most_iterations)//" iterations")
          end if
       end do
       call gsl_root_fsolver_free(solver)

@@ -4,7 +4,7 @@
 module dde_breaking_points
    use dde_time, only: elapsed, instant, later
    use kinds, only: wp
-   implicit none
+   implicit none (type, external)
    private
    public :: breaking_points
 

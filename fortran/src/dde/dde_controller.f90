@@ -3,7 +3,7 @@
 module dde_controller
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
-   implicit none
+   implicit none (type, external)
    private
    public :: controller_type
 

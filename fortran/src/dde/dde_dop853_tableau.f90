@@ -3,7 +3,7 @@
 !> Differential Equations I", 2nd ed. 1993, sec. II.5 and II.6 (code DOP853).
 module dde_dop853_tableau
    use kinds, only: wp
-   implicit none
+   implicit none (type, external)
    public
 
    !> Stage times c(2..11) of the step and c(14..16) of the dense output; c(12) = c(13) = 1

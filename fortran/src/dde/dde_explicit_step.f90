@@ -1,12 +1,12 @@
 !> One step of the explicit pair 8(5,3) of Dormand and Prince, with its dense output of order 7
 !> (Hairer, Norsett and Wanner 1993, sec. II.5, II.6 and II.10).
 module dde_explicit_step
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use dde_dop853_tableau
    use dde_history, only: history_type
    use dde_problem, only: dde_problem_type
    use kinds, only: int64, wp
-   implicit none
+   implicit none (type, external)
    private
    public :: explicit_step_type, explicit_degree, explicit_nodes, explicit_order
 
@@ -41,6 +41,8 @@ module dde_explicit_step
       procedure :: restart
       !> Try a step
       procedure :: attempt
+      !> The final slope of an accepted step
+      procedure :: complete
       !> Make the end of the step the start of the next
       procedure :: advance
       !> The slopes that only the dense output needs
@@ -157,7 +159,6 @@ contains
                              + b10*k(:, 10) + b11*k(:, 11) + b12*k(:, 12))
       end associate
       error = error_853(self, relative, absolute)
-      if (error <= 1.0_wp) call self%slope(problem, past, h, self%y_new, 13)
    end subroutine attempt
 
    !> The estimate h |e5|^2 / sqrt(|e5|^2 + 0.01 |e3|^2), each in the root mean square norm over the
@@ -187,12 +188,24 @@ contains
          sum3 = sum3 + (e3/scale)**2
          sum5 = sum5 + (e5/scale)**2
       end do
-      if (sum5 > 0.0_wp) then
+      if (.not. all(ieee_is_finite([sum5, self%y_new]))) then
+         error = ieee_value(error, ieee_quiet_nan)
+      else if (sum5 > 0.0_wp) then
          error = abs(self%h)*sum5/sqrt((sum5 + 0.01_wp*sum3)*size(self%y))
-      else if (.not. ieee_is_finite(sum5)) then
-         error = sum5
       end if
    end function error_853
+
+   !> Slope 13, at the end of an accepted step.
+   pure subroutine complete(self, problem, past)
+      !> The step
+      class(explicit_step_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The past, facing this step
+      type(history_type), intent(inout) :: past
+
+      call self%slope(problem, past, self%h, self%y_new, 13)
+   end subroutine complete
 
    !> The end of the step becomes the start of the next; its last slope serves as the first.
    pure subroutine advance(self)

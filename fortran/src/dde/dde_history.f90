@@ -5,7 +5,7 @@ module dde_history
    use dde_problem, only: dde_problem_type
    use dde_time, only: elapsed, instant, later
    use kinds, only: int64, wp
-   implicit none
+   implicit none (type, external)
    private
    public :: history_type
 
@@ -118,8 +118,8 @@ contains
       end do
    end subroutine forget
 
-   !> Turn to the step of length `length` that starts at `start`. Steps land on every instant where a
-   !> delayed time passes the origin, so one side holds for the whole step.
+   !> Turn to the step of length `length` that starts at `start`. Steps land on every instant where
+   !> a delayed time passes the origin, so one side holds for the whole step.
    pure subroutine face(self, problem, start, length)
       !> The past
       class(history_type), intent(inout) :: self
@@ -134,7 +134,7 @@ contains
       self%now = start%hi
       do k = 1, size(self%offset)
          self%delayed_start(k) = later(start, -problem%lag(k))
-         self%before_origin(k) = elapsed(self%origin, self%delayed_start(k)) + 0.5_wp*length < 0.0_wp
+         self%before_origin(k) = elapsed(self%origin, self%delayed_start(k)) < -0.5_wp*length
          if (.not. self%before_origin(k)) call point_at(self, k, max(self%found(k), self%oldest))
       end do
    end subroutine face

@@ -5,7 +5,7 @@
 !> whose nodes x belong to the method and whose coefficients a to the step and component.
 module dde_interpolant
    use kinds, only: wp
-   implicit none
+   implicit none (type, external)
    private
    public :: newton_value
 

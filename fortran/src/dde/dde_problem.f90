@@ -6,7 +6,7 @@
 !> Without delays leave `lag` and `component` of size zero: no history is kept then.
 module dde_problem
    use kinds, only: wp
-   implicit none
+   implicit none (type, external)
    private
    public :: dde_problem_type
 
@@ -31,6 +31,7 @@ module dde_problem
       !> State at the first instant.
       pure subroutine initial_state(self, y)
          import :: dde_problem_type, wp
+         implicit none (type, external)
          !> The problem
          class(dde_problem_type), intent(in) :: self
          !> y(t0), shape (n)
@@ -40,6 +41,7 @@ module dde_problem
       !> Component `component` of y at time t <= t0 (t0 itself: the limit from the left).
       pure function past_value(self, t, component) result(value)
          import :: dde_problem_type, wp
+         implicit none (type, external)
          !> The problem
          class(dde_problem_type), intent(in) :: self
          !> Time
@@ -52,6 +54,7 @@ module dde_problem
       !> Right-hand side; a value that is not finite makes the solver take a smaller step.
       pure subroutine right_hand_side(self, t, y, z, dydt)
          import :: dde_problem_type, wp
+         implicit none (type, external)
          !> The problem
          class(dde_problem_type), intent(in) :: self
          !> Time

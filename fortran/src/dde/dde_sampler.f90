@@ -2,7 +2,7 @@
 !> times, taken from dense output; what is done with them is the sampler's.
 module dde_sampler
    use kinds, only: wp
-   implicit none
+   implicit none (type, external)
    private
    public :: sampler_type, table_sampler
 
@@ -21,6 +21,7 @@ module dde_sampler
       !> Receive the sample of time `self%next` and move `self%next` on.
       subroutine take_sample(self, y)
          import :: sampler_type, wp
+         implicit none (type, external)
          !> The sampler
          class(sampler_type), intent(inout) :: self
          !> Values of the wanted components, shape (size(wanted))

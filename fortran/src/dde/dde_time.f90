@@ -2,7 +2,7 @@
 !> below spacing(t) still moves it (error-free sums of Knuth and Dekker).
 module dde_time
    use kinds, only: wp
-   implicit none
+   implicit none (type, external)
    private
    public :: instant, elapsed, instant_at, later
 

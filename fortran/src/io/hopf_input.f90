@@ -1,20 +1,20 @@
 !> The plane and window of Hopf curves, from the namelist group &hopf_curves.
 module hopf_input
    use errors, only: error_type
-   use hopf_curves, only: curve_plane, tau_of_epsilon, xi_of_epsilon
+   use hopf_planes, only: curve_plane, tau_of_epsilon, xi_of_epsilon
    use kinds, only: wp
-   use namelist_input, only: check_choice, check_number, not_given, open_namelist, reject_namelist
-   implicit none
+   use namelist_input, only: check_choice, check_number, not_given, open_namelist, close_namelist
+   implicit none (type, external)
    private
    public :: hopf_settings, read_plane
 
    !> What the curves show: the ordinate over epsilon.
-   character(len=3), parameter :: ordinates(2) = ['tau', 'xi ']
+   character(len=3), parameter :: ordinates(2) = ["tau", "xi "]
 
    !> A plane as the namelist gives it; all nondimensional.
    type :: hopf_settings
       !> 'tau' or 'xi'
-      character(len=3) :: ordinate = ''
+      character(len=3) :: ordinate = ""
       !> Value of the other of the two
       real(wp) :: fixed
       !> Frequency of the block
@@ -39,20 +39,20 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       call read_group(path, settings, error)
-      call check_choice(error, path, 'ordinate', settings%ordinate, ordinates)
-      call check_number(error, path, 'gamma', settings%gamma, above=0.0_wp)
+      call check_choice(error, path, "ordinate", settings%ordinate, ordinates)
+      call check_number(error, path, "gamma", settings%gamma, above=0.0_wp)
       associate (x => settings%epsilon_window, y => settings%ordinate_window)
-         call check_number(error, path, 'epsilon_window(1)', x(1), above=-1.0_wp)
-         call check_number(error, path, 'epsilon_window(2)', x(2), above=max(x(1), 0.0_wp))
-         if (settings%ordinate == 'tau') then
-            call check_number(error, path, 'fixed (xi)', settings%fixed, above=0.0_wp)
-            call check_number(error, path, 'ordinate_window(1)', y(1), at_least=0.0_wp)
+         call check_number(error, path, "epsilon_window(1)", x(1), above=-1.0_wp)
+         call check_number(error, path, "epsilon_window(2)", x(2), above=max(x(1), 0.0_wp))
+         if (settings%ordinate == "tau") then
+            call check_number(error, path, "fixed (xi)", settings%fixed, above=0.0_wp)
+            call check_number(error, path, "ordinate_window(1)", y(1), at_least=0.0_wp)
          else
-            call check_number(error, path, 'fixed (tau)', settings%fixed, at_least=0.0_wp)
-            call check_number(error, path, 'ordinate_window(1)', y(1), above=0.0_wp)
+            call check_number(error, path, "fixed (tau)", settings%fixed, at_least=0.0_wp)
+            call check_number(error, path, "ordinate_window(1)", y(1), above=0.0_wp)
          end if
-         call check_number(error, path, 'ordinate_window(2)', y(2), above=y(1))
-         if (settings%ordinate == 'tau') then
+         call check_number(error, path, "ordinate_window(2)", y(2), above=y(1))
+         if (settings%ordinate == "tau") then
             plane = tau_of_epsilon(settings%gamma, x, y, settings%fixed)
          else
             plane = xi_of_epsilon(settings%gamma, x, y, settings%fixed)
@@ -74,7 +74,7 @@ contains
       integer :: status, unit
       namelist /hopf_curves/ ordinate, fixed, gamma, epsilon_window, ordinate_window
 
-      ordinate = ''
+      ordinate = ""
       fixed = not_given()
       gamma = fixed
       epsilon_window = fixed
@@ -82,7 +82,7 @@ contains
       call open_namelist(path, unit, error)
       if (allocated(error)) return
       read (unit, nml=hopf_curves, iostat=status, iomsg=reason)
-      call reject_namelist(path, 'hopf_curves', unit, status, reason, error)
+      call close_namelist(path, "hopf_curves", unit, status, reason, error)
       settings = hopf_settings(ordinate, fixed, gamma, epsilon_window, ordinate_window)
    end subroutine read_group
 end module hopf_input

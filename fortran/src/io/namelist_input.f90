@@ -3,15 +3,15 @@ module namelist_input
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use errors, only: error_type, raise, text
    use kinds, only: wp
-   implicit none
+   implicit none (type, external)
    private
-   public :: check_choice, check_count, check_number, not_given, open_namelist, reject_namelist
+   public :: check_choice, check_count, check_number, not_given, open_namelist, close_namelist
 
 contains
 
    !> What a real key holds before it is read: no number, so that a missing key is refused.
-   real(wp) function not_given()
-      not_given = ieee_value(not_given, ieee_quiet_nan)
+   real(wp) function not_given() result(value)
+      value = ieee_value(value, ieee_quiet_nan)
    end function not_given
 
    !> Open a namelist file for reading.
@@ -25,12 +25,12 @@ contains
       character(len=256) :: reason
       integer :: status
 
-      open (newunit=unit, file=path, status='old', action='read', iostat=status, iomsg=reason)
-      if (status /= 0) call raise(error, path//': '//trim(reason))
+      open (newunit=unit, file=path, status="old", action="read", iostat=status, iomsg=reason)
+      if (status /= 0) call raise(error, path//": "//trim(reason))
    end subroutine open_namelist
 
-   !> Close the file; say why its group could not be read, if so.
-   subroutine reject_namelist(path, group, unit, status, reason, error)
+   !> Close the file after reading a group; say what went wrong, if anything did.
+   subroutine close_namelist(path, group, unit, status, reason, error)
       !> Path of the file
       character(len=*), intent(in) :: path
       !> Namelist group
@@ -43,16 +43,18 @@ contains
       character(len=*), intent(in) :: reason
       !> It could not be read
       type(error_type), allocatable, intent(out) :: error
-      character(len=256) :: line
-      integer :: closed
+      character(len=256) :: close_reason
+      integer :: close_status
 
-      close (unit, iostat=closed, iomsg=line)
+      close (unit, iostat=close_status, iomsg=close_reason)
       if (status < 0) then
-         call raise(error, path//': no complete namelist group &'//group//' in it')
+         call raise(error, path//": no complete namelist group &"//group//" in it")
       else if (status > 0) then
-         call raise(error, path//': namelist group &'//group//': '//trim(reason))
+         call raise(error, path//": namelist group &"//group//": "//trim(reason))
+      else if (close_status /= 0) then
+         call raise(error, path//": cannot be closed: "//trim(close_reason))
       end if
-   end subroutine reject_namelist
+   end subroutine close_namelist
 
    !> Refuse a number that is not finite or out of range; keep an earlier error.
    pure subroutine check_number(error, place, key, value, above, at_least, below, at_most)
@@ -77,26 +79,26 @@ contains
 
       if (allocated(error)) return
       fine = ieee_is_finite(value)
-      range = 'a finite number'
+      range = "a finite number"
       if (present(above)) then
-         range = range//' > '//text(above)
+         range = range//" > "//text(above)
          if (fine) fine = value > above
       end if
       if (present(at_least)) then
-         range = range//' >= '//text(at_least)
+         range = range//" >= "//text(at_least)
          if (fine) fine = value >= at_least
       end if
       if (present(below)) then
-         range = range//' < '//text(below)
+         range = range//" < "//text(below)
          if (fine) fine = value < below
       end if
       if (present(at_most)) then
-         range = range//' <= '//text(at_most)
+         range = range//" <= "//text(at_most)
          if (fine) fine = value <= at_most
       end if
       if (.not. fine) then
-         call raise(error, place//': '//key//' = '//text(value)//'; expected '//range &
-                    //' (NaN: missing, or not a number)')
+         call raise(error, place//": "//key//" = "//text(value)//"; expected "//range &
+                    //" (NaN: missing, or not a number)")
       end if
    end subroutine check_number
 
@@ -114,7 +116,7 @@ contains
       integer, intent(in) :: at_least
 
       if (allocated(error) .or. value >= at_least) return
-      call raise(error, place//': '//key//' = '//text(value)//'; expected a whole number >= ' &
+      call raise(error, place//": "//key//" = "//text(value)//"; expected a whole number >= " &
                  //text(at_least))
    end subroutine check_count
 
@@ -134,10 +136,10 @@ contains
       integer :: i
 
       if (allocated(error) .or. any(choices == value)) return
-      list = ''
+      list = ""
       do i = 1, size(choices)
          list = list//" '"//trim(choices(i))//"'"
       end do
-      call raise(error, place//': '//key//" = '"//trim(value)//"'; expected one of"//list)
+      call raise(error, place//": "//key//" = '"//trim(value)//"'; expected one of"//list)
    end subroutine check_choice
 end module namelist_input

@@ -8,12 +8,12 @@ module netcdf_output
                      nf90_double, nf90_global, nf90_int, nf90_netcdf4, nf90_noerr, &
                      nf90_put_att, nf90_put_var, nf90_strerror
    use version, only: project_version
-   implicit none
+   implicit none (type, external)
    private
    public :: output_file
 
    !> Ending of a file that is not complete.
-   character(len=*), parameter :: unfinished = '.part'
+   character(len=*), parameter :: unfinished = ".part"
 
    !> A file in the making; after the first error all further calls do nothing.
    type :: output_file
@@ -56,9 +56,9 @@ contains
 
       self%path = path
       call self%note(nf90_create(path//unfinished, ior(nf90_netcdf4, nf90_clobber), self%id))
-      call self%attribute('title', title)
-      call self%attribute('program_version', project_version)
-      call self%attribute('compiler', compiler_version())
+      call self%attribute("title", title)
+      call self%attribute("program_version", project_version)
+      call self%attribute("compiler", compiler_version())
    end subroutine create
 
    !> Keep the first error.
@@ -69,7 +69,7 @@ contains
       integer, intent(in) :: status
 
       if (status == nf90_noerr .or. allocated(self%error)) return
-      call raise(self%error, self%path//': cannot write: '//trim(nf90_strerror(status)))
+      call raise(self%error, self%path//": cannot write: "//trim(nf90_strerror(status)))
    end subroutine note
 
    !> Define a dimension.
@@ -102,8 +102,8 @@ contains
       id = -1
       if (allocated(self%error)) return
       call self%note(nf90_def_var(self%id, name, nf90_double, [dimension], id))
-      call self%attribute('long_name', long_name, id)
-      call self%attribute('units', units, id)
+      call self%attribute("long_name", long_name, id)
+      call self%attribute("units", units, id)
    end function real_variable
 
    !> Define a variable of integers over one dimension.
@@ -120,7 +120,7 @@ contains
       id = -1
       if (allocated(self%error)) return
       call self%note(nf90_def_var(self%id, name, nf90_int, [dimension], id))
-      call self%attribute('long_name', long_name, id)
+      call self%attribute("long_name", long_name, id)
    end function integer_variable
 
    !> A word or sentence.
@@ -174,12 +174,12 @@ contains
    end subroutine integer_attribute
 
    !> Id of an attribute's owner.
-   pure integer function owner(variable)
+   pure integer function owner(variable) result(value)
       !> Variable, if any
       integer, intent(in), optional :: variable
 
-      owner = nf90_global
-      if (present(variable)) owner = variable
+      value = nf90_global
+      if (present(variable)) value = variable
    end function owner
 
    !> Write real numbers, from index `first` on.

@@ -2,7 +2,7 @@
 module program_arguments
    use, intrinsic :: iso_fortran_env, only: error_unit
    use errors, only: error_type, raise
-   implicit none
+   implicit none (type, external)
    private
    public :: get_paths, stop_on
 
@@ -20,7 +20,7 @@ contains
       namelist_path = argument(1)
       output_path = argument(2)
       if (command_argument_count() /= 2) then
-         call raise(error, 'usage: '//argument(0)//' NAMELIST OUTPUT.nc')
+         call raise(error, "usage: "//argument(0)//" NAMELIST OUTPUT.nc")
       end if
    end subroutine get_paths
 
@@ -42,7 +42,7 @@ contains
       type(error_type), allocatable, intent(in) :: error
 
       if (.not. allocated(error)) return
-      write (error_unit, '(2a)') 'error: ', error%message
+      write (error_unit, "(2a)") "error: ", error%message
       stop 1, quiet=.true.
    end subroutine stop_on
 end module program_arguments

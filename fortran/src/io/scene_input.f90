@@ -2,15 +2,15 @@
 module scene_input
    use errors, only: error_type
    use kinds, only: wp
-   use namelist_input, only: check_choice, check_number, not_given, open_namelist, reject_namelist
-   implicit none
+   use namelist_input, only: check_choice, check_number, not_given, open_namelist, close_namelist
+   implicit none (type, external)
    private
    public :: read_scene, scene_type, variable_names
 
    !> Variables that a scene can store.
-   character(len=5), parameter :: variable_names(3) = ['theta', 'u    ', 'v    ']
+   character(len=5), parameter :: variable_names(3) = ["theta", "u    ", "v    "]
    !> Methods that a scene can ask for.
-   character(len=8), parameter :: methods(2) = ['auto    ', 'explicit']
+   character(len=8), parameter :: methods(2) = ["auto    ", "explicit"]
 
    !> Constant values for t <= 0, nondimensional.
    type :: history_values
@@ -25,7 +25,7 @@ module scene_input
    !> One parameter set; all nondimensional.
    type :: scene_type
       !> Name of the scene
-      character(len=64) :: name = ''
+      character(len=64) :: name = ""
       !> Delay
       real(wp) :: tau
       !> Sensitivity of the velocity relaxation
@@ -45,9 +45,9 @@ module scene_input
       !> Relative and absolute tolerance of one step
       real(wp) :: tolerance
       !> 'auto' or 'explicit'
-      character(len=8) :: method = ''
+      character(len=8) :: method = ""
       !> Variables to store, blank where there are fewer
-      character(len=5) :: variables(3) = ''
+      character(len=5) :: variables(3) = ""
    end type scene_type
 
 contains
@@ -62,7 +62,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       call read_group(path, scene, error)
-      if (.not. allocated(error)) call check_scene(path//": scene '"//trim(scene%name)//"'", scene, error)
+      if (allocated(error)) return
+      call check_scene(path//": scene '"//trim(scene%name)//"'", scene, error)
    end subroutine read_scene
 
    !> Read the group &scene, whose keys are those of the config.
@@ -83,9 +84,9 @@ contains
       namelist /scene/ name, tau, epsilon, xi, gamma, history, t_end, t_transient, &
          sample_interval, tolerance, method, variables
 
-      name = ''
-      method = ''
-      variables = ''
+      name = ""
+      method = ""
+      variables = ""
       tau = not_given()
       epsilon = tau
       xi = tau
@@ -98,7 +99,7 @@ contains
       call open_namelist(path, unit, error)
       if (allocated(error)) return
       read (unit, nml=scene, iostat=status, iomsg=reason)
-      call reject_namelist(path, 'scene', unit, status, reason, error)
+      call close_namelist(path, "scene", unit, status, reason, error)
       filled = scene_type(name, tau, epsilon, xi, gamma, history, t_end, t_transient, &
                           sample_interval, tolerance, method, variables)
    end subroutine read_group
@@ -113,25 +114,25 @@ contains
       type(error_type), allocatable, intent(out) :: error
       integer :: i
 
-      call check_number(error, place, 'tau', scene%tau, at_least=0.0_wp)
-      call check_number(error, place, 'epsilon', scene%epsilon, above=-1.0_wp)
-      call check_number(error, place, 'xi', scene%xi, above=0.0_wp)
-      call check_number(error, place, 'gamma', scene%gamma, above=0.0_wp)
-      call check_number(error, place, 'history%theta', scene%history%theta)
-      call check_number(error, place, 'history%u', scene%history%u)
-      call check_number(error, place, 'history%v', scene%history%v, above=0.0_wp)
-      call check_number(error, place, 't_end', scene%t_end, above=0.0_wp)
-      call check_number(error, place, 't_transient', scene%t_transient, at_least=0.0_wp, &
+      call check_number(error, place, "tau", scene%tau, at_least=0.0_wp)
+      call check_number(error, place, "epsilon", scene%epsilon, above=-1.0_wp)
+      call check_number(error, place, "xi", scene%xi, above=0.0_wp)
+      call check_number(error, place, "gamma", scene%gamma, above=0.0_wp)
+      call check_number(error, place, "history%theta", scene%history%theta)
+      call check_number(error, place, "history%u", scene%history%u)
+      call check_number(error, place, "history%v", scene%history%v, above=0.0_wp)
+      call check_number(error, place, "t_end", scene%t_end, above=0.0_wp)
+      call check_number(error, place, "t_transient", scene%t_transient, at_least=0.0_wp, &
                         below=scene%t_end)
-      call check_number(error, place, 'sample_interval', scene%sample_interval, above=0.0_wp, &
+      call check_number(error, place, "sample_interval", scene%sample_interval, above=0.0_wp, &
                         at_most=scene%t_end)
-      call check_number(error, place, 'tolerance', scene%tolerance, at_least=1.0e-13_wp, &
+      call check_number(error, place, "tolerance", scene%tolerance, at_least=1.0e-13_wp, &
                         at_most=1.0e-2_wp)
-      call check_choice(error, place, 'method', scene%method, methods)
-      call check_choice(error, place, 'variables', scene%variables(1), variable_names)
+      call check_choice(error, place, "method", scene%method, methods)
+      call check_choice(error, place, "variables", scene%variables(1), variable_names)
       do i = 2, size(scene%variables)
-         if (scene%variables(i) /= '') then
-            call check_choice(error, place, 'variables', scene%variables(i), variable_names)
+         if (scene%variables(i) /= "") then
+            call check_choice(error, place, "variables", scene%variables(i), variable_names)
          end if
       end do
    end subroutine check_scene

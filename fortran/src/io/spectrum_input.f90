@@ -3,20 +3,20 @@ module spectrum_input
    use errors, only: error_type
    use kinds, only: wp
    use namelist_input, only: check_choice, check_count, check_number, not_given, open_namelist, &
-                             reject_namelist
-   implicit none
+                             close_namelist
+   implicit none (type, external)
    private
    public :: read_spectrum_settings, spectrum_settings
 
    !> Windows to choose from.
-   character(len=6), parameter :: windows(2) = ['hann  ', 'boxcar']
+   character(len=6), parameter :: windows(2) = ["hann  ", "boxcar"]
 
    !> Source and method of a spectrum.
    type :: spectrum_settings
       !> Trajectory file to read
-      character(len=4096) :: trajectory = ''
+      character(len=4096) :: trajectory = ""
       !> 'hann' or 'boxcar'
-      character(len=6) :: window = ''
+      character(len=6) :: window = ""
       !> Number of Welch segments
       integer :: segments = 0
       !> Share of a segment that the next one repeats
@@ -39,11 +39,12 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       call read_group(path, settings, error)
-      call check_choice(error, path, 'window', settings%window, windows)
-      call check_count(error, path, 'segments', settings%segments, at_least=1)
-      call check_number(error, path, 'overlap', settings%overlap, at_least=0.0_wp, below=1.0_wp)
-      call check_number(error, path, 'peak_floor', settings%peak_floor, above=0.0_wp, at_most=1.0_wp)
-      call check_number(error, path, 'peak_prominence', settings%peak_prominence, at_least=1.0_wp)
+      call check_choice(error, path, "window", settings%window, windows)
+      call check_count(error, path, "segments", settings%segments, at_least=1)
+      call check_number(error, path, "overlap", settings%overlap, at_least=0.0_wp, below=1.0_wp)
+      call check_number(error, path, "peak_floor", settings%peak_floor, above=0.0_wp, &
+                        at_most=1.0_wp)
+      call check_number(error, path, "peak_prominence", settings%peak_prominence, at_least=1.0_wp)
    end subroutine read_spectrum_settings
 
    !> Read the group &spectrum.
@@ -61,8 +62,8 @@ contains
       integer :: segments, status, unit
       namelist /spectrum/ trajectory, window, segments, overlap, peak_floor, peak_prominence
 
-      trajectory = ''
-      window = ''
+      trajectory = ""
+      window = ""
       segments = 0
       overlap = not_given()
       peak_floor = overlap
@@ -70,7 +71,8 @@ contains
       call open_namelist(path, unit, error)
       if (allocated(error)) return
       read (unit, nml=spectrum, iostat=status, iomsg=reason)
-      call reject_namelist(path, 'spectrum', unit, status, reason, error)
-      settings = spectrum_settings(trajectory, window, segments, overlap, peak_floor, peak_prominence)
+      call close_namelist(path, "spectrum", unit, status, reason, error)
+      settings = spectrum_settings(trajectory, window, segments, overlap, peak_floor, &
+                                   peak_prominence)
    end subroutine read_group
 end module spectrum_input

@@ -5,7 +5,7 @@ module spectrum_output
    use netcdf_output, only: output_file
    use spectral_peaks, only: base_peak, harmonic_peak, is_periodic, other_peak, peak_type
    use spectrum_input, only: spectrum_settings
-   implicit none
+   implicit none (type, external)
    private
    public :: write_spectrum
 
@@ -34,26 +34,28 @@ contains
       type(output_file) :: file
       integer :: bins, f, k, m, p, pf, pp, rows
 
-      call file%create(path, 'Power spectrum of the velocity v')
-      bins = file%dimension('frequency', size(frequency))
-      rows = file%dimension('peak', size(peaks))
-      f = file%real_variable('frequency', bins, 'frequency, cycles per unit of time', '1')
-      p = file%real_variable('power', bins, 'one-sided power spectral density of v', '1')
-      pf = file%real_variable('peak_frequency', rows, 'interpolated frequency of the peak', '1')
-      pp = file%real_variable('peak_power', rows, 'interpolated height of the peak', '1')
-      k = file%integer_variable('peak_kind', rows, 'what the peak is')
-      call file%attribute('flag_values', flag_text(), k)
-      call file%attribute('flag_meanings', 'base harmonic other', k)
-      m = file%integer_variable('peak_multiple', rows, 'multiple of the base frequency, 0 for others')
-      call file%attribute('scene', scene)
-      call file%attribute('window', trim(settings%window))
-      call file%attribute('segments', int(settings%segments, int64))
-      call file%attribute('overlap', settings%overlap)
-      call file%attribute('peak_floor', settings%peak_floor)
-      call file%attribute('peak_prominence', settings%peak_prominence)
-      call file%attribute('variance', variance)
-      call file%attribute('line_share', share)
-      call file%attribute('signal', trim(merge('periodic    ', 'not periodic', is_periodic(peaks, share))))
+      call file%create(path, "Power spectrum of the velocity v")
+      bins = file%dimension("frequency", size(frequency))
+      rows = file%dimension("peak", size(peaks))
+      f = file%real_variable("frequency", bins, "frequency, cycles per unit of time", "1")
+      p = file%real_variable("power", bins, "one-sided power spectral density of v", "1")
+      pf = file%real_variable("peak_frequency", rows, "interpolated frequency of the peak", "1")
+      pp = file%real_variable("peak_power", rows, "interpolated height of the peak", "1")
+      k = file%integer_variable("peak_kind", rows, "what the peak is")
+      call file%attribute("flag_values", flag_text(), k)
+      call file%attribute("flag_meanings", "base harmonic other", k)
+      m = file%integer_variable("peak_multiple", rows, &
+                                "multiple of the base frequency, 0 for others")
+      call file%attribute("scene", scene)
+      call file%attribute("window", trim(settings%window))
+      call file%attribute("segments", int(settings%segments, int64))
+      call file%attribute("overlap", settings%overlap)
+      call file%attribute("peak_floor", settings%peak_floor)
+      call file%attribute("peak_prominence", settings%peak_prominence)
+      call file%attribute("variance", variance)
+      call file%attribute("line_share", share)
+      call file%attribute("signal", trim(merge("periodic    ", "not periodic", &
+                                               is_periodic(peaks, share))))
       call file%put(f, frequency)
       call file%put(p, power)
       call file%put(pf, peaks%frequency)
@@ -67,6 +69,6 @@ contains
    pure function flag_text() result(flags)
       character(len=8) :: flags
 
-      write (flags, '(i0,1x,i0,1x,i0)') base_peak, harmonic_peak, other_peak
+      write (flags, "(i0,1x,i0,1x,i0)") base_peak, harmonic_peak, other_peak
    end function flag_text
 end module spectrum_output

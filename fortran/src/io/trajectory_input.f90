@@ -5,14 +5,14 @@ module trajectory_input
    use netcdf, only: nf90_close, nf90_get_att, nf90_get_var, nf90_global, nf90_inq_dimid, &
                      nf90_inq_varid, nf90_inquire_dimension, nf90_noerr, nf90_nowrite, nf90_open, &
                      nf90_strerror
-   implicit none
+   implicit none (type, external)
    private
    public :: read_trajectory, trajectory_type
 
    !> One variable of a trajectory.
    type :: trajectory_type
       !> Name of the scene
-      character(len=64) :: scene = ''
+      character(len=64) :: scene = ""
       !> Time between samples
       real(wp) :: sample_interval = 0.0_wp
       !> Time up to which the transient lasts
@@ -35,16 +35,16 @@ contains
       type(error_type), allocatable, intent(out) :: error
       integer :: dimension, file, id, length, status
 
-      call check(nf90_open(path, nf90_nowrite, file), 'cannot be opened')
+      call check(nf90_open(path, nf90_nowrite, file), "cannot be opened")
       if (allocated(error)) return
-      call check(nf90_inq_varid(file, variable, id), "holds no variable '"//variable//"' (add it to the " &
-                 //'variables of its scene)')
-      call check(nf90_get_att(file, nf90_global, 'scene', trajectory%scene), "attribute 'scene'")
-      call check(nf90_get_att(file, nf90_global, 'sample_interval', trajectory%sample_interval), &
+      call check(nf90_inq_varid(file, variable, id), "holds no variable '"//variable &
+                 //"' (add it to the variables of its scene)")
+      call check(nf90_get_att(file, nf90_global, "scene", trajectory%scene), "attribute 'scene'")
+      call check(nf90_get_att(file, nf90_global, "sample_interval", trajectory%sample_interval), &
                  "attribute 'sample_interval'")
-      call check(nf90_get_att(file, nf90_global, 't_transient', trajectory%t_transient), &
+      call check(nf90_get_att(file, nf90_global, "t_transient", trajectory%t_transient), &
                  "attribute 't_transient'")
-      call check(nf90_inq_dimid(file, 'time', dimension), "dimension 'time'")
+      call check(nf90_inq_dimid(file, "time", dimension), "dimension 'time'")
       if (.not. allocated(error)) then
          call check(nf90_inquire_dimension(file, dimension, len=length), "dimension 'time'")
          allocate (trajectory%samples(length))
@@ -62,7 +62,7 @@ contains
          character(len=*), intent(in) :: what
 
          if (outcome == nf90_noerr .or. allocated(error)) return
-         call raise(error, path//': '//what//': '//trim(nf90_strerror(outcome)))
+         call raise(error, path//": "//what//": "//trim(nf90_strerror(outcome)))
       end subroutine check
    end subroutine read_trajectory
 end module trajectory_input

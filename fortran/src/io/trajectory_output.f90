@@ -1,13 +1,13 @@
-!> Trajectory files: samples go to disk in blocks while the integration runs, only the variables that
-!> the scene lists.
+!> Trajectory files: samples go to disk in blocks while the integration runs, only the variables
+!> that the scene lists.
 module trajectory_output
    use dde, only: integration_result, sampler_type
    use errors, only: error_type
-   use kinds, only: wp
+   use kinds, only: int64, wp
    use netcdf_output, only: output_file
    use scene_input, only: scene_type
    use spring_block, only: index_of_ln_v, index_of_theta, index_of_u
-   implicit none
+   implicit none (type, external)
    private
    public :: trajectory_writer
 
@@ -52,25 +52,25 @@ contains
       integer :: dimension, i, variables
 
       writer%scene = scene
-      variables = count(scene%variables /= '')
+      variables = count(scene%variables /= "")
       ! the quotient may be one rounding below a whole number
       writer%samples = floor(scene%t_end/scene%sample_interval*(1.0_wp + epsilon(1.0_wp))) + 1
       allocate (writer%wanted(variables), writer%ids(0:variables))
       allocate (writer%block(block_length, 0:variables))
-      call writer%file%create(path, 'Trajectory of the spring block with delayed friction')
-      dimension = writer%file%dimension('time', writer%samples)
-      writer%ids(0) = writer%file%real_variable('time', dimension, 'time', '1')
+      call writer%file%create(path, "Trajectory of the spring block with delayed friction")
+      dimension = writer%file%dimension("time", writer%samples)
+      writer%ids(0) = writer%file%real_variable("time", dimension, "time", "1")
       do i = 1, variables
          select case (scene%variables(i))
-         case ('theta')
+         case ("theta")
             writer%wanted(i) = index_of_theta
-            writer%ids(i) = writer%file%real_variable('theta', dimension, 'friction state', '1')
-         case ('u')
+            writer%ids(i) = writer%file%real_variable("theta", dimension, "friction state", "1")
+         case ("u")
             writer%wanted(i) = index_of_u
-            writer%ids(i) = writer%file%real_variable('u', dimension, 'displacement', '1')
-         case ('v')
+            writer%ids(i) = writer%file%real_variable("u", dimension, "displacement", "1")
+         case default
             writer%wanted(i) = index_of_ln_v
-            writer%ids(i) = writer%file%real_variable('v', dimension, 'velocity', '1')
+            writer%ids(i) = writer%file%real_variable("v", dimension, "velocity", "1")
          end select
       end do
       writer%next = 0.0_wp
@@ -117,24 +117,24 @@ contains
 
       call self%flush()
       associate (file => self%file, scene => self%scene)
-         call file%attribute('scene', trim(scene%name))
-         call file%attribute('tau', scene%tau)
-         call file%attribute('epsilon', scene%epsilon)
-         call file%attribute('xi', scene%xi)
-         call file%attribute('gamma', scene%gamma)
-         call file%attribute('history_theta', scene%history%theta)
-         call file%attribute('history_u', scene%history%u)
-         call file%attribute('history_v', scene%history%v)
-         call file%attribute('t_end', scene%t_end)
-         call file%attribute('t_transient', scene%t_transient)
-         call file%attribute('sample_interval', scene%sample_interval)
-         call file%attribute('tolerance', scene%tolerance)
-         call file%attribute('method', trim(scene%method))
-         call file%attribute('method_used', trim(outcome%method))
-         call file%attribute('steps_accepted', outcome%accepted)
-         call file%attribute('steps_rejected', outcome%rejected)
-         call file%attribute('evaluations', outcome%evaluations)
-         call file%attribute('breaking_points', int(outcome%breaking_points, kind(outcome%accepted)))
+         call file%attribute("scene", trim(scene%name))
+         call file%attribute("tau", scene%tau)
+         call file%attribute("epsilon", scene%epsilon)
+         call file%attribute("xi", scene%xi)
+         call file%attribute("gamma", scene%gamma)
+         call file%attribute("history_theta", scene%history%theta)
+         call file%attribute("history_u", scene%history%u)
+         call file%attribute("history_v", scene%history%v)
+         call file%attribute("t_end", scene%t_end)
+         call file%attribute("t_transient", scene%t_transient)
+         call file%attribute("sample_interval", scene%sample_interval)
+         call file%attribute("tolerance", scene%tolerance)
+         call file%attribute("method", trim(scene%method))
+         call file%attribute("method_used", trim(outcome%method))
+         call file%attribute("steps_accepted", outcome%accepted)
+         call file%attribute("steps_rejected", outcome%rejected)
+         call file%attribute("evaluations", outcome%evaluations)
+         call file%attribute("breaking_points", int(outcome%breaking_points, int64))
          call file%finish(error)
       end associate
    end subroutine finish

@@ -3,9 +3,9 @@ module velocity_step_input
    use errors, only: error_type
    use friction_law, only: friction_parameters
    use kinds, only: wp
-   use namelist_input, only: check_count, check_number, not_given, open_namelist, reject_namelist
+   use namelist_input, only: check_count, check_number, not_given, open_namelist, close_namelist
    use velocity_step, only: step_protocol
-   implicit none
+   implicit none (type, external)
    private
    public :: read_protocol
 
@@ -22,18 +22,18 @@ contains
 
       call read_group(path, protocol, error)
       associate (law => protocol%law)
-         call check_number(error, path, 'mu0', law%mu0, at_least=0.0_wp)
-         call check_number(error, path, 'a', law%a, at_least=0.0_wp)
-         call check_number(error, path, 'b', law%b, at_least=0.0_wp)
-         call check_number(error, path, 'dc', law%dc, above=0.0_wp)
-         call check_number(error, path, 'v0', law%v0, above=0.0_wp)
-         call check_number(error, path, 'b_state', law%b_state, above=0.0_wp)
+         call check_number(error, path, "mu0", law%mu0, at_least=0.0_wp)
+         call check_number(error, path, "a", law%a, at_least=0.0_wp)
+         call check_number(error, path, "b", law%b, at_least=0.0_wp)
+         call check_number(error, path, "dc", law%dc, above=0.0_wp)
+         call check_number(error, path, "v0", law%v0, above=0.0_wp)
+         call check_number(error, path, "b_state", law%b_state, above=0.0_wp)
       end associate
-      call check_number(error, path, 'delta_v', protocol%delta_v, above=0.0_wp)
-      call check_number(error, path, 'slip_before', protocol%slip_before, above=0.0_wp)
-      call check_number(error, path, 'slip_after', protocol%slip_after, above=0.0_wp)
-      call check_count(error, path, 'samples', protocol%samples, at_least=2)
-      call check_number(error, path, 'tolerance', protocol%tolerance, at_least=1.0e-13_wp, &
+      call check_number(error, path, "delta_v", protocol%delta_v, above=0.0_wp)
+      call check_number(error, path, "slip_before", protocol%slip_before, above=0.0_wp)
+      call check_number(error, path, "slip_after", protocol%slip_after, above=0.0_wp)
+      call check_count(error, path, "samples", protocol%samples, at_least=2)
+      call check_number(error, path, "tolerance", protocol%tolerance, at_least=1.0e-13_wp, &
                         at_most=1.0e-2_wp)
    end subroutine read_protocol
 
@@ -65,8 +65,8 @@ contains
       call open_namelist(path, unit, error)
       if (allocated(error)) return
       read (unit, nml=velocity_step, iostat=status, iomsg=reason)
-      call reject_namelist(path, 'velocity_step', unit, status, reason, error)
-      protocol = step_protocol(friction_parameters(mu0, a, b, dc, v0, b_state), delta_v, slip_before, &
-                               slip_after, samples, tolerance)
+      call close_namelist(path, "velocity_step", unit, status, reason, error)
+      protocol = step_protocol(friction_parameters(mu0, a, b, dc, v0, b_state), delta_v, &
+                               slip_before, slip_after, samples, tolerance)
    end subroutine read_group
 end module velocity_step_input

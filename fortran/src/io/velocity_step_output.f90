@@ -4,7 +4,7 @@ module velocity_step_output
    use friction_law, only: friction_coefficient, steady_state
    use netcdf_output, only: output_file
    use velocity_step, only: friction_response, step_protocol
-   implicit none
+   implicit none (type, external)
    private
    public :: write_response
 
@@ -23,26 +23,26 @@ contains
       type(output_file) :: file
       integer :: mu, rows, slip, theta, time, velocity
 
-      call file%create(path, 'Response of friction to steps of the imposed velocity')
-      rows = file%dimension('sample', size(response%time))
-      time = file%real_variable('time', rows, 'time', 's')
-      slip = file%real_variable('slip', rows, 'slip', 'm')
-      velocity = file%real_variable('velocity', rows, 'imposed velocity', 'm s-1')
-      theta = file%real_variable('theta', rows, 'state', 's')
-      mu = file%real_variable('mu', rows, 'friction coefficient', '1')
+      call file%create(path, "Response of friction to steps of the imposed velocity")
+      rows = file%dimension("sample", size(response%time))
+      time = file%real_variable("time", rows, "time", "s")
+      slip = file%real_variable("slip", rows, "slip", "m")
+      velocity = file%real_variable("velocity", rows, "imposed velocity", "m s-1")
+      theta = file%real_variable("theta", rows, "state", "s")
+      mu = file%real_variable("mu", rows, "friction coefficient", "1")
       associate (law => protocol%law, v => protocol%law%v0 + protocol%delta_v)
-         call file%attribute('mu0', law%mu0)
-         call file%attribute('a', law%a)
-         call file%attribute('b', law%b)
-         call file%attribute('dc', law%dc)
-         call file%attribute('v0', law%v0)
-         call file%attribute('b_state', law%b_state)
-         call file%attribute('delta_v', protocol%delta_v)
-         call file%attribute('tolerance', protocol%tolerance)
-         call file%attribute('direct_effect', &
+         call file%attribute("mu0", law%mu0)
+         call file%attribute("a", law%a)
+         call file%attribute("b", law%b)
+         call file%attribute("dc", law%dc)
+         call file%attribute("v0", law%v0)
+         call file%attribute("b_state", law%b_state)
+         call file%attribute("delta_v", protocol%delta_v)
+         call file%attribute("tolerance", protocol%tolerance)
+         call file%attribute("direct_effect", &
                              friction_coefficient(law, v, steady_state(law, law%v0)) &
                              - friction_coefficient(law, law%v0, steady_state(law, law%v0)))
-         call file%attribute('evolution_effect', &
+         call file%attribute("evolution_effect", &
                              friction_coefficient(law, v, steady_state(law, v)) &
                              - friction_coefficient(law, v, steady_state(law, law%v0)))
       end associate

@@ -6,7 +6,7 @@
 !> All quantities are nondimensional.
 module characteristic_function
    use kinds, only: wp
-   implicit none
+   implicit none (type, external)
    private
    public :: block_parameters, delta, delta_by_s, delta_by_tau, relative_residual
 
@@ -37,53 +37,53 @@ contains
    end function terms
 
    !> The delayed term -s (1 + epsilon) (gamma^2/xi) exp(-s tau).
-   pure complex(wp) function delayed_term(p, s)
+   pure complex(wp) function delayed_term(p, s) result(value)
       !> Parameters
       type(block_parameters), intent(in) :: p
       !> Point of the complex plane
       complex(wp), intent(in) :: s
 
-      delayed_term = -s*(1.0_wp + p%epsilon)*(p%gamma**2/p%xi)*exp(-s*p%tau)
+      value = -s*(1.0_wp + p%epsilon)*(p%gamma**2/p%xi)*exp(-s*p%tau)
    end function delayed_term
 
    !> Delta(s).
-   pure complex(wp) function delta(p, s)
+   pure complex(wp) function delta(p, s) result(value)
       !> Parameters
       type(block_parameters), intent(in) :: p
       !> Point of the complex plane
       complex(wp), intent(in) :: s
 
-      delta = sum(terms(p, s))
+      value = sum(terms(p, s))
    end function delta
 
    !> Derivative of Delta by s.
-   pure complex(wp) function delta_by_s(p, s)
+   pure complex(wp) function delta_by_s(p, s) result(value)
       !> Parameters
       type(block_parameters), intent(in) :: p
       !> Point of the complex plane, not 0
       complex(wp), intent(in) :: s
 
-      delta_by_s = 3.0_wp*s**2 + 2.0_wp*s*(1.0_wp + p%gamma**2/p%xi) &
+      value = 3.0_wp*s**2 + 2.0_wp*s*(1.0_wp + p%gamma**2/p%xi) &
                    + p%gamma**2*(1.0_wp + 1.0_wp/p%xi) + delayed_term(p, s)*(1.0_wp/s - p%tau)
    end function delta_by_s
 
    !> Derivative of Delta by tau.
-   pure complex(wp) function delta_by_tau(p, s)
+   pure complex(wp) function delta_by_tau(p, s) result(value)
       !> Parameters
       type(block_parameters), intent(in) :: p
       !> Point of the complex plane
       complex(wp), intent(in) :: s
 
-      delta_by_tau = -s*delayed_term(p, s)
+      value = -s*delayed_term(p, s)
    end function delta_by_tau
 
    !> |Delta(s)| over its largest term: how well s is a characteristic root.
-   pure real(wp) function relative_residual(p, s)
+   pure real(wp) function relative_residual(p, s) result(value)
       !> Parameters
       type(block_parameters), intent(in) :: p
       !> Point of the complex plane
       complex(wp), intent(in) :: s
 
-      relative_residual = abs(delta(p, s))/maxval(abs(terms(p, s)))
+      value = abs(delta(p, s))/maxval(abs(terms(p, s)))
    end function relative_residual
 end module characteristic_function

@@ -3,7 +3,7 @@
 module friction_law
    use dde, only: dde_problem_type
    use kinds, only: wp
-   implicit none
+   implicit none (type, external)
    private
    public :: friction_parameters, friction_coefficient, steady_state, state_evolution
 

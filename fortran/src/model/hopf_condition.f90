@@ -2,12 +2,13 @@
 !> corrected where the README, "What differs from the paper", says so. With
 !>
 !>     X sin(omega tau) = -[omega^2 (gamma^2/xi + 1) - gamma^2]
-!>     X cos(omega tau) = -[omega^3 - omega gamma^2 (1 + xi)/xi],   X = omega (1 + epsilon) gamma^2/xi.
+!>     X cos(omega tau) = -[omega^3 - omega gamma^2 (1 + xi)/xi],
+!>     X = omega (1 + epsilon) gamma^2/xi.
 !>
 !> All quantities are nondimensional.
 module hopf_condition
    use kinds, only: wp
-   implicit none
+   implicit none (type, external)
    private
    public :: hopf_epsilon, hopf_tau, hopf_xi, printed_tau, two_pi
 
@@ -17,7 +18,7 @@ module hopf_condition
 contains
 
    !> X sin(omega tau), which does not depend on epsilon and tau.
-   elemental real(wp) function sine_part(omega, xi, gamma)
+   elemental real(wp) function sine_part(omega, xi, gamma) result(value)
       !> Frequency of the pair
       real(wp), intent(in) :: omega
       !> Spring constant
@@ -25,11 +26,11 @@ contains
       !> Frequency of the block
       real(wp), intent(in) :: gamma
 
-      sine_part = -(omega**2*(gamma**2/xi + 1.0_wp) - gamma**2)
+      value = -(omega**2*(gamma**2/xi + 1.0_wp) - gamma**2)
    end function sine_part
 
    !> X cos(omega tau), which does not depend on epsilon and tau.
-   elemental real(wp) function cosine_part(omega, xi, gamma)
+   elemental real(wp) function cosine_part(omega, xi, gamma) result(value)
       !> Frequency of the pair
       real(wp), intent(in) :: omega
       !> Spring constant
@@ -37,11 +38,11 @@ contains
       !> Frequency of the block
       real(wp), intent(in) :: gamma
 
-      cosine_part = -(omega**3 - omega*gamma**2*(1.0_wp + xi)/xi)
+      value = -(omega**3 - omega*gamma**2*(1.0_wp + xi)/xi)
    end function cosine_part
 
    !> Equations (7) and (8), with gamma^2 where (8) prints gamma^1: the epsilon of a pair i omega.
-   elemental real(wp) function hopf_epsilon(omega, xi, gamma)
+   elemental real(wp) function hopf_epsilon(omega, xi, gamma) result(epsilon)
       !> Frequency of the pair, > 0
       real(wp), intent(in) :: omega
       !> Spring constant
@@ -49,12 +50,12 @@ contains
       !> Frequency of the block
       real(wp), intent(in) :: gamma
 
-      hopf_epsilon = -1.0_wp + hypot(cosine_part(omega, xi, gamma), sine_part(omega, xi, gamma)) &
-                     /(omega*gamma**2/xi)
+      epsilon = -1.0_wp + hypot(cosine_part(omega, xi, gamma), sine_part(omega, xi, gamma)) &
+                /(omega*gamma**2/xi)
    end function hopf_epsilon
 
    !> Equation (9): the xi of a pair i omega at delay tau; it holds where hopf_tau gives tau back.
-   elemental real(wp) function hopf_xi(omega, tau, gamma)
+   elemental real(wp) function hopf_xi(omega, tau, gamma) result(xi)
       !> Frequency of the pair, > 0
       real(wp), intent(in) :: omega
       !> Delay
@@ -62,13 +63,13 @@ contains
       !> Frequency of the block
       real(wp), intent(in) :: gamma
 
-      hopf_xi = (omega*gamma**2*sin(omega*tau) + omega**2*gamma**2*cos(omega*tau)) &
-                /((omega**3 - omega*gamma**2)*sin(omega*tau) + (gamma**2 - omega**2)*cos(omega*tau))
+      xi = (omega*gamma**2*sin(omega*tau) + omega**2*gamma**2*cos(omega*tau)) &
+           /((omega**3 - omega*gamma**2)*sin(omega*tau) + (gamma**2 - omega**2)*cos(omega*tau))
    end function hopf_xi
 
    !> Equation (10) with its full numerator and the arctangent of two arguments: the delay of a pair
    !> i omega on branch k. The angle is continuous in omega, so each branch is one smooth curve.
-   elemental real(wp) function hopf_tau(omega, xi, gamma, k)
+   elemental real(wp) function hopf_tau(omega, xi, gamma, k) result(tau)
       !> Frequency of the pair, > 0
       real(wp), intent(in) :: omega
       !> Spring constant
@@ -78,11 +79,11 @@ contains
       !> Branch
       integer, intent(in) :: k
 
-      hopf_tau = (atan2(sine_part(omega, xi, gamma), cosine_part(omega, xi, gamma)) + two_pi*k)/omega
+      tau = (atan2(sine_part(omega, xi, gamma), cosine_part(omega, xi, gamma)) + two_pi*k)/omega
    end function hopf_tau
 
    !> Equation (10) as printed: numerator without + gamma^2, plain arctangent.
-   elemental real(wp) function printed_tau(omega, xi, gamma, k)
+   elemental real(wp) function printed_tau(omega, xi, gamma, k) result(tau)
       !> Frequency of the pair, > 0
       real(wp), intent(in) :: omega
       !> Spring constant
@@ -92,7 +93,7 @@ contains
       !> Branch
       integer, intent(in) :: k
 
-      printed_tau = (atan(-omega**2*(gamma**2/xi + 1.0_wp) &
+      tau = (atan(-omega**2*(gamma**2/xi + 1.0_wp) &
                           /(-omega**3 + omega*gamma**2*(1.0_wp + xi)/xi)) + two_pi*k)/omega
    end function printed_tau
 end module hopf_condition

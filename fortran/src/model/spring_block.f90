@@ -3,7 +3,7 @@
 module spring_block
    use dde, only: dde_problem_type
    use kinds, only: wp
-   implicit none
+   implicit none (type, external)
    private
    public :: index_of_ln_v, index_of_theta, index_of_u, spring_block_type
 
@@ -55,8 +55,8 @@ contains
       type(spring_block_type) :: block
 
       block%n = 3
-      block%lag = pack([tau], tau > 0.0_wp)
-      block%component = pack([index_of_ln_v], tau > 0.0_wp)
+      allocate (block%lag, source=pack([tau], tau > 0.0_wp))
+      allocate (block%component, source=pack([index_of_ln_v], tau > 0.0_wp))
       block%epsilon = epsilon
       block%xi = xi
       block%gamma = gamma

@@ -1,0 +1,177 @@
+!> Planes of two parameters in which Hopf curves are drawn, each with its window.
+module hopf_planes
+   use characteristic_function, only: block_parameters
+   use hopf_condition, only: hopf_epsilon, hopf_tau, hopf_xi, two_pi
+   use kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: curve_plane, tau_of_epsilon, xi_of_epsilon
+
+   !> A plane (epsilon, ordinate) with a window; gamma is fixed, nondimensional.
+   type, abstract :: curve_plane
+      !> Frequency of the block
+      real(wp) :: gamma = 1.0_wp
+      !> Window on epsilon: least, most
+      real(wp) :: epsilon_window(2) = [0.0_wp, 1.0_wp]
+      !> Window on the ordinate: least, most
+      real(wp) :: ordinate_window(2) = [0.0_wp, 1.0_wp]
+   contains
+      !> Parameters at which branch k has the pair i omega
+      procedure(branch_at), deferred :: at
+      !> The ordinate among the parameters
+      procedure(ordinate_of), deferred, nopass :: ordinate
+      !> Least omega, and highest branch, that the window can hold
+      procedure(reach), deferred :: bounds
+   end type curve_plane
+
+   abstract interface
+      !> Parameters at which branch k has the pair i omega; xi <= 0 where it has none.
+      pure type(block_parameters) function branch_at(self, omega, k) result(value)
+         import :: block_parameters, curve_plane, wp
+         implicit none (type, external)
+         !> The plane
+         class(curve_plane), intent(in) :: self
+         !> Frequency of the pair
+         real(wp), intent(in) :: omega
+         !> Branch
+         integer, intent(in) :: k
+      end function branch_at
+
+      !> The ordinate among the parameters.
+      pure real(wp) function ordinate_of(p) result(value)
+         import :: block_parameters, wp
+         implicit none (type, external)
+         !> Parameters
+         type(block_parameters), intent(in) :: p
+      end function ordinate_of
+
+      !> Least omega and highest branch in the window, given the largest omega.
+      pure subroutine reach(self, omega_most, omega_least, k_most)
+         import :: curve_plane, wp
+         implicit none (type, external)
+         !> The plane
+         class(curve_plane), intent(in) :: self
+         !> Largest omega in the window
+         real(wp), intent(in) :: omega_most
+         !> Least omega
+         real(wp), intent(out) :: omega_least
+         !> Highest branch
+         integer, intent(out) :: k_most
+      end subroutine reach
+   end interface
+
+   !> Figure 2: tau over epsilon at fixed xi.
+   type, extends(curve_plane) :: tau_of_epsilon
+      !> Spring constant
+      real(wp) :: xi = 1.0_wp
+   contains
+      procedure :: at => tau_branch
+      procedure, nopass :: ordinate => tau_ordinate
+      procedure :: bounds => tau_bounds
+   end type tau_of_epsilon
+
+   !> Figure 3: xi over epsilon at fixed tau.
+   type, extends(curve_plane) :: xi_of_epsilon
+      !> Delay
+      real(wp) :: tau = 0.0_wp
+   contains
+      procedure :: at => xi_branch
+      procedure, nopass :: ordinate => xi_ordinate
+      procedure :: bounds => xi_bounds
+   end type xi_of_epsilon
+
+contains
+
+   !> Equations (7) and (10) at fixed xi.
+   pure type(block_parameters) function tau_branch(self, omega, k) result(p)
+      !> The plane
+      class(tau_of_epsilon), intent(in) :: self
+      !> Frequency of the pair
+      real(wp), intent(in) :: omega
+      !> Branch
+      integer, intent(in) :: k
+
+      p = block_parameters(tau=hopf_tau(omega, self%xi, self%gamma, k), xi=self%xi, &
+                           epsilon=hopf_epsilon(omega, self%xi, self%gamma), gamma=self%gamma)
+   end function tau_branch
+
+   !> tau.
+   pure real(wp) function tau_ordinate(p) result(value)
+      !> Parameters
+      type(block_parameters), intent(in) :: p
+
+      value = p%tau
+   end function tau_ordinate
+
+   !> Least omega: where xi |gamma^2 - omega^2|/(gamma^2 omega) falls to omega_most; highest branch:
+   !> where (2 pi k - pi)/omega_most exceeds tau.
+   pure subroutine tau_bounds(self, omega_most, omega_least, k_most)
+      !> The plane
+      class(tau_of_epsilon), intent(in) :: self
+      !> Largest omega in the window
+      real(wp), intent(in) :: omega_most
+      !> Least omega
+      real(wp), intent(out) :: omega_least
+      !> Highest branch
+      integer, intent(out) :: k_most
+
+      omega_least = least_omega(self%xi, self%gamma, omega_most)
+      k_most = ceiling(self%ordinate_window(2)*omega_most/two_pi + 0.5_wp)
+   end subroutine tau_bounds
+
+   !> Equations (7) and (9) at fixed tau, as far as (10) gives that tau back on branch k.
+   pure type(block_parameters) function xi_branch(self, omega, k) result(p)
+      !> The plane
+      class(xi_of_epsilon), intent(in) :: self
+      !> Frequency of the pair
+      real(wp), intent(in) :: omega
+      !> Branch
+      integer, intent(in) :: k
+
+      p = block_parameters(tau=self%tau, xi=hopf_xi(omega, self%tau, self%gamma), gamma=self%gamma)
+      if (.not. p%xi > 0.0_wp) return
+      if (abs(omega*(hopf_tau(omega, p%xi, p%gamma, k) - self%tau)) > 1.0_wp) then
+         p%xi = -1.0_wp
+      else
+         p%epsilon = hopf_epsilon(omega, p%xi, p%gamma)
+      end if
+   end function xi_branch
+
+   !> xi.
+   pure real(wp) function xi_ordinate(p) result(value)
+      !> Parameters
+      type(block_parameters), intent(in) :: p
+
+      value = p%xi
+   end function xi_ordinate
+
+   !> Least omega: as in `tau_bounds` for the least xi; highest branch: from omega_most and tau.
+   pure subroutine xi_bounds(self, omega_most, omega_least, k_most)
+      !> The plane
+      class(xi_of_epsilon), intent(in) :: self
+      !> Largest omega in the window
+      real(wp), intent(in) :: omega_most
+      !> Least omega
+      real(wp), intent(out) :: omega_least
+      !> Highest branch
+      integer, intent(out) :: k_most
+
+      omega_least = least_omega(self%ordinate_window(1), self%gamma, omega_most)
+      k_most = ceiling(self%tau*omega_most/two_pi + 0.5_wp)
+   end subroutine xi_bounds
+
+   !> The omega at which xi (gamma^2 - omega^2)/(gamma^2 omega) = omega_most: below it epsilon lies
+   !> beyond the window, for 1 + epsilon = sqrt((1 + omega^2)(1 + B^2)) with B that ratio.
+   pure real(wp) function least_omega(xi, gamma, omega_most) result(value)
+      !> Spring constant
+      real(wp), intent(in) :: xi
+      !> Frequency of the block
+      real(wp), intent(in) :: gamma
+      !> Largest omega in the window
+      real(wp), intent(in) :: omega_most
+      real(wp) :: half
+
+      half = 0.5_wp*gamma**2*omega_most/xi
+      value = gamma**2/(half + sqrt(half**2 + gamma**2))
+   end function least_omega
+end module hopf_planes
