@@ -17,7 +17,9 @@ include: "rules/common.smk"
 rule all:
     default_target: True
     input:
-        expand("results/figures/figure_{n}.{ending}", n=range(1, 9), ending=["pdf", "png"]),
+        expand(
+            "results/figures/figure_{n}.{ending}", n=range(1, 9), ending=["pdf", "png"]
+        ),
 
 
 include: "rules/build.smk"

@@ -1,13 +1,4 @@
 # Programs, each built when a result needs it.
-def sources_of(wildcards):
-    """Sources that a program is built from: its own and all modules."""
-    modules = glob_wildcards("fortran/src/{path}.{ending,f90|c|in}")
-    return [
-        "fortran/CMakeLists.txt",
-        "fortran/CMakePresets.json",
-        f"fortran/app/{wildcards.program}.f90",
-        *expand("fortran/src/{path}.{ending}", zip, **modules._asdict()),
-    ]
 
 
 rule build:

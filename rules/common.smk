@@ -34,6 +34,39 @@ def spectra_of(figure):
 
 def places_of_scenes():
     """Parameters of the scenes that figures show, as marked beside the Hopf curves."""
-    shown = dict.fromkeys(scene for figure in config["figures"] for scene in scenes_of(figure))
+    shown = dict.fromkeys(
+        scene for figure in config["figures"] for scene in scenes_of(figure)
+    )
     keys = ["tau", "epsilon", "xi", "gamma"]
-    return {scene: {key: config["scenes"][scene][key] for key in keys} for scene in shown}
+    return {
+        scene: {key: config["scenes"][scene][key] for key in keys} for scene in shown
+    }
+
+
+def sources_of(wildcards):
+    """Sources that a program is built from: its own and all modules."""
+    modules = glob_wildcards("fortran/src/{path}.{ending,f90|c|in}")
+    return [
+        "fortran/CMakeLists.txt",
+        "fortran/CMakePresets.json",
+        f"fortran/app/{wildcards.program}.f90",
+        *sorted(expand("fortran/src/{path}.{ending}", zip, **modules._asdict())),
+    ]
+
+
+def scene_values(wildcards):
+    """The scene's namelist group."""
+    return {"name": wildcards.scene, **config["scenes"][wildcards.scene]}
+
+
+def plane_values(wildcards):
+    """The plane's namelist group."""
+    return config["hopf_curves"][wildcards.plane]
+
+
+def spectrum_values(wildcards):
+    """The spectrum's namelist group."""
+    return {
+        "trajectory": f"results/trajectories/{wildcards.scene}.nc",
+        **config["spectra"],
+    }

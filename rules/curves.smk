@@ -1,17 +1,14 @@
 # Hopf curves, one file a plane.
-def plane_values(wildcards):
-    """The plane's namelist group."""
-    return config["hopf_curves"][wildcards.plane]
 
 
 rule hopf_namelist:
     output:
         "results/namelists/hopf/{plane}.nml",
+    log:
+        "results/logs/namelists/hopf/{plane}.log",
     params:
         group="hopf_curves",
         values=plane_values,
-    log:
-        "results/logs/namelists/hopf/{plane}.log",
     script:
         "../scripts/write_namelist.py"
 

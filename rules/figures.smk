@@ -1,8 +1,17 @@
 # The paper's figures, each with its caption for the report.
+DRAWING = ["scripts/drawing.py", "scripts/paper.mplstyle"]
+
+
 rule figure_1:
+    input:
+        code=DRAWING,
     output:
         pdf="results/figures/figure_1.pdf",
-        png=report("results/figures/figure_1.png", caption="../scripts/figure_1.rst", category="Figures"),
+        png=report(
+            "results/figures/figure_1.png",
+            caption="../scripts/figure_1.rst",
+            category="Figures",
+        ),
     log:
         "results/logs/figures/figure_1.log",
     script:
@@ -11,28 +20,38 @@ rule figure_1:
 
 rule figure_2:
     input:
-        "results/hopf/tau_of_epsilon.nc",
+        curves="results/hopf/tau_of_epsilon.nc",
+        code=["scripts/hopf_plane.py", *DRAWING],
     output:
         pdf="results/figures/figure_2.pdf",
-        png=report("results/figures/figure_2.png", caption="../scripts/figure_2.rst", category="Figures"),
-    params:
-        scenes=places_of_scenes(),
+        png=report(
+            "results/figures/figure_2.png",
+            caption="../scripts/figure_2.rst",
+            category="Figures",
+        ),
     log:
         "results/logs/figures/figure_2.log",
+    params:
+        scenes=places_of_scenes(),
     script:
         "../scripts/figure_2.py"
 
 
 rule figure_3:
     input:
-        "results/hopf/xi_of_epsilon.nc",
+        curves="results/hopf/xi_of_epsilon.nc",
+        code=["scripts/hopf_plane.py", *DRAWING],
     output:
         pdf="results/figures/figure_3.pdf",
-        png=report("results/figures/figure_3.png", caption="../scripts/figure_3.rst", category="Figures"),
-    params:
-        scenes=places_of_scenes(),
+        png=report(
+            "results/figures/figure_3.png",
+            caption="../scripts/figure_3.rst",
+            category="Figures",
+        ),
     log:
         "results/logs/figures/figure_3.log",
+    params:
+        scenes=places_of_scenes(),
     script:
         "../scripts/figure_3.py"
 
@@ -40,13 +59,18 @@ rule figure_3:
 rule figure_4:
     input:
         trajectories=trajectories_of("figure_4"),
+        code=["scripts/trajectory_rows.py", *DRAWING],
     output:
         pdf="results/figures/figure_4.pdf",
-        png=report("results/figures/figure_4.png", caption="../scripts/figure_4.rst", category="Figures"),
-    params:
-        settings=config["figures"]["figure_4"],
+        png=report(
+            "results/figures/figure_4.png",
+            caption="../scripts/figure_4.rst",
+            category="Figures",
+        ),
     log:
         "results/logs/figures/figure_4.log",
+    params:
+        settings=config["figures"]["figure_4"],
     script:
         "../scripts/figure_4.py"
 
@@ -55,13 +79,18 @@ rule figure_5:
     input:
         trajectories=trajectories_of("figure_5"),
         spectra=spectra_of("figure_5"),
+        code=["scripts/trajectory_rows.py", *DRAWING],
     output:
         pdf="results/figures/figure_5.pdf",
-        png=report("results/figures/figure_5.png", caption="../scripts/figure_5.rst", category="Figures"),
-    params:
-        settings=config["figures"]["figure_5"],
+        png=report(
+            "results/figures/figure_5.png",
+            caption="../scripts/figure_5.rst",
+            category="Figures",
+        ),
     log:
         "results/logs/figures/figure_5.log",
+    params:
+        settings=config["figures"]["figure_5"],
     script:
         "../scripts/figure_5.py"
 
@@ -69,13 +98,18 @@ rule figure_5:
 rule figure_6:
     input:
         spectra=spectra_of("figure_6"),
+        code=["scripts/spectrum_rows.py", *DRAWING],
     output:
         pdf="results/figures/figure_6.pdf",
-        png=report("results/figures/figure_6.png", caption="../scripts/figure_6.rst", category="Figures"),
-    params:
-        settings=config["figures"]["figure_6"],
+        png=report(
+            "results/figures/figure_6.png",
+            caption="../scripts/figure_6.rst",
+            category="Figures",
+        ),
     log:
         "results/logs/figures/figure_6.log",
+    params:
+        settings=config["figures"]["figure_6"],
     script:
         "../scripts/figure_6.py"
 
@@ -83,23 +117,33 @@ rule figure_6:
 rule figure_7:
     input:
         spectra=spectra_of("figure_7"),
+        code=["scripts/spectrum_rows.py", *DRAWING],
     output:
         pdf="results/figures/figure_7.pdf",
-        png=report("results/figures/figure_7.png", caption="../scripts/figure_7.rst", category="Figures"),
-    params:
-        settings=config["figures"]["figure_7"],
+        png=report(
+            "results/figures/figure_7.png",
+            caption="../scripts/figure_7.rst",
+            category="Figures",
+        ),
     log:
         "results/logs/figures/figure_7.log",
+    params:
+        settings=config["figures"]["figure_7"],
     script:
         "../scripts/figure_7.py"
 
 
 rule figure_8:
     input:
-        "results/friction/velocity_step.nc",
+        response="results/friction/velocity_step.nc",
+        code=DRAWING,
     output:
         pdf="results/figures/figure_8.pdf",
-        png=report("results/figures/figure_8.png", caption="../scripts/figure_8.rst", category="Figures"),
+        png=report(
+            "results/figures/figure_8.png",
+            caption="../scripts/figure_8.rst",
+            category="Figures",
+        ),
     log:
         "results/logs/figures/figure_8.log",
     script:

@@ -2,11 +2,11 @@
 rule velocity_step_namelist:
     output:
         "results/namelists/velocity_step.nml",
+    log:
+        "results/logs/namelists/velocity_step.log",
     params:
         group="velocity_step",
         values=config["velocity_step"],
-    log:
-        "results/logs/namelists/velocity_step.log",
     script:
         "../scripts/write_namelist.py"
 

@@ -1,17 +1,14 @@
 # Power spectra of v, one a scene.
-def spectrum_values(wildcards):
-    """The spectrum's namelist group."""
-    return {"trajectory": f"results/trajectories/{wildcards.scene}.nc", **config["spectra"]}
 
 
 rule spectrum_namelist:
     output:
         "results/namelists/spectra/{scene}.nml",
+    log:
+        "results/logs/namelists/spectra/{scene}.log",
     params:
         group="spectrum",
         values=spectrum_values,
-    log:
-        "results/logs/namelists/spectra/{scene}.log",
     script:
         "../scripts/write_namelist.py"
 

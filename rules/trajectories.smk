@@ -1,17 +1,14 @@
 # One trajectory a scene.
-def scene_values(wildcards):
-    """The scene's namelist group."""
-    return {"name": wildcards.scene, **config["scenes"][wildcards.scene]}
 
 
 rule scene_namelist:
     output:
         "results/namelists/trajectories/{scene}.nml",
+    log:
+        "results/logs/namelists/trajectories/{scene}.log",
     params:
         group="scene",
         values=scene_values,
-    log:
-        "results/logs/namelists/trajectories/{scene}.log",
     script:
         "../scripts/write_namelist.py"
 

@@ -30,7 +30,9 @@ def checked(config: dict) -> dict:
         _fill_in_variables(config)
         problems = list(_contradictions(config))
     if problems:
-        raise ConfigError("\n".join(["the configuration is refused:", *sorted(problems)]))
+        raise ConfigError(
+            "\n".join(["the configuration is refused:", *sorted(problems)])
+        )
     return config
 
 
@@ -49,7 +51,9 @@ def _validator_with_defaults(schema: dict):
 
     def is_finite_number(_, value):
         return (
-            isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+            isinstance(value, int | float)
+            and not isinstance(value, bool)
+            and math.isfinite(value)
         )
 
     def fill_then_check(validator, properties, instance, subschema):
@@ -58,10 +62,14 @@ def _validator_with_defaults(schema: dict):
                 if "default" in rules:
                     default = rules["default"]
                     instance.setdefault(key, {} if default == {} else default)
-        yield from base.VALIDATORS["properties"](validator, properties, instance, subschema)
+        yield from base.VALIDATORS["properties"](
+            validator, properties, instance, subschema
+        )
 
     types = base.TYPE_CHECKER.redefine("number", is_finite_number)
-    extended = jsonschema.validators.extend(base, {"properties": fill_then_check}, type_checker=types)
+    extended = jsonschema.validators.extend(
+        base, {"properties": fill_then_check}, type_checker=types
+    )
     return extended(schema)
 
 
@@ -80,14 +88,18 @@ def _in_words(error: jsonschema.ValidationError) -> str:
             f"{_place(path)}: name {error.instance!r}; expected small letters, digits and"
             " underscores, a letter first"
         )
-    return _value_in_words(path, error.instance, error.schema.get("description", error.message))
+    return _value_in_words(
+        path, error.instance, error.schema.get("description", error.message)
+    )
 
 
 def _value_in_words(path: list[str], value, expected: str) -> str:
     line = f"{_place(path[:-1])}: {path[-1] if path else 'value'} = {value!r}; expected {expected}"
     if isinstance(value, str):
         try:
-            line += f" (this is text; write {float(value)!r}, with a dot, for the number)"
+            line += (
+                f" (this is text; write {float(value)!r}, with a dot, for the number)"
+            )
         except ValueError:
             pass
     return line
@@ -105,7 +117,9 @@ def _fill_in_variables(config: dict) -> None:
     order = ["theta", "u", "v"]
     for name, scene in config["scenes"].items():
         used = variables_used(config, name) or set(order)
-        scene.setdefault("variables", [variable for variable in order if variable in used])
+        scene.setdefault(
+            "variables", [variable for variable in order if variable in used]
+        )
 
 
 def _contradictions(config: dict):

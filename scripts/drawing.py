@@ -28,7 +28,11 @@ def save(figure: Figure, pdf: str | Path, png: str | Path) -> None:
 @contextlib.contextmanager
 def logged(path: str | Path) -> Iterator[None]:
     """Use the style; write warnings and the reason of a failure to a log file."""
-    with open(path, "w") as log, contextlib.redirect_stderr(log), plt.style.context(STYLE):
+    with (
+        open(path, "w") as log,
+        contextlib.redirect_stderr(log),
+        plt.style.context(STYLE),
+    ):
         try:
             yield
         except Exception:

@@ -6,5 +6,5 @@ from hopf_plane import draw
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        figure = draw(xr.load_dataset(snakemake.input[0]), snakemake.params.scenes)
+        figure = draw(xr.load_dataset(snakemake.input.curves), snakemake.params.scenes)
         save(figure, snakemake.output.pdf, snakemake.output.png)

@@ -10,7 +10,7 @@ if __name__ == "__main__":
         trajectories = map(xr.load_dataset, snakemake.input.trajectories)
         rows = dict(zip(settings["rows"], trajectories, strict=True))
         titles = {
-            label: f"the paper: “{row['paper']}”; seen: {xr.load_dataset(path).attrs['signal']} spectrum"
+            label: f"the paper: “{row['paper']}”; seen: {xr.load_dataset(path).attrs['signal']}"
             for (label, row), path in zip(
                 settings["rows"].items(), snakemake.input.spectra, strict=True
             )

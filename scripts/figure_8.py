@@ -30,7 +30,9 @@ def draw(response: xr.Dataset) -> Figure:
     return figure
 
 
-def mark_effects(axes: Axes, slip: np.ndarray, mu: np.ndarray, steps: np.ndarray) -> None:
+def mark_effects(
+    axes: Axes, slip: np.ndarray, mu: np.ndarray, steps: np.ndarray
+) -> None:
     """The jump (direct effect) and the slow return (evolution effect) of each step, as arrows."""
     arrow = {"arrowstyle": "<->", "color": INK, "lw": 0.7, "shrinkA": 0, "shrinkB": 0}
     ends = [*steps[1:], mu.size]
@@ -40,11 +42,25 @@ def mark_effects(axes: Axes, slip: np.ndarray, mu: np.ndarray, steps: np.ndarray
         axes.plot([x - 1.2, x], [before, before], color=FAINT, lw=0.6, ls=":")
         axes.annotate("", (x - 0.35, before), (x - 0.35, peak), arrowprops=arrow)
         axes.plot([x - 0.6, x], [peak, peak], color=FAINT, lw=0.6, ls=":")
-        axes.text(x - 0.5, (before + peak) / 2, "direct\neffect", ha="right", va="center", fontsize=7)
+        axes.text(
+            x - 0.5,
+            (before + peak) / 2,
+            "direct\neffect",
+            ha="right",
+            va="center",
+            fontsize=7,
+        )
         x = slip[end - 1] - 2.2
         axes.plot([slip[step], x + 0.3], [peak, peak], color=FAINT, lw=0.6, ls=":")
         axes.annotate("", (x, peak), (x, after), arrowprops=arrow)
-        axes.text(x - 0.15, (peak + after) / 2, "evolution\neffect", ha="right", va="center", fontsize=7)
+        axes.text(
+            x - 0.15,
+            (peak + after) / 2,
+            "evolution\neffect",
+            ha="right",
+            va="center",
+            fontsize=7,
+        )
 
 
 def mark_dc(axes: Axes, slip: np.ndarray, mu: np.ndarray, steps: np.ndarray) -> None:
@@ -55,9 +71,21 @@ def mark_dc(axes: Axes, slip: np.ndarray, mu: np.ndarray, steps: np.ndarray) -> 
         "",
         (start, y),
         (start + 1, y),
-        arrowprops={"arrowstyle": "<->", "color": "C0", "lw": 0.9, "shrinkA": 0, "shrinkB": 0},
+        arrowprops={
+            "arrowstyle": "<->",
+            "color": "C0",
+            "lw": 0.9,
+            "shrinkA": 0,
+            "shrinkB": 0,
+        },
     )
-    axes.plot([start + 1, start + 1], [y, np.interp(start + 1, slip, mu)], color="C0", lw=0.5, ls=":")
+    axes.plot(
+        [start + 1, start + 1],
+        [y, np.interp(start + 1, slip, mu)],
+        color="C0",
+        lw=0.5,
+        ls=":",
+    )
     axes.plot([start, start], [y, mu[steps[0] - 1]], color="C0", lw=0.5, ls=":")
     axes.annotate(
         "$D_c$",
@@ -71,5 +99,5 @@ def mark_dc(axes: Axes, slip: np.ndarray, mu: np.ndarray, steps: np.ndarray) -> 
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        figure = draw(xr.load_dataset(snakemake.input[0]))
+        figure = draw(xr.load_dataset(snakemake.input.response))
         save(figure, snakemake.output.pdf, snakemake.output.png)

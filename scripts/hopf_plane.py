@@ -19,18 +19,25 @@ def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
     ordinate = curves.attrs["ordinate"]
     fixed = "xi" if ordinate == "tau" else "tau"
     figure, axes = plt.subplots(figsize=(4.6, 4.2))
-    axes.set(xlim=(0, float(curves.epsilon.max())), ylim=(0, float(curves[ordinate].max())))
-    branches = np.unique(curves.branch)
-    for branch in branches:
+    axes.set(
+        xlim=(0, float(curves.epsilon.max())), ylim=(0, float(curves[ordinate].max()))
+    )
+    ends = []
+    for piece in np.unique(curves.piece):
+        line = curves.isel(point=curves.piece.values == piece)
+        branch = int(line.branch[0])
         colour = f"C{branch % 8}"
-        of_branch = curves.isel(point=curves.branch.values == branch)
-        for piece in np.unique(of_branch.piece):
-            line = of_branch.isel(point=of_branch.piece.values == piece)
-            label_branch(axes, line, ordinate, float(curves.epsilon.max()), colour)
-            draw_piece(axes, line.epsilon.values, line[ordinate].values, line.crossing.values, colour)
-    marked = mark_scenes(axes, scenes, ordinate, fixed, curves.attrs[fixed], curves.attrs["gamma"])
+        x, y = line.epsilon.values, line[ordinate].values
+        draw_piece(axes, x, y, line.crossing.values, colour)
+        last = x.argmax() if x.max() > 0.99 * axes.get_xlim()[1] else y.argmax()
+        ends.append((float(y[last]), float(x[last]), branch, colour))
+    label_branches(axes, ends)
+    marked = mark_scenes(
+        axes, scenes, ordinate, fixed, curves.attrs[fixed], curves.attrs["gamma"]
+    )
     axes.set_title(
-        rf"{SYMBOLS[fixed]} = {curves.attrs[fixed]:g}, $\gamma$ = {curves.attrs['gamma']:g}", pad=14
+        rf"{SYMBOLS[fixed]} = {curves.attrs[fixed]:g}, $\gamma$ = {curves.attrs['gamma']:g}",
+        pad=14,
     )
     axes.set(
         xlabel=r"sensitivity of the velocity relaxation $\varepsilon$",
@@ -38,13 +45,21 @@ def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
     )
     handles = [
         Line2D([], [], color=INK, label=r"a pair becomes unstable as $\tau$ grows"),
-        Line2D([], [], color=INK, ls=(0, (3, 1.5)), label=r"a pair becomes stable as $\tau$ grows"),
+        Line2D(
+            [],
+            [],
+            color=INK,
+            ls=(0, (3, 1.5)),
+            label=r"a pair becomes stable as $\tau$ grows",
+        ),
     ]
     figure.legend(handles=handles + marked, loc="outside lower center", ncols=2)
     return figure
 
 
-def draw_piece(axes: Axes, x: np.ndarray, y: np.ndarray, crossing: np.ndarray, colour: str) -> None:
+def draw_piece(
+    axes: Axes, x: np.ndarray, y: np.ndarray, crossing: np.ndarray, colour: str
+) -> None:
     """One unbroken piece, dashed where the sign of d Re(lambda)/d tau is negative."""
     ends = np.flatnonzero(np.diff(crossing)) + 1
     for part in np.split(np.arange(x.size), ends):
@@ -53,25 +68,26 @@ def draw_piece(axes: Axes, x: np.ndarray, y: np.ndarray, crossing: np.ndarray, c
         axes.plot(x[part], y[part], color=colour, ls=style)
 
 
-def label_branch(
-    axes: Axes, line: xr.Dataset, ordinate: str, right_edge: float, colour: str
-) -> None:
-    """Name a piece of a branch where it leaves the window, to the right or above."""
-    right = line.isel(point=int(line.epsilon.argmax()))
-    top = line.isel(point=int(line[ordinate].argmax()))
-    at_right = float(right.epsilon) > 0.99 * right_edge
-    place = right if at_right else top
-    axes.annotate(
-        f"$k$ = {int(line.branch[0])}",
-        (float(place.epsilon), float(place[ordinate])),
-        xytext=(3, 0) if at_right else (0, 3),
-        textcoords="offset points",
-        ha="left" if at_right else "center",
-        va="center" if at_right else "bottom",
-        color=colour,
-        fontsize=7,
-        annotation_clip=False,
-    )
+def label_branches(axes: Axes, ends: list[tuple[float, float, int, str]]) -> None:
+    """Name each piece where it leaves the window: to the right, each at its own height, or above."""
+    (_, right), (_, top) = axes.get_xlim(), axes.get_ylim()
+    lowest = 0.0
+    for y, x, branch, colour in sorted(ends):
+        at_right = x > 0.99 * right
+        height = max(y, lowest) if at_right else top
+        if at_right:
+            lowest = height + 0.035 * top
+        axes.annotate(
+            f"$k$ = {branch}",
+            (x, height),
+            xytext=(3, 0) if at_right else (0, 3),
+            textcoords="offset points",
+            ha="left" if at_right else "center",
+            va="center" if at_right else "bottom",
+            color=colour,
+            fontsize=7,
+            annotation_clip=False,
+        )
 
 
 def mark_scenes(
@@ -87,7 +103,9 @@ def mark_scenes(
     places: dict[tuple[float, float], list[str]] = {}
     for name, scene in scenes.items():
         place = (scene["epsilon"], scene[ordinate])
-        lies_in = math.isclose(scene[fixed], fixed_value) and math.isclose(scene["gamma"], gamma)
+        lies_in = math.isclose(scene[fixed], fixed_value) and math.isclose(
+            scene["gamma"], gamma
+        )
         kinds[lies_in] = Line2D(
             [],
             [],
@@ -95,9 +113,18 @@ def mark_scenes(
             marker="o",
             color=INK,
             mfc=INK if lies_in else "white",
-            label="scene in this plane" if lies_in else f"scene at another {SYMBOLS[fixed]}",
+            label="scene in this plane"
+            if lies_in
+            else f"scene at another {SYMBOLS[fixed]}",
         )
-        axes.plot(*place, "o", color=INK, mfc=INK if lies_in else "white", clip_on=False, zorder=5)
+        axes.plot(
+            *place,
+            "o",
+            color=INK,
+            mfc=INK if lies_in else "white",
+            clip_on=False,
+            zorder=5,
+        )
         places.setdefault(place, []).append(name.replace("_", " "))
     for i, (place, names) in enumerate(sorted(places.items())):
         above = i % 2 == 0
@@ -106,7 +133,7 @@ def mark_scenes(
             place,
             xytext=(-2, 5) if above else (2, -5),
             textcoords="offset points",
-            ha="right" if above and place[0] > 0.2 * axes.get_xlim()[1] else "left",
+            ha="right" if above and place[0] > 0.15 * axes.get_xlim()[1] else "left",
             va="bottom" if above else "top",
             fontsize=7,
         )

@@ -12,7 +12,9 @@ LEAST_DISTANCE = 0.05
 """Peaks closer to a higher one than this share of the axis get a dot and no label."""
 
 
-def draw(rows: dict[str, xr.Dataset], paper: dict[str, str], frequency_shown: float) -> Figure:
+def draw(
+    rows: dict[str, xr.Dataset], paper: dict[str, str], frequency_shown: float
+) -> Figure:
     """Rows a, b, ...: power spectral density of v over frequency."""
     figure, grid = plt.subplots(
         len(rows), 1, figsize=(6.0, 0.5 + 2.3 * len(rows)), sharex=True, squeeze=False
@@ -23,9 +25,10 @@ def draw(rows: dict[str, xr.Dataset], paper: dict[str, str], frequency_shown: fl
         label_peaks(axes, spectrum, frequency_shown)
         axes.set(ylabel="power spectral density of $v$", xlim=(0, frequency_shown))
         bottom = max(shown.power.min(), 1e-10 * shown.power.max())
-        axes.set_ylim(0.3 * bottom, 60 * shown.power.max())
+        axes.set_ylim(0.3 * bottom, 100 * shown.power.max())
         scene = spectrum.attrs["scene"].replace("_", " ")
-        axes.set_title(f"$\\bf{{{label}}}$  scene {scene}: {seen(spectrum, paper[label])}")
+        row = f"$\\bf{{{label}}}$  " if len(rows) > 1 else ""
+        axes.set_title(f"{row}scene {scene}: {seen(spectrum, paper[label])}")
     grid[-1, 0].set_xlabel("frequency (cycles per unit of time)")
     return figure
 
@@ -34,14 +37,20 @@ def label_peaks(axes: Axes, spectrum: xr.Dataset, frequency_shown: float) -> Non
     """A dot on each peak; its name and frequency where no higher one is near."""
     peaks = spectrum.drop_dims("frequency")
     peaks = peaks.isel(peak=peaks.peak_frequency.values <= frequency_shown)
-    peaks = peaks.isel(peak=(-peaks.peak_power).argsort().values)
+    peaks = peaks.isel(peak=(-peaks.peak_power.values).argsort())
     labelled: list[float] = []
     for i in range(peaks.sizes["peak"]):
         peak = peaks.isel(peak=i)
-        place, kind = (float(peak.peak_frequency), float(peak.peak_power)), int(peak.peak_kind)
+        place, kind = (
+            (float(peak.peak_frequency), float(peak.peak_power)),
+            int(peak.peak_kind),
+        )
         colour = "C1" if kind == OTHER else INK
         axes.plot(*place, "o", color=colour, ms=2)
-        if any(abs(place[0] - other) < LEAST_DISTANCE * frequency_shown for other in labelled):
+        if any(
+            abs(place[0] - other) < LEAST_DISTANCE * frequency_shown
+            for other in labelled
+        ):
             continue
         labelled.append(place[0])
         name = {
@@ -66,7 +75,7 @@ def seen(spectrum: xr.Dataset, paper: str) -> str:
     base = spectrum.peak_frequency.values[spectrum.peak_kind.values == BASE]
     others = int((spectrum.peak_kind == OTHER).sum())
     if spectrum.attrs["signal"] == "periodic":
-        words = f"one base frequency, $f_1$ = {base[0]:.5f}, and its harmonics"
+        words = f"one base frequency, $f_1$ = {base[0]:.4f}, and its harmonics"
     else:
         words = (
             f"{others} further peaks, {100 * (1 - share):.0f} % of the power off"
