@@ -8,9 +8,10 @@ rule build:
         "build/release/bin/{program}",
     log:
         "results/logs/build/{program}.log",
+    threads: 2
     # two builds must not write one build folder at the same time
-    threads: workflow.cores
     shell:
-        "(cmake --preset release -S fortran"
+        "(flock 9"
+        " && cmake --preset release -S fortran"
         " && cmake --build build/release --parallel {threads} --target {wildcards.program}_program)"
-        " > {log} 2>&1 || {{ cat {log} >&2; exit 1; }}"
+        " > {log} 2>&1 9> build/lock || {{ cat {log} >&2; exit 1; }}"
