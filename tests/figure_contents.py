@@ -1,0 +1,20 @@
+"""What the tests of figures read off them."""
+
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+
+
+def words_in(figure: Figure) -> str:
+    """All text of a figure."""
+    return "\n".join(text.get_text() for text in figure.findobj(Text))
+
+
+def title_of(axes) -> str:
+    """The title, wherever it stands."""
+    return "".join(axes.get_title(loc=place) for place in ("left", "center", "right"))
+
+
+def points_in(axes) -> list[tuple[float, float, str]]:
+    """Single points drawn in axes, with their filling."""
+    lines = [line for line in axes.lines if line.get_marker() == "o" and len(line.get_xdata()) == 1]
+    return [(line.get_xdata()[0], line.get_ydata()[0], line.get_mfc()) for line in lines]

@@ -1,0 +1,226 @@
+"""./reproduce, ./test and the set-up, with stand-ins for what would install something."""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from conftest import ROOT, copy_of_project, rules_in
+
+TOOLS = ["ruff", "snakefmt", "fortitude", "snakemake", "cmake", "ctest", "pytest"]
+
+
+def write_script(path: Path, text: str) -> None:
+    """A shell script that can be run."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(f"#!/bin/bash\n{text}\n")
+    path.chmod(0o755)
+
+
+@pytest.fixture
+def set_up(tmp_path) -> Path:
+    """A copy of the project in which the set-up has nothing to do."""
+    folder = copy_of_project(tmp_path / "a project").folder
+    write_script(folder / "setup" / "setup.sh", "exit 0")
+    return folder
+
+
+@pytest.fixture
+def recording(set_up) -> Path:
+    """The same with tools that only write down how they were called."""
+    for tool in TOOLS:
+        write_script(set_up / ".venv" / "bin" / tool, 'echo "${0##*/} $*" >>"$CALLS"')
+    return set_up
+
+
+def calls_of(*command: str | Path, **options) -> tuple[int, list[str]]:
+    """Exit status of a command and the calls of tools that it made."""
+    with tempfile.NamedTemporaryFile("r") as calls:
+        environment = {**os.environ, "CALLS": calls.name}
+        run = subprocess.run(command, env=environment, capture_output=True, **options)
+        return run.returncode, calls.read().splitlines()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "passed"),
+    [
+        ([], "--cores 2"),
+        (["figure_5"], "--cores 2 figure_5"),
+        (["figure_5", "--cores", "4"], "figure_5 --cores 4"),
+        (["-c1", "a b"], "-c1 a b"),
+        (["--jobs=3"], "--jobs=3"),
+        (["--dry-run", "--configfile=mine.yaml"], "--cores 2 --dry-run --configfile=mine.yaml"),
+    ],
+)
+def test_reproduce_hands_its_arguments_on(recording, tmp_path, arguments, passed):
+    """Two cores unless said otherwise, from any folder."""
+    status, calls = calls_of(recording / "reproduce", *arguments, cwd=tmp_path)
+    assert status == 0
+    assert calls == [
+        f"snakemake --snakefile {recording}/Snakefile --directory {recording} {passed}"
+    ]
+
+
+def test_reproduce_works_through_a_link(recording, tmp_path):
+    """The project is where the script lies, not where the link does."""
+    (tmp_path / "link").symlink_to(recording / "reproduce")
+    status, calls = calls_of(tmp_path / "link", cwd=tmp_path)
+    assert status == 0
+    assert f"--directory {recording} " in calls[0]
+
+
+def test_reproduce_takes_files_from_the_current_folder(set_up, tmp_path):
+    """A scene file beside the user, results in the project."""
+    snakemake = Path(sys.executable).parent / "snakemake"
+    write_script(set_up / ".venv" / "bin" / "snakemake", f"exec '{snakemake}' \"$@\"")
+    (tmp_path / "mine.yaml").write_text(
+        "scenes: { mine: { tau: 1.0, epsilon: 0.5, xi: 1.0, gamma: 1.0, t_end: 9.0 } }"
+    )
+    target = ["--dry-run", "results/trajectories/mine.nc", "--configfile", "mine.yaml"]
+    run = subprocess.run(
+        [set_up / "reproduce", *target], cwd=tmp_path, capture_output=True, text=True
+    )
+    assert run.returncode == 0, run.stderr
+    assert rules_in(run.stdout) == {"build", "scene_namelist", "trajectory"}
+
+
+def test_test_runs_everything(recording, tmp_path):
+    """Lint, Fortran and Python, from any folder."""
+    status, calls = calls_of(recording / "test", cwd=tmp_path)
+    assert status == 0
+    assert {call.split()[0] for call in calls} == set(TOOLS)
+    assert calls[-1] == "pytest "
+
+
+@pytest.mark.parametrize(
+    ("part", "tools"),
+    [
+        ("lint", {"ruff", "snakefmt", "fortitude", "snakemake"}),
+        ("fortran", {"cmake", "ctest"}),
+        ("python", {"pytest"}),
+    ],
+)
+def test_test_runs_one_part(recording, part, tools):
+    """Only its tools."""
+    status, calls = calls_of(recording / "test", part)
+    assert status == 0
+    assert {call.split()[0] for call in calls} == tools
+
+
+def test_test_hands_arguments_to_pytest(recording):
+    """And keeps their words apart."""
+    status, calls = calls_of(recording / "test", "python", "-k", "a or b")
+    assert (status, calls) == (0, ["pytest -k a or b"])
+
+
+@pytest.mark.parametrize("tool", TOOLS)
+def test_test_stops_at_the_first_failure(recording, tool):
+    """With its exit status, whichever tool it is; nothing runs after it."""
+    write_script(recording / ".venv" / "bin" / tool, 'echo "${0##*/}" >>"$CALLS"; exit 3')
+    status, calls = calls_of(recording / "test")
+    assert status != 0
+    assert calls[-1] == tool
+
+
+@pytest.fixture
+def bare() -> Iterator[Path]:
+    """The set-up in a folder that any user may read, with tools that pretend."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        folder.chmod(0o755)
+        shutil.copytree(ROOT / "setup", folder / "setup")
+        shutil.copy(ROOT / "requirements.lock", folder)
+        write_script(folder / "bin" / "dpkg-query", f"cat '{folder}/installed'")
+        write_script(folder / "bin" / "dpkg", "exit 0")
+        write_script(folder / "bin" / "sudo", '[[ $1 == -n ]] && shift; exec "$@"')
+        yield folder
+
+
+def set_up_in(folder: Path, *before: str) -> subprocess.CompletedProcess[str]:
+    """Run the set-up with the tools that pretend, in the folder."""
+    return subprocess.run(
+        [*before, folder / "setup" / "setup.sh"],
+        env={**os.environ, "PATH": f"{folder}/bin:/usr/bin:/bin", "PIP_NO_INDEX": "1"},
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+    )
+
+
+def debian_packages() -> list[str]:
+    """Packages that the set-up wants, sorted."""
+    text = (ROOT / "setup" / "apt-packages.txt").read_text()
+    return sorted({line for line in text.split("\n") if line and not line.startswith("#")})
+
+
+def pretend_installed(folder: Path, packages: list[str]) -> None:
+    """Let dpkg-query list these."""
+    (folder / "installed").write_text("".join(f"{package} installed\n" for package in packages))
+
+
+def test_missing_packages_without_root_are_asked_for(bare):
+    """One line to copy, exit status 1, and nothing made."""
+    wanted = debian_packages()
+    pretend_installed(bare, [name for name in wanted if name not in ("cmake", "gfortran")])
+    write_script(bare / "bin" / "sudo", "exit 1")
+    nobody = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
+    run = set_up_in(bare, *(nobody if os.geteuid() == 0 else []))
+    assert run.returncode == 1
+    assert "sudo apt-get install -y --no-install-recommends cmake gfortran\n" in run.stderr
+    assert not (bare / ".venv").exists()
+
+
+def test_only_missing_packages_are_installed(bare):
+    """As root or with sudo, without what is only recommended."""
+    wanted = debian_packages()
+    pretend_installed(bare, [name for name in wanted if name not in ("cmake", "gfortran")])
+    write_script(bare / "bin" / "apt-get", f'echo "$*" >>"{bare}/calls"; [[ $1 == update ]]')
+    run = set_up_in(bare)
+    assert run.returncode == 1
+    update, install = (bare / "calls").read_text().splitlines()
+    assert update.startswith("update")
+    assert "--no-install-recommends" in install
+    assert install.endswith(" cmake gfortran")
+    assert "sudo apt-get install -y --no-install-recommends cmake gfortran\n" in run.stderr
+
+
+def test_half_installed_package_counts_as_missing(bare):
+    """dpkg knows it, but not as installed."""
+    wanted = debian_packages()
+    pretend_installed(bare, [name for name in wanted if name != "cmake"])
+    with open(bare / "installed", "a") as listed:
+        listed.write("cmake half-configured\n")
+    write_script(bare / "bin" / "apt-get", "exit 1")
+    run = set_up_in(bare)
+    assert run.returncode == 1
+    assert "--no-install-recommends cmake\n" in run.stderr
+
+
+def test_set_up_that_is_complete_does_nothing(bare):
+    """All packages there, .venv made from this lock in this folder: no word, no call."""
+    pretend_installed(bare, debian_packages())
+    write_script(bare / ".venv" / "bin" / "python", "exit 0")
+    made_from = "sha256sum requirements.lock; /usr/bin/python3 --version; pwd"
+    run = subprocess.run(["bash", "-c", made_from], cwd=bare, capture_output=True, text=True)
+    (bare / ".venv" / "made-from").write_text(run.stdout)
+    write_script(bare / "bin" / "apt-get", f"touch '{bare}/called'")
+    run = set_up_in(bare)
+    assert (run.returncode, run.stdout, run.stderr) == (0, "", "")
+    assert not (bare / "called").exists()
+
+
+def test_build_of_another_folder_is_dropped(bare):
+    """It holds the paths of that folder; a build of this one stays."""
+    pretend_installed(bare, [])
+    write_script(bare / "bin" / "apt-get", "exit 1")
+    (bare / "fortran").mkdir()
+    for name, source in (("moved", "/elsewhere/fortran"), ("own", f"{bare}/fortran")):
+        (bare / "build" / name).mkdir(parents=True)
+        cache = bare / "build" / name / "CMakeCache.txt"
+        cache.write_text(f"CMAKE_HOME_DIRECTORY:INTERNAL={source}\n")
+    set_up_in(bare)
+    assert [path.name for path in (bare / "build").iterdir()] == ["own"]

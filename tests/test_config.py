@@ -1,0 +1,287 @@
+"""Checking a configuration: defaults filled in, and each refusal in words."""
+
+from collections.abc import Iterator
+
+import pytest
+import yaml
+from check_config import checked, variables_used
+from config_refusals import NO_NUMBERS, line_about, out_of_range, put, refusal
+from conftest import ROOT
+
+SCENE_RANGES = {
+    "tau": (">= 0", [-1e-300, -1.0]),
+    "epsilon": ("> -1", [-1.0, -2.0]),
+    "xi": ("> 0", [0.0, -1.0]),
+    "gamma": ("> 0", [0.0, -1.0]),
+    "t_end": ("> 0", [0.0, -1.0]),
+    "t_transient": (">= 0", [-1.0]),
+    "sample_interval": ("> 0", [0.0, -1.0]),
+    "tolerance": ("[1e-13, 1e-2]", [0.0, 9.9e-14, 1.01e-2, -1e-9]),
+}
+"""For each number of a scene: words of its range, and values out of range."""
+
+
+def places(config: dict, path: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
+    """Places of all values."""
+    for key, value in config.items():
+        if isinstance(value, dict):
+            yield from places(value, (*path, key))
+        else:
+            yield (*path, key)
+
+
+def test_default_config_is_accepted_as_it_stands(config, default_config):
+    """Nothing that the file says is changed."""
+    scenes = checked(config)["scenes"]
+    for name, scene in default_config["scenes"].items():
+        assert {key: scenes[name][key] for key in scene} == scene
+
+
+def test_smoke_config_names_only_keys_that_there_are(config):
+    """A misspelt key would shrink nothing."""
+    overlay = yaml.safe_load((ROOT / "config" / "smoke.yaml").read_text())
+    assert set(overlay["scenes"]) == set(config["scenes"])
+    assert set(places(overlay)) <= set(places(checked(config)))
+
+
+def test_missing_keys_get_their_defaults(config):
+    """The least scene: the four parameters and t_end."""
+    config["scenes"]["mine"] = {"tau": 1, "epsilon": 0.5, "xi": 1, "gamma": 1, "t_end": 10}
+    assert checked(config)["scenes"]["mine"] == {
+        "tau": 1,
+        "epsilon": 0.5,
+        "xi": 1,
+        "gamma": 1,
+        "t_end": 10,
+        "history": {"theta": 0.0, "u": 0.0, "v": 1.1},
+        "t_transient": 0.0,
+        "sample_interval": 0.05,
+        "tolerance": 1e-9,
+        "method": "auto",
+        "variables": ["theta", "u", "v"],
+    }
+
+
+def test_defaults_are_not_shared_between_scenes(config):
+    """Changing one scene's history leaves the other's."""
+    for name in ("one", "two"):
+        config["scenes"][name] = {"tau": 1, "epsilon": 0.5, "xi": 1, "gamma": 1, "t_end": 10}
+    scenes = checked(config)["scenes"]
+    scenes["one"]["history"]["v"] = 2.0
+    assert scenes["two"]["history"]["v"] == 1.1
+
+
+@pytest.mark.parametrize(
+    ("scene", "variables"),
+    [
+        ("fixed_point", ["u", "v"]),
+        ("oscillation", ["u", "v"]),
+        ("torus", ["u", "v"]),
+        ("chaos", ["u", "v"]),
+    ],
+)
+def test_scenes_store_what_their_figures_use(config, scene, variables):
+    """Portraits need u and v, nothing needs theta."""
+    assert checked(config)["scenes"][scene]["variables"] == variables
+
+
+def test_scene_with_a_spectrum_only_stores_v(config):
+    """A spectrum needs v alone."""
+    config["figures"]["figure_5"]["rows"].pop("b")
+    assert variables_used(config, "chaos") == {"v"}
+    assert checked(config)["scenes"]["chaos"]["variables"] == ["v"]
+
+
+def test_variables_of_ones_own_are_kept(config):
+    """A scene may store more than its figures use."""
+    config["scenes"]["torus"]["variables"] = ["v", "u", "theta"]
+    assert checked(config)["scenes"]["torus"]["variables"] == ["v", "u", "theta"]
+
+
+@pytest.mark.parametrize(("key", "value", "words"), out_of_range(SCENE_RANGES))
+def test_scene_value_out_of_range_is_refused(config, key, value, words):
+    """The line names scene, key, value and range."""
+    config["scenes"]["torus"][key] = value
+    line = line_about(refusal(config), key)
+    assert line.startswith("scene 'torus': ")
+    assert f"{key} = {value!r}; expected " in line
+    assert words in line
+
+
+@pytest.mark.parametrize("value", NO_NUMBERS)
+@pytest.mark.parametrize("key", SCENE_RANGES)
+def test_scene_value_that_is_no_finite_number_is_refused(config, key, value):
+    """Text, truth, nothing, lists, NaN and infinity."""
+    config["scenes"]["torus"][key] = value
+    line = line_about(refusal(config), key)
+    assert line.startswith("scene 'torus': ")
+    assert f"{key} = {value!r}; expected " in line
+    assert "a finite number" in line
+
+
+@pytest.mark.parametrize("value", NO_NUMBERS)
+@pytest.mark.parametrize("key", ["theta", "u", "v"])
+def test_history_that_is_no_finite_number_is_refused(config, key, value):
+    """The same for the history."""
+    config["scenes"]["torus"]["history"][key] = value
+    line = line_about(refusal(config), key)
+    assert line.startswith("scene 'torus' history: ")
+    assert f"{key} = {value!r}; expected " in line
+    assert "a finite number" in line
+
+
+@pytest.mark.parametrize("value", [0.0, -1.1])
+def test_history_without_forward_motion_is_refused(config, value):
+    """ln v needs v > 0."""
+    config["scenes"]["torus"]["history"]["v"] = value
+    line = line_about(refusal(config), "v")
+    assert line.startswith(f"scene 'torus' history: v = {value!r}; expected ")
+    assert "> 0" in line
+
+
+def test_number_that_no_computer_holds_is_refused(config):
+    """A whole number of 400 digits is as good as infinite."""
+    config["scenes"]["torus"]["t_end"] = 10**400
+    assert "t_end = " in refusal(config)
+
+
+@pytest.mark.parametrize("t_transient", [8000.0, 8000.1])
+def test_transient_as_long_as_the_run_is_refused(config, t_transient):
+    """The range names t_end."""
+    config["scenes"]["torus"]["t_transient"] = t_transient
+    line = line_about(refusal(config), "t_transient")
+    assert line.startswith(f"scene 'torus': t_transient = {t_transient!r}; expected ")
+    assert "< t_end = 8000.0" in line
+
+
+def test_samples_farther_apart_than_the_run_is_long_are_refused(config):
+    """The range names t_end; one sample at each end is allowed."""
+    config["scenes"]["torus"]["sample_interval"] = 8000.5
+    line = line_about(refusal(config), "sample_interval")
+    assert line.startswith("scene 'torus': sample_interval = 8000.5; expected ")
+    assert "<= t_end = 8000.0" in line
+    config["scenes"]["torus"]["sample_interval"] = 8000.0
+    checked(config)
+
+
+@pytest.mark.parametrize("method", ["radau", "", None, 1, ["auto"]])
+def test_unknown_method_is_refused(config, method):
+    """The range lists the methods."""
+    config["scenes"]["torus"]["method"] = method
+    line = line_about(refusal(config), "method")
+    assert line.startswith(f"scene 'torus': method = {method!r}; expected ")
+    assert "auto, explicit" in line
+
+
+@pytest.mark.parametrize("variables", [[], ["v", "v"], "v", None, {"v": 1}])
+def test_variables_that_are_no_list_of_names_are_refused(config, variables):
+    """Empty, repeated, or no list."""
+    config["scenes"]["torus"]["variables"] = variables
+    line = line_about(refusal(config), "variables")
+    assert line.startswith(f"scene 'torus': variables = {variables!r}; expected ")
+    assert "theta, u, v" in line
+
+
+@pytest.mark.parametrize("variable", ["w", "V", 1, None])
+def test_unknown_variable_is_refused(config, variable):
+    """The line names scene, key, value and the three names."""
+    config["scenes"]["torus"]["variables"] = ["u", "v", variable]
+    words = refusal(config)
+    assert f"scene 'torus' variables: 2 = {variable!r}; expected one of: theta, u, v" in words
+
+
+def test_variables_that_figures_lack_are_refused(config):
+    """Figure 5 draws u."""
+    config["scenes"]["torus"]["variables"] = ["theta", "v"]
+    line = line_about(refusal(config), "variables")
+    assert line == "scene 'torus': variables = ['theta', 'v']; its figures also use ['u']"
+
+
+@pytest.mark.parametrize("value", ["1e-9", "1E-9", "1e9"])
+def test_number_with_exponent_and_no_dot_is_explained(config, value):
+    """YAML takes 1e-9 for text; what the hint says to write must be a number to YAML."""
+    config["scenes"]["torus"]["tolerance"] = value
+    line = line_about(refusal(config), "tolerance")
+    assert f"tolerance = {value!r}" in line
+    hint = line.partition("write ")[2].partition(",")[0]
+    assert yaml.safe_load(hint) == float(value)
+    assert "." in hint
+
+
+@pytest.mark.parametrize("key", ["taus", "Tau", 3, None])
+def test_unknown_key_of_a_scene_is_refused(config, key):
+    """The line names scene and key, and lists what is known."""
+    config["scenes"]["torus"][key] = 1.0
+    words = refusal(config)
+    assert f"scene 'torus': unknown key [{key!r}]; allowed: tau, epsilon, xi, gamma, " in words
+
+
+def test_unknown_key_of_a_history_is_refused(config):
+    """The line names scene and key, and lists what is known."""
+    config["scenes"]["torus"]["history"]["w"] = 1.0
+    assert "scene 'torus' history: unknown key ['w']; allowed: theta, u, v" in refusal(config)
+
+
+@pytest.mark.parametrize("key", ["tau", "epsilon", "xi", "gamma", "t_end"])
+def test_missing_key_of_a_scene_is_refused(config, key):
+    """The line names scene and key, once."""
+    del config["scenes"]["torus"][key]
+    assert refusal(config).splitlines()[1:] == [f"scene 'torus': key ['{key}'] is missing"]
+
+
+def test_missing_keys_are_named_once(config):
+    """Two missing keys make no four lines."""
+    del config["scenes"]["torus"]["tau"], config["scenes"]["torus"]["xi"]
+    lines = refusal(config).splitlines()[1:]
+    assert len(lines) == len(set(lines))
+    assert all(any(f"'{key}'" in line for line in lines) for key in ("tau", "xi"))
+
+
+@pytest.mark.parametrize("value", [None, 5, "torus", []])
+@pytest.mark.parametrize(
+    "path", [("scenes",), ("scenes", "torus"), ("scenes", "torus", "history"), ("figures",)]
+)
+def test_section_that_is_no_mapping_is_refused(config, path, value):
+    """The line names it and the value."""
+    put(config, path, value)
+    assert f"{path[-1]} = {value!r}" in refusal(config)
+
+
+@pytest.mark.parametrize("name", ["Torus", "1st", "a b", "a-b", "a/b", "", "torus\n", "a" * 65])
+def test_scene_name_that_makes_no_file_name_is_refused(config, name):
+    """The line names the scene and says what a name may hold."""
+    config["scenes"][name] = dict(config["scenes"]["torus"])
+    assert f"config scenes: name {name!r}; expected small letters" in refusal(config)
+
+
+@pytest.mark.parametrize("name", [5, True, 1.5])
+def test_scene_name_that_is_no_text_is_refused(config, name):
+    """YAML reads `5:` and `yes:` as other things than text."""
+    config["scenes"][name] = dict(config["scenes"]["torus"])
+    assert f"config scenes: name {name!r}; expected " in refusal(config)
+
+
+def test_all_problems_are_listed_at_once(config):
+    """One run of the check is enough to mend a file."""
+    config["scenes"]["torus"]["tau"] = -1.0
+    config["scenes"]["chaos"]["xi"] = "much"
+    config["spectra"]["segments"] = 0
+    config["threads"] = 4
+    words = refusal(config).splitlines()
+    assert words[0] == "the configuration is refused:"
+    assert len(words) == 5
+    for part in ("tau = -1.0", "xi = 'much'", "segments = 0", "unknown key ['threads']"):
+        assert sum(part in line for line in words) == 1
+
+
+def test_contradictions_are_listed_at_once(config):
+    """The same for what involves more than one key."""
+    config["scenes"]["torus"]["t_transient"] = 9000.0
+    config["scenes"]["chaos"]["sample_interval"] = 1e6
+    assert len(refusal(config).splitlines()) == 3
+
+
+@pytest.mark.parametrize("nothing", [None, [], "text", 5])
+def test_config_that_is_no_mapping_is_refused(nothing):
+    """An empty file, a list, a word."""
+    assert repr(nothing) in refusal(nothing)

@@ -1,0 +1,210 @@
+"""The figure scripts on the smoke run: what each figure holds, and that it fits its page."""
+
+import runpy
+from types import SimpleNamespace
+
+import drawing
+import numpy as np
+import pytest
+import xarray as xr
+from conftest import ROOT
+from figure_contents import points_in, title_of, words_in
+from matplotlib import pyplot as plt
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+
+NUMBERS = range(1, 9)
+SCENES = ["fixed_point", "oscillation", "torus", "chaos"]
+
+
+def script_inputs(smoke, config: dict, number: int) -> SimpleNamespace:
+    """What rule figure_<number> hands to its script."""
+    settings = config["figures"].get(f"figure_{number}", {"rows": {}})
+    shown = [row["scene"] for row in settings["rows"].values()]
+    results = smoke.folder / "results"
+    plane = {2: "tau_of_epsilon", 3: "xi_of_epsilon"}.get(number)
+    return SimpleNamespace(
+        input=SimpleNamespace(
+            curves=results / "hopf" / f"{plane}.nc",
+            trajectories=[results / "trajectories" / f"{scene}.nc" for scene in shown],
+            spectra=[results / "spectra" / f"{scene}.nc" for scene in shown],
+            response=results / "friction" / "velocity_step.nc",
+        ),
+        params=SimpleNamespace(settings=settings, scenes=config["scenes"]),
+    )
+
+
+@pytest.fixture(scope="module")
+def figures(smoke, smoke_config, tmp_path_factory) -> dict[int, Figure]:
+    """What each script draws of the smoke run."""
+    folder = tmp_path_factory.mktemp("figures")
+    drawn = {}
+    with pytest.MonkeyPatch.context() as patch:
+        for number in NUMBERS:
+
+            def keep(figure, pdf, png, number=number):
+                figure.canvas.draw()
+                drawn[number] = figure
+
+            patch.setattr(drawing, "save", keep)
+            inputs = script_inputs(smoke, smoke_config, number)
+            inputs.log = [folder / f"{number}.log"]
+            inputs.output = SimpleNamespace(pdf="figure.pdf", png="figure.png")
+            script = ROOT / "scripts" / f"figure_{number}.py"
+            runpy.run_path(str(script), {"snakemake": inputs}, "__main__")
+            assert inputs.log[0].read_text() == ""
+    plt.close("all")
+    return drawn
+
+
+@pytest.fixture
+def figure(figures, request) -> Figure:
+    """One of them."""
+    return figures[request.param]
+
+
+def these(*numbers: int):
+    """Run a test on these figures."""
+    return pytest.mark.parametrize("figure", numbers, indirect=True)
+
+
+@these(*NUMBERS)
+def test_nothing_falls_outside_the_figure(figure):
+    """Text, lines and legends end inside the page."""
+    box = figure.get_tightbbox()
+    width, height = figure.get_size_inches()
+    slack = 0.02
+    assert box.x0 >= -slack
+    assert box.y0 >= -slack
+    assert box.x1 <= width + slack
+    assert box.y1 <= height + slack
+
+
+@these(*NUMBERS)
+def test_figure_fits_a_page(figure):
+    """Printed at the size drawn: no wider than a text of two columns, no letter below 5 points."""
+    assert figure.get_size_inches()[0] <= 7.0
+    sizes = [text.get_fontsize() for text in figure.findobj(Text) if text.get_text()]
+    assert min(sizes) >= 5
+    assert max(sizes) <= 12
+
+
+@these(*NUMBERS[1:])
+def test_axes_are_labelled(figure):
+    """Every axes with data says what its two axes are, itself or through those it shares."""
+    for axes in figure.axes:
+        below = axes.get_shared_x_axes().get_siblings(axes)
+        beside = axes.get_shared_y_axes().get_siblings(axes)
+        assert any(other.get_xlabel() for other in below)
+        assert any(other.get_ylabel() for other in beside)
+
+
+@these(*NUMBERS)
+def test_no_formula_is_left_as_source(figure):
+    """Every `$` has its partner, and no name of a key stands for a symbol."""
+    for text in figure.findobj(Text):
+        assert text.get_text().count("$") % 2 == 0
+        assert "_" not in "".join(text.get_text().split("$")[::2])
+
+
+@these(1)
+def test_figure_1_labels_its_parts(figure):
+    """A drawing: no axes, every part named."""
+    (axes,) = figure.axes
+    assert not axes.axison
+    for part in ("block", "spring", "loader plate", "rough surface", "v_0", "friction"):
+        assert part in words_in(figure)
+
+
+@pytest.mark.parametrize(
+    ("figure", "plane"), [(2, "tau_of_epsilon"), (3, "xi_of_epsilon")], indirect=["figure"]
+)
+def test_curves_have_all_branches_and_scenes(figure, plane, smoke):
+    """A label for each branch and for each scene."""
+    words = words_in(figure)
+    curves = xr.load_dataset(smoke.folder / "results" / "hopf" / f"{plane}.nc")
+    for branch in np.unique(curves.branch):
+        assert f"$k$ = {branch}" in words
+    for scene in SCENES:
+        assert scene.replace("_", " ") in words
+
+
+@these(2)
+def test_figure_2_fills_the_scene_in_its_plane(figure):
+    """Only chaos has xi = 0.5; the others are projected and open."""
+    points = points_in(figure.axes[0])
+    assert {(x, y) for x, y, filling in points if filling != "white"} == {(0.7, 7.0)}
+    assert {(x, y) for x, y, _ in points} == {(0.3, 0.0), (0.35, 10.0), (0.5, 10.0), (0.7, 7.0)}
+    assert "scene in this plane" in words_in(figure)
+
+
+@these(3)
+def test_figure_3_leaves_all_scenes_open(figure):
+    """None has tau = 12."""
+    points = points_in(figure.axes[0])
+    assert {filling for *_, filling in points} == {"white"}
+    assert {(x, y) for x, y, _ in points} == {(0.3, 0.8), (0.35, 0.8), (0.5, 0.8), (0.7, 0.5)}
+    assert "scene in this plane" not in words_in(figure)
+
+
+@these(4, 5)
+def test_rows_show_velocity_twice_and_portrait(figure):
+    """Two rows of three panels, lettered, with parameters."""
+    assert len(figure.axes) == 6
+    for row, letter in zip((figure.axes[:3], figure.axes[3:]), "ab", strict=True):
+        assert [axes.get_xlabel() for axes in row[:2]] == ["time $t$", "time $t$"]
+        assert row[0].get_ylabel() == "velocity $v$"
+        assert (row[2].get_xlabel(), row[2].get_ylabel()) == ("displacement $u$", "velocity $v$")
+        title = title_of(row[0])
+        assert f"{{{letter}}}" in title
+        assert all(symbol in title for symbol in (r"\tau", r"\varepsilon", r"\xi", r"\gamma"))
+    assert "transient" in words_in(figure)
+    assert "attractor" in words_in(figure)
+
+
+@pytest.mark.parametrize(
+    ("figure", "row", "paper"),
+    [
+        (4, 0, "fixed point"),
+        (4, 1, "oscillations"),
+        (5, 0, "torus"),
+        (5, 1, "chaos"),
+        (6, 0, "single peak"),
+        (6, 1, "two peaks"),
+        (7, 0, "broadband noise"),
+    ],
+    indirect=["figure"],
+)
+def test_titles_quote_the_paper(figure, row, paper):
+    """So that nobody takes its word for what is seen."""
+    title = [title_of(axes) for axes in figure.axes if title_of(axes)][row]
+    assert f"the paper: “{paper}”" in title
+
+
+@these(5)
+def test_figure_5_says_what_is_seen(figure, smoke):
+    """By the spectra."""
+    for axes, scene in zip(figure.axes[::3], ("torus", "chaos"), strict=True):
+        signal = xr.load_dataset(smoke.folder / "results/spectra" / f"{scene}.nc").attrs["signal"]
+        assert f"seen: {signal}" in title_of(axes)
+
+
+@pytest.mark.parametrize(("figure", "rows"), [(6, 2), (7, 1)], indirect=["figure"])
+def test_spectra_are_logarithmic(figure, rows):
+    """One panel a row, the frequency axis from zero."""
+    assert len(figure.axes) == rows
+    for axes in figure.axes:
+        assert axes.get_yscale() == "log"
+        assert axes.get_xlim()[0] == 0
+        assert "power spectral density" in axes.get_ylabel()
+    assert "frequency" in figure.axes[-1].get_xlabel()
+
+
+@these(8)
+def test_figure_8_marks_both_effects_of_both_steps(figure):
+    """Up-step and down-step, and Dc."""
+    words = words_in(figure).replace("\n", " ")
+    assert words.count("direct effect") == 2
+    assert words.count("evolution effect") == 2
+    assert "$D_c$" in words
+    assert r"\Delta v" in words

@@ -1,0 +1,102 @@
+"""What sets up and starts the project, without setting anything up."""
+
+import re
+import subprocess
+
+import pytest
+from conftest import ROOT, project_files
+
+SCRIPTS = ["reproduce", "test", "setup/setup.sh", ".ci/run"]
+
+
+def run(*command: str, **options) -> subprocess.CompletedProcess[str]:
+    """Run a command and keep what it says."""
+    return subprocess.run(command, capture_output=True, text=True, timeout=60, **options)
+
+
+def locked_packages() -> list[str]:
+    """Each package of the lock with its hashes, as one line."""
+    text = (ROOT / "requirements.lock").read_text()
+    lines = re.sub(r"\\\n", " ", re.sub(r"^\s*#.*\n", "", text, flags=re.MULTILINE)).splitlines()
+    return [line for line in lines if line.strip()]
+
+
+@pytest.mark.parametrize("script", SCRIPTS)
+def test_shell_script_is_sound(script):
+    """Its syntax, its run bit, and that it stops at the first failure."""
+    path = ROOT / script
+    assert run("bash", "-n", str(path)).returncode == 0
+    assert path.stat().st_mode & 0o111
+    text = path.read_text()
+    assert text.startswith("#!/usr/bin/env bash\n")
+    assert "set -euo pipefail" in text or "\nexec " in text
+
+
+def test_every_locked_package_has_version_and_hash():
+    """Nothing but `name==version` with sha256 hashes."""
+    packages = locked_packages()
+    assert len(packages) > 30
+    line = re.compile(r"[a-zA-Z0-9._-]+==\S+( ; [^;]+?)?( +--hash=sha256:[0-9a-f]{64})+ *")
+    assert [package for package in packages if not line.fullmatch(package)] == []
+
+
+def test_lock_holds_every_required_package():
+    """What requirements.in names is locked."""
+    text = (ROOT / "requirements.in").read_text()
+    wanted = {name.lower() for name in re.findall(r"^([a-zA-Z][\w.-]*)", text, re.MULTILINE)}
+    locked = {package.split("==")[0].lower() for package in locked_packages()}
+    assert len(wanted) > 10
+    assert wanted <= locked
+
+
+def test_lock_names_no_address():
+    """Where packages come from is the user's business."""
+    text = (ROOT / "requirements.lock").read_text()
+    assert not re.search(r"://|index-url|find-links|trusted-host", text)
+
+
+def test_no_file_names_a_package_index():
+    """Nor does any other file."""
+    address = re.compile(
+        r"(?<!no-emit)-index-url|find-links|trusted-host|PIP_INDEX|UV_INDEX|/simple\b|^deb(-src)? ",
+        re.MULTILINE,
+    )
+    files = set(project_files()) - {"tests/test_setup.py"}
+    texts = {name: (ROOT / name).read_text(errors="ignore") for name in files}
+    assert len(texts) > 50
+    assert [name for name, text in texts.items() if address.search(text)] == []
+
+
+def test_apt_list_is_sorted_out():
+    """One Debian package a line, none twice."""
+    text = (ROOT / "setup" / "apt-packages.txt").read_text()
+    packages = [line for line in re.sub(r"#.*", "", text).split("\n") if line.strip()]
+    assert len(packages) > 10
+    assert len(packages) == len(set(packages))
+    assert all(re.fullmatch(r"[a-z0-9][a-z0-9+.-]+", package) for package in packages)
+
+
+def test_test_names_its_parts():
+    """An unknown part is refused before anything is set up."""
+    result = run(str(ROOT / "test"), "nonsense")
+    assert result.returncode == 2
+    assert result.stdout == ""
+    assert "'nonsense'" in result.stderr
+    assert all(part in result.stderr for part in ("lint", "fortran", "python"))
+
+
+@pytest.mark.parametrize("option", ["--help", "-h"])
+def test_reproduce_says_how_it_is_used(option, tmp_path):
+    """From any folder, before anything is set up."""
+    result = run(str(ROOT / "reproduce"), option, cwd=tmp_path)
+    assert result.returncode == 0
+    assert "./reproduce [SNAKEMAKE ARGUMENTS]" in result.stdout
+    assert "./test" in result.stdout
+
+
+def test_continuous_integration_calls_the_tests():
+    """And nothing else."""
+    lines = (ROOT / ".ci" / "run").read_text().splitlines()
+    assert [line for line in lines if line and not line.startswith("#")] == [
+        'exec "$(dirname "$(readlink -f "$0")")/../test"'
+    ]

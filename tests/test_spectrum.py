@@ -1,0 +1,190 @@
+"""The spectrum program: against SciPy's Welch, Parseval, and sines of known amplitude."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from scipy.signal import welch
+
+INTERVAL = 0.1
+BASE, HARMONIC, OTHER = range(3)
+
+
+@pytest.fixture
+def settings(good_inputs) -> dict:
+    """Settings that the program accepts, to change."""
+    return {**good_inputs["spectrum"], "trajectory": "signal.nml"}
+
+
+@pytest.fixture
+def spectrum_of(programs, settings):
+    """A function that hands a signal to the program."""
+
+    def run(v: np.ndarray, t_transient: float = 0.0, **changes) -> xr.Dataset:
+        attributes = {"scene": "made_up", "sample_interval": INTERVAL, "t_transient": t_transient}
+        times = INTERVAL * np.arange(v.size)
+        signal = xr.Dataset({"v": ("time", v)}, coords={"time": times}, attrs=attributes)
+        signal.to_netcdf(programs.folder / settings["trajectory"])
+        return programs.made_by("spectrum", {**settings, **changes})
+
+    return run
+
+
+def noise(n: int) -> np.ndarray:
+    """A signal with power at every frequency, and a mean."""
+    return 1.0 + np.random.default_rng(1).normal(size=n)
+
+
+def sines(n: int, *parts: tuple[float, float]) -> np.ndarray:
+    """A mean and sines, each of an amplitude and a frequency in cycles per unit of time."""
+    t = INTERVAL * np.arange(n)
+    return 1.0 + sum(a * np.sin(2 * np.pi * f * t + 1.0) for a, f in parts)
+
+
+@pytest.mark.parametrize("window", ["hann", "boxcar"])
+@pytest.mark.parametrize(
+    ("n", "segments", "overlap", "length", "step"),
+    [
+        (1000, 1, 0.0, 1000, 1000),
+        (999, 1, 0.5, 999, 999),
+        (1003, 4, 0.0, 250, 250),
+        (999, 3, 0.0, 333, 333),
+        (1000, 3, 0.5, 500, 250),
+        (1000, 5, 0.75, 500, 125),
+        (72, 8, 0.5, 16, 8),
+    ],
+)
+def test_spectrum_agrees_with_scipy(spectrum_of, window, n, segments, overlap, length, step):
+    """Even and odd lengths, one and many segments, with and without overlap."""
+    v = noise(n)
+    spectrum = spectrum_of(v, window=window, segments=segments, overlap=overlap)
+    frequency, power = welch(
+        v - v.mean(),
+        fs=1 / INTERVAL,
+        window=window,
+        nperseg=length,
+        noverlap=length - step,
+        detrend=False,
+    )
+    np.testing.assert_allclose(spectrum.frequency, frequency, rtol=1e-13)
+    np.testing.assert_allclose(spectrum.power, power, rtol=1e-9, atol=1e-14 * power.max())
+
+
+def test_transient_is_left_out(spectrum_of):
+    """A spike before t_transient changes nothing."""
+    v = noise(1200)
+    v[:200] = 1e3
+    spectrum = spectrum_of(v, t_transient=20.0, segments=1, window="boxcar")
+    _, power = welch(v[200:] - v[200:].mean(), 1 / INTERVAL, "boxcar", 1000, 0, detrend=False)
+    np.testing.assert_allclose(spectrum.power, power, rtol=1e-9, atol=1e-14 * power.max())
+
+
+@pytest.mark.parametrize("n", [1000, 999])
+def test_integral_is_the_variance(spectrum_of, n):
+    """Parseval: exact for one segment without a window."""
+    v = noise(n)
+    spectrum = spectrum_of(v, segments=1, window="boxcar")
+    integral = spectrum.power.sum() * spectrum.frequency[1]
+    np.testing.assert_allclose(integral, v.var(), rtol=1e-12)
+    np.testing.assert_allclose(spectrum.attrs["variance"], v.var(), rtol=1e-12)
+
+
+@pytest.mark.parametrize("amplitude", [0.01, 2.0])
+def test_sine_has_its_power(spectrum_of, amplitude):
+    """amplitude**2/2 below the line, and a peak of that over 1.5 bins of a Hann window."""
+    spectrum = spectrum_of(sines(1000, (amplitude, 0.5)), segments=1)
+    bin_width = float(spectrum.frequency[1])
+    line = spectrum.sel(frequency=slice(0.46, 0.54))
+    np.testing.assert_allclose(line.power.sum() * bin_width, amplitude**2 / 2, rtol=1e-12)
+    np.testing.assert_allclose(spectrum.peak_frequency, [0.5], rtol=1e-9)
+    np.testing.assert_allclose(
+        spectrum.peak_power, [amplitude**2 / 2 / (1.5 * bin_width)], rtol=1e-9
+    )
+
+
+@pytest.mark.parametrize("shift", [-0.49, -0.25, 0.1, 0.4])
+def test_peak_between_bins_is_interpolated(spectrum_of, shift):
+    """Frequency to 1/50 of a bin, height to a tenth (the nearest bin misses a third)."""
+    bin_width = 1 / 100.0
+    frequency = (50 + shift) * bin_width
+    spectrum = spectrum_of(sines(1000, (1.0, frequency)), segments=1)
+    np.testing.assert_allclose(spectrum.peak_frequency[0], frequency, rtol=0, atol=0.02 * bin_width)
+    np.testing.assert_allclose(spectrum.peak_power[0], 0.5 / (1.5 * bin_width), rtol=0.1)
+
+
+def test_peaks_are_labelled(spectrum_of):
+    """Base, its multiples, and one that is none."""
+    spectrum = spectrum_of(sines(4000, (1, 0.3), (0.2, 0.6), (0.1, 0.9), (0.5, 0.75)), segments=1)
+    np.testing.assert_allclose(spectrum.peak_frequency, [0.3, 0.6, 0.75, 0.9], rtol=1e-6)
+    assert list(spectrum.peak_kind) == [BASE, HARMONIC, OTHER, HARMONIC]
+    assert list(spectrum.peak_multiple) == [1, 2, 0, 3]
+    kinds = spectrum.peak_kind.attrs
+    words = dict(zip(kinds["flag_meanings"].split(), kinds["flag_values"].split(), strict=True))
+    assert words == {"base": "0", "harmonic": "1", "other": "2"}
+
+
+def test_base_may_be_lower_than_its_harmonic(spectrum_of):
+    """The highest peak is a multiple of the base."""
+    spectrum = spectrum_of(sines(4000, (0.1, 0.3), (1.0, 0.6)), segments=1)
+    assert list(spectrum.peak_kind) == [BASE, HARMONIC]
+
+
+@pytest.mark.parametrize(
+    ("parts", "signal", "share"),
+    [
+        ([(1, 0.3)], "periodic", 1.0),
+        ([(1, 0.3), (0.2, 0.6)], "periodic", 1.0),
+        ([(1, 0.3), (0.2, 0.3 * 2**0.5)], "not periodic", 1 / 1.04),
+        ([(1, 0.3), (1, 0.47)], "not periodic", 0.5),
+    ],
+)
+def test_signal_is_called_periodic_where_it_is(spectrum_of, parts, signal, share):
+    """One base frequency with its harmonics; line_share is their part of the power."""
+    attributes = spectrum_of(sines(8000, *parts), segments=1).attrs
+    assert attributes["signal"] == signal
+    assert attributes["line_share"] == pytest.approx(share, abs=1e-3)
+
+
+def test_noise_is_not_called_periodic(spectrum_of):
+    """Whatever its highest peak is."""
+    attributes = spectrum_of(noise(4096)).attrs
+    assert attributes["signal"] == "not periodic"
+    assert attributes["line_share"] < 0.9
+
+
+def test_low_peaks_are_left_out(spectrum_of):
+    """A peak of 1e-4 of the highest one is kept by a floor below it and dropped by one above."""
+    v = sines(4000, (1.0, 0.3), (0.01, 0.75))
+    assert spectrum_of(v, segments=1, peak_floor=5e-5).sizes["peak"] == 2
+    assert spectrum_of(v, segments=1, peak_floor=2e-4).sizes["peak"] == 1
+
+
+def test_peaks_without_prominence_are_left_out(spectrum_of):
+    """Noise has many peaks that stand out twofold and fewer that do tenfold."""
+    v = noise(4096)
+    peaks = [spectrum_of(v, peak_prominence=p).sizes["peak"] for p in (1.0, 3.0, 30.0)]
+    assert peaks[0] > peaks[1] > peaks[2]
+
+
+def test_signal_without_variation_has_no_peaks(spectrum_of):
+    """A constant v is no error and no NaN."""
+    spectrum = spectrum_of(np.ones(400))
+    assert (spectrum.power == 0).all()
+    assert spectrum.sizes["peak"] == 0
+    assert np.isfinite(spectrum.attrs["line_share"])
+
+
+def test_attributes_tell_how_it_was_made(spectrum_of):
+    """Scene and settings."""
+    changes = {"window": "boxcar", "segments": 3, "overlap": 0.25}
+    changes |= {"peak_floor": 1e-5, "peak_prominence": 5.0}
+    attributes = spectrum_of(noise(1000), **changes).attrs
+    assert {key: attributes[key] for key in changes} == changes
+    assert attributes["scene"] == "made_up"
+
+
+def test_two_runs_make_the_same_bytes(programs, good_inputs):
+    """Of a trajectory of the smoke run."""
+    programs.made_by("spectrum", good_inputs["spectrum"])
+    first = programs.output.read_bytes()
+    programs.made_by("spectrum", good_inputs["spectrum"])
+    assert programs.output.read_bytes() == first

@@ -1,0 +1,111 @@
+"""The velocity_step program: against the exact solution of (1.2) at constant velocity."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import xarray as xr
+
+
+@pytest.fixture
+def protocol(config) -> dict:
+    """The protocol of the config."""
+    return config["velocity_step"]
+
+
+@pytest.fixture
+def response(programs, protocol) -> xr.Dataset:
+    """What the program makes of it."""
+    return programs.made_by("velocity_step", protocol)
+
+
+def velocities(protocol: dict) -> list[float]:
+    """Velocity in each of the three phases."""
+    slow, fast = protocol["v0"], protocol["v0"] + protocol["delta_v"]
+    return [slow, fast, slow]
+
+
+def friction(protocol: dict, v, theta):
+    """Equation (1.1)."""
+    law = protocol
+    direct = law["a"] * np.log(law["v0"] / v + 1)
+    return law["mu0"] - direct + law["b"] * np.log(theta / law["b_state"] + 1)
+
+
+def exact_states(protocol: dict, response: xr.Dataset) -> np.ndarray:
+    """(1.2) solved: the state decays exponentially to Dc/v in each phase."""
+    n, dc = protocol["samples"], protocol["dc"]
+    theta, states = dc / protocol["v0"], []
+    for phase, v in enumerate(velocities(protocol)):
+        t = response.time.values[phase * n : (phase + 1) * n]
+        states.append(dc / v + (theta - dc / v) * np.exp(-v * (t - t[0]) / dc))
+        theta = states[-1][-1]
+    return np.concatenate(states)
+
+
+def test_state_is_the_exact_exponential(protocol, response):
+    """To 100 x tolerance."""
+    rtol = 100 * protocol["tolerance"]
+    np.testing.assert_allclose(response.theta, exact_states(protocol, response), rtol=rtol)
+
+
+@pytest.mark.parametrize("tolerance", [1e-5, 1e-8])
+def test_error_follows_the_tolerance(programs, protocol, tolerance):
+    """The same for tolerances of one's own."""
+    protocol["tolerance"] = tolerance
+    response = programs.made_by("velocity_step", protocol)
+    expected = exact_states(protocol, response)
+    np.testing.assert_allclose(response.theta, expected, rtol=100 * tolerance)
+
+
+def test_friction_follows_the_law(protocol, response):
+    """(1.1) at the imposed velocity and the exact state."""
+    v = np.repeat(velocities(protocol), protocol["samples"])
+    expected = friction(protocol, v, exact_states(protocol, response))
+    np.testing.assert_allclose(response.mu, expected, rtol=1e-9)
+
+
+def test_steps_are_imposed_where_asked(protocol, response):
+    """Velocity, slip and time of the three phases."""
+    n, dc = protocol["samples"], protocol["dc"]
+    v = np.array(velocities(protocol))
+    slip = dc * np.array([protocol["slip_before"], protocol["slip_after"], protocol["slip_after"]])
+    np.testing.assert_array_equal(response.velocity, np.repeat(v, n))
+    for name, lengths in (("slip", slip), ("time", slip / v)):
+        ends = np.cumsum([0.0, *lengths])
+        expected = [np.linspace(*span, n) for span in pairwise(ends)]
+        np.testing.assert_allclose(response[name], np.concatenate(expected), rtol=1e-12)
+
+
+def test_effects_are_those_of_the_law(protocol, response):
+    """Direct: at once, at the old state. Evolution: from there to the new steady state."""
+    slow, fast, _ = velocities(protocol)
+    old, new = protocol["dc"] / slow, protocol["dc"] / fast
+    before = friction(protocol, slow, old)
+    peak = friction(protocol, fast, old)
+    after = friction(protocol, fast, new)
+    assert response.attrs["direct_effect"] == pytest.approx(peak - before, rel=1e-9)
+    assert response.attrs["evolution_effect"] == pytest.approx(after - peak, rel=1e-9)
+
+
+def test_steady_sliding_stays_before_the_step(protocol, response):
+    """The block starts in the steady state of v0."""
+    n = protocol["samples"]
+    np.testing.assert_allclose(response.theta[:n], protocol["dc"] / protocol["v0"], rtol=1e-12)
+
+
+def test_file_has_units_and_protocol(protocol, response):
+    """SI units, and every parameter of the law."""
+    units = {name: response[name].attrs["units"] for name in response.variables}
+    assert units == {"time": "s", "slip": "m", "velocity": "m s-1", "theta": "s", "mu": "1"}
+    assert all(variable.attrs["long_name"] for variable in response.variables.values())
+    kept = ["mu0", "a", "b", "dc", "v0", "b_state", "delta_v", "tolerance"]
+    assert {key: response.attrs[key] for key in kept} == {key: protocol[key] for key in kept}
+
+
+def test_two_runs_make_the_same_bytes(programs, protocol):
+    """No time stamps."""
+    programs.made_by("velocity_step", protocol)
+    first = programs.output.read_bytes()
+    programs.made_by("velocity_step", protocol)
+    assert programs.output.read_bytes() == first
