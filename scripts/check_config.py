@@ -23,16 +23,15 @@ class ConfigError(ValueError):
 
 def checked(config: dict) -> dict:
     """Return `config` with its defaults; raise ConfigError naming place, key, value and range."""
-    schema = yaml.safe_load(SCHEMA.read_text())
-    validator = _validator_with_defaults(schema)
-    problems = [_in_words(error) for error in validator.iter_errors(config)]
+    problems = list(_names_that_are_no_text(config))
+    if not problems:
+        validator = _validator_with_defaults(yaml.safe_load(SCHEMA.read_text()))
+        problems = [_in_words(error) for error in validator.iter_errors(config)]
     if not problems:
         _fill_in_variables(config)
         problems = list(_contradictions(config))
     if problems:
-        raise ConfigError(
-            "\n".join(["the configuration is refused:", *sorted(problems)])
-        )
+        raise ConfigError("\n".join(["the configuration is refused:", *sorted(set(problems))]))
     return config
 
 
@@ -50,11 +49,10 @@ def _validator_with_defaults(schema: dict):
     base = jsonschema.Draft202012Validator
 
     def is_finite_number(_, value):
-        return (
-            isinstance(value, int | float)
-            and not isinstance(value, bool)
-            and math.isfinite(value)
-        )
+        return isinstance(value, int | float) and not isinstance(value, bool) and _is_finite(value)
+
+    def is_whole_number(_, value):
+        return isinstance(value, int) and not isinstance(value, bool)
 
     def fill_then_check(validator, properties, instance, subschema):
         if validator.is_type(instance, "object"):
@@ -62,15 +60,32 @@ def _validator_with_defaults(schema: dict):
                 if "default" in rules:
                     default = rules["default"]
                     instance.setdefault(key, {} if default == {} else default)
-        yield from base.VALIDATORS["properties"](
-            validator, properties, instance, subschema
-        )
+        yield from base.VALIDATORS["properties"](validator, properties, instance, subschema)
 
-    types = base.TYPE_CHECKER.redefine("number", is_finite_number)
+    types = base.TYPE_CHECKER.redefine_many(
+        {"number": is_finite_number, "integer": is_whole_number}
+    )
     extended = jsonschema.validators.extend(
         base, {"properties": fill_then_check}, type_checker=types
     )
     return extended(schema)
+
+
+def _is_finite(value: int | float) -> bool:
+    """Whether a double can hold the number."""
+    try:
+        return math.isfinite(value)
+    except OverflowError:
+        return False
+
+
+def _names_that_are_no_text(config: dict):
+    """Names of a user's choice that YAML read as numbers or truth values."""
+    for key in ("scenes", "hopf_curves"):
+        named = config.get(key) if isinstance(config, dict) else None
+        for name in named if isinstance(named, dict) else ():
+            if not isinstance(name, str):
+                yield f"config {key}: name {name!r}; expected text (quote it)"
 
 
 def _in_words(error: jsonschema.ValidationError) -> str:
@@ -88,21 +103,25 @@ def _in_words(error: jsonschema.ValidationError) -> str:
             f"{_place(path)}: name {error.instance!r}; expected small letters, digits and"
             " underscores, a letter first"
         )
-    return _value_in_words(
-        path, error.instance, error.schema.get("description", error.message)
-    )
+    expected = error.schema.get("description", "keys with values below it")
+    return _value_in_words(path, error.instance, expected)
 
 
 def _value_in_words(path: list[str], value, expected: str) -> str:
     line = f"{_place(path[:-1])}: {path[-1] if path else 'value'} = {value!r}; expected {expected}"
     if isinstance(value, str):
         try:
-            line += (
-                f" (this is text; write {float(value)!r}, with a dot, for the number)"
-            )
+            number = _with_dot(float(value))
+            line += f" (this is text; write {number}, with a dot, for the number)"
         except ValueError:
             pass
     return line
+
+
+def _with_dot(number: float) -> str:
+    """A number as YAML takes it for one."""
+    mantissa, *exponent = repr(number).split("e")
+    return "e".join([mantissa if "." in mantissa else f"{mantissa}.0", *exponent])
 
 
 def _place(path: list[str]) -> str:
@@ -117,9 +136,7 @@ def _fill_in_variables(config: dict) -> None:
     order = ["theta", "u", "v"]
     for name, scene in config["scenes"].items():
         used = variables_used(config, name) or set(order)
-        scene.setdefault(
-            "variables", [variable for variable in order if variable in used]
-        )
+        scene.setdefault("variables", [variable for variable in order if variable in used])
 
 
 def _contradictions(config: dict):
@@ -144,8 +161,9 @@ def _contradictions(config: dict):
     for figure, settings in config["figures"].items():
         for row, shown in settings["rows"].items():
             if shown["scene"] not in config["scenes"]:
+                place = f"config figures {figure} rows {row}"
                 yield (
-                    f"config figures {figure} {row}: scene = {shown['scene']!r}; expected one of:"
+                    f"{place}: scene = {shown['scene']!r}; expected one of:"
                     f" {', '.join(config['scenes'])}"
                 )
     for name, plane in config["hopf_curves"].items():

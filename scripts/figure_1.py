@@ -18,11 +18,7 @@ ARM = 1.6
 def rough_surface(left: float, right: float, height: float, bumps: int) -> np.ndarray:
     """Vertices of a rough line, shape (2 bumps + 1, 2), in units of the drawing."""
     x = np.linspace(left, right, 2 * bumps + 1)
-    wave = (
-        0.45
-        + 0.35 * np.sin(2.3 * np.arange(x.size))
-        + 0.2 * np.sin(5.1 * np.arange(x.size))
-    )
+    wave = 0.45 + 0.35 * np.sin(2.3 * np.arange(x.size)) + 0.2 * np.sin(5.1 * np.arange(x.size))
     return np.column_stack([x, height * np.where(np.arange(x.size) % 2, wave, -wave)])
 
 
@@ -38,9 +34,7 @@ def spring(left: float, right: float, y: float, turns: int, width: float) -> np.
 def arrow(axes: Axes, start: tuple[float, float], end: tuple[float, float]) -> None:
     """An arrow between two points of the drawing."""
     axes.add_patch(
-        FancyArrowPatch(
-            start, end, arrowstyle="-|>", mutation_scale=9, lw=1.0, color=INK
-        )
+        FancyArrowPatch(start, end, arrowstyle="-|>", mutation_scale=9, lw=1.0, color=INK)
     )
 
 
@@ -54,9 +48,7 @@ def draw() -> Figure:
     axes.plot(*surface.T, color=INK, lw=1.2)
 
     left, bottom, width, height = BLOCK
-    axes.add_patch(
-        Rectangle((left, bottom), width, height, facecolor="#cfe3f2", edgecolor=INK)
-    )
+    axes.add_patch(Rectangle((left, bottom), width, height, facecolor="#cfe3f2", edgecolor=INK))
     middle = bottom + height / 2
     axes.text(left + width / 2, middle, "block\nmass $M$", ha="center", va="center")
 
@@ -68,9 +60,7 @@ def draw() -> Figure:
         ha="center",
         va="center",
     )
-    axes.plot(
-        [ARM, ARM], [PLATE[1], middle - 0.25], color=INK, lw=3, solid_capstyle="butt"
-    )
+    axes.plot([ARM, ARM], [PLATE[1], middle - 0.25], color=INK, lw=3, solid_capstyle="butt")
     axes.plot(*spring(ARM, left, middle, 9, 0.24).T, color=INK, lw=1.1)
     axes.text(
         (ARM + left) / 2,

@@ -9,9 +9,6 @@ if __name__ == "__main__":
         settings = snakemake.params.settings
         trajectories = map(xr.load_dataset, snakemake.input.trajectories)
         rows = dict(zip(settings["rows"], trajectories, strict=True))
-        titles = {
-            label: f"the paper: “{row['paper']}”"
-            for label, row in settings["rows"].items()
-        }
+        titles = {label: f"the paper: “{row['paper']}”" for label, row in settings["rows"].items()}
         figure = draw(rows, titles, settings)
         save(figure, snakemake.output.pdf, snakemake.output.png)

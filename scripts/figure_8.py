@@ -30,9 +30,7 @@ def draw(response: xr.Dataset) -> Figure:
     return figure
 
 
-def mark_effects(
-    axes: Axes, slip: np.ndarray, mu: np.ndarray, steps: np.ndarray
-) -> None:
+def mark_effects(axes: Axes, slip: np.ndarray, mu: np.ndarray, steps: np.ndarray) -> None:
     """The jump (direct effect) and the slow return (evolution effect) of each step, as arrows."""
     arrow = {"arrowstyle": "<->", "color": INK, "lw": 0.7, "shrinkA": 0, "shrinkB": 0}
     ends = [*steps[1:], mu.size]

@@ -19,9 +19,7 @@ def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
     ordinate = curves.attrs["ordinate"]
     fixed = "xi" if ordinate == "tau" else "tau"
     figure, axes = plt.subplots(figsize=(4.6, 4.2))
-    axes.set(
-        xlim=(0, float(curves.epsilon.max())), ylim=(0, float(curves[ordinate].max()))
-    )
+    axes.set(xlim=(0, float(curves.epsilon.max())), ylim=(0, float(curves[ordinate].max())))
     ends = []
     for piece in np.unique(curves.piece):
         line = curves.isel(point=curves.piece.values == piece)
@@ -32,9 +30,7 @@ def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
         last = x.argmax() if x.max() > 0.99 * axes.get_xlim()[1] else y.argmax()
         ends.append((float(y[last]), float(x[last]), branch, colour))
     label_branches(axes, ends)
-    marked = mark_scenes(
-        axes, scenes, ordinate, fixed, curves.attrs[fixed], curves.attrs["gamma"]
-    )
+    marked = mark_scenes(axes, scenes, ordinate, fixed, curves.attrs[fixed], curves.attrs["gamma"])
     axes.set_title(
         rf"{SYMBOLS[fixed]} = {curves.attrs[fixed]:g}, $\gamma$ = {curves.attrs['gamma']:g}",
         pad=14,
@@ -57,9 +53,7 @@ def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
     return figure
 
 
-def draw_piece(
-    axes: Axes, x: np.ndarray, y: np.ndarray, crossing: np.ndarray, colour: str
-) -> None:
+def draw_piece(axes: Axes, x: np.ndarray, y: np.ndarray, crossing: np.ndarray, colour: str) -> None:
     """One unbroken piece, dashed where the sign of d Re(lambda)/d tau is negative."""
     ends = np.flatnonzero(np.diff(crossing)) + 1
     for part in np.split(np.arange(x.size), ends):
@@ -69,7 +63,7 @@ def draw_piece(
 
 
 def label_branches(axes: Axes, ends: list[tuple[float, float, int, str]]) -> None:
-    """Name each piece where it leaves the window: to the right, each at its own height, or above."""
+    """Name each piece where it leaves the window: to the right, or above."""
     (_, right), (_, top) = axes.get_xlim(), axes.get_ylim()
     lowest = 0.0
     for y, x, branch, colour in sorted(ends):
@@ -103,9 +97,7 @@ def mark_scenes(
     places: dict[tuple[float, float], list[str]] = {}
     for name, scene in scenes.items():
         place = (scene["epsilon"], scene[ordinate])
-        lies_in = math.isclose(scene[fixed], fixed_value) and math.isclose(
-            scene["gamma"], gamma
-        )
+        lies_in = math.isclose(scene[fixed], fixed_value) and math.isclose(scene["gamma"], gamma)
         kinds[lies_in] = Line2D(
             [],
             [],
@@ -113,9 +105,7 @@ def mark_scenes(
             marker="o",
             color=INK,
             mfc=INK if lies_in else "white",
-            label="scene in this plane"
-            if lies_in
-            else f"scene at another {SYMBOLS[fixed]}",
+            label="scene in this plane" if lies_in else f"scene at another {SYMBOLS[fixed]}",
         )
         axes.plot(
             *place,

@@ -12,9 +12,7 @@ LEAST_DISTANCE = 0.05
 """Peaks closer to a higher one than this share of the axis get a dot and no label."""
 
 
-def draw(
-    rows: dict[str, xr.Dataset], paper: dict[str, str], frequency_shown: float
-) -> Figure:
+def draw(rows: dict[str, xr.Dataset], paper: dict[str, str], frequency_shown: float) -> Figure:
     """Rows a, b, ...: power spectral density of v over frequency."""
     figure, grid = plt.subplots(
         len(rows), 1, figsize=(6.0, 0.5 + 2.3 * len(rows)), sharex=True, squeeze=False
@@ -47,10 +45,7 @@ def label_peaks(axes: Axes, spectrum: xr.Dataset, frequency_shown: float) -> Non
         )
         colour = "C1" if kind == OTHER else INK
         axes.plot(*place, "o", color=colour, ms=2)
-        if any(
-            abs(place[0] - other) < LEAST_DISTANCE * frequency_shown
-            for other in labelled
-        ):
+        if any(abs(place[0] - other) < LEAST_DISTANCE * frequency_shown for other in labelled):
             continue
         labelled.append(place[0])
         name = {

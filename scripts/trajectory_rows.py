@@ -16,21 +16,15 @@ def draw(rows: dict[str, xr.Dataset], titles: dict[str, str], settings: dict) ->
         width_ratios=[1.5, 1, 1],
         squeeze=False,
     )
-    for (label, trajectory), (left, middle, right) in zip(
-        rows.items(), grid, strict=True
-    ):
+    for (label, trajectory), (left, middle, right) in zip(rows.items(), grid, strict=True):
         last = float(trajectory.time[-1])
-        draw_velocity(
-            left, trajectory, 0.0, min(settings["rows"][label]["time_shown"], last)
-        )
+        draw_velocity(left, trajectory, 0.0, min(settings["rows"][label]["time_shown"], last))
         draw_velocity(middle, trajectory, max(0.0, last - settings["end_shown"]), last)
         draw_portrait(right, trajectory, settings["attractor_shown"])
         middle.sharey(left)
         middle.set(ylabel="")
         left.set_title(f"$\\bf{{{label}}}$  {parameters(trajectory)}\n{titles[label]}")
-    figure.legend(
-        *right.get_legend_handles_labels(), loc="outside lower right", ncols=3
-    )
+    figure.legend(*right.get_legend_handles_labels(), loc="outside lower right", ncols=3)
     return figure
 
 

@@ -14,6 +14,4 @@ def write_namelist(path: Path, group: str, values: dict) -> None:
 
 
 if __name__ == "__main__":
-    write_namelist(
-        Path(snakemake.output[0]), snakemake.params.group, dict(snakemake.params.values)
-    )
+    write_namelist(Path(snakemake.output[0]), snakemake.params.group, dict(snakemake.params.values))

@@ -24,10 +24,12 @@ program spectrum_program
    call read_trajectory(trim(settings%trajectory), "v", trajectory, error)
    call stop_on(error)
 
-   first = 1 + ceiling(trajectory%t_transient/trajectory%sample_interval)
+   ! the quotient may be one rounding above a whole number
+   first = 1 + ceiling(trajectory%t_transient/trajectory%sample_interval*(1.0_wp - epsilon(1.0_wp)))
    associate (v => trajectory%samples(first:))
       call power_spectrum(v, trajectory%sample_interval, settings%window, settings%segments, &
                           settings%overlap, frequency, power, error)
+      if (allocated(error)) error%message = trim(settings%trajectory)//": "//error%message
       call stop_on(error)
       peaks = find_peaks(frequency, power, settings%peak_floor, settings%peak_prominence)
       call label_peaks(peaks, frequency(2))

@@ -23,7 +23,7 @@ program trajectory
 
    block_model = spring_block_type(scene%tau, scene%epsilon, scene%xi, scene%gamma, &
                                    scene%history%theta, scene%history%u, scene%history%v)
-   options = integration_options(method=scene%method, relative=scene%tolerance, &
+   options = integration_options(method=trim(scene%method), relative=scene%tolerance, &
                                  absolute=scene%tolerance)
    writer = trajectory_writer(output_path, scene)
    call stop_on(writer%file%error)

@@ -1,6 +1,7 @@
 !> Errors as values: a procedure that can fail ends with `error`, its caller tests
 !> `allocated(error)`.
 module errors
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: int64, wp
    implicit none (type, external)
    private
@@ -38,9 +39,24 @@ contains
       real(wp), intent(in) :: value
       character(len=:), allocatable :: words
       character(len=32) :: buffer
+      integer :: exponent_at, last
 
-      write (buffer, "(g0.7)") value
-      words = trim(adjustl(buffer))
+      if (ieee_is_finite(value)) then
+         if (value >= 1.0e7_wp .or. value <= -1.0e7_wp .or. &
+             (value > -1.0e-3_wp .and. value < 1.0e-3_wp .and. abs(value) > 0.0_wp)) then
+            write (buffer, "(es32.6e3)") value
+         else
+            write (buffer, "(f32.6)") value
+         end if
+         words = trim(adjustl(buffer))
+         exponent_at = scan(words//"E", "E")
+         last = verify(words(:exponent_at - 1), "0", back=.true.)
+         if (words(last:last) == ".") last = last + 1
+         words = words(:min(last, exponent_at - 1))//words(exponent_at:)
+      else
+         write (buffer, "(g0)") value
+         words = trim(adjustl(buffer))
+      end if
    end function text_of_real
 
    !> An integer.

@@ -2,23 +2,61 @@
 program tester
    use, intrinsic :: iso_fortran_env, only: error_unit
    use mctc_env_testing, only: new_testsuite, run_testsuite, testsuite_type
+   use test_dde_behaviour, only: collect_dde_behaviour
+   use test_dde_controller, only: collect_dde_controller
+   use test_dde_convergence, only: collect_dde_convergence
+   use test_dde_gsl, only: collect_dde_gsl
+   use test_dde_history, only: collect_dde_history
+   use test_dde_implicit, only: collect_dde_implicit
+   use test_dde_implicit_order, only: collect_dde_implicit_order
+   use test_dde_order, only: collect_dde_order
+   use test_dde_reentrant, only: collect_dde_reentrant
+   use test_dde_refusals, only: collect_dde_refusals
    use test_dde_solutions, only: collect_dde_solutions
-   implicit none
+   use test_dde_stops, only: collect_dde_stops
+   use test_dde_time, only: collect_dde_time
+   use test_friction, only: collect_friction
+   use test_gsl_roots, only: collect_gsl_roots
+   use test_hopf, only: collect_hopf
+   use test_hopf_curves, only: collect_hopf_curves
+   use test_model, only: collect_model
+   use test_spectral_peaks, only: collect_spectral_peaks
+   use test_spectrum, only: collect_spectrum
+   implicit none (type, external)
    type(testsuite_type), allocatable :: suites(:)
    character(len=32) :: wanted
    integer :: failed, i, run
 
-   suites = [new_testsuite('dde_solutions', collect_dde_solutions)]
-   wanted = ''
+   allocate (suites, source=[new_testsuite("dde_behaviour", collect_dde_behaviour), &
+                             new_testsuite("dde_controller", collect_dde_controller), &
+                             new_testsuite("dde_convergence", collect_dde_convergence), &
+                             new_testsuite("dde_gsl", collect_dde_gsl), &
+                             new_testsuite("dde_history", collect_dde_history), &
+                             new_testsuite("dde_implicit", collect_dde_implicit), &
+             new_testsuite("dde_implicit_order", collect_dde_implicit_order), &
+             new_testsuite("dde_order", collect_dde_order), &
+                             new_testsuite("dde_reentrant", collect_dde_reentrant), &
+                             new_testsuite("dde_refusals", collect_dde_refusals), &
+                             new_testsuite("dde_solutions", collect_dde_solutions), &
+                             new_testsuite("dde_stops", collect_dde_stops), &
+                             new_testsuite("dde_time", collect_dde_time), &
+                             new_testsuite("friction", collect_friction), &
+                             new_testsuite("gsl_roots", collect_gsl_roots), &
+                             new_testsuite("hopf", collect_hopf), &
+                             new_testsuite("hopf_curves", collect_hopf_curves), &
+                             new_testsuite("model", collect_model), &
+                             new_testsuite("spectral_peaks", collect_spectral_peaks), &
+                             new_testsuite("spectrum", collect_spectrum)])
+   wanted = ""
    if (command_argument_count() > 0) call get_command_argument(1, wanted)
    failed = 0
    run = 0
    do i = 1, size(suites)
-      if (wanted /= '' .and. wanted /= suites(i)%name) cycle
-      write (error_unit, '(2a)') 'Testing: ', suites(i)%name
+      if (wanted /= "" .and. wanted /= suites(i)%name) cycle
+      write (error_unit, "(2a)") "Testing: ", suites(i)%name
       call run_testsuite(suites(i)%collect, error_unit, failed)
       run = run + 1
    end do
-   if (run == 0) error stop 'no suite of that name'
-   if (failed > 0) error stop 'some tests failed'
+   if (run == 0) error stop "no suite of that name"
+   if (failed > 0) error stop "some tests failed"
 end program tester

@@ -4,10 +4,10 @@ module test_problems
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde, only: dde_problem_type
    use kinds, only: wp
-   implicit none
+   implicit none (type, external)
    private
    public :: blow_up, enzyme, falls_out, infection, linear, mackey_glass, oscillator, quadrature
-   public :: wille_baker
+   public :: sine, wille_baker, without_delays
 
    !> The start of every problem here that has one: constant history and first state.
    type, extends(dde_problem_type), abstract :: constant_past
@@ -20,8 +20,10 @@ module test_problems
       procedure :: history => constant_history
    end type constant_past
 
-   !> y' = -y(t - 1).
+   !> y' = -rate y(t - lag).
    type, extends(constant_past) :: linear
+      !> Rate
+      real(wp) :: rate = 1.0_wp
    contains
       procedure :: rhs => linear_rhs
    end type linear
@@ -58,11 +60,25 @@ module test_problems
       procedure :: rhs => quadrature_rhs
    end type quadrature
 
-   !> y1' = y2, y2' = -y1.
+   !> y1' = rate y2, y2' = -rate y1.
    type, extends(constant_past) :: oscillator
+      !> Rate
+      real(wp) :: rate = 1.0_wp
    contains
       procedure :: rhs => oscillator_rhs
    end type oscillator
+
+   !> y' = -y(t - pi/2) with the history sin t: y = sin t.
+   type, extends(dde_problem_type) :: sine
+   contains
+      procedure :: initial => sine_at_zero
+      procedure :: history => sine_history
+      procedure :: rhs => sine_rhs
+   end type sine
+
+   interface sine
+      module procedure :: new_sine
+   end interface sine
 
    !> y' = y^2: infinite at t = 1/y(0).
    type, extends(constant_past) :: blow_up
@@ -77,6 +93,13 @@ module test_problems
    end type falls_out
 
 contains
+
+   !> No delays and no delayed components.
+   pure subroutine without_delays(problem)
+      class(dde_problem_type), intent(inout) :: problem
+
+      allocate (problem%lag(0), problem%component(0))
+   end subroutine without_delays
 
    !> The first state.
    pure subroutine first_state(self, y)
@@ -96,7 +119,7 @@ contains
       value = self%past(component) + 0.0_wp*t
    end function constant_history
 
-   !> y' = -y(t - 1).
+   !> z = y(t - lag).
    pure subroutine linear_rhs(self, t, y, z, dydt)
       class(linear), intent(in) :: self
       real(wp), intent(in) :: t
@@ -104,7 +127,7 @@ contains
       real(wp), intent(in) :: z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
-      dydt = -z
+      dydt = -self%rate*z
    end subroutine linear_rhs
 
    !> z = (y1(t-1), y2(t-0.2)).
@@ -164,7 +187,7 @@ contains
       dydt = (self%power + 1)*t**self%power
    end subroutine quadrature_rhs
 
-   !> y1' = y2, y2' = -y1.
+   !> y1' = rate y2, y2' = -rate y1.
    pure subroutine oscillator_rhs(self, t, y, z, dydt)
       class(oscillator), intent(in) :: self
       real(wp), intent(in) :: t
@@ -172,8 +195,44 @@ contains
       real(wp), intent(in) :: z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
-      dydt = [y(2), -y(1)]
+      dydt = self%rate*[y(2), -y(1)]
    end subroutine oscillator_rhs
+
+   !> The problem with its delay.
+   pure type(sine) function new_sine() result(problem)
+      problem%n = 1
+      allocate (problem%lag, source=[0.5_wp*acos(-1.0_wp)])
+      allocate (problem%component, source=[1])
+   end function new_sine
+
+   !> sin 0.
+   pure subroutine sine_at_zero(self, y)
+      class(sine), intent(in) :: self
+      real(wp), intent(out) :: y(self%n)
+
+      y = 0.0_wp
+   end subroutine sine_at_zero
+
+   !> sin t.
+   pure function sine_history(self, t, component) result(value)
+      class(sine), intent(in) :: self
+      real(wp), intent(in) :: t
+      integer, intent(in) :: component
+      real(wp) :: value
+
+      value = sin(t)
+   end function sine_history
+
+   !> z = y(t - pi/2).
+   pure subroutine sine_rhs(self, t, y, z, dydt)
+      class(sine), intent(in) :: self
+      real(wp), intent(in) :: t
+      real(wp), intent(in) :: y(self%n)
+      real(wp), intent(in) :: z(size(self%lag))
+      real(wp), intent(out) :: dydt(self%n)
+
+      dydt = -z
+   end subroutine sine_rhs
 
    !> y' = y^2.
    pure subroutine blow_up_rhs(self, t, y, z, dydt)

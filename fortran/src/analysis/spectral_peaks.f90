@@ -150,7 +150,8 @@ contains
          in_line(max(1, peaks(i)%bin - line_half_width): &
                  min(size(power), peaks(i)%bin + line_half_width)) = .true.
       end do
-      share = sum(power, mask=in_line)/sum(power)
+      share = 0.0_wp
+      if (sum(power) > 0.0_wp) share = sum(power, mask=in_line)/sum(power)
    end function line_share
 
    !> Whether the spectrum is one of a periodic signal: a base frequency, harmonics, nothing else.

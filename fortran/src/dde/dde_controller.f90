@@ -2,6 +2,7 @@
 !> Gustafsson (Hairer and Wanner 1996, "Solving Ordinary Differential Equations II", sec. IV.2).
 module dde_controller
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use dde_step, only: step_type
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -9,21 +10,19 @@ module dde_controller
 
    !> Share of the last accepted error in the next step (integral part).
    real(wp), parameter :: beta = 0.04_wp
-   !> The next step aims this much below the one that would just pass.
-   real(wp), parameter :: safety = 0.9_wp
    !> Bounds on the ratio of one step to the one before.
    real(wp), parameter :: least_ratio = 1.0_wp/3.0_wp, most_ratio = 6.0_wp
    !> Ratio after an evaluation that was not finite.
    real(wp), parameter :: ratio_after_failure = 0.1_wp
-   !> Accepted errors count as at least this.
-   real(wp), parameter :: least_error = 1.0e-4_wp
+   !> Accepted errors count as at least this, in proportional and in predictive control.
+   real(wp), parameter :: least_error = 1.0e-4_wp, least_predicted = 1.0e-2_wp
 
    !> Step control of one integration.
    type :: controller_type
-      !> Order of the step: error ~ h**order
-      integer :: order = 0
-      !> Error of the last accepted step
-      real(wp) :: last_error = least_error
+      !> Error of the last accepted step, 0 before the first
+      real(wp) :: last_error = 0.0_wp
+      !> Length of the last accepted step
+      real(wp) :: last_h = 0.0_wp
       !> Whether the last step was rejected
       logical :: rejected = .false.
    contains
@@ -36,37 +35,51 @@ module dde_controller
 contains
 
    !> After an accepted step: replace its length by the next.
-   pure subroutine accept(self, h, error)
+   pure subroutine accept(self, step, h, error)
       !> Control
       class(controller_type), intent(inout) :: self
+      !> The step, with its method's constants
+      class(step_type), intent(in) :: step
       !> Length of the step, replaced by the next
       real(wp), intent(inout) :: h
       !> Error of the step in units of the tolerance, 0..1
       real(wp), intent(in) :: error
-      real(wp) :: ratio
+      real(wp) :: power, ratio, taken
 
+      taken = h
       ratio = most_ratio
+      power = 1.0_wp/step%error_order
       if (error > 0.0_wp) then
-         ratio = safety*self%last_error**beta*error**(0.2_wp*beta - 1.0_wp/self%order)
+         if (step%predictive) then
+            ratio = step%safety*error**(-power)
+            if (self%last_error > 0.0_wp) then
+               ratio = min(ratio, ratio*h/self%last_h*(self%last_error/error)**power)
+            end if
+         else
+            ratio = step%safety*max(self%last_error, least_error)**beta*error**(0.2_wp*beta - power)
+         end if
          ratio = min(most_ratio, max(least_ratio, ratio))
       end if
       if (self%rejected) ratio = min(ratio, 1.0_wp)
-      h = h*ratio
-      self%last_error = max(error, least_error)
+      if (ratio < 1.0_wp .or. ratio > step%hold) h = h*ratio
+      self%last_error = max(error, merge(least_predicted, least_error, step%predictive))
+      self%last_h = taken
       self%rejected = .false.
    end subroutine accept
 
    !> After a rejected step: replace its length by the next try.
-   pure subroutine reject(self, h, error)
+   pure subroutine reject(self, step, h, error)
       !> Control
       class(controller_type), intent(inout) :: self
+      !> The step, with its method's constants
+      class(step_type), intent(in) :: step
       !> Length of the step, replaced by the next try
       real(wp), intent(inout) :: h
       !> Error of the step in units of the tolerance, > 1 or not finite
       real(wp), intent(in) :: error
 
       if (ieee_is_finite(error)) then
-         h = h*max(least_ratio, safety*error**(0.2_wp*beta - 1.0_wp/self%order))
+         h = h*max(least_ratio, step%safety*error**(-1.0_wp/step%error_order))
       else
          h = h*ratio_after_failure
       end if

@@ -1,10 +1,10 @@
 !> Length of the first step.
 module dde_first_step
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use dde_explicit_step, only: explicit_order, explicit_step_type
    use dde_history, only: history_type
    use dde_problem, only: dde_problem_type
    use dde_request, only: integration_options
+   use dde_step, only: step_type
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -20,7 +20,7 @@ contains
       !> The past, facing the first step
       type(history_type), intent(inout) :: past
       !> The step, its first slope known
-      type(explicit_step_type), intent(inout) :: step
+      class(step_type), intent(inout) :: step
       !> First instant
       real(wp), intent(in) :: t_start
       !> Length of the integration
@@ -29,23 +29,22 @@ contains
       type(integration_options), intent(in) :: options
       !> Length of the first step
       real(wp), intent(out) :: h
-      real(wp) :: scale(size(step%y)), slope, bend
+      real(wp) :: scale(size(step%y)), slope_ahead(size(step%y)), slope, bend
 
       scale = options%absolute + options%relative*abs(step%y)
-      slope = norm2(step%k(:, 1)/scale)
+      slope = norm2(step%slope/scale)
       h = 1.0e-6_wp
       if (slope > 1.0e-5_wp .and. norm2(step%y/scale) > 1.0e-5_wp) then
          h = 0.01_wp*norm2(step%y/scale)/slope
       end if
       h = min(h, options%longest_step, span)
       if (size(problem%lag) > 0) h = min(h, minval(problem%lag))
-      step%stage = step%y + h*step%k(:, 1)
       if (size(problem%lag) > 0) call past%values(problem, h, step%z)
-      call problem%rhs(t_start + h, step%stage, step%z, step%k(:, 2))
+      call problem%rhs(t_start + h, step%y + h*step%slope, step%z, slope_ahead)
       step%evaluations = step%evaluations + 1
-      bend = norm2((step%k(:, 2) - step%k(:, 1))/scale)/h
+      bend = norm2((slope_ahead - step%slope)/scale)/h
       if (max(slope, bend) > 1.0e-15_wp) then
-         h = min(100.0_wp*h, (0.01_wp/max(slope, bend))**(1.0_wp/explicit_order))
+         h = min(100.0_wp*h, (0.01_wp/max(slope, bend))**(1.0_wp/step%error_order))
       else
          h = min(100.0_wp*h, max(1.0e-6_wp, 1.0e-3_wp*h))
       end if

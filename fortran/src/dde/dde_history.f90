@@ -11,6 +11,8 @@ module dde_history
 
    !> Slots of a new ring; it doubles when the longest delay spans more steps.
    integer, parameter :: first_capacity = 64
+   !> Highest degree of an interpolant.
+   integer, parameter :: highest_degree = 8
 
    !> The past of one integration.
    type :: history_type
@@ -19,8 +21,10 @@ module dde_history
       integer, allocatable, public :: kept(:)
       !> First instant of the integration
       type(instant) :: origin
-      !> Nodes of the method's interpolant
-      real(wp), allocatable :: nodes(:)
+      !> Newton nodes of each step's interpolant, shape (degree, slot), unused ones last
+      real(wp), allocatable :: nodes(:, :)
+      !> Degree of each step's interpolant, per slot
+      integer, allocatable :: degree(:)
       !> Numbers of the oldest and the newest step kept; step i lives in slot modulo(i, capacity)
       integer(int64) :: oldest = 0, newest = -1
       !> Start of each step kept, per slot
@@ -61,36 +65,37 @@ module dde_history
 contains
 
    !> An empty past that begins at `origin`.
-   pure function new_history(problem, origin, nodes) result(past)
+   pure function new_history(problem, origin) result(past)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> First instant of the integration
       type(instant), intent(in) :: origin
-      !> Nodes of the method's interpolant
-      real(wp), intent(in) :: nodes(:)
       type(history_type) :: past
       integer :: i, k, terms
 
       terms = size(problem%lag)
       past%origin = origin
-      allocate (past%nodes, source=nodes)
       past%kept = pack([(i, i=1, problem%n)], [(any(problem%component == i), i=1, problem%n)])
       past%row = [(findloc(past%kept, problem%component(k), dim=1), k=1, terms)]
       allocate (past%start(0:first_capacity - 1), past%length(0:first_capacity - 1))
-      allocate (past%coefficients(0:size(nodes), size(past%kept), 0:first_capacity - 1))
+      allocate (past%nodes(highest_degree, 0:first_capacity - 1))
+      allocate (past%degree(0:first_capacity - 1))
+      allocate (past%coefficients(0:highest_degree, size(past%kept), 0:first_capacity - 1))
       allocate (past%found(terms), source=0_int64)
       allocate (past%slot(terms), source=0)
       allocate (past%delayed_start(terms), past%offset(terms), past%before_origin(terms))
    end function new_history
 
    !> Take in the polynomial of the step from `start`, `length` long.
-   pure subroutine append(self, start, length, coefficients)
+   pure subroutine append(self, start, length, nodes, coefficients)
       !> The past
       class(history_type), intent(inout) :: self
       !> Start of the step
       type(instant), intent(in) :: start
       !> Length of the step
       real(wp), intent(in) :: length
+      !> Newton nodes of its interpolant
+      real(wp), intent(in) :: nodes(:)
       !> Interpolant of the kept components, shape (0:degree, kept)
       real(wp), intent(in) :: coefficients(0:, :)
       integer :: slot
@@ -100,7 +105,9 @@ contains
       slot = int(modulo(self%newest, size(self%start, kind=int64)))
       self%start(slot) = start
       self%length(slot) = length
-      self%coefficients(:, :, slot) = coefficients
+      self%degree(slot) = size(nodes)
+      self%nodes(:size(nodes), slot) = nodes
+      self%coefficients(:size(nodes), :, slot) = coefficients
    end subroutine append
 
    !> Drop the steps that ended before `horizon`; the newest stays.
@@ -163,8 +170,11 @@ contains
                if (self%found(k) == self%oldest) exit
                call point_at(self, k, self%found(k) - 1)
             end do
-            z(k) = newton_value(self%nodes, self%coefficients(:, self%row(k), self%slot(k)), &
-                                (self%offset(k) + ahead)/self%length(self%slot(k)))
+            associate (slot => self%slot(k))
+               z(k) = newton_value(self%nodes(:self%degree(slot), slot), &
+                                   self%coefficients(:, self%row(k), slot), &
+                                   (self%offset(k) + ahead)/self%length(slot))
+            end associate
          end if
       end do
    end subroutine values
@@ -187,23 +197,28 @@ contains
    pure subroutine double_capacity(self)
       !> The past
       class(history_type), intent(inout) :: self
-      type(instant), allocatable :: start(:)
-      real(wp), allocatable :: length(:), coefficients(:, :, :)
+      type(history_type) :: wider
       integer :: capacity, from, to
       integer(int64) :: step
 
       capacity = size(self%start)
-      allocate (start(0:2*capacity - 1), length(0:2*capacity - 1))
-      allocate (coefficients(0:size(self%nodes), size(self%kept), 0:2*capacity - 1))
+      allocate (wider%start(0:2*capacity - 1), wider%length(0:2*capacity - 1))
+      allocate (wider%degree(0:2*capacity - 1), wider%nodes(highest_degree, 0:2*capacity - 1))
+      allocate (wider%coefficients(0:highest_degree, size(self%kept), 0:2*capacity - 1))
       do step = self%oldest, self%newest
          from = int(modulo(step, int(capacity, int64)))
          to = int(modulo(step, int(2*capacity, int64)))
-         start(to) = self%start(from)
-         length(to) = self%length(from)
-         coefficients(:, :, to) = self%coefficients(:, :, from)
+         wider%start(to) = self%start(from)
+         wider%length(to) = self%length(from)
+         wider%degree(to) = self%degree(from)
+         wider%nodes(:, to) = self%nodes(:, from)
+         wider%coefficients(:, :, to) = self%coefficients(:, :, from)
       end do
-      call move_alloc(start, self%start)
-      call move_alloc(length, self%length)
-      call move_alloc(coefficients, self%coefficients)
+      call move_alloc(wider%start, self%start)
+      call move_alloc(wider%length, self%length)
+      call move_alloc(wider%degree, self%degree)
+      call move_alloc(wider%nodes, self%nodes)
+      call move_alloc(wider%coefficients, self%coefficients)
+      self%slot = int(modulo(self%found, int(2*capacity, int64)))
    end subroutine double_capacity
 end module dde_history

@@ -4,14 +4,17 @@ module dde_integrator
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_breaking_points, only: breaking_points
    use dde_controller, only: controller_type
-   use dde_explicit_step, only: explicit_degree, explicit_nodes, explicit_order, explicit_step_type
+   use dde_explicit_step, only: explicit_step_type
    use dde_first_step, only: choose_first_step
    use dde_history, only: history_type
+   use dde_implicit_step, only: implicit_step_type
    use dde_interpolant, only: newton_value
    use dde_outcome, only: explain, integration_result, limit_met, reached_end
    use dde_problem, only: dde_problem_type
    use dde_request, only: check, integration_options
    use dde_sampler, only: sampler_type
+   use dde_step, only: step_type
+   use dde_switch, only: switch_type
    use dde_time, only: elapsed, instant, instant_at, later
    use errors, only: error_type
    use kinds, only: wp
@@ -38,30 +41,28 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Receiver of samples
       class(sampler_type), intent(inout), optional :: sampler
-      type(explicit_step_type) :: step
+      class(step_type), allocatable :: step
       type(history_type) :: past
       type(controller_type) :: control
+      type(switch_type) :: switch
       type(instant) :: now, step_end
       type(instant), allocatable :: points(:)
       real(wp) :: error_estimate, gap, h, h_try, longest
       integer :: next_point
-      logical :: delayed, fresh, landing
+      logical :: delayed, fresh, landing, other
 
       call check(problem, t_start, t_end, options, error)
       if (allocated(error)) return
-      outcome%method = "explicit"
-      control%order = explicit_order
       now = instant_at(t_start)
       delayed = size(problem%lag) > 0
-      longest = options%longest_step
-      step = explicit_step_type(problem)
+      call choose_method(problem, options%method, step)
+      longest = longest_step(problem, step, options)
       if (delayed) then
-         longest = min(longest, minval(problem%lag))
-         past = history_type(problem, now, explicit_nodes)
-         call past%face(problem, now, longest)
+         past = history_type(problem, now)
+         call past%face(problem, now, min(longest, minval(problem%lag)))
       end if
       points = [breaking_points(now, instant_at(t_end), problem%lag, &
-                                passages(problem, t_start, step%y)), instant_at(t_end)]
+                                passages(problem, step, t_start)), instant_at(t_end)]
       next_point = 1
       call step%restart(problem, past, t_start)
       if (present(sampler)) call sample_start(sampler, t_start, step%y)
@@ -88,19 +89,24 @@ contains
          if (.not. accepted(error_estimate)) then
             outcome%rejected = outcome%rejected + 1
             h = h_try
-            call control%reject(h, error_estimate)
+            call control%reject(step, h, error_estimate)
             cycle
          end if
 
          outcome%accepted = outcome%accepted + 1
+         if (step%implicit) outcome%implicit_steps = outcome%implicit_steps + 1
          call step%complete(problem, past)
          step_end = later(now, h_try)
          if (landing) step_end = points(next_point)
          call hand_over(problem, step, past, now, step_end, sampler)
+         call control%accept(step, h_try, error_estimate)
+         other = .false.
+         if (options%method == "auto") then
+            call switch%wanted(step, minval(problem%lag), h_try, other)
+         end if
          call step%advance()
          now = step_end
          ! a step cut short to land says nothing against the length proposed before
-         call control%accept(h_try, error_estimate)
          h = merge(max(h, h_try), h_try, landing)
          if (landing) then
             if (next_point == size(points)) exit
@@ -108,13 +114,71 @@ contains
             outcome%breaking_points = outcome%breaking_points + 1
             fresh = .true.
          end if
+         if (other) then
+            call change_method(problem, step)
+            control = controller_type()
+            outcome%switches = outcome%switches + 1
+            longest = longest_step(problem, step, options)
+         end if
       end do
 
       outcome%t = now%hi
       outcome%y = step%y
       outcome%evaluations = step%evaluations
+      outcome%factorisations = step%factorisations()
       if (outcome%reason /= reached_end) call explain(outcome, t_end, h_try, options, error)
    end subroutine integrate
+
+   !> A step of the method asked for.
+   subroutine choose_method(problem, method, step)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Name of the method
+      character(len=*), intent(in) :: method
+      !> Its step
+      class(step_type), allocatable, intent(out) :: step
+
+      select case (method)
+      case ("radau5")
+         allocate (step, source=implicit_step_type(problem, 3))
+      case ("radau9")
+         allocate (step, source=implicit_step_type(problem, 5))
+      case ("radau13")
+         allocate (step, source=implicit_step_type(problem, 7))
+      case default
+         allocate (step, source=explicit_step_type(problem))
+      end select
+   end subroutine choose_method
+
+   !> The longest step allowed: an explicit one ends before its delayed values lie in it.
+   pure function longest_step(problem, step, options) result(longest)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The step
+      class(step_type), intent(in) :: step
+      !> Limits
+      type(integration_options), intent(in) :: options
+      real(wp) :: longest
+
+      longest = options%longest_step
+      if (.not. step%implicit) longest = minval([longest, problem%lag])
+   end function longest_step
+
+   !> The other method takes over where the step stands.
+   subroutine change_method(problem, step)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The step, advanced; replaced by one of the other method
+      class(step_type), allocatable, intent(inout) :: step
+      class(step_type), allocatable :: other
+
+      call choose_method(problem, merge("explicit", "radau9  ", step%implicit), other)
+      other%y = step%y
+      other%slope = step%slope
+      other%evaluations = step%evaluations
+      other%factorised_before = step%factorisations()
+      call move_alloc(other, step)
+   end subroutine change_method
 
    !> Hand the dense output of an accepted step to the history and to the sampler, as far as they
    !> want it.
@@ -122,7 +186,7 @@ contains
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> The step, accepted and complete
-      type(explicit_step_type), intent(inout) :: step
+      class(step_type), intent(inout) :: step
       !> The past, facing this step
       type(history_type), intent(inout) :: past
       !> Start of the step
@@ -149,34 +213,34 @@ contains
       !> The past
       type(history_type), intent(inout) :: past
       !> The step, extended
-      type(explicit_step_type), intent(in) :: step
+      class(step_type), intent(in) :: step
       !> Start of the step
       type(instant), intent(in) :: start
-      real(wp) :: coefficients(0:explicit_degree, size(past%kept))
+      real(wp) :: coefficients(0:size(step%nodes), size(past%kept))
       integer :: i
 
       do i = 1, size(past%kept)
-         coefficients(:, i) = step%interpolant(past%kept(i))
+         call step%interpolant(past%kept(i), coefficients(:, i))
       end do
-      call past%append(start, step%h, coefficients)
+      call past%append(start, step%h, step%nodes, coefficients)
    end subroutine remember
 
    !> Passages through a delay after which a kink at the origin no longer shows: one more when a
    !> delayed component jumps there.
-   pure integer function passages(problem, t_start, y) result(count)
+   pure integer function passages(problem, step, t_start) result(value)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
+      !> The step at the first instant
+      class(step_type), intent(in) :: step
       !> First instant
       real(wp), intent(in) :: t_start
-      !> State there
-      real(wp), intent(in) :: y(:)
       integer :: k
 
-      count = explicit_order
+      value = step%order
       do k = 1, size(problem%lag)
          associate (component => problem%component(k))
-            if (abs(problem%history(t_start, component) - y(component)) > 0.0_wp) then
-               count = explicit_order + 1
+            if (abs(problem%history(t_start, component) - step%y(component)) > 0.0_wp) then
+               value = step%order + 1
                return
             end if
          end associate
@@ -211,22 +275,22 @@ contains
       !> Receiver
       class(sampler_type), intent(inout) :: sampler
       !> The step
-      type(explicit_step_type), intent(in) :: step
+      class(step_type), intent(in) :: step
       !> Its start
       type(instant), intent(in) :: start
       !> Its end
       type(instant), intent(in) :: step_end
-      real(wp) :: coefficients(0:explicit_degree, size(sampler%wanted))
+      real(wp) :: coefficients(0:size(step%nodes), size(sampler%wanted))
       real(wp) :: values(size(sampler%wanted)), s
       integer :: i
 
       do i = 1, size(values)
-         coefficients(:, i) = step%interpolant(sampler%wanted(i))
+         call step%interpolant(sampler%wanted(i), coefficients(:, i))
       end do
       do while (elapsed(instant_at(sampler%next), step_end) >= 0.0_wp)
          s = elapsed(start, instant_at(sampler%next))/step%h
          do i = 1, size(values)
-            values(i) = newton_value(explicit_nodes, coefficients(:, i), s)
+            values(i) = newton_value(step%nodes, coefficients(:, i), s)
          end do
          call sampler%take(values)
       end do

@@ -25,14 +25,18 @@ module dde_outcome
       real(wp) :: t = 0.0_wp
       !> State there, shape (n)
       real(wp), allocatable :: y(:)
-      !> Name of the method used
-      character(len=8) :: method = ""
       !> Steps accepted
       integer(int64) :: accepted = 0
       !> Steps rejected
       integer(int64) :: rejected = 0
       !> Right-hand sides evaluated
       integer(int64) :: evaluations = 0
+      !> Matrices factorised
+      integer(int64) :: factorisations = 0
+      !> Accepted steps that were implicit
+      integer(int64) :: implicit_steps = 0
+      !> Changes of method
+      integer(int64) :: switches = 0
       !> Breaking points landed on
       integer :: breaking_points = 0
    end type integration_result

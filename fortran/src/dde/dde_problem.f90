@@ -25,6 +25,8 @@ module dde_problem
       procedure(past_value), deferred :: history
       !> Right-hand side f(t, y, z)
       procedure(right_hand_side), deferred :: rhs
+      !> Derivatives of f by y and z; by differences unless the extension gives them
+      procedure :: jacobian => difference_jacobian
    end type dde_problem_type
 
    abstract interface
@@ -67,4 +69,40 @@ module dde_problem
          real(wp), intent(out) :: dydt(self%n)
       end subroutine right_hand_side
    end interface
+
+contains
+
+   !> Derivatives of the right-hand side by y and z, by forward differences.
+   pure subroutine difference_jacobian(self, t, y, z, by_y, by_z)
+      !> The problem
+      class(dde_problem_type), intent(in) :: self
+      !> Time
+      real(wp), intent(in) :: t
+      !> State, shape (n)
+      real(wp), intent(in) :: y(self%n)
+      !> Delayed values, shape (size(lag))
+      real(wp), intent(in) :: z(size(self%lag))
+      !> Derivatives by y, shape (n, n)
+      real(wp), intent(out) :: by_y(self%n, self%n)
+      !> Derivatives by z, shape (n, size(lag))
+      real(wp), intent(out) :: by_z(self%n, size(self%lag))
+      real(wp) :: f(self%n), moved_y(self%n), moved_z(size(self%lag)), step
+      integer :: j
+
+      call self%rhs(t, y, z, f)
+      do j = 1, self%n
+         moved_y = y
+         moved_y(j) = y(j) + sqrt(epsilon(1.0_wp))*max(1.0e-5_wp, abs(y(j)))
+         step = moved_y(j) - y(j)
+         call self%rhs(t, moved_y, z, by_y(:, j))
+         by_y(:, j) = (by_y(:, j) - f)/step
+      end do
+      do j = 1, size(z)
+         moved_z = z
+         moved_z(j) = z(j) + sqrt(epsilon(1.0_wp))*max(1.0e-5_wp, abs(z(j)))
+         step = moved_z(j) - z(j)
+         call self%rhs(t, y, moved_z, by_z(:, j))
+         by_z(:, j) = (by_z(:, j) - f)/step
+      end do
+   end subroutine difference_jacobian
 end module dde_problem

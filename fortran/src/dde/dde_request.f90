@@ -9,7 +9,8 @@ module dde_request
    public :: check, integration_options
 
    !> Methods to choose from.
-   character(len=8), parameter :: methods(2) = ["auto    ", "explicit"]
+   character(len=8), parameter :: methods(5) = ["auto    ", "explicit", "radau5  ", "radau9  ", &
+                                                "radau13 "]
 
    !> What a caller may choose.
    type :: integration_options

@@ -3,7 +3,8 @@ module hopf_input
    use errors, only: error_type
    use hopf_planes, only: curve_plane, tau_of_epsilon, xi_of_epsilon
    use kinds, only: wp
-   use namelist_input, only: check_choice, check_number, not_given, open_namelist, close_namelist
+   use namelist_input, only: check_choice, check_number, close_namelist, not_given, &
+                             open_namelist, word_length
    implicit none (type, external)
    private
    public :: hopf_settings, read_plane
@@ -14,7 +15,7 @@ module hopf_input
    !> A plane as the namelist gives it; all nondimensional.
    type :: hopf_settings
       !> 'tau' or 'xi'
-      character(len=3) :: ordinate = ""
+      character(len=word_length) :: ordinate = ""
       !> Value of the other of the two
       real(wp) :: fixed
       !> Frequency of the block

@@ -1,17 +1,22 @@
 !> What all namelists share: opening the file and refusing values out of range in words.
 module namelist_input
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan, ieee_quiet_nan, ieee_value
    use errors, only: error_type, raise, text
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: check_choice, check_count, check_number, not_given, open_namelist, close_namelist
+   public :: check_choice, check_count, check_number, close_namelist, not_given, open_namelist
+   public :: word_length
+
+   !> Length of a word in a namelist: far above any that is allowed, so that one too long is met and
+   !> refused instead of cut.
+   integer, parameter :: word_length = 256
 
 contains
 
    !> What a real key holds before it is read: no number, so that a missing key is refused.
    real(wp) function not_given() result(value)
-      value = ieee_value(value, ieee_quiet_nan)
+      value = ieee_value(1.0_wp, ieee_quiet_nan)
    end function not_given
 
    !> Open a namelist file for reading.
@@ -96,10 +101,9 @@ contains
          range = range//" <= "//text(at_most)
          if (fine) fine = value <= at_most
       end if
-      if (.not. fine) then
-         call raise(error, place//": "//key//" = "//text(value)//"; expected "//range &
-                    //" (NaN: missing, or not a number)")
-      end if
+      if (fine) return
+      if (ieee_is_nan(value)) range = range//" (NaN: missing, or not a number)"
+      call raise(error, place//": "//key//" = "//text(value)//"; expected "//range)
    end subroutine check_number
 
    !> Refuse a count below its least value; keep an earlier error.

@@ -61,7 +61,7 @@ contains
       call self%attribute("compiler", compiler_version())
    end subroutine create
 
-   !> Keep the first error.
+   !> Keep the first error and leave nothing behind.
    subroutine note(self, status)
       !> The file
       class(output_file), intent(inout) :: self
@@ -70,6 +70,7 @@ contains
 
       if (status == nf90_noerr .or. allocated(self%error)) return
       call raise(self%error, self%path//": cannot write: "//trim(nf90_strerror(status)))
+      call self%discard()
    end subroutine note
 
    !> Define a dimension.
@@ -220,16 +221,12 @@ contains
       !> First error met
       type(error_type), allocatable, intent(out) :: error
 
+      if (.not. allocated(self%error)) call self%note(nf90_close(self%id))
       if (.not. allocated(self%error)) then
-         call self%note(nf90_close(self%id))
-         if (.not. allocated(self%error)) then
-            call rename_file(self%path//unfinished, self%path, self%error)
-         end if
+         call rename_file(self%path//unfinished, self%path, self%error)
+         if (allocated(self%error)) call remove_file(self%path//unfinished)
       end if
-      if (allocated(self%error)) then
-         allocate (error, source=self%error)
-         call self%discard()
-      end if
+      if (allocated(self%error)) allocate (error, source=self%error)
    end subroutine finish
 
    !> Leave nothing behind.

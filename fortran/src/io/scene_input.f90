@@ -1,8 +1,9 @@
 !> A scene: one parameter set of the delayed block, from the namelist group &scene.
 module scene_input
-   use errors, only: error_type
+   use errors, only: error_type, raise, text
    use kinds, only: wp
-   use namelist_input, only: check_choice, check_number, not_given, open_namelist, close_namelist
+   use namelist_input, only: check_choice, check_number, close_namelist, not_given, open_namelist, &
+                             word_length
    implicit none (type, external)
    private
    public :: read_scene, scene_type, variable_names
@@ -10,7 +11,13 @@ module scene_input
    !> Variables that a scene can store.
    character(len=5), parameter :: variable_names(3) = ["theta", "u    ", "v    "]
    !> Methods that a scene can ask for.
-   character(len=8), parameter :: methods(2) = ["auto    ", "explicit"]
+   character(len=8), parameter :: methods(5) = ["auto    ", "explicit", "radau5  ", "radau9  ", &
+                                                "radau13 "]
+   !> Longest name of a scene.
+   integer, parameter :: longest_name = 64
+
+   !> Most samples: indices in NetCDF's Fortran interface have 32 bits.
+   real(wp), parameter :: most_samples = 2.0e9_wp
 
    !> Constant values for t <= 0, nondimensional.
    type :: history_values
@@ -25,7 +32,7 @@ module scene_input
    !> One parameter set; all nondimensional.
    type :: scene_type
       !> Name of the scene
-      character(len=64) :: name = ""
+      character(len=word_length) :: name = ""
       !> Delay
       real(wp) :: tau
       !> Sensitivity of the velocity relaxation
@@ -44,10 +51,10 @@ module scene_input
       real(wp) :: sample_interval
       !> Relative and absolute tolerance of one step
       real(wp) :: tolerance
-      !> 'auto' or 'explicit'
-      character(len=8) :: method = ""
+      !> One of `methods`
+      character(len=word_length) :: method = ""
       !> Variables to store, blank where there are fewer
-      character(len=5) :: variables(3) = ""
+      character(len=word_length) :: variables(3) = ""
    end type scene_type
 
 contains
@@ -74,9 +81,7 @@ contains
       type(scene_type), intent(out) :: filled
       !> It cannot be read
       type(error_type), allocatable, intent(out) :: error
-      character(len=64) :: name
-      character(len=8) :: method
-      character(len=5) :: variables(3)
+      character(len=word_length) :: name, method, variables(3)
       type(history_values) :: history
       real(wp) :: tau, epsilon, xi, gamma, t_end, t_transient, sample_interval, tolerance
       character(len=256) :: reason
@@ -114,6 +119,10 @@ contains
       type(error_type), allocatable, intent(out) :: error
       integer :: i
 
+      if (len_trim(scene%name) == 0 .or. len_trim(scene%name) > longest_name) then
+         call raise(error, place//": name of "//text(len_trim(scene%name)) &
+                    //" letters; expected 1 to "//text(longest_name))
+      end if
       call check_number(error, place, "tau", scene%tau, at_least=0.0_wp)
       call check_number(error, place, "epsilon", scene%epsilon, above=-1.0_wp)
       call check_number(error, place, "xi", scene%xi, above=0.0_wp)
@@ -128,11 +137,18 @@ contains
                         at_most=scene%t_end)
       call check_number(error, place, "tolerance", scene%tolerance, at_least=1.0e-13_wp, &
                         at_most=1.0e-2_wp)
+      if (.not. allocated(error)) then
+         call check_number(error, place, "number of samples t_end/sample_interval", &
+                           scene%t_end/scene%sample_interval, at_most=most_samples)
+      end if
       call check_choice(error, place, "method", scene%method, methods)
       call check_choice(error, place, "variables", scene%variables(1), variable_names)
       do i = 2, size(scene%variables)
-         if (scene%variables(i) /= "") then
-            call check_choice(error, place, "variables", scene%variables(i), variable_names)
+         if (allocated(error) .or. scene%variables(i) == "") cycle
+         call check_choice(error, place, "variables", scene%variables(i), variable_names)
+         if (any(scene%variables(:i - 1) == scene%variables(i))) then
+            call raise(error, place//": variables = '"//trim(scene%variables(i)) &
+                       //"' twice; expected each once")
          end if
       end do
    end subroutine check_scene

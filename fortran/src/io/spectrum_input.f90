@@ -1,9 +1,9 @@
 !> What a spectrum is made from and how, from the namelist group &spectrum.
 module spectrum_input
-   use errors, only: error_type
+   use errors, only: error_type, raise
    use kinds, only: wp
-   use namelist_input, only: check_choice, check_count, check_number, not_given, open_namelist, &
-                             close_namelist
+   use namelist_input, only: check_choice, check_count, check_number, close_namelist, &
+                             not_given, open_namelist, word_length
    implicit none (type, external)
    private
    public :: read_spectrum_settings, spectrum_settings
@@ -16,7 +16,7 @@ module spectrum_input
       !> Trajectory file to read
       character(len=4096) :: trajectory = ""
       !> 'hann' or 'boxcar'
-      character(len=6) :: window = ""
+      character(len=word_length) :: window = ""
       !> Number of Welch segments
       integer :: segments = 0
       !> Share of a segment that the next one repeats
@@ -39,6 +39,9 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       call read_group(path, settings, error)
+      if (.not. allocated(error) .and. settings%trajectory == "") then
+         call raise(error, path//": trajectory = ''; expected the path of a trajectory file")
+      end if
       call check_choice(error, path, "window", settings%window, windows)
       call check_count(error, path, "segments", settings%segments, at_least=1)
       call check_number(error, path, "overlap", settings%overlap, at_least=0.0_wp, below=1.0_wp)

@@ -1,5 +1,6 @@
 !> Reading a trajectory file back.
 module trajectory_input
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use errors, only: error_type, raise
    use kinds, only: wp
    use netcdf, only: nf90_close, nf90_get_att, nf90_get_var, nf90_global, nf90_inq_dimid, &
@@ -49,6 +50,11 @@ contains
          call check(nf90_inquire_dimension(file, dimension, len=length), "dimension 'time'")
          allocate (trajectory%samples(length))
          call check(nf90_get_var(file, id, trajectory%samples), "variable '"//variable//"'")
+      end if
+      if (.not. allocated(error)) then
+         if (.not. all(ieee_is_finite(trajectory%samples))) then
+            call raise(error, path//": variable '"//variable//"' holds values that are not finite")
+         end if
       end if
       status = nf90_close(file)
 

@@ -1,6 +1,7 @@
 !> The spring block with delayed friction, equations (3) and (4) of the paper as corrected (see the
 !> README, "What differs from the paper"). All quantities are nondimensional.
 module spring_block
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde, only: dde_problem_type
    use kinds, only: wp
    implicit none (type, external)
@@ -13,6 +14,9 @@ module spring_block
    integer, parameter :: index_of_u = 2
    !> Place of w = ln v: in w no step can leave the domain v > 0.
    integer, parameter :: index_of_ln_v = 3
+
+   !> Beyond this exp(w) or gamma^2 exp(-w) would overflow; no solution comes near it.
+   real(wp), parameter :: largest_ln_v = 600.0_wp
 
    !> The block with its parameters; all nondimensional.
    type, extends(dde_problem_type) :: spring_block_type
@@ -28,6 +32,7 @@ module spring_block
       procedure :: initial => state_at_zero
       procedure :: history => constant_history
       procedure :: rhs => equation_4
+      procedure :: jacobian => derivatives_of_4
    end type spring_block_type
 
    interface spring_block_type
@@ -105,6 +110,10 @@ contains
       real(wp) :: delayed_w, v
 
       associate (theta => y(index_of_theta), u => y(index_of_u), w => y(index_of_ln_v))
+         if (abs(w) > largest_ln_v) then
+            dydt = ieee_value(1.0_wp, ieee_quiet_nan)
+            return
+         end if
          delayed_w = w
          if (size(z) > 0) delayed_w = z(1)
          v = exp(w)
@@ -113,4 +122,39 @@ contains
          dydt(index_of_ln_v) = -self%gamma**2/v*(u + (theta + w)/self%xi)
       end associate
    end subroutine equation_4
+
+   !> Derivatives of (4) by theta, u, w and by w(t - tau).
+   pure subroutine derivatives_of_4(self, t, y, z, by_y, by_z)
+      !> The block
+      class(spring_block_type), intent(in) :: self
+      !> Time, without influence
+      real(wp), intent(in) :: t
+      !> theta, u, w
+      real(wp), intent(in) :: y(self%n)
+      !> w(t - tau), or nothing
+      real(wp), intent(in) :: z(size(self%lag))
+      !> Derivatives by theta, u, w
+      real(wp), intent(out) :: by_y(self%n, self%n)
+      !> Derivatives by w(t - tau)
+      real(wp), intent(out) :: by_z(self%n, size(self%lag))
+      real(wp) :: stiffness, v
+
+      associate (theta => y(index_of_theta), u => y(index_of_u), w => y(index_of_ln_v))
+         v = exp(w)
+         stiffness = self%gamma**2/v
+         by_y = 0.0_wp
+         by_y(index_of_theta, index_of_theta) = -v
+         by_y(index_of_u, index_of_ln_v) = v
+         by_y(index_of_ln_v, index_of_theta) = -stiffness/self%xi
+         by_y(index_of_ln_v, index_of_u) = -stiffness
+         by_y(index_of_ln_v, index_of_ln_v) = stiffness*(u + (theta + w - 1.0_wp)/self%xi)
+         if (size(z) > 0) then
+            by_y(index_of_theta, index_of_ln_v) = -v*(theta + (1.0_wp + self%epsilon)*z(1))
+            by_z = 0.0_wp
+            by_z(index_of_theta, 1) = -v*(1.0_wp + self%epsilon)
+         else
+            by_y(index_of_theta, index_of_ln_v) = -v*(theta + (1.0_wp + self%epsilon)*(w + 1.0_wp))
+         end if
+      end associate
+   end subroutine derivatives_of_4
 end module spring_block

@@ -1,0 +1,165 @@
+!> The face that all step methods share: given the state, a step and the past, a new state, an error
+!> estimate and an interpolant. The integrator does not ask which method it is.
+module dde_step
+   use dde_history, only: history_type
+   use dde_problem, only: dde_problem_type
+   use kinds, only: int64, wp
+   implicit none (type, external)
+   private
+   public :: step_type
+
+   !> One step of some method.
+   type, abstract :: step_type
+      !> Name of the method
+      character(len=8) :: name = ""
+      !> Order of the method
+      integer :: order = 0
+      !> Power of the step length that the error estimate falls with
+      integer :: error_order = 0
+      !> Whether the method is implicit: steps may then be longer than the shortest delay
+      logical :: implicit = .false.
+      !> Newton nodes of its interpolant
+      real(wp), allocatable :: nodes(:)
+      !> State at the start of the step, shape (n)
+      real(wp), allocatable :: y(:)
+      !> State at its end, shape (n)
+      real(wp), allocatable :: y_new(:)
+      !> Slope at the start of the step, shape (n)
+      real(wp), allocatable :: slope(:)
+      !> Delayed values at one place, shape (number of delayed values)
+      real(wp), allocatable :: z(:)
+      !> Start of the step as an ordinary number
+      real(wp) :: t = 0.0_wp
+      !> Length of the step
+      real(wp) :: h = 0.0_wp
+      !> Share of the ideal length that the next step should have
+      real(wp) :: safety = 0.9_wp
+      !> A ratio of lengths between 1 and this does not pay a change of length
+      real(wp) :: hold = 1.0_wp
+      !> Whether step control should foresee the error from the last two (predictive control)
+      logical :: predictive = .false.
+      !> Right-hand sides evaluated so far
+      integer(int64) :: evaluations = 0
+      !> Matrices factorised before this method took over
+      integer(int64) :: factorised_before = 0
+   contains
+      !> Evaluate the slope at the start
+      procedure :: restart
+      !> Forget what was learnt before the start
+      procedure :: reset
+      !> Matrices factorised so far
+      procedure :: factorisations
+      !> Try a step
+      procedure(try_step), deferred :: attempt
+      !> What an accepted step still owes the next one
+      procedure(finish_step), deferred :: complete
+      !> What only its interpolant needs
+      procedure(finish_step), deferred :: extend
+      !> Interpolant of one component over an accepted, extended step
+      procedure(dense_output), deferred :: interpolant
+      !> Estimate of the largest rate of change near the end of an accepted, complete step
+      procedure(rate), deferred :: stiffness
+      !> Make the end of an accepted step the start of the next
+      procedure(next_step), deferred :: advance
+   end type step_type
+
+   abstract interface
+      !> Try the step of length `h` from t; `error` is the estimate in units of the tolerance (step
+      !> good when <= 1), huge where an iteration failed, not finite where an evaluation was not.
+      pure subroutine try_step(self, problem, past, t, h, relative, absolute, error)
+         import :: dde_problem_type, history_type, step_type, wp
+         implicit none (type, external)
+         !> The step
+         class(step_type), intent(inout) :: self
+         !> The problem
+         class(dde_problem_type), intent(in) :: problem
+         !> The past, facing this step
+         type(history_type), intent(inout) :: past
+         !> Start of the step
+         real(wp), intent(in) :: t
+         !> Length of the step
+         real(wp), intent(in) :: h
+         !> Relative tolerance
+         real(wp), intent(in) :: relative
+         !> Absolute tolerance
+         real(wp), intent(in) :: absolute
+         !> Estimated error in units of the tolerance
+         real(wp), intent(out) :: error
+      end subroutine try_step
+
+      !> Evaluate what an accepted step still owes.
+      pure subroutine finish_step(self, problem, past)
+         import :: dde_problem_type, history_type, step_type
+         implicit none (type, external)
+         !> The step
+         class(step_type), intent(inout) :: self
+         !> The problem
+         class(dde_problem_type), intent(in) :: problem
+         !> The past, facing this step
+         type(history_type), intent(inout) :: past
+      end subroutine finish_step
+
+      !> Interpolant of one component over an accepted and extended step, before `advance`.
+      pure subroutine dense_output(self, i, a)
+         import :: step_type, wp
+         implicit none (type, external)
+         !> The step
+         class(step_type), intent(in) :: self
+         !> Which component
+         integer, intent(in) :: i
+         !> Newton coefficients over `nodes`
+         real(wp), intent(out) :: a(0:)
+      end subroutine dense_output
+
+      !> Estimate of the spectral radius of the Jacobian, free of evaluations.
+      pure function rate(self) result(value)
+         import :: step_type, wp
+         implicit none (type, external)
+         !> The step
+         class(step_type), intent(in) :: self
+         real(wp) :: value
+      end function rate
+
+      !> The end of an accepted step becomes the start of the next.
+      pure subroutine next_step(self)
+         import :: step_type
+         implicit none (type, external)
+         !> The step
+         class(step_type), intent(inout) :: self
+      end subroutine next_step
+   end interface
+
+contains
+
+   !> Evaluate the slope at the start of the step that `past` faces.
+   pure subroutine restart(self, problem, past, t)
+      !> The step
+      class(step_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The past, facing this step
+      type(history_type), intent(inout) :: past
+      !> Start of the step
+      real(wp), intent(in) :: t
+
+      if (size(self%z) > 0) call past%values(problem, 0.0_wp, self%z)
+      call problem%rhs(t, self%y, self%z, self%slope)
+      self%evaluations = self%evaluations + 1
+      call self%reset()
+   end subroutine restart
+
+   !> Nothing is learnt by a method that does not say so.
+   pure subroutine reset(self)
+      !> The step
+      class(step_type), intent(inout) :: self
+   end subroutine reset
+
+   !> Only implicit methods factorise.
+   pure function factorisations(self) result(count)
+      !> The step
+      class(step_type), intent(in) :: self
+      integer(int64) :: count
+
+      count = self%factorised_before
+   end function factorisations
+end module dde_step

@@ -1,0 +1,71 @@
+!> The Hopf curves in closed form, apart from the pipeline's own formulas: with
+!> B = xi (gamma^2 - omega^2)/(gamma^2 omega),
+!>
+!>     1 + epsilon = sqrt((1 + omega^2)(1 + B^2)),   omega tau = atan B - atan omega + 2 pi k.
+module closed_form
+   use kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: closed_epsilon, closed_tau, closed_xi
+
+   !> One turn.
+   real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
+
+contains
+
+   !> epsilon of the pair i omega.
+   elemental real(wp) function closed_epsilon(omega, xi, gamma) result(epsilon)
+      !> Frequency of the pair, > 0
+      real(wp), intent(in) :: omega
+      !> Spring constant
+      real(wp), intent(in) :: xi
+      !> Frequency of the block
+      real(wp), intent(in) :: gamma
+
+      epsilon = sqrt((1.0_wp + omega**2)*(1.0_wp + ratio(omega, xi, gamma)**2)) - 1.0_wp
+   end function closed_epsilon
+
+   !> Delay of the pair on branch k; no delay where it is negative.
+   elemental real(wp) function closed_tau(omega, xi, gamma, k) result(tau)
+      !> Frequency of the pair, > 0
+      real(wp), intent(in) :: omega
+      !> Spring constant
+      real(wp), intent(in) :: xi
+      !> Frequency of the block
+      real(wp), intent(in) :: gamma
+      !> Branch
+      integer, intent(in) :: k
+
+      tau = (atan(ratio(omega, xi, gamma)) - atan(omega) + turn*k)/omega
+   end function closed_tau
+
+   !> Spring constant of the pair on branch k at a given delay; -1 where there is none.
+   elemental real(wp) function closed_xi(omega, tau, gamma, k) result(xi)
+      !> Frequency of the pair, > 0, not gamma
+      real(wp), intent(in) :: omega
+      !> Delay
+      real(wp), intent(in) :: tau
+      !> Frequency of the block
+      real(wp), intent(in) :: gamma
+      !> Branch
+      integer, intent(in) :: k
+      real(wp) :: angle
+
+      xi = -1.0_wp
+      angle = omega*tau + atan(omega) - turn*k
+      if (abs(angle) < 0.25_wp*turn) xi = tan(angle)*gamma**2*omega/(gamma**2 - omega**2)
+      if (.not. xi > 0.0_wp) xi = -1.0_wp
+   end function closed_xi
+
+   !> B.
+   elemental real(wp) function ratio(omega, xi, gamma) result(b)
+      !> Frequency of the pair, > 0
+      real(wp), intent(in) :: omega
+      !> Spring constant
+      real(wp), intent(in) :: xi
+      !> Frequency of the block
+      real(wp), intent(in) :: gamma
+
+      b = xi*(gamma**2 - omega**2)/(gamma**2*omega)
+   end function ratio
+end module closed_form

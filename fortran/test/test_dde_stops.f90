@@ -1,0 +1,148 @@
+!> Why an integration ends, and that time and state say how far it came.
+module test_dde_stops
+   use, intrinsic :: ieee_arithmetic, only: ieee_get_halting_mode, ieee_invalid, &
+                                            ieee_set_halting_mode
+   use dde, only: integrate, integration_options, integration_result, reached_end, &
+                  step_underflow, too_many_steps, value_not_finite
+   use errors, only: failure_type => error_type
+   use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
+   use kinds, only: int64, wp
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use solving, only: at_tolerance
+   use test_problems, only: blow_up, falls_out, oscillator, without_delays
+   implicit none (type, external)
+   private
+   public :: collect_dde_stops
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_dde_stops(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("end reached", test_reached_end), &
+                   new_unittest("step underflow", test_step_underflow), &
+                   new_unittest("too many steps", test_too_many_steps), &
+                   new_unittest("just enough steps", test_enough_steps), &
+                   new_unittest("value not finite", test_value_not_finite), &
+                   new_unittest("value not finite from the start", test_not_finite_at_start)]
+   end subroutine collect_dde_stops
+
+   !> A good end: t_end itself, the state there, no error.
+   subroutine test_reached_end(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+
+      call integrate(swing(), 0.0_wp, 7.3_wp, at_tolerance(1.0e-11_wp), outcome, failure)
+      call expect_success(error, failure)
+      call expect(error, outcome%reason == reached_end, "the reason is `reached_end`")
+      call expect_close(error, outcome%t, 7.3_wp, 0.0_wp, "t")
+      call expect_close(error, outcome%y, [cos(7.3_wp), -sin(7.3_wp)], 1.0e-10_wp, "y")
+      call expect(error, outcome%implicit_steps == 0, "no step is implicit")
+   end subroutine test_reached_end
+
+   !> y = 1/(1 - t) has no value at t = 1: the step shrinks until it cannot move time.
+   subroutine test_step_underflow(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(blow_up) :: problem
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+
+      problem = blow_up(n=1, past=[1.0_wp], first=[1.0_wp])
+      call without_delays(problem)
+      call integrate(problem, 0.0_wp, 2.0_wp, at_tolerance(1.0e-9_wp), outcome, failure)
+      call expect(error, outcome%reason == step_underflow, "the reason is `step_underflow`")
+      call expect_failure(error, failure, "stopped at t = 1.0 of 2.0")
+      call expect_failure(error, failure, "the step had to shrink")
+      call expect_close(error, outcome%t, 1.0_wp, 1.0e-8_wp, "t")
+      call expect_between(error, outcome%y(1), 1.0e15_wp, huge(1.0_wp), "y")
+   end subroutine test_step_underflow
+
+   !> The steps run out: time and state belong together.
+   subroutine test_too_many_steps(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_options) :: options
+      type(integration_result) :: outcome
+
+      options = at_tolerance(1.0e-11_wp)
+      options%first_step = 3.0_wp
+      options%most_steps = 20_int64
+      call integrate(swing(), 0.0_wp, 1000.0_wp, options, outcome, failure)
+      call expect(error, outcome%reason == too_many_steps, "the reason is `too_many_steps`")
+      call expect_failure(error, failure, "20 steps (most_steps)")
+      call expect(error, outcome%rejected > 0, "some steps were rejected")
+      call expect(error, outcome%accepted + outcome%rejected == 20, "20 steps were tried")
+      call expect_between(error, outcome%t, 1.0_wp, 60.0_wp, "t")
+      call expect_close(error, outcome%y, [cos(outcome%t), -sin(outcome%t)], 1.0e-9_wp, "y")
+   end subroutine test_too_many_steps
+
+   !> As many steps as are needed suffice, one less does not.
+   subroutine test_enough_steps(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_options) :: options
+      type(integration_result) :: outcome
+
+      options%first_step = 3.0_wp
+      call integrate(swing(), 0.0_wp, 10.0_wp, options, outcome, failure)
+      options%most_steps = outcome%accepted + outcome%rejected
+      call integrate(swing(), 0.0_wp, 10.0_wp, options, outcome, failure)
+      call expect_success(error, failure)
+      options%most_steps = options%most_steps - 1
+      call integrate(swing(), 0.0_wp, 10.0_wp, options, outcome, failure)
+      call expect(error, outcome%reason == too_many_steps, "the reason is `too_many_steps`")
+      call expect_failure(error, failure, "(most_steps)")
+   end subroutine test_enough_steps
+
+   !> y = t up to t = 1, and no number beyond: it comes as near as steps can be short.
+   subroutine test_value_not_finite(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      logical :: trapping
+
+      call ieee_get_halting_mode(ieee_invalid, trapping)
+      call ieee_set_halting_mode(ieee_invalid, .false.)
+      call integrate(edge(first=0.0_wp), 0.0_wp, 2.0_wp, at_tolerance(1.0e-9_wp), outcome, failure)
+      call ieee_set_halting_mode(ieee_invalid, trapping)
+      call expect(error, outcome%reason == value_not_finite, "the reason is `value_not_finite`")
+      call expect_failure(error, failure, "stopped at t = 1.0 of 2.0")
+      call expect_failure(error, failure, "not finite")
+      call expect_close(error, outcome%t, 1.0_wp, 1.0e-12_wp, "t")
+      call expect_close(error, outcome%y, [outcome%t], 1.0e-12_wp, "y")
+   end subroutine test_value_not_finite
+
+   !> Where not even the first slope is a number, it stays at the start.
+   subroutine test_not_finite_at_start(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      logical :: trapping
+
+      call ieee_get_halting_mode(ieee_invalid, trapping)
+      call ieee_set_halting_mode(ieee_invalid, .false.)
+      call integrate(edge(first=5.0_wp), 3.0_wp, 4.0_wp, at_tolerance(1.0e-9_wp), outcome, failure)
+      call ieee_set_halting_mode(ieee_invalid, trapping)
+      call expect(error, outcome%reason == value_not_finite, "the reason is `value_not_finite`")
+      call expect_failure(error, failure, "stopped at t = 3.0 of 4.0 after 0 steps")
+      call expect_close(error, outcome%t, 3.0_wp, 0.0_wp, "t")
+      call expect_close(error, outcome%y, [5.0_wp], 0.0_wp, "y")
+   end subroutine test_not_finite_at_start
+
+   !> y' = 1 up to t = 1, no number after.
+   pure type(falls_out) function edge(first) result(problem)
+      !> y at the start
+      real(wp), intent(in) :: first
+
+      problem = falls_out(n=1, past=[first], first=[first])
+      call without_delays(problem)
+   end function edge
+
+   !> An oscillator.
+   pure type(oscillator) function swing() result(problem)
+      problem = oscillator(n=2, past=[1.0_wp, 0.0_wp], first=[1.0_wp, 0.0_wp])
+      call without_delays(problem)
+   end function swing
+end module test_dde_stops

@@ -1,0 +1,159 @@
+!> Response of friction to velocity steps against the exact solution of (1.2),
+!> theta = Dc/v + (theta_0 - Dc/v) exp(-v t/Dc), with (1.1).
+module test_friction
+   use dde, only: integration_result, integrate
+   use errors, only: failure_type => error_type
+   use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
+   use friction_law, only: friction_coefficient, friction_parameters, state_evolution, steady_state
+   use kinds, only: wp
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use solving, only: at_tolerance
+   use velocity_step, only: friction_response, respond, step_protocol
+   implicit none (type, external)
+   private
+   public :: collect_friction
+
+   !> Samples in each phase.
+   integer, parameter :: n = 50
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_friction(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("friction coefficient", test_coefficient), &
+                   new_unittest("rest of the state", test_steady_state), &
+                   new_unittest("exact response", test_exact), &
+                   new_unittest("continuity", test_continuity), &
+                   new_unittest("direct and evolution effect", test_effects), &
+                   new_unittest("bad tolerance", test_bad_tolerance)]
+   end subroutine collect_friction
+
+   !> Equation (1.1) by hand.
+   subroutine test_coefficient(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      associate (law => law_of_figure())
+         call expect_close(error, friction_coefficient(law, 1.0e-6_wp, 10.0_wp), &
+                           0.6_wp + 0.005_wp*log(2.0_wp), 1.0e-15_wp, "mu at v0")
+         call expect_close(error, friction_coefficient(law, 4.0e-6_wp, 30.0_wp), &
+                           0.6_wp - 0.01_wp*log(1.25_wp) + 0.015_wp*log(4.0_wp), 1.0e-15_wp, "mu")
+         call expect_close(error, friction_coefficient(law, 1.0e20_wp, 0.0_wp), 0.6_wp, &
+                           1.0e-15_wp, "mu0")
+      end associate
+   end subroutine test_coefficient
+
+   !> At Dc/v the state stays, whatever else the law says.
+   subroutine test_steady_state(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      real(wp) :: rest
+
+      rest = steady_state(law_of_figure(), 4.0e-6_wp)
+      call expect_close(error, rest, 2.5_wp, 1.0e-15_wp, "Dc/v")
+      call integrate(state_evolution(law_of_figure(), 4.0e-6_wp, rest), 0.0_wp, 100.0_wp, &
+                     at_tolerance(1.0e-10_wp), outcome, failure)
+      call expect_success(error, failure)
+      call expect_close(error, outcome%y, [2.5_wp], 1.0e-14_wp, "state")
+   end subroutine test_steady_state
+
+   !> Time, slip, velocity, state and friction of all three phases: steady slip at v0 = 1 um/s over
+   !> 3 Dc, at 10 um/s over 9 Dc, and at v0 again.
+   subroutine test_exact(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(friction_response) :: response
+      real(wp) :: after_step_up, exact(3*n), time(3*n), slip(3*n), velocity(3*n)
+      real(wp) :: part(n)
+      integer :: i
+
+      call respond_as_in_figure(response, error)
+      part = [(i/(n - 1.0_wp), i=0, n - 1)]
+      time = [30.0_wp*part, 30.0_wp + 9.0_wp*part, 39.0_wp + 90.0_wp*part]
+      slip = 1.0e-5_wp*[3.0_wp*part, 3.0_wp + 9.0_wp*part, 12.0_wp + 9.0_wp*part]
+      velocity = [(1.0e-6_wp, i=1, n), (1.0e-5_wp, i=1, n), (1.0e-6_wp, i=1, n)]
+      after_step_up = 1.0_wp + 9.0_wp*exp(-9.0_wp)
+      exact = [(10.0_wp, i=1, n), 1.0_wp + 9.0_wp*exp(-9.0_wp*part), &
+               10.0_wp + (after_step_up - 10.0_wp)*exp(-9.0_wp*part)]
+      call expect_close(error, response%time, time, 1.0e-12_wp, "time")
+      call expect_close(error, response%slip/1.0e-5_wp, slip/1.0e-5_wp, 1.0e-12_wp, "slip over Dc")
+      call expect_close(error, response%velocity/1.0e-6_wp, velocity/1.0e-6_wp, 1.0e-14_wp, &
+                        "velocity over v0")
+      call expect_close(error, response%theta, exact, 2.0e-9_wp, "theta")
+      call expect_close(error, response%mu, 0.6_wp - 0.01_wp*log(1.0e-6_wp/velocity + 1.0_wp) &
+                        + 0.015_wp*log(exact/10.0_wp + 1.0_wp), 1.0e-11_wp, "mu")
+   end subroutine test_exact
+
+   !> At the steps the velocity jumps while state, slip and time do not.
+   subroutine test_continuity(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(friction_response) :: response
+      integer, parameter :: last(2) = [n, 2*n]
+
+      call respond_as_in_figure(response, error)
+      if (allocated(error)) return
+      call expect_close(error, response%theta(last + 1), response%theta(last), 1.0e-14_wp, "theta")
+      call expect_close(error, response%slip(last + 1), response%slip(last), 1.0e-19_wp, "slip")
+      call expect_close(error, response%time(last + 1), response%time(last), 1.0e-13_wp, "time")
+      call expect(error, response%velocity(n + 1) > response%velocity(n), "a step up")
+      call expect(error, response%velocity(2*n + 1) < response%velocity(2*n), "a step down")
+   end subroutine test_continuity
+
+   !> Friction jumps with the velocity by A ln(2/(v0/v + 1)), then evolves the other way, and
+   !> further since B > A.
+   subroutine test_effects(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(friction_response) :: response
+      real(wp), parameter :: direct = 0.01_wp*log(2.0_wp/1.1_wp)
+
+      call respond_as_in_figure(response, error)
+      if (allocated(error)) return
+      associate (mu => response%mu)
+         call expect_close(error, mu(n + 1) - mu(n), direct, 1.0e-13_wp, "jump at the step up")
+         call expect_close(error, mu(2*n + 1) - mu(2*n), -direct, 1.0e-13_wp, &
+                           "jump at the step down")
+         call expect(error, all(mu(n + 2:2*n) < mu(n + 1:2*n - 1)), "friction falls after step up")
+         call expect(error, all(mu(2*n + 2:) > mu(2*n + 1:3*n - 1)), "and rises after step down")
+         call expect_between(error, mu(2*n), 0.6_wp, mu(n), "friction at high velocity")
+      end associate
+   end subroutine test_effects
+
+   !> What the solver refuses is handed on.
+   subroutine test_bad_tolerance(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(friction_response) :: response
+      type(step_protocol) :: protocol
+
+      protocol = protocol_of_figure()
+      protocol%tolerance = -1.0_wp
+      call respond(protocol, response, failure)
+      call expect_failure(error, failure, "relative = -1.0")
+   end subroutine test_bad_tolerance
+
+   !> The response drawn in Figure 8.
+   subroutine respond_as_in_figure(response, error)
+      !> The response
+      type(friction_response), intent(out) :: response
+      !> The first failure of the test
+      type(error_type), allocatable, intent(inout) :: error
+      type(failure_type), allocatable :: failure
+
+      call respond(protocol_of_figure(), response, failure)
+      call expect_success(error, failure)
+      call expect(error, size(response%mu) == 3*n, "as many samples as asked for")
+   end subroutine respond_as_in_figure
+
+   !> Its protocol.
+   pure type(step_protocol) function protocol_of_figure() result(protocol)
+      protocol = step_protocol(law=law_of_figure(), delta_v=9.0e-6_wp, slip_before=3.0_wp, &
+                               slip_after=9.0_wp, samples=n, tolerance=1.0e-10_wp)
+   end function protocol_of_figure
+
+   !> Its law.
+   pure type(friction_parameters) function law_of_figure() result(law)
+      law = friction_parameters(mu0=0.6_wp, a=0.01_wp, b=0.015_wp, dc=1.0e-5_wp, v0=1.0e-6_wp, &
+                                b_state=10.0_wp)
+   end function law_of_figure
+end module test_friction

@@ -1,0 +1,259 @@
+!> Characteristic function and Hopf condition: equation (5) against the determinant of the block's
+!> own linearisation, (6) to (10) against the curves in closed form.
+module test_hopf
+   use characteristic_function, only: block_parameters, delta, delta_by_s, delta_by_tau, &
+                                      relative_residual
+   use closed_form, only: closed_epsilon, closed_tau
+   use errors, only: text
+   use expectations, only: expect, expect_between, expect_close
+   use hopf_condition, only: hopf_epsilon, hopf_tau, hopf_xi, printed_tau
+   use kinds, only: wp
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use pseudo_random, only: uniform
+   use spring_block, only: spring_block_type
+   implicit none (type, external)
+   private
+   public :: collect_hopf
+
+   !> Number of random points.
+   integer, parameter :: points = 200
+   !> One turn.
+   real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_hopf(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("equation (5) from the block", test_linearisation), &
+                   new_unittest("derivatives of (5)", test_derivatives), &
+                   new_unittest("residual", test_residual), &
+                   new_unittest("curves in closed form", test_closed_form), &
+                   new_unittest("roots on the curves", test_roots), &
+                   new_unittest("xi from tau", test_xi), &
+                   new_unittest("Hopf point without delay", test_no_delay), &
+                   new_unittest("equation (10) as printed", test_printed)]
+   end subroutine collect_hopf
+
+   !> Delta(s) is the determinant of s - A0 - A1 exp(-s tau), with the matrices taken from the
+   !> right-hand side of the block by differences.
+   subroutine test_linearisation(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(block_parameters) :: p
+      type(spring_block_type) :: block
+      complex(wp) :: matrix(3, 3), s
+      real(wp), parameter :: small = 1.0e-5_wp
+      real(wp) :: after(3), before(3), shift(4)
+      integer :: i, j
+
+      do i = 1, points
+         call random_point(i, p, s)
+         block = spring_block_type(p%tau, p%epsilon, p%xi, p%gamma, 0.0_wp, 0.0_wp, 1.0_wp)
+         matrix = 0.0_wp
+         do j = 1, 4
+            shift = 0.0_wp
+            shift(j) = small
+            call block%rhs(0.0_wp, shift(:3), shift(4:4), after)
+            call block%rhs(0.0_wp, -shift(:3), -shift(4:4), before)
+            associate (column => merge(3, j, j == 4), weight => merge(exp(-s*p%tau), &
+                                                                      (1.0_wp, 0.0_wp), j == 4))
+               matrix(:, column) = matrix(:, column) - weight*(after - before)/(2.0_wp*small)
+            end associate
+         end do
+         do j = 1, 3
+            matrix(j, j) = matrix(j, j) + s
+         end do
+         call expect_close(error, abs(delta(p, s) - determinant(matrix))/size_of(p, s), 0.0_wp, &
+                           1.0e-8_wp, "relative misfit at point "//text(i))
+      end do
+   end subroutine test_linearisation
+
+   !> Derivatives by s and by tau against differences of fourth order.
+   subroutine test_derivatives(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(block_parameters) :: p
+      complex(wp) :: by_differences, s
+      real(wp), parameter :: h = 2.0e-3_wp
+      integer :: i
+
+      do i = 1, points
+         call random_point(i, p, s)
+         by_differences = (8.0_wp*(delta(p, s + h) - delta(p, s - h)) &
+                           - (delta(p, s + 2.0_wp*h) - delta(p, s - 2.0_wp*h)))/(12.0_wp*h)
+         call expect_close(error, abs(delta_by_s(p, s) - by_differences)/size_of(p, s), 0.0_wp, &
+                           1.0e-7_wp, "misfit of the derivative by s at point "//text(i))
+         by_differences = (8.0_wp*(at_tau(h) - at_tau(-h)) &
+                           - (at_tau(2.0_wp*h) - at_tau(-2.0_wp*h)))/(12.0_wp*h)
+         call expect_close(error, abs(delta_by_tau(p, s) - by_differences)/size_of(p, s), 0.0_wp, &
+                           1.0e-9_wp, "misfit of the derivative by tau at point "//text(i))
+      end do
+
+   contains
+
+      !> Delta at a neighbouring delay.
+      complex(wp) function at_tau(shift) result(value)
+         !> Difference of delays
+         real(wp), intent(in) :: shift
+         type(block_parameters) :: neighbour
+
+         neighbour = p
+         neighbour%tau = p%tau + shift
+         value = delta(neighbour, s)
+      end function at_tau
+   end subroutine test_derivatives
+
+   !> By hand: at s = 1 with xi = gamma = 1, epsilon = tau = 0 the terms are 1, 2, 2, 1 and -1; at a
+   !> root there is no residual.
+   subroutine test_residual(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(block_parameters) :: p
+
+      call expect_close(error, relative_residual(p, (1.0_wp, 0.0_wp)), 2.5_wp, 1.0e-15_wp, &
+                        "residual")
+      p%epsilon = 0.5_wp
+      call expect_close(error, relative_residual(p, cmplx(0.0_wp, sqrt(0.5_wp), kind=wp)), 0.0_wp, &
+                        1.0e-15_wp, "residual of a root")
+   end subroutine test_residual
+
+   !> epsilon and tau over omega, for soft and stiff blocks, on four branches.
+   subroutine test_closed_form(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: x(3)
+      integer :: i, k
+
+      do i = 1, points
+         x = random_omega(i)
+         associate (omega => x(1), xi => x(2), gamma => x(3))
+            call expect_close(error, (1.0_wp + hopf_epsilon(omega, xi, gamma)) &
+                              /(1.0_wp + closed_epsilon(omega, xi, gamma)), 1.0_wp, 1.0e-13_wp, &
+                              "1 + epsilon over its closed form, point "//text(i))
+            do k = 0, 3
+               call expect_close(error, omega*hopf_tau(omega, xi, gamma, k), &
+                                 omega*closed_tau(omega, xi, gamma, k), 1.0e-12_wp, &
+                                 "omega tau of branch "//text(k)//", point "//text(i))
+            end do
+         end associate
+      end do
+   end subroutine test_closed_form
+
+   !> i omega is a root of (5) at the epsilon and tau of every branch.
+   subroutine test_roots(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(block_parameters) :: p
+      real(wp) :: x(3)
+      integer :: i, k
+
+      do i = 1, points
+         x = random_omega(i)
+         do k = 0, 3
+            p = block_parameters(tau=hopf_tau(x(1), x(2), x(3), k), xi=x(2), gamma=x(3), &
+                                 epsilon=hopf_epsilon(x(1), x(2), x(3)))
+            call expect_between(error, relative_residual(p, cmplx(0.0_wp, x(1), kind=wp)), 0.0_wp, &
+                                1.0e-13_wp, "residual of branch "//text(k)//", point "//text(i))
+         end do
+      end do
+   end subroutine test_roots
+
+   !> Equation (9) gives back the xi from which (10) gave tau.
+   subroutine test_xi(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: x(3)
+      integer :: i, k
+
+      do i = 1, points
+         x = random_omega(i)
+         associate (omega => x(1), xi => x(2), gamma => x(3))
+            do k = 0, 3
+               call expect_close(error, hopf_xi(omega, hopf_tau(omega, xi, gamma, k), gamma)/xi, &
+                                 1.0_wp, 1.0e-9_wp, "xi over xi, point "//text(i))
+            end do
+         end associate
+      end do
+   end subroutine test_xi
+
+   !> At tau = 0 the cubic has a pair i omega where, after Routh and Hurwitz, epsilon
+   !> = gamma^2 xi/(xi + gamma^2) and omega^2 is the same; it lies on branch 0.
+   subroutine test_no_delay(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: omega, x(3)
+      integer :: i
+
+      do i = 1, points
+         x = random_omega(i)
+         associate (xi => x(2), gamma => x(3), epsilon => x(3)**2*x(2)/(x(2) + x(3)**2))
+            omega = sqrt(epsilon)
+            call expect_close(error, hopf_epsilon(omega, xi, gamma)/epsilon, 1.0_wp, 1.0e-11_wp, &
+                              "epsilon without delay over the known one")
+            call expect_close(error, hopf_tau(omega, xi, gamma, 0), 0.0_wp, 1.0e-12_wp, "tau")
+         end associate
+      end do
+   end subroutine test_no_delay
+
+   !> (10) as printed, by hand at xi = gamma = 1, and its residual: nowhere a root.
+   subroutine test_printed(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(block_parameters) :: p
+      real(wp) :: omega
+      integer :: i
+
+      call expect_close(error, printed_tau(1.0_wp, 1.0_wp, 1.0_wp, 1), turn - atan(2.0_wp), &
+                        1.0e-14_wp, "printed tau at omega = 1")
+      call expect_close(error, printed_tau(2.0_wp, 1.0_wp, 1.0_wp, 3), &
+                        0.5_wp*(atan(2.0_wp) + 3.0_wp*turn), 1.0e-14_wp, &
+                        "printed tau at omega = 2")
+      do i = 1, 20
+         omega = 0.1_wp*i
+         p = block_parameters(tau=printed_tau(omega, 0.5_wp, 0.8_wp, 1), xi=0.5_wp, gamma=0.8_wp, &
+                              epsilon=hopf_epsilon(omega, 0.5_wp, 0.8_wp))
+         call expect_between(error, relative_residual(p, cmplx(0.0_wp, omega, kind=wp)), &
+                             1.0e-3_wp, 2.0_wp, "residual as printed at omega = "//text(omega))
+      end do
+   end subroutine test_printed
+
+   !> Random parameters and a random place beside the imaginary axis.
+   pure subroutine random_point(i, p, s)
+      !> Number of the point
+      integer, intent(in) :: i
+      !> Parameters
+      type(block_parameters), intent(out) :: p
+      !> Place
+      complex(wp), intent(out) :: s
+      real(wp) :: x(6)
+
+      x = uniform(i, 6, 0.1_wp, 2.0_wp)
+      p = block_parameters(tau=2.0_wp*x(1), epsilon=x(2) - 1.0_wp, xi=x(3), gamma=x(4))
+      s = cmplx(x(5) - 1.0_wp, 2.0_wp*x(6) - 2.0_wp, kind=wp)
+   end subroutine random_point
+
+   !> Random omega in 0.05..3, xi and gamma in 0.1..10.
+   pure function random_omega(i) result(x)
+      !> Number of the point
+      integer, intent(in) :: i
+      real(wp) :: x(3)
+
+      x = uniform(i, 3, 0.0_wp, 1.0_wp)
+      x = [0.05_wp + 2.95_wp*x(1), 10.0_wp**(2.0_wp*x(2) - 1.0_wp), 10.0_wp**(2.0_wp*x(3) - 1.0_wp)]
+   end function random_omega
+
+   !> Size of the terms of Delta(s).
+   pure real(wp) function size_of(p, s) result(value)
+      !> Parameters
+      type(block_parameters), intent(in) :: p
+      !> Place
+      complex(wp), intent(in) :: s
+
+      value = 1.0_wp + abs(s)**3 + (1.0_wp + p%gamma**2*(1.0_wp + abs(s))*(1.0_wp + 1.0_wp/p%xi)) &
+              *(1.0_wp + abs(s))*max(1.0_wp, exp(-real(s)*p%tau))
+   end function size_of
+
+   !> Determinant of three by three.
+   pure complex(wp) function determinant(m) result(value)
+      !> The matrix
+      complex(wp), intent(in) :: m(3, 3)
+
+      value = m(1, 1)*(m(2, 2)*m(3, 3) - m(2, 3)*m(3, 2)) &
+              - m(1, 2)*(m(2, 1)*m(3, 3) - m(2, 3)*m(3, 1)) &
+              + m(1, 3)*(m(2, 1)*m(3, 2) - m(2, 2)*m(3, 1))
+   end function determinant
+end module test_hopf

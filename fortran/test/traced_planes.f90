@@ -1,0 +1,124 @@
+!> Planes of Hopf curves as traced, and what is known of them in closed form.
+module traced_planes
+   use closed_form, only: closed_epsilon, closed_tau, closed_xi
+   use errors, only: failure_type => error_type, text
+   use expectations, only: expect, expect_success
+   use hopf_curves, only: curve_point, trace_curves
+   use hopf_planes, only: curve_plane, tau_of_epsilon, xi_of_epsilon
+   use kinds, only: wp
+   use mctc_env_testing, only: error_type
+   implicit none (type, external)
+   private
+   public :: closed_delta, known_point, place_of, planes, root_near, trace, traced_plane
+
+   !> Number of planes.
+   integer, parameter :: planes = 6
+
+   !> A plane and what was traced in it.
+   type :: traced_plane
+      !> The plane
+      class(curve_plane), allocatable :: plane
+      !> Points of all pieces
+      type(curve_point), allocatable :: points(:)
+   end type traced_plane
+
+contains
+
+   !> Trace plane number i: Figures 2 and 3, loops that leave the window on their way, a short
+   !> delay, pieces up to the largest omega there can be, and branches up to the highest.
+   subroutine trace(i, traced, error)
+      !> Number of the plane
+      integer, intent(in) :: i
+      !> The plane and its curves
+      type(traced_plane), intent(out) :: traced
+      !> The first failure of the test
+      type(error_type), allocatable, intent(inout) :: error
+      type(failure_type), allocatable :: failure
+
+      select case (i)
+      case (1)
+         traced%plane = tau_of_epsilon(0.8_wp, [0.0_wp, 1.5_wp], [0.0_wp, 30.0_wp], 0.5_wp)
+      case (2)
+         traced%plane = xi_of_epsilon(0.8_wp, [0.0_wp, 1.5_wp], [1.0e-3_wp, 2.0_wp], 12.0_wp)
+      case (3)
+         traced%plane = tau_of_epsilon(0.8_wp, [0.3_wp, 1.2_wp], [2.0_wp, 28.0_wp], 0.5_wp)
+      case (4)
+         traced%plane = xi_of_epsilon(2.0_wp, [-0.5_wp, 2.0_wp], [0.1_wp, 3.0_wp], 3.0_wp)
+      case (5)
+         traced%plane = tau_of_epsilon(0.75_wp, [0.0_wp, 0.25_wp], [0.0_wp, 30.0_wp], 0.5_wp)
+      case default
+         traced%plane = tau_of_epsilon(1.0_wp, [0.0_wp, 1.5_wp], [0.0_wp, 30.0_wp], 0.01_wp)
+      end select
+      call trace_curves(traced%plane, traced%points, failure)
+      call expect_success(error, failure)
+      call expect(error, size(traced%points) > 100, "there are points in plane "//text(i))
+   end subroutine trace
+
+   !> (epsilon, ordinate) of branch k at omega in closed form.
+   pure function known_point(plane, omega, k) result(point)
+      !> The plane
+      class(curve_plane), intent(in) :: plane
+      !> Frequency of the pair
+      real(wp), intent(in) :: omega
+      !> Branch
+      integer, intent(in) :: k
+      real(wp) :: point(2)
+
+      point = -10.0_wp
+      select type (plane)
+      type is (tau_of_epsilon)
+         point = [closed_epsilon(omega, plane%xi, plane%gamma), &
+                  closed_tau(omega, plane%xi, plane%gamma, k)]
+      type is (xi_of_epsilon)
+         point(2) = closed_xi(omega, plane%tau, plane%gamma, k)
+         if (point(2) > 0.0_wp) point(1) = closed_epsilon(omega, point(2), plane%gamma)
+      end select
+   end function known_point
+
+   !> The same in units of the window.
+   pure function place_of(plane, point) result(place)
+      !> The plane
+      class(curve_plane), intent(in) :: plane
+      !> epsilon and ordinate
+      real(wp), intent(in) :: point(2)
+      real(wp) :: place(2)
+
+      associate (least => [plane%epsilon_window(1), plane%ordinate_window(1)], &
+                 most => [plane%epsilon_window(2), plane%ordinate_window(2)])
+         place = (point - least)/(most - least)
+      end associate
+   end function place_of
+
+   !> Equation (5) as the product (s + 1)(s^2 + s gamma^2/xi + gamma^2) less its delayed term.
+   pure complex(wp) function closed_delta(point, tau, s) result(value)
+      !> Parameters but the delay
+      type(curve_point), intent(in) :: point
+      !> Delay
+      real(wp), intent(in) :: tau
+      !> Place
+      complex(wp), intent(in) :: s
+
+      associate (p => point%parameters, rate => point%parameters%gamma**2/point%parameters%xi)
+         value = (s + 1.0_wp)*(s**2 + s*rate + p%gamma**2) - s*(1.0_wp + p%epsilon)*rate*exp(-s*tau)
+      end associate
+   end function closed_delta
+
+   !> The characteristic root near a point's i omega at another delay, by Newton's method.
+   complex(wp) function root_near(point, tau) result(s)
+      !> The point
+      type(curve_point), intent(in) :: point
+      !> The delay
+      real(wp), intent(in) :: tau
+      complex(wp) :: slope
+      integer :: i
+
+      s = cmplx(0.0_wp, point%omega, kind=wp)
+      do i = 1, 6
+         associate (p => point%parameters, rate => point%parameters%gamma**2/point%parameters%xi)
+            slope = s**2 + s*rate + p%gamma**2 + (s + 1.0_wp)*(2.0_wp*s + rate) &
+                    - (1.0_wp - s*tau)*(1.0_wp + p%epsilon)*rate*exp(-s*tau)
+         end associate
+         s = s - closed_delta(point, tau, s)/slope
+      end do
+   end function root_near
+end module traced_planes
