@@ -23,7 +23,8 @@ LIBRARIES = {
     "dde": {"ieee_arithmetic"},
     "analysis": {"iso_c_binding"},
     "io": {"ieee_arithmetic", "iso_fortran_env", "netcdf"},
-    "base": {"iso_fortran_env"},
+    "base": {"ieee_arithmetic", "iso_fortran_env"},
+    "model": {"ieee_arithmetic"},
 }
 """For each floor: modules of others that it may use."""
 WITHOUT_ONLY = {("fftw", "iso_c_binding"), ("dde_explicit_step", "dde_dop853_tableau")}

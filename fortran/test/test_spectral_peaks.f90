@@ -98,7 +98,7 @@ contains
 
       call expect_bins(error, [9.0_wp, 1.0_wp, 2.0_wp, 7.0_wp, 7.0_wp, 2.0_wp, 0.1_wp, 3.0_wp], &
                        1.0e-6_wp, 2.0_wp, [4])
-      call expect_bins(error, [0.0_wp, 5.0_wp, 1.0_wp, 9.0_wp, 1.0_wp, 0.5_wp], 1.0e-6_wp, 2.0_wp, &
+      call expect_bins(error, [0.0_wp, 5.0_wp, 1.0_wp, 9.0_wp, 1.0_wp, 0.5_wp], 1.0e-6_wp, 1.0_wp, &
                        [4])
       call expect_bins(error, [9.0_wp, 8.0_wp, 3.0_wp, 2.0_wp, 1.0_wp, 0.5_wp], 1.0e-6_wp, 2.0_wp, &
                        [integer ::])

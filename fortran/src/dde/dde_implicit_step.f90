@@ -3,21 +3,18 @@
 !> the history.
 module dde_implicit_step
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
-   use dde_collocation, only: divide_differences, lagrange_weights, shape_bump
+   use dde_collocation, only: divide_differences, shape_bump
    use dde_history, only: history_type
-   use dde_interpolant, only: newton_value
    use dde_norm, only: scaled_norm
    use dde_problem, only: dde_problem_type
    use dde_radau_tableau, only: radau_iia, radau_tableau
-   use dde_stage_systems, only: stage_systems
+   use dde_stage_iteration, only: stage_iteration
    use dde_step, only: step_type
    use kinds, only: int64, wp
    implicit none (type, external)
    private
    public :: implicit_step_type
 
-   !> Iterations allowed: this many, and more for each stage above three.
-   real(wp), parameter :: iterations_of_three = 7.0_wp, iterations_per_stage = 2.5_wp
    !> Contraction below which the Jacobian serves another step.
    real(wp), parameter :: good_contraction = 1.0e-3_wp
    !> Ratio of step lengths up to which it pays to keep length and factors.
@@ -33,16 +30,8 @@ module dde_implicit_step
       real(wp) :: bump_slope = 0.0_wp
       !> Derivatives of the right-hand side by y and z, shapes (n, n) and (n, delayed values)
       real(wp), allocatable :: by_y(:, :), by_z(:, :)
-      !> Systems of the iteration
-      type(stage_systems) :: systems
-      !> Increments Y - y at the stages, and their transforms, shape (n, stages)
-      real(wp), allocatable :: increments(:, :), transforms(:, :)
-      !> Slopes at the stages, shape (n, stages)
-      real(wp), allocatable :: slopes(:, :)
-      !> Delayed values at the stages, shape (delayed values, stages)
-      real(wp), allocatable :: delayed(:, :)
-      !> Place of each stage's delayed values in this step, in units of h; <= 0 in the past
-      real(wp), allocatable :: own_place(:, :)
+      !> Stages of the step and the iteration that finds them
+      type(stage_iteration) :: stages
       !> Newton coefficients of the increments over this and the last accepted step, (0:stages, n)
       real(wp), allocatable :: differences(:, :), last_differences(:, :)
       !> Length of the last accepted step; 0 when its polynomial says nothing on this one
@@ -51,11 +40,6 @@ module dde_implicit_step
       real(wp), allocatable :: error_vector(:)
       !> Whether the Jacobian belongs to the start of this step, and whether it still serves
       logical :: jacobian_fresh = .false., jacobian_serves = .false.
-      !> Contraction theta of the last iteration
-      real(wp) :: contraction = 1.0_wp
-      !> What is left after a correction, over the correction: theta/(1 - theta), or a guess that
-      !> loses trust with each step that did not measure it
-      real(wp) :: remainder = 1.0_wp
    contains
       procedure :: reset
       procedure :: factorisations
@@ -65,7 +49,7 @@ module dde_implicit_step
       procedure :: interpolant
       procedure :: stiffness
       procedure :: advance
-      procedure, private :: place_delays, prepare, predict, iterate, slopes_at_stages, estimate
+      procedure, private :: prepare, estimate
    end type implicit_step_type
 
    interface implicit_step_type
@@ -95,10 +79,8 @@ contains
       step%nodes = [0.0_wp, step%method%c]
       allocate (step%y(n), step%y_new(n), step%slope(n), step%z(delays), step%error_vector(n))
       allocate (step%by_y(n, n), step%by_z(n, delays))
-      allocate (step%increments(n, stages), step%transforms(n, stages), step%slopes(n, stages))
-      allocate (step%delayed(delays, stages), step%own_place(delays, stages))
       allocate (step%differences(0:stages, n), step%last_differences(0:stages, n))
-      step%systems = stage_systems(step%method, n)
+      step%stages = stage_iteration(step%method, n, delays)
       call shape_bump(step%method%c, step%bump, step%bump_slope)
       call problem%initial(step%y)
    end function new_step
@@ -111,8 +93,7 @@ contains
       self%last_h = 0.0_wp
       self%jacobian_serves = .false.
       self%jacobian_fresh = .false.
-      self%contraction = 1.0_wp
-      self%remainder = 1.0_wp
+      call self%stages%forget()
    end subroutine reset
 
    !> Those of the systems and those before.
@@ -121,7 +102,7 @@ contains
       class(implicit_step_type), intent(in) :: self
       integer(int64) :: count
 
-      count = self%factorised_before + self%systems%factorisations
+      count = self%factorised_before + self%stages%systems%factorisations
    end function factorisations
 
    !> Try the step of length `h` from t.
@@ -151,12 +132,13 @@ contains
       ! this, errors come out near the tolerance, as they do with the explicit method
       asked = max(relative, absolute)**((self%method%stages + 1.0_wp)/(self%method%stages + 2.0_wp))
       scale = asked/max(relative, absolute)*(absolute + relative*abs(self%y))
-      call self%place_delays(problem, past)
+      call self%stages%place_delays(problem, past, self%method, h)
       call self%prepare(problem, past, singular)
       error = ieee_value(1.0_wp, ieee_quiet_nan)
       if (singular) return
-      call self%predict()
-      call self%iterate(problem, scale, asked, converged, finite)
+      call self%stages%start(self%method, self%last_differences, self%last_h, h)
+      call self%stages%iterate(problem, self%method, t, h, self%y, scale, asked, self%safety, &
+                               self%evaluations, converged, finite)
       if (converged) then
          call self%estimate(problem, scale, error)
       else if (finite) then
@@ -167,23 +149,6 @@ contains
       end if
       if (.not. self%jacobian_fresh) self%jacobian_serves = .false.
    end subroutine attempt
-
-   !> Delayed values of all stages, and where they lie in this very step.
-   pure subroutine place_delays(self, problem, past)
-      !> The step
-      class(implicit_step_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> The past, facing this step
-      type(history_type), intent(inout) :: past
-      integer :: i
-
-      if (size(problem%lag) == 0) return
-      do i = 1, self%method%stages
-         self%own_place(:, i) = self%method%c(i) - problem%lag/self%h
-         call past%values(problem, self%method%c(i)*self%h, self%delayed(:, i))
-      end do
-   end subroutine place_delays
 
    !> Jacobian and factors, as far as the last ones do not serve.
    pure subroutine prepare(self, problem, past, singular)
@@ -200,124 +165,20 @@ contains
       if (.not. self%jacobian_serves) then
          if (size(self%z) > 0) call past%values(problem, 0.0_wp, self%z)
          call problem%jacobian(self%t, self%y, self%z, self%by_y, self%by_z)
-         self%systems%h = 0.0_wp
+         self%stages%systems%h = 0.0_wp
          singular = .not. (all(ieee_is_finite(self%by_y)) .and. all(ieee_is_finite(self%by_z)))
          if (singular) return
          self%jacobian_serves = .true.
          self%jacobian_fresh = .true.
       end if
-      if (abs(self%systems%h - self%h) > 0.0_wp .or. self%systems%coupled &
-          .or. any(self%own_place > 0.0_wp)) then
-         call self%systems%prepare(self%method, self%h, self%by_y, self%by_z, problem%component, &
-                                   self%own_place, singular)
-      end if
+      associate (systems => self%stages%systems, own_place => self%stages%own_place)
+         if (abs(systems%h - self%h) > 0.0_wp .or. systems%coupled &
+             .or. any(own_place > 0.0_wp)) then
+            call systems%prepare(self%method, self%h, self%by_y, self%by_z, problem%component, &
+                                 own_place, singular)
+         end if
+      end associate
    end subroutine prepare
-
-   !> Start of the iteration: the last step's polynomial carried on, or no change.
-   pure subroutine predict(self)
-      !> The step
-      class(implicit_step_type), intent(inout) :: self
-      real(wp) :: ahead
-      integer :: i, k
-
-      self%increments = 0.0_wp
-      if (self%last_h > 0.0_wp) then
-         do i = 1, self%method%stages
-            ahead = 1.0_wp + self%method%c(i)*self%h/self%last_h
-            do k = 1, size(self%y)
-               self%increments(k, i) = newton_value(self%nodes(:self%method%stages), &
-                                                    self%last_differences(:, k), ahead) &
-                                       - newton_value(self%nodes(:self%method%stages), &
-                                                      self%last_differences(:, k), 1.0_wp)
-            end do
-         end do
-      end if
-      self%transforms = matmul(self%increments, transpose(self%method%t_inverse))
-   end subroutine predict
-
-   !> Simplified Newton iteration for the stage increments.
-   pure subroutine iterate(self, problem, scale, tolerance, converged, finite)
-      !> The step
-      class(implicit_step_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> Scale of each component
-      real(wp), intent(in) :: scale(:)
-      !> Tolerance of the error estimate
-      real(wp), intent(in) :: tolerance
-      !> Whether it converged
-      logical, intent(out) :: converged
-      !> Whether all evaluations were finite
-      logical, intent(out) :: finite
-      real(wp) :: change(size(scale), self%method%stages)
-      real(wp) :: last_norm, last_rate, limit, norm, rate, rounding
-      integer :: i, iteration, most
-
-      converged = .false.
-      most = int(iterations_of_three + (self%method%stages - 3)*iterations_per_stage)
-      limit = max(10.0_wp*epsilon(1.0_wp)/tolerance, min(0.03_wp, sqrt(tolerance)))
-      ! the stiff residual is a small difference of large numbers: below this all is rounding
-      rounding = 4.0_wp*epsilon(1.0_wp)*maxval(abs(self%y))/minval(scale)
-      self%remainder = max(self%remainder, epsilon(1.0_wp))**0.8_wp
-      last_norm = 0.0_wp
-      last_rate = 1.0_wp
-      do iteration = 1, most
-         call self%slopes_at_stages(problem, finite)
-         if (.not. finite) return
-         change = self%systems%correct(self%method, self%slopes, self%increments, self%transforms)
-         norm = scaled_norm(reshape(change, [size(change)]), [(scale, i=1, size(change, 2))])
-         finite = ieee_is_finite(norm)
-         if (.not. finite) return
-         if (iteration > 1) then
-            rate = norm/last_norm
-            self%contraction = merge(rate, sqrt(rate*last_rate), iteration == 2)
-            last_rate = rate
-            if (self%contraction < 0.99_wp) then
-               self%remainder = self%contraction/(1.0_wp - self%contraction)
-               if (self%remainder*norm*self%contraction**(most - 1 - iteration) > limit &
-                   .and. norm > rounding) exit
-            else if (norm > rounding) then
-               exit
-            end if
-         end if
-         last_norm = max(norm, epsilon(1.0_wp))
-         self%transforms = self%transforms + change
-         self%increments = matmul(self%transforms, transpose(self%method%t))
-         ! one correction alone is trusted only where it is no larger than the tolerance
-         if ((self%remainder*norm <= limit .and. (iteration > 1 .or. norm <= 1.0_wp)) &
-             .or. norm <= rounding) then
-            converged = .true.
-            exit
-         end if
-      end do
-      self%safety = 0.9_wp*(2*most + 1.0_wp)/(2*most + min(iteration, most))
-   end subroutine iterate
-
-   !> Slopes of all stages.
-   pure subroutine slopes_at_stages(self, problem, finite)
-      !> The step
-      class(implicit_step_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> Whether all are finite
-      logical, intent(out) :: finite
-      integer :: i, k
-
-      do i = 1, self%method%stages
-         do k = 1, size(problem%lag)
-            if (.not. self%own_place(k, i) > 0.0_wp) cycle
-            associate (component => problem%component(k))
-               self%delayed(k, i) = self%y(component) &
-                                    + sum(lagrange_weights(self%nodes, self%own_place(k, i)) &
-                                          *self%increments(component, :))
-            end associate
-         end do
-         call problem%rhs(self%t + self%method%c(i)*self%h, self%y + self%increments(:, i), &
-                          self%delayed(:, i), self%slopes(:, i))
-      end do
-      self%evaluations = self%evaluations + self%method%stages
-      finite = all(ieee_is_finite(self%slopes))
-   end subroutine slopes_at_stages
 
    !> Error of the embedded method of order s, filtered by the real system so that stiff components
    !> do not drown it (Hairer and Wanner 1996, eq. (IV.8.20)).
@@ -332,9 +193,9 @@ contains
       real(wp), intent(out) :: error
       real(wp) :: raw(size(scale))
 
-      raw = matmul(self%increments, self%method%e)/self%h
+      raw = matmul(self%stages%increments, self%method%e)/self%h
       self%error_vector = self%slope + raw
-      call self%systems%filter(self%error_vector)
+      call self%stages%systems%filter(self%error_vector)
       error = scaled_norm(self%error_vector, scale)
       if (error >= 1.0_wp .and. .not. self%last_h > 0.0_wp) then
          ! at a start, once more through the filter
@@ -342,11 +203,11 @@ contains
          self%evaluations = self%evaluations + 1
          if (all(ieee_is_finite(self%error_vector))) then
             self%error_vector = self%error_vector + raw
-            call self%systems%filter(self%error_vector)
+            call self%stages%systems%filter(self%error_vector)
             error = scaled_norm(self%error_vector, scale)
          end if
       end if
-      self%y_new = self%y + self%increments(:, self%method%stages)
+      self%y_new = self%y + self%stages%increments(:, self%method%stages)
       if (.not. all(ieee_is_finite([error, self%y_new]))) error = ieee_value(1.0_wp, ieee_quiet_nan)
    end subroutine estimate
 
@@ -362,7 +223,7 @@ contains
 
       do k = 1, problem%n
          self%differences(0, k) = 0.0_wp
-         self%differences(1:, k) = self%increments(k, :)
+         self%differences(1:, k) = self%stages%increments(k, :)
          call divide_differences(self%nodes, self%differences(:, k))
       end do
    end subroutine complete
@@ -406,11 +267,13 @@ contains
       !> The step
       class(implicit_step_type), intent(inout) :: self
 
-      self%slope = matmul(self%increments, self%systems%a_inverse(self%method%stages, :))/self%h
+      associate (stages => self%stages, last => self%method%stages)
+         self%slope = matmul(stages%increments, stages%systems%a_inverse(last, :))/self%h
+      end associate
       self%y = self%y_new
       self%last_differences = self%differences
       self%last_h = self%h
       self%jacobian_fresh = .false.
-      self%jacobian_serves = self%contraction <= good_contraction
+      self%jacobian_serves = self%stages%contraction <= good_contraction
    end subroutine advance
 end module dde_implicit_step
