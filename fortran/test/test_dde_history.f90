@@ -14,7 +14,7 @@ module test_dde_history
    public :: collect_dde_history
 
    !> Nodes of the polynomials of odd and of even steps.
-   real(wp), parameter :: odd_nodes(1) = [0.0_wp], even_nodes(3) = [0.0_wp, 1.0_wp, 0.0_wp]
+   real(wp), parameter :: odd_nodes(1) = [1.0_wp], even_nodes(3) = [0.0_wp, 1.0_wp, 0.0_wp]
    !> Places of a step in an order that goes forth and back.
    real(wp), parameter :: places(5) = [0.0_wp, 0.9_wp, 0.3_wp, 1.0_wp, 0.05_wp]
    !> Memory that counts as growth, in kibibytes.
@@ -201,7 +201,8 @@ contains
             end do
          end do
          if (modulo(i, 2) == 1) then
-            call past%append(now, length, odd_nodes, reshape([real(wp) :: i, 1, i, 1], [2, 2]))
+            call past%append(now, length, odd_nodes, &
+                             reshape([real(wp) :: i + 1, 1, i + 1, 1], [2, 2]))
          else
             call past%append(now, length, even_nodes, &
                              reshape([real(wp) :: i, 1, 0, 0, i, 1, 1, -2], [4, 2]))
