@@ -30,6 +30,7 @@ contains
                    new_unittest("ends without a number", test_end_not_finite), &
                    new_unittest("tolerances", test_tolerances), &
                    new_unittest("tolerances without a number", test_tolerances_not_finite), &
+                   new_unittest("first step", test_first_step), &
                    new_unittest("longest step", test_longest_step), &
                    new_unittest("method", test_method)]
    end subroutine collect_dde_refusals
@@ -160,6 +161,16 @@ contains
       call expect_refusal(error, good(), 2.0_wp, integration_options(absolute=not_a_number()), &
                           "absolute = NaN")
    end subroutine test_tolerances_not_finite
+
+   !> The first step is a number and not negative.
+   subroutine test_first_step(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call expect_refusal(error, good(), 2.0_wp, integration_options(first_step=-0.5_wp), &
+                          "first_step = -0.5")
+      call expect_refusal(error, good(), 2.0_wp, integration_options(first_step=not_a_number()), &
+                          "first_step = NaN")
+   end subroutine test_first_step
 
    !> The longest step is positive.
    subroutine test_longest_step(error)

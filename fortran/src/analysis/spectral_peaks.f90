@@ -13,7 +13,7 @@ module spectral_peaks
 
    !> A peak is the m-th multiple of the base frequency within this many bins, and as many more per
    !> m as interpolation may have misplaced the base.
-   real(wp), parameter :: bins_of_a_multiple = 1.0_wp, bins_of_the_base = 0.02_wp
+   real(wp), parameter :: bins_of_a_multiple = 0.5_wp, bins_of_the_base = 0.02_wp
    !> Half width, in bins, of a line through a Hann window.
    integer, parameter :: line_half_width = 4
 

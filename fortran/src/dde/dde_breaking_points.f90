@@ -8,7 +8,7 @@ module dde_breaking_points
    private
    public :: breaking_points
 
-   !> Points closer than this many spacings are one.
+   !> Points closer than this share of their distance from the origin are one.
    real(wp), parameter :: same_point = 16.0_wp*epsilon(1.0_wp)
 
 contains
@@ -32,17 +32,19 @@ contains
       do passage = 1, passages
          generation = [((later(generation(i), lag(k)), k=1, size(lag)), i=1, size(generation))]
          generation = pack(generation, elapsed(generation, finish) > 0.0_wp)
-         generation = distinct(generation)
+         generation = distinct(generation, origin)
          if (size(generation) == 0) exit
          points = [points, generation]
       end do
-      points = distinct(points)
+      points = distinct(points, origin)
    end function breaking_points
 
    !> The same points in ascending order, each once.
-   pure function distinct(points) result(unique)
+   pure function distinct(points, origin) result(unique)
       !> Points in any order
       type(instant), intent(in) :: points(:)
+      !> What their rounding is measured from
+      type(instant), intent(in) :: origin
       type(instant), allocatable :: unique(:)
       type(instant) :: moving
       integer :: count, i, j
@@ -60,7 +62,7 @@ contains
       end do
       count = min(1, size(unique))
       do i = 2, size(unique)
-         if (elapsed(unique(count), unique(i)) <= same_point*abs(unique(i)%hi)) cycle
+         if (elapsed(unique(count), unique(i)) <= same_point*elapsed(origin, unique(i))) cycle
          count = count + 1
          unique(count) = unique(i)
       end do

@@ -62,6 +62,9 @@ contains
       else if (.not. (options%relative >= 0.0_wp .and. options%absolute > 0.0_wp)) then
          call raise(error, "integrate: tolerances relative = "//text(options%relative) &
                     //", absolute = "//text(options%absolute)//"; >= 0 and > 0 expected")
+      else if (.not. (options%first_step >= 0.0_wp .and. ieee_is_finite(options%first_step))) then
+         call raise(error, "integrate: first_step = "//text(options%first_step) &
+                    //"; finite and >= 0 expected (0: chosen by the solver)")
       else if (.not. options%longest_step > 0.0_wp) then
          call raise(error, "integrate: longest_step = "//text(options%longest_step) &
                     //"; > 0 expected")
