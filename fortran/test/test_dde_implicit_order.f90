@@ -142,7 +142,7 @@ contains
                                  k=1, size(places))])
          end do
          associate (s => stages(i))
-            call expect_between(error, halvings(misfit), 2*s - 0.3_wp, 2*s + 0.6_wp, "step")
+            call expect_between(error, halvings(misfit), 2*s - 0.5_wp, 2*s + 0.6_wp, "step")
             call expect_between(error, halvings(inside), s + 1.7_wp, s + 2.6_wp, "inside")
             call expect_between(error, halvings(estimate), s + 0.7_wp, s + 1.6_wp, "estimate")
          end associate

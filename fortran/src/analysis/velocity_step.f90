@@ -54,8 +54,8 @@ contains
       real(wp) :: duration, slip, slip_start, theta, time_start, v
       integer :: i, phase
 
-      response = friction_response([real(wp) ::], [real(wp) ::], [real(wp) ::], [real(wp) ::], &
-                                   [real(wp) ::])
+      allocate (response%time(0), response%slip(0), response%velocity(0), response%theta(0), &
+                response%mu(0))
       time_start = 0.0_wp
       slip_start = 0.0_wp
       theta = steady_state(protocol%law, protocol%law%v0)
