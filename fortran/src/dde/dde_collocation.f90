@@ -3,7 +3,7 @@ module dde_collocation
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: divide_differences, lagrange_weights, shape_bump
+   public :: combined, divide_differences, lagrange_weights, shape_bump
 
 contains
 
@@ -36,6 +36,27 @@ contains
       call divide_differences(x, newton(0:s))
       newton(s + 1) = 1.0_wp/(s + 1)
    end subroutine shape_bump
+
+   !> Combinations of the stages' vectors: sum over j of matrix(i, j) times vector j, for each i.
+   pure function combined(n, stages, matrix, vectors) result(sums)
+      !> Number of equations
+      integer, intent(in) :: n
+      !> Number of stages
+      integer, intent(in) :: stages
+      !> Weights
+      real(wp), intent(in) :: matrix(stages, stages)
+      !> One vector a stage
+      real(wp), intent(in) :: vectors(n, stages)
+      real(wp) :: sums(n, stages)
+      integer :: i, j
+
+      do i = 1, stages
+         sums(:, i) = matrix(i, 1)*vectors(:, 1)
+         do j = 2, stages
+            sums(:, i) = sums(:, i) + matrix(i, j)*vectors(:, j)
+         end do
+      end do
+   end function combined
 
    !> Replace values at x by their divided differences.
    pure subroutine divide_differences(x, values)

@@ -9,6 +9,7 @@ module dde_implicit_step
    use dde_problem, only: dde_problem_type
    use dde_radau_tableau, only: radau_iia, radau_tableau
    use dde_stage_iteration, only: stage_iteration
+   use dde_stage_systems, only: correct_real
    use dde_step, only: step_type
    use kinds, only: int64, wp
    implicit none (type, external)
@@ -49,7 +50,7 @@ module dde_implicit_step
       procedure :: interpolant
       procedure :: stiffness
       procedure :: advance
-      procedure, private :: prepare, estimate
+      procedure, private :: confirm, estimate, prepare
    end type implicit_step_type
 
    interface implicit_step_type
@@ -139,10 +140,13 @@ contains
       call self%stages%start(self%method, self%last_differences, self%last_h, h)
       call self%stages%iterate(problem, self%method, t, h, self%y, scale, asked, self%safety, &
                                self%evaluations, converged, finite)
+      if (converged) call self%confirm(problem, scale, converged)
       if (converged) then
          call self%estimate(problem, scale, error)
-      else if (finite) then
-         error = huge(1.0_wp)
+      else
+         ! the last polynomial carried on may have been too far off to start from
+         self%last_h = 0.0_wp
+         if (finite) error = huge(1.0_wp)
       end if
       if (ieee_is_finite(error)) then
          if (error <= 1.0_wp) return
@@ -171,14 +175,44 @@ contains
          self%jacobian_serves = .true.
          self%jacobian_fresh = .true.
       end if
-      associate (systems => self%stages%systems, own_place => self%stages%own_place)
-         if (abs(systems%h - self%h) > 0.0_wp .or. systems%coupled &
-             .or. any(own_place > 0.0_wp)) then
+      associate (systems => self%stages%systems)
+         if (abs(systems%h - self%h) > 0.0_wp) then
             call systems%prepare(self%method, self%h, self%by_y, self%by_z, problem%component, &
-                                 own_place, singular)
+                                 self%stages%own_place, singular)
          end if
       end associate
    end subroutine prepare
+
+   !> Whether the last stage solves its equation by the Jacobian there too. Where the Jacobian of the
+   !> iteration is far too large, corrections are small without a solution.
+   pure subroutine confirm(self, problem, scale, confirmed)
+      !> The step, its iteration converged
+      class(implicit_step_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Scale of each component
+      real(wp), intent(in) :: scale(:)
+      !> The answer
+      logical, intent(out) :: confirmed
+      real(wp) :: by_y(problem%n, problem%n), by_z(problem%n, size(problem%lag))
+      real(wp) :: misfit(problem%n), y_end(problem%n)
+      logical :: singular
+
+      confirmed = .false.
+      associate (stages => self%stages, last => self%method%stages)
+         y_end = self%y + stages%increments(:, last)
+         call problem%rhs(self%t + self%h, y_end, stages%delayed(:, last), misfit)
+         self%evaluations = self%evaluations + 1
+         if (.not. all(ieee_is_finite(misfit))) return
+         misfit = misfit - stages%slope_at_end(self%h)
+         confirmed = scaled_norm(problem%n, self%h*misfit, scale) <= self%method%real_eigenvalue
+         if (confirmed) return
+         call problem%jacobian(self%t + self%h, y_end, stages%delayed(:, last), by_y, by_z)
+         if (.not. all(ieee_is_finite(by_y))) return
+         call correct_real(self%method, self%h, by_y, misfit, singular)
+         if (.not. singular) confirmed = scaled_norm(problem%n, misfit, scale) <= 1.0_wp
+      end associate
+   end subroutine confirm
 
    !> Error of the embedded method of order s, filtered by the real system so that stiff components
    !> do not drown it (Hairer and Wanner 1996, eq. (IV.8.20)).
@@ -267,9 +301,7 @@ contains
       !> The step
       class(implicit_step_type), intent(inout) :: self
 
-      associate (stages => self%stages, last => self%method%stages)
-         self%slope = matmul(stages%increments, stages%systems%a_inverse(last, :))/self%h
-      end associate
+      self%slope = self%stages%slope_at_end(self%h)
       self%y = self%y_new
       self%last_differences = self%differences
       self%last_h = self%h

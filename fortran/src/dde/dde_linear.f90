@@ -23,7 +23,7 @@ contains
    !> Factors of a real matrix.
    pure subroutine factorise_real(a, pivot, singular)
       !> Matrix, replaced by its factors, shape (n, n)
-      real(wp), intent(inout) :: a(:, :)
+      real(wp), contiguous, intent(inout) :: a(:, :)
       !> Rows exchanged, shape (n)
       integer, intent(out) :: pivot(:)
       !> Whether a pivot vanished
@@ -57,7 +57,7 @@ contains
    !> Factors of a complex matrix.
    pure subroutine factorise_complex(a, pivot, singular)
       !> Matrix, replaced by its factors, shape (n, n)
-      complex(wp), intent(inout) :: a(:, :)
+      complex(wp), contiguous, intent(inout) :: a(:, :)
       !> Rows exchanged, shape (n)
       integer, intent(out) :: pivot(:)
       !> Whether a pivot vanished
@@ -91,11 +91,11 @@ contains
    !> Solution of a factorised real system.
    pure subroutine solve_real(a, pivot, b)
       !> Factors, shape (n, n)
-      real(wp), intent(in) :: a(:, :)
+      real(wp), contiguous, intent(in) :: a(:, :)
       !> Rows exchanged, shape (n)
       integer, intent(in) :: pivot(:)
       !> Right-hand side, replaced by the solution, shape (n)
-      real(wp), intent(inout) :: b(:)
+      real(wp), contiguous, intent(inout) :: b(:)
       real(wp) :: moved
       integer :: i, k
 
@@ -118,11 +118,11 @@ contains
    !> Solution of a factorised complex system.
    pure subroutine solve_complex(a, pivot, b)
       !> Factors, shape (n, n)
-      complex(wp), intent(in) :: a(:, :)
+      complex(wp), contiguous, intent(in) :: a(:, :)
       !> Rows exchanged, shape (n)
       integer, intent(in) :: pivot(:)
       !> Right-hand side, replaced by the solution, shape (n)
-      complex(wp), intent(inout) :: b(:)
+      complex(wp), contiguous, intent(inout) :: b(:)
       complex(wp) :: moved
       integer :: i, k
 

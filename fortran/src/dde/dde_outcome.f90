@@ -10,7 +10,7 @@ module dde_outcome
    public :: reached_end, refused, step_underflow, too_many_steps, value_not_finite
 
    !> Steps below this share of the time no longer move an instant.
-   real(wp), parameter :: least_step = 4.0_wp*epsilon(1.0_wp)**2
+   real(wp), parameter :: least_step = 1.0e-100_wp
 
    !> Why an integration ended.
    enum, bind(c)

@@ -2,7 +2,7 @@
 !> Wanner 1996, sec. IV.8).
 module dde_stage_iteration
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use dde_collocation, only: lagrange_weights
+   use dde_collocation, only: combined, lagrange_weights
    use dde_history, only: history_type
    use dde_interpolant, only: newton_value
    use dde_norm, only: scaled_norm
@@ -43,6 +43,8 @@ module dde_stage_iteration
       procedure :: start
       !> Find them
       procedure :: iterate
+      !> Slope of the collocation polynomial at the end of the step
+      procedure :: slope_at_end
       procedure, private :: slopes_at_stages
    end type stage_iteration
 
@@ -127,7 +129,8 @@ contains
             end do
          end do
       end if
-      self%transforms = matmul(self%increments, transpose(method%t_inverse))
+      self%transforms = combined(size(self%increments, 1), method%stages, method%t_inverse, &
+                                 self%increments)
    end subroutine start
 
    !> Simplified Newton iteration for the stage increments.
@@ -157,7 +160,7 @@ contains
       logical, intent(out) :: converged
       !> Whether all evaluations were finite
       logical, intent(out) :: finite
-      real(wp) :: change(size(scale), method%stages)
+      real(wp), dimension(size(scale), method%stages) :: change, scales
       real(wp) :: last_norm, last_rate, limit, norm, rate, rounding
       integer :: iteration, most
 
@@ -167,6 +170,7 @@ contains
       ! the stiff residual is a small difference of large numbers: below this all is rounding
       rounding = 4.0_wp*epsilon(1.0_wp)*maxval(abs(y))/minval(scale)
       self%remainder = max(self%remainder, epsilon(1.0_wp))**0.8_wp
+      scales = spread(scale, 2, method%stages)
       last_norm = 0.0_wp
       last_rate = 1.0_wp
       do iteration = 1, most
@@ -174,7 +178,7 @@ contains
          evaluations = evaluations + method%stages
          if (.not. finite) return
          change = self%systems%correct(method, self%slopes, self%increments, self%transforms)
-         norm = scaled_norm(size(change), change, spread(scale, 2, method%stages))
+         norm = scaled_norm(size(change), change, scales)
          finite = ieee_is_finite(norm)
          if (.not. finite) return
          if (iteration > 1) then
@@ -191,7 +195,7 @@ contains
          end if
          last_norm = max(norm, epsilon(1.0_wp))
          self%transforms = self%transforms + change
-         self%increments = matmul(self%transforms, transpose(method%t))
+         self%increments = combined(size(y), method%stages, method%t, self%transforms)
          ! one correction alone is trusted only where it is no larger than the tolerance
          if ((self%remainder*norm <= limit .and. (iteration > 1 .or. norm <= 1.0_wp)) &
              .or. norm <= rounding) then
@@ -201,6 +205,17 @@ contains
       end do
       safety = 0.9_wp*(2*most + 1.0_wp)/(2*most + min(iteration, most))
    end subroutine iterate
+
+   !> Slope of the collocation polynomial at the end of a step of length `h`.
+   pure function slope_at_end(self, h) result(slope)
+      !> The iteration, converged
+      class(stage_iteration), intent(in) :: self
+      !> Length of the step
+      real(wp), intent(in) :: h
+      real(wp) :: slope(size(self%increments, 1))
+
+      slope = matmul(self%increments, self%systems%a_inverse(size(self%increments, 2), :))/h
+   end function slope_at_end
 
    !> Slopes of all stages.
    pure subroutine slopes_at_stages(self, problem, method, t, h, y, finite)

@@ -2,13 +2,13 @@
 !> one real and some complex systems of size n (Hairer and Wanner 1996, sec. IV.8); where delayed
 !> values lie in the step itself they do not, and one coupled system holds all stages.
 module dde_stage_systems
-   use dde_collocation, only: lagrange_weights
+   use dde_collocation, only: combined, lagrange_weights
    use dde_linear, only: factorise, solve
    use dde_radau_tableau, only: radau_tableau
    use kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: stage_systems
+   public :: correct_real, stage_systems
 
    !> Factors for one Jacobian and one step length.
    type :: stage_systems
@@ -199,13 +199,13 @@ contains
       integer :: i, pair
 
       if (self%coupled) then
-         all_stages = reshape(slopes - matmul(increments, transpose(self%a_inverse))/self%h, &
-                              [size(slopes)])
+         all_stages = reshape(slopes - combined(size(slopes, 1), method%stages, self%a_inverse, &
+                                                increments)/self%h, [size(slopes)])
          call solve(self%coupled_factors, self%coupled_pivot, all_stages)
-         change = matmul(reshape(all_stages, shape(change)), transpose(method%t_inverse))
+         change = combined(size(slopes, 1), method%stages, method%t_inverse, all_stages)
          return
       end if
-      change = matmul(slopes, transpose(method%t_inverse))
+      change = combined(size(slopes, 1), method%stages, method%t_inverse, slopes)
       change(:, 1) = change(:, 1) - method%real_eigenvalue/self%h*transforms(:, 1)
       call solve(self%real_factors, self%real_pivot, change(:, 1))
       do pair = 1, size(method%complex_eigenvalues)
@@ -218,6 +218,28 @@ contains
          change(:, i + 1) = aimag(of_pair)
       end do
    end function correct
+
+   !> Replace a vector by the solution of the real system for another Jacobian.
+   pure subroutine correct_real(method, h, by_y, vector, singular)
+      !> The method
+      type(radau_tableau), intent(in) :: method
+      !> Length of the step
+      real(wp), intent(in) :: h
+      !> Jacobian by y, shape (n, n); destroyed
+      real(wp), intent(inout) :: by_y(:, :)
+      !> Right-hand side, replaced by the solution, shape (n)
+      real(wp), intent(inout) :: vector(:)
+      !> Whether there is none
+      logical, intent(out) :: singular
+      integer :: i, pivot(size(vector))
+
+      by_y = -by_y
+      do i = 1, size(vector)
+         by_y(i, i) = by_y(i, i) + method%real_eigenvalue/h
+      end do
+      call factorise(by_y, pivot, singular)
+      if (.not. singular) call solve(by_y, pivot, vector)
+   end subroutine correct_real
 
    !> Replace a vector by the solution of the real system: stiff components shrink, others stay.
    pure subroutine filter(self, vector)
