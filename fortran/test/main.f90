@@ -3,8 +3,10 @@ program tester
    use, intrinsic :: iso_fortran_env, only: error_unit
    use mctc_env_testing, only: new_testsuite, run_testsuite, testsuite_type
    use test_dde_behaviour, only: collect_dde_behaviour
+   use test_dde_continuation, only: collect_dde_continuation
    use test_dde_controller, only: collect_dde_controller
    use test_dde_convergence, only: collect_dde_convergence
+   use test_dde_events, only: collect_dde_events
    use test_dde_gsl, only: collect_dde_gsl
    use test_dde_history, only: collect_dde_history
    use test_dde_implicit, only: collect_dde_implicit
@@ -28,13 +30,15 @@ program tester
    integer :: failed, i, run
 
    allocate (suites, source=[new_testsuite("dde_behaviour", collect_dde_behaviour), &
+                             new_testsuite("dde_continuation", collect_dde_continuation), &
                              new_testsuite("dde_controller", collect_dde_controller), &
                              new_testsuite("dde_convergence", collect_dde_convergence), &
+                             new_testsuite("dde_events", collect_dde_events), &
                              new_testsuite("dde_gsl", collect_dde_gsl), &
                              new_testsuite("dde_history", collect_dde_history), &
                              new_testsuite("dde_implicit", collect_dde_implicit), &
-             new_testsuite("dde_implicit_order", collect_dde_implicit_order), &
-             new_testsuite("dde_order", collect_dde_order), &
+                             new_testsuite("dde_implicit_order", collect_dde_implicit_order), &
+                             new_testsuite("dde_order", collect_dde_order), &
                              new_testsuite("dde_reentrant", collect_dde_reentrant), &
                              new_testsuite("dde_refusals", collect_dde_refusals), &
                              new_testsuite("dde_solutions", collect_dde_solutions), &

@@ -93,9 +93,9 @@ contains
 
       problem = good()
       problem%lag(2) = 0.0_wp
-      call expect_refusal(error, problem, 2.0_wp, integration_options(), "delay = 0.0")
+      call expect_refusal(error, problem, 2.0_wp, integration_options(), "lag(2) = 0.0")
       problem%lag(2) = -1.5_wp
-      call expect_refusal(error, problem, 2.0_wp, integration_options(), "delay = -1.5")
+      call expect_refusal(error, problem, 2.0_wp, integration_options(), "lag(2) = -1.5")
    end subroutine test_delays
 
    !> Delays are finite numbers.
@@ -105,9 +105,9 @@ contains
 
       problem = good()
       problem%lag = not_a_number()
-      call expect_refusal(error, problem, 2.0_wp, integration_options(), "delay = NaN")
+      call expect_refusal(error, problem, 2.0_wp, integration_options(), "lag(1) = NaN")
       problem%lag = infinity()
-      call expect_refusal(error, problem, 2.0_wp, integration_options(), "delay = Inf")
+      call expect_refusal(error, problem, 2.0_wp, integration_options(), "lag(1) = Inf")
    end subroutine test_delays_not_finite
 
    !> Delayed components are components.

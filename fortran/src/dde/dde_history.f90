@@ -7,7 +7,7 @@ module dde_history
    use kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: history_type
+   public :: highest_degree, history_type
 
    !> Slots of a new ring; it doubles when the longest delay spans more steps.
    integer, parameter :: first_capacity = 64
@@ -26,7 +26,7 @@ module dde_history
       !> Degree of each step's interpolant, per slot
       integer, allocatable :: degree(:)
       !> Numbers of the oldest and the newest step kept; step i lives in slot modulo(i, capacity)
-      integer(int64) :: oldest = 0, newest = -1
+      integer(int64), public :: oldest = 0, newest = -1
       !> Start of each step kept, per slot
       type(instant), allocatable :: start(:)
       !> Length of each step kept, per slot
@@ -50,6 +50,8 @@ module dde_history
    contains
       !> Take in an accepted step
       procedure :: append
+      !> Give a kept step back
+      procedure :: recall
       !> Drop what ended before a given instant
       procedure :: forget
       !> Turn to the step that starts at a given instant
@@ -109,6 +111,29 @@ contains
       self%nodes(:size(nodes), slot) = nodes
       self%coefficients(:size(nodes), :, slot) = coefficients
    end subroutine append
+
+   !> Step number `step`, oldest..newest, as it was appended.
+   pure subroutine recall(self, step, start, length, nodes, coefficients)
+      !> The past
+      class(history_type), intent(in) :: self
+      !> Number of the step
+      integer(int64), intent(in) :: step
+      !> Start of the step
+      type(instant), intent(out) :: start
+      !> Length of the step
+      real(wp), intent(out) :: length
+      !> Newton nodes of its interpolant
+      real(wp), allocatable, intent(out) :: nodes(:)
+      !> Interpolant of the kept components, shape (degree + 1, kept)
+      real(wp), allocatable, intent(out) :: coefficients(:, :)
+      integer :: slot
+
+      slot = int(modulo(step, size(self%start, kind=int64)))
+      start = self%start(slot)
+      length = self%length(slot)
+      nodes = self%nodes(:self%degree(slot), slot)
+      coefficients = self%coefficients(:self%degree(slot), :, slot)
+   end subroutine recall
 
    !> Drop the steps that ended before `horizon`; the newest stays.
    pure subroutine forget(self, horizon)
