@@ -7,11 +7,13 @@ program tester
    use test_dde_controller, only: collect_dde_controller
    use test_dde_convergence, only: collect_dde_convergence
    use test_dde_events, only: collect_dde_events
+   use test_dde_extremes, only: collect_dde_extremes
    use test_dde_gsl, only: collect_dde_gsl
    use test_dde_history, only: collect_dde_history
    use test_dde_implicit, only: collect_dde_implicit
    use test_dde_implicit_order, only: collect_dde_implicit_order
    use test_dde_order, only: collect_dde_order
+   use test_dde_receivers, only: collect_dde_receivers
    use test_dde_reentrant, only: collect_dde_reentrant
    use test_dde_refusals, only: collect_dde_refusals
    use test_dde_solutions, only: collect_dde_solutions
@@ -34,11 +36,13 @@ program tester
                              new_testsuite("dde_controller", collect_dde_controller), &
                              new_testsuite("dde_convergence", collect_dde_convergence), &
                              new_testsuite("dde_events", collect_dde_events), &
+                             new_testsuite("dde_extremes", collect_dde_extremes), &
                              new_testsuite("dde_gsl", collect_dde_gsl), &
                              new_testsuite("dde_history", collect_dde_history), &
                              new_testsuite("dde_implicit", collect_dde_implicit), &
                              new_testsuite("dde_implicit_order", collect_dde_implicit_order), &
                              new_testsuite("dde_order", collect_dde_order), &
+                             new_testsuite("dde_receivers", collect_dde_receivers), &
                              new_testsuite("dde_reentrant", collect_dde_reentrant), &
                              new_testsuite("dde_refusals", collect_dde_refusals), &
                              new_testsuite("dde_solutions", collect_dde_solutions), &

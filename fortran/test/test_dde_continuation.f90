@@ -1,15 +1,14 @@
 !> Runs that go on from where one ended: they agree with the exact solution as one run does.
 module test_dde_continuation
    use dde, only: continuation_type, dde_problem_type, event_met, event_table, integrate, &
-                  integration_options, integration_result, methods, refused, too_many_steps
+                  integration_options, integration_result, methods, too_many_steps
    use errors, only: failure_type => error_type, text
-   use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
+   use expectations, only: expect, expect_between, expect_close, expect_success
    use files_of_continuations, only: through_file
-   use kinds, only: int64, wp
+   use kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use solving, only: at_tolerance
-   use spring_block, only: spring_block_type
-   use test_problems, only: infection, linear, oscillator, sine, without_delays
+   use test_problems, only: infection, linear, sine, swing
    implicit none (type, external)
    private
    public :: collect_dde_continuation
@@ -31,10 +30,8 @@ contains
                    new_unittest("another delay", test_lag), &
                    new_unittest("when steps run out", test_too_many_steps), &
                    new_unittest("from event to event", test_events), &
-                   new_unittest("within a spacing of t", test_compensated), &
-                   new_unittest("in the middle of a slip", test_slip), &
-                   new_unittest("through a file", test_file), &
-                   new_unittest("refused", test_refusals)]
+                   new_unittest("a zero where runs meet", test_zero_between), &
+                   new_unittest("through a file", test_file)]
    end subroutine collect_dde_continuation
 
    !> y = sin t, in the middle of the first delay, at its end, and on.
@@ -71,14 +68,14 @@ contains
       integer :: i
 
       do i = 1, size(methods)
-         call expect_end(error, swing(1.0_wp), [0.1_wp, 5.0_wp, 20.0_wp], &
+         call expect_end(error, swing(), [0.1_wp, 5.0_wp, 20.0_wp], &
                          at_tolerance(1.0e-10_wp, methods(i)), [cos(20.0_wp), -sin(20.0_wp)], &
                          1.0e-8_wp, trim(methods(i)))
       end do
    end subroutine test_oscillator
 
-   !> Where all kinks are still landed on, piecewise polynomials come out exact at any tolerance: with
-   !> a kink and with a jump, which is one passage rougher.
+   !> Where all kinks are still landed on, piecewise polynomials come out exact at any tolerance:
+   !> with a kink and with a jump, which is one passage rougher.
    subroutine test_kink(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp), parameter :: ends(6) = [0.3_wp, 1.0_wp, 2.2_wp, 2.3_wp, 4.0_wp, 5.0_wp]
@@ -188,67 +185,41 @@ contains
       end do
    end subroutine test_events
 
-   !> A fast oscillator at t = 100, whose phase is lost with less than a spacing of t, in runs of a
-   !> hundred steps.
-   subroutine test_compensated(error)
+   !> Zeros and extremes of sin t where, and a little beside where, one run ends and the next
+   !> begins: each is met once. In steps too short for it a Newton iteration leaves slopes that are
+   !> all rounding, so implicit methods are asked for less.
+   subroutine test_zero_between(error)
       type(error_type), allocatable, intent(out) :: error
-      type(continuation_type) :: continuation
-      type(failure_type), allocatable :: failure
-      type(integration_options) :: options
-      type(integration_result) :: outcome
-      real(wp), parameter :: spacing_of_100 = 2.0_wp**(-46), turns = 1.1_wp*128
-      real(wp) :: t_start
-      integer :: i, runs
-
-      do i = 1, size(methods)
-         options = at_tolerance(1.0e-12_wp, methods(i))
-         options%most_steps = 100
-         continuation = continuation_type()
-         t_start = 100.0_wp
-         do runs = 1, 1000
-            call integrate(swing(turns*2*pi/(64*spacing_of_100)), t_start, &
-                           100.0_wp + 64*spacing_of_100, options, outcome, failure, &
-                           continuation=continuation)
-            t_start = outcome%t
-            if (outcome%reason /= too_many_steps) exit
-         end do
-         call expect_success(error, failure)
-         call expect(error, runs > 3, "several runs")
-         call expect_close(error, outcome%y, [cos(turns*2*pi), -sin(turns*2*pi)], 1.0e-8_wp, &
-                           methods(i))
-      end do
-   end subroutine test_compensated
-
-   !> The stiffest block without delay, stopped on the way up and on the way down of each slip, where
-   !> steps are far below a spacing of t, ends as in one run.
-   subroutine test_slip(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(continuation_type) :: continuation
       type(event_table) :: table
+      type(continuation_type) :: continuation
       type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome, whole
-      type(spring_block_type) :: problem
-      real(wp), parameter :: t_end = 40.0_wp
-      integer :: i, runs
+      type(integration_result) :: outcome
+      real(wp), parameter :: beside(5) = [-10.0_wp, -1.0_wp, 0.0_wp, 1.0_wp, 10.0_wp]
+      real(wp) :: little
+      integer :: i, j, k
 
-      problem = spring_block_type(0.0_wp, 0.7_wp, 0.5_wp, 1.0e12_wp, 0.0_wp, 0.0_wp, 1.5_wp)
       do i = 1, size(methods)
-         if (methods(i) == "explicit") cycle
-         call integrate(problem, 0.0_wp, t_end, at_tolerance(1.0e-10_wp, methods(i)), whole, failure)
-         call expect_success(error, failure)
-         continuation = continuation_type()
-         table = event_table([3], [20.0_wp], [0], terminal=[.true.])
-         do runs = 1, 1000
-            call integrate(problem, continuation%time(1), t_end, &
+         little = merge(1.0e-5_wp, 1.0e-15_wp, methods(i)(1:5) == "radau")
+         do j = 1, size(beside)
+            table = event_table([1, 1], [0.0_wp, 0.0_wp], [0, 0], of_slope=[.false., .true.])
+            continuation = continuation_type()
+            do k = 1, 12
+               call integrate(sine(), continuation%time(1), 0.5_wp*k*pi + little*beside(j), &
+                              at_tolerance(1.0e-10_wp, methods(i)), outcome, failure, &
+                              watcher=table, continuation=continuation)
+               call expect_success(error, failure)
+            end do
+            call integrate(sine(), continuation%time(1), 6.2_wp*pi, &
                            at_tolerance(1.0e-10_wp, methods(i)), outcome, failure, &
                            watcher=table, continuation=continuation)
             call expect_success(error, failure)
-            if (outcome%reason /= event_met .or. allocated(error)) exit
+            call expect(error, table%received == 12, text(table%received)//" events, "//methods(i))
+            if (allocated(error)) return
+            call expect_close(error, table%time(:12)%hi, [(0.5_wp*k*pi, k=1, 12)], 1.0e-8_wp, &
+                              methods(i))
          end do
-         call expect_between(error, real(runs, wp), 3.0_wp, 100.0_wp, "runs of "//methods(i))
-         call expect_close(error, outcome%y, whole%y, 1.0e-6_wp, methods(i))
       end do
-   end subroutine test_slip
+   end subroutine test_zero_between
 
    !> What was written to a file and read back, as bits and as text, gives the same bits.
    subroutine test_file(error)
@@ -277,55 +248,6 @@ contains
          end do
       end do
    end subroutine test_file
-
-   !> Another time, other equations, other components, a past too short, arrays that do not fit.
-   subroutine test_refusals(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(continuation_type) :: continuation, spoilt
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
-      type(infection) :: problem
-
-      problem = infection(n=3, lag=[1.0_wp, 10.0_wp], component=[2, 2], &
-                          past=[5.0_wp, 0.1_wp, 1.0_wp], first=[5.0_wp, 0.1_wp, 1.0_wp])
-      call integrate(problem, 0.0_wp, 20.0_wp, at_tolerance(1.0e-9_wp), outcome, failure, &
-                     continuation=continuation)
-      call expect_success(error, failure)
-      spoilt = continuation
-      call expect_refusal(error, problem, 20.5_wp, spoilt, "t_start = 20.5 is 0.5 off the time 20.0")
-      deallocate (spoilt%nodes)
-      call expect_refusal(error, problem, 20.0_wp, spoilt, "arrays of the continuation do not fit")
-      problem%component = [2, 3]
-      call expect_refusal(error, problem, 20.0_wp, continuation, &
-                          "keeps components 2, delayed are 2 3")
-      problem%component = [2, 2]
-      problem%lag = [1.0_wp, 19.0_wp]
-      call expect_refusal(error, problem, 20.0_wp, continuation, "lag(2) = 19.0 reaches beyond")
-      problem%n = 2
-      call expect_refusal(error, problem, 20.0_wp, continuation, "3 equations for 2; as many")
-   end subroutine test_refusals
-
-   !> The problem is refused in these words, and the continuation stays as it was.
-   subroutine expect_refusal(error, problem, t_start, continuation, words)
-      !> The first failure of the test
-      type(error_type), allocatable, intent(inout) :: error
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> First instant
-      real(wp), intent(in) :: t_start
-      !> Where the run before ended
-      type(continuation_type), intent(inout) :: continuation
-      !> Part of the message
-      character(len=*), intent(in) :: words
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
-
-      call integrate(problem, t_start, 30.0_wp, integration_options(), outcome, failure, &
-                     continuation=continuation)
-      call expect_failure(error, failure, words)
-      call expect(error, outcome%reason == refused, "the reason is `refused`")
-      call expect_close(error, continuation%time, [20.0_wp, 0.0_wp], 0.0_wp, "time kept")
-   end subroutine expect_refusal
 
    !> Run after run from 0, the last ends in this state.
    subroutine expect_end(error, problem, ends, options, known, within, what)
@@ -364,12 +286,4 @@ contains
       problem = linear(n=1, lag=[1.0_wp], component=[1], past=[past], first=[1.0_wp])
    end function decay
 
-   !> An oscillator: y1 = cos(rate t), y2 = -sin(rate t).
-   pure type(oscillator) function swing(rate) result(problem)
-      !> Rate
-      real(wp), intent(in) :: rate
-
-      problem = oscillator(n=2, past=[1.0_wp, 0.0_wp], first=[1.0_wp, 0.0_wp], rate=rate)
-      call without_delays(problem)
-   end function swing
 end module test_dde_continuation

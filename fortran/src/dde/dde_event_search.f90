@@ -1,6 +1,6 @@
 !> The search for events in a step: dense output is looked at in as many places as its degree asks
-!> for, and where a parabola through three of them comes nearest to zero; a passage between two places
-!> is located to the last digits of the step.
+!> for, and where a parabola through three of them comes nearest to zero; a passage between two
+!> places is located to the last digits of the step.
 module dde_event_search
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_events, only: event_watcher_type
@@ -14,6 +14,8 @@ module dde_event_search
 
    !> Events are located to this share of the step.
    real(wp), parameter :: accuracy = epsilon(1.0_wp)
+   !> Rounding of a state, relative, that the slope of dense output may carry over a step length.
+   real(wp), parameter :: rounding = 16.0_wp*epsilon(1.0_wp)
 
    !> The search, at one place of one step.
    type :: event_search
@@ -27,6 +29,10 @@ module dde_event_search
       integer, allocatable, private :: side(:)
       !> Dense output of the step, shape (0:degree, n)
       real(wp), allocatable, private :: coefficients(:, :)
+      !> Slopes at both ends of a step so short that its rounding hides those between, shape (2, n)
+      real(wp), allocatable, private :: ends(:, :)
+      !> Whether that is so, shape (n)
+      logical, allocatable, private :: straight(:)
    contains
       !> Look at the first instant
       procedure :: begin
@@ -55,6 +61,7 @@ contains
       self%slope = slope
       allocate (self%g(size(watcher%direction)))
       allocate (self%side(size(watcher%direction)), source=0)
+      allocate (self%ends(2, size(y)), self%straight(size(y)))
       call watcher%values(t%hi, y, slope, self%g)
       self%side = seen(self%g, self%side)
    end subroutine begin
@@ -84,7 +91,11 @@ contains
       if (allocated(self%coefficients)) deallocate (self%coefficients)
       allocate (self%coefficients(0:size(step%nodes), size(step%y)))
       do i = 1, size(step%y)
-         call step%interpolant(i, self%coefficients(:, i))
+         associate (a => self%coefficients(:, i), ends => self%ends(:, i))
+            call step%interpolant(i, a)
+            ends = [newton_slope(step%nodes, a, 0.0_wp), newton_slope(step%nodes, a, 1.0_wp)]
+            self%straight(i) = abs(ends(2) - ends(1)) <= rounding*abs(step%y(i))
+         end associate
       end do
       call self%choose_places(watcher, step, start, step_end, places)
       ended = .false.
@@ -124,10 +135,10 @@ contains
 
       last = size(step%nodes) + 1
       do k = 0, last
-         call self%go_to(watcher, step, start, step_end, real(k, wp)/last)
+         call self%go_to(watcher, step, start, step_end, k*1.0_wp/last)
          g(k, :) = self%g
       end do
-      allocate (places, source=[(real(k, wp)/last, k=1, last)])
+      allocate (places, source=[(k*1.0_wp/last, k=1, last)])
       do i = 1, size(g, 2)
          do k = 1, last - 1
             if (abs(sum(seen(g(k - 1:k + 1, i), 0))) < 3) cycle
@@ -256,7 +267,11 @@ contains
       do i = 1, size(self%y)
          associate (a => self%coefficients(:, i))
             self%y(i) = newton_value(step%nodes, a, place)
-            self%slope(i) = newton_slope(step%nodes, a, place)/step%h
+            if (self%straight(i)) then
+               self%slope(i) = ((1.0_wp - place)*self%ends(1, i) + place*self%ends(2, i))/step%h
+            else
+               self%slope(i) = newton_slope(step%nodes, a, place)/step%h
+            end if
          end associate
       end do
       if (place >= 1.0_wp) then
