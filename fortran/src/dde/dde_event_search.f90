@@ -3,10 +3,10 @@
 !> places is located to the last digits of the step.
 module dde_event_search
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use dde_dense_state, only: dense_state
    use dde_events, only: event_watcher_type
-   use dde_interpolant, only: newton_slope, newton_value
    use dde_step, only: step_type
-   use dde_time, only: instant, later
+   use dde_time, only: instant
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -14,25 +14,15 @@ module dde_event_search
 
    !> Events are located to this share of the step.
    real(wp), parameter :: accuracy = epsilon(1.0_wp)
-   !> Rounding of a state, relative, that the slope of dense output may carry over a step length.
-   real(wp), parameter :: rounding = 16.0_wp*epsilon(1.0_wp)
 
    !> The search, at one place of one step.
    type :: event_search
-      !> When
-      type(instant) :: t
-      !> State and its time derivative there, shape (n)
-      real(wp), allocatable :: y(:), slope(:)
+      !> The place, and time, state and slope there
+      type(dense_state) :: here
       !> Event functions there
       real(wp), allocatable, private :: g(:)
       !> Side of zero that each function was last seen on, going forward: -1, 1, or 0 at zero
       integer, allocatable, private :: side(:)
-      !> Dense output of the step, shape (0:degree, n)
-      real(wp), allocatable, private :: coefficients(:, :)
-      !> Slopes at both ends of a step so short that its rounding hides those between, shape (2, n)
-      real(wp), allocatable, private :: ends(:, :)
-      !> Whether that is so, shape (n)
-      logical, allocatable, private :: straight(:)
    contains
       !> Look at the first instant
       procedure :: begin
@@ -56,12 +46,9 @@ contains
       !> Its time derivative, shape (n)
       real(wp), intent(in) :: slope(:)
 
-      self%t = t
-      self%y = y
-      self%slope = slope
+      call self%here%begin(t, y, slope)
       allocate (self%g(size(watcher%direction)))
       allocate (self%side(size(watcher%direction)), source=0)
-      allocate (self%ends(2, size(y)), self%straight(size(y)))
       call watcher%values(t%hi, y, slope, self%g)
       self%side = seen(self%g, self%side)
    end subroutine begin
@@ -85,85 +72,71 @@ contains
       logical, intent(out) :: ended
       integer :: side(size(self%side))
       integer :: i
-      real(wp), allocatable :: places(:)
+      real(wp), allocatable :: g(:, :), places(:)
       real(wp) :: before
 
-      if (allocated(self%coefficients)) deallocate (self%coefficients)
-      allocate (self%coefficients(0:size(step%nodes), size(step%y)))
-      do i = 1, size(step%y)
-         associate (a => self%coefficients(:, i), ends => self%ends(:, i))
-            call step%interpolant(i, a)
-            ends = [newton_slope(step%nodes, a, 0.0_wp), newton_slope(step%nodes, a, 1.0_wp)]
-            self%straight(i) = abs(ends(2) - ends(1)) <= rounding*abs(step%y(i))
-         end associate
-      end do
-      call self%choose_places(watcher, step, start, step_end, places)
+      call self%here%take_up(step, start, step_end)
+      call self%choose_places(watcher, places, g)
       ended = .false.
       share = 0.0_wp
       do i = 1, size(places)
          before = share
          share = places(i)
-         call self%go_to(watcher, step, start, step_end, share)
-         side = seen(self%g, self%side)
+         side = seen(g(:, i), self%side)
          if (any(side /= self%side .and. self%side /= 0)) then
-            call self%hand_over(watcher, step, start, step_end, before, share, side, ended)
-            if (ended) step_end = self%t
+            call self%hand_over(watcher, before, share, side, ended)
+            if (ended) step_end = self%here%t
             if (ended) return
-            call self%go_to(watcher, step, start, step_end, share)
          end if
          self%side = side
       end do
+      call self%go_to(watcher, 1.0_wp)
    end subroutine look_through
 
    !> Places to look at, ascending up to 1: an even grid, and between its places where functions may
    !> dip through zero and back.
-   pure subroutine choose_places(self, watcher, step, start, step_end, places)
+   pure subroutine choose_places(self, watcher, places, g)
       !> The search
       class(event_search), intent(inout) :: self
       !> The watcher
       class(event_watcher_type), intent(in) :: watcher
-      !> The step
-      class(step_type), intent(in) :: step
-      !> Its start
-      type(instant), intent(in) :: start
-      !> Its end
-      type(instant), intent(in) :: step_end
       !> The places
       real(wp), allocatable, intent(out) :: places(:)
-      real(wp) :: g(0:size(step%nodes) + 1, size(self%g)), bend, half_rise, place
+      !> Event functions there, shape (functions, places)
+      real(wp), allocatable, intent(out) :: g(:, :)
+      real(wp) :: grid(size(self%g), 0:self%here%degree + 1), bend, half_rise, place
       integer :: i, k, last
 
-      last = size(step%nodes) + 1
+      last = self%here%degree + 1
       do k = 0, last
-         call self%go_to(watcher, step, start, step_end, k*1.0_wp/last)
-         g(k, :) = self%g
+         call self%go_to(watcher, k*1.0_wp/last)
+         grid(:, k) = self%g
       end do
       allocate (places, source=[(k*1.0_wp/last, k=1, last)])
-      do i = 1, size(g, 2)
-         do k = 1, last - 1
-            if (abs(sum(seen(g(k - 1:k + 1, i), 0))) < 3) cycle
-            half_rise = 0.5_wp*(g(k + 1, i) - g(k - 1, i))
-            bend = (g(k + 1, i) - g(k, i)) - (g(k, i) - g(k - 1, i))
+      allocate (g, source=grid(:, 1:))
+      do k = 1, last - 1
+         do i = 1, size(self%g)
+            if (abs(sum(seen(grid(i, k - 1:k + 1), 0))) < 3) cycle
+            half_rise = 0.5_wp*(grid(i, k + 1) - grid(i, k - 1))
+            bend = (grid(i, k + 1) - grid(i, k)) - (grid(i, k) - grid(i, k - 1))
             ! towards zero and back, with the vertex of the parabola between the three
-            if (sign(1.0_wp, g(k, i))*bend <= abs(half_rise)) cycle
+            if (sign(1.0_wp, grid(i, k))*bend <= abs(half_rise)) cycle
             place = (k - half_rise/bend)/last
-            places = [pack(places, places < place), place, pack(places, places > place)]
+            call self%go_to(watcher, place)
+            associate (earlier => count(places < place))
+               g = reshape([g(:, :earlier), self%g, g(:, earlier + 1:)], shape(g) + [0, 1])
+               places = [places(:earlier), place, places(earlier + 1:)]
+            end associate
          end do
       end do
    end subroutine choose_places
 
    !> Hand over the events between two places, in order of time, as far as the run goes on.
-   subroutine hand_over(self, watcher, step, start, step_end, before, share, side, ended)
+   subroutine hand_over(self, watcher, before, share, side, ended)
       !> The search
       class(event_search), intent(inout) :: self
       !> The watcher
       class(event_watcher_type), intent(inout) :: watcher
-      !> The step
-      class(step_type), intent(in) :: step
-      !> Its start
-      type(instant), intent(in) :: start
-      !> Its end
-      type(instant), intent(in) :: step_end
       !> The earlier place
       real(wp), intent(in) :: before
       !> The later place; the event that ends the run, if one does
@@ -179,15 +152,15 @@ contains
       passed = side /= self%side .and. self%side /= 0 .and. watcher%direction*self%side <= 0
       root = share
       do i = 1, size(side)
-         if (passed(i)) call self%locate(watcher, step, start, step_end, i, before, root(i))
+         if (passed(i)) call self%locate(watcher, i, before, root(i))
       end do
       ended = .false.
       do while (any(passed))
          i = minloc(root, dim=1, mask=passed)
          if (ended .and. root(i) > share) exit
          passed(i) = .false.
-         call self%go_to(watcher, step, start, step_end, root(i))
-         call watcher%take(i, self%t, self%y, self%slope)
+         call self%go_to(watcher, root(i))
+         call watcher%take(i, self%here%t, self%here%y, self%here%slope)
          if (watcher%terminal(i)) then
             ended = .true.
             share = root(i)
@@ -198,17 +171,11 @@ contains
    !> First place after `before` where function `i` is not on its side of zero any more, by the
    !> method of Oliveira and Takahashi (2020), "An Enhancement of the Bisection Method Average
    !> Performance Preserving Minmax Optimality": never more evaluations than halving and one.
-   subroutine locate(self, watcher, step, start, step_end, i, before, root)
+   subroutine locate(self, watcher, i, before, root)
       !> The search
       class(event_search), intent(inout) :: self
       !> The watcher
       class(event_watcher_type), intent(in) :: watcher
-      !> The step
-      class(step_type), intent(in) :: step
-      !> Its start
-      type(instant), intent(in) :: start
-      !> Its end
-      type(instant), intent(in) :: step_end
       !> Number of the function
       integer, intent(in) :: i
       !> A place where it is on its side
@@ -218,10 +185,10 @@ contains
       real(wp) :: first_width, g_left, g_right, left, move, place, width
       integer :: j, halvings
 
-      call self%go_to(watcher, step, start, step_end, root)
+      call self%go_to(watcher, root)
       g_right = self%g(i)
       left = before
-      call self%go_to(watcher, step, start, step_end, left)
+      call self%go_to(watcher, left)
       ! a slope may jump where the step begins
       if (seen(self%g(i), self%side(i)) /= self%side(i)) root = left
       g_left = self%g(i)
@@ -236,7 +203,7 @@ contains
          move = sign(max(0.0_wp, min(abs(move) - 0.2_wp*width**2/first_width, &
                                      scale(0.5_wp*accuracy, j) - 0.5_wp*width)), move)
          place = left + 0.5_wp*width + move
-         call self%go_to(watcher, step, start, step_end, place)
+         call self%go_to(watcher, place)
          if (seen(self%g(i), self%side(i)) == self%side(i)) then
             left = place
             g_left = self%g(i)
@@ -248,38 +215,16 @@ contains
    end subroutine locate
 
    !> Look at one place of the step.
-   pure subroutine go_to(self, watcher, step, start, step_end, place)
+   pure subroutine go_to(self, watcher, place)
       !> The search
       class(event_search), intent(inout) :: self
       !> The watcher
       class(event_watcher_type), intent(in) :: watcher
-      !> The step
-      class(step_type), intent(in) :: step
-      !> Its start
-      type(instant), intent(in) :: start
-      !> Its end
-      type(instant), intent(in) :: step_end
       !> The place, 0..1
       real(wp), intent(in) :: place
-      integer :: i
 
-      self%t = later(start, place*step%h)
-      do i = 1, size(self%y)
-         associate (a => self%coefficients(:, i))
-            self%y(i) = newton_value(step%nodes, a, place)
-            if (self%straight(i)) then
-               self%slope(i) = ((1.0_wp - place)*self%ends(1, i) + place*self%ends(2, i))/step%h
-            else
-               self%slope(i) = newton_slope(step%nodes, a, place)/step%h
-            end if
-         end associate
-      end do
-      if (place >= 1.0_wp) then
-         ! the very numbers that the next step starts from
-         self%t = step_end
-         self%y = step%y_new
-      end if
-      call watcher%values(self%t%hi, self%y, self%slope, self%g)
+      call self%here%go_to(place)
+      call watcher%values(self%here%t%hi, self%here%y, self%here%slope, self%g)
    end subroutine go_to
 
    !> Side of zero of a value; the last one seen where the value is not finite.

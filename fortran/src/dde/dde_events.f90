@@ -3,7 +3,8 @@
 !> them over; which functions and what is done with an event is the watcher's.
 !>
 !> A function that stands off zero and then is at zero or beyond makes one event, at the first such
-!> instant. A zero at the first instant of a run is none.
+!> instant. A zero at the first instant of a run is none. Where a function stays within the tolerance
+!> of zero, dense output may pass it though the solution does not.
 module dde_events
    use dde_time, only: instant
    use errors, only: error_type, raise, text
@@ -185,8 +186,15 @@ contains
       real(wp), intent(in) :: slope(:)
       !> The functions
       real(wp), intent(out) :: g(:)
+      integer :: i
 
-      g = merge(slope(self%component), y(self%component), self%of_slope) - self%level
+      do i = 1, size(g)
+         if (self%of_slope(i)) then
+            g(i) = slope(self%component(i)) - self%level(i)
+         else
+            g(i) = y(self%component(i)) - self%level(i)
+         end if
+      end do
    end subroutine less_level
 
    !> Fill the next row.

@@ -87,7 +87,7 @@ contains
                         sampler, watcher)
          if (ended) then
             run%now = step_end
-            run%step%y = run%search%y
+            run%step%y = run%search%here%y
             outcome%reason = event_met
             exit
          end if

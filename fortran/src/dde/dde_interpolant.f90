@@ -7,7 +7,7 @@ module dde_interpolant
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: newton_slope, newton_value
+   public :: newton_state, newton_value
 
 contains
 
@@ -28,22 +28,27 @@ contains
       end do
    end function newton_value
 
-   !> Derivative of p at s, by s.
-   pure function newton_slope(nodes, coefficients, s) result(slope)
+   !> Values at s of several polynomials over the same nodes, and their derivatives by s.
+   pure subroutine newton_state(nodes, coefficients, s, values, slopes)
       !> Nodes x(1..degree) of the method
       real(wp), intent(in) :: nodes(:)
-      !> Coefficients a(0..degree)
-      real(wp), intent(in) :: coefficients(0:size(nodes))
+      !> Coefficients a(0..degree) of each, shape (polynomials, 0:degree)
+      real(wp), intent(in) :: coefficients(:, 0:)
       !> Place in the step, 0..1
       real(wp), intent(in) :: s
-      real(wp) :: slope, value
-      integer :: j
+      !> Values, shape (polynomials)
+      real(wp), intent(out) :: values(:)
+      !> Derivatives, shape (polynomials)
+      real(wp), intent(out) :: slopes(:)
+      integer :: i, j
 
-      value = coefficients(size(nodes))
-      slope = 0.0_wp
-      do j = size(nodes), 1, -1
-         slope = value + (s - nodes(j))*slope
-         value = coefficients(j - 1) + (s - nodes(j))*value
+      do i = 1, size(values)
+         values(i) = coefficients(i, size(nodes))
+         slopes(i) = 0.0_wp
+         do j = size(nodes), 1, -1
+            slopes(i) = values(i) + (s - nodes(j))*slopes(i)
+            values(i) = coefficients(i, j - 1) + (s - nodes(j))*values(i)
+         end do
       end do
-   end function newton_slope
+   end subroutine newton_state
 end module dde_interpolant

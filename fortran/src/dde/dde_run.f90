@@ -214,7 +214,7 @@ contains
       continuation%origin = [self%origin%hi, self%origin%lo]
       continuation%y = self%step%y
       continuation%slope = self%step%slope
-      if (allocated(self%search%slope)) continuation%slope = self%search%slope
+      if (allocated(self%search%here%slope)) continuation%slope = self%search%here%slope
       call look(self, problem, options)
       continuation%rate = self%step%slope
       continuation%next_step = self%h
