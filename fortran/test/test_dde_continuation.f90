@@ -26,11 +26,11 @@ contains
                    new_unittest("two delays", test_infection), &
                    new_unittest("without delays", test_oscillator), &
                    new_unittest("kinks are landed on", test_kink), &
+                   new_unittest("kinks are counted on", test_passages), &
                    new_unittest("another rate", test_rate), &
                    new_unittest("another delay", test_lag), &
                    new_unittest("when steps run out", test_too_many_steps), &
                    new_unittest("from event to event", test_events), &
-                   new_unittest("a zero where runs meet", test_zero_between), &
                    new_unittest("through a file", test_file)]
    end subroutine collect_dde_continuation
 
@@ -85,6 +85,28 @@ contains
       call expect_end(error, decay(past=0.0_wp), ends, at_tolerance(1.0_wp), [5.0_wp/24], &
                       1.0e-14_wp, "jump")
    end subroutine test_kink
+
+   !> Eight passages of a kink and nine of a jump are landed on, three in the run before t = 3.5.
+   subroutine test_passages(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(continuation_type) :: continuation
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: first, second
+      integer :: jump
+
+      do jump = 0, 1
+         continuation = continuation_type()
+         call integrate(decay(past=1.0_wp - jump), 0.0_wp, 3.5_wp, at_tolerance(1.0e-6_wp), first, &
+                        failure, continuation=continuation)
+         call expect_success(error, failure)
+         call integrate(decay(past=1.0_wp - jump), 3.5_wp, 30.0_wp, at_tolerance(1.0e-6_wp), &
+                        second, failure, continuation=continuation)
+         call expect_success(error, failure)
+         call expect(error, first%breaking_points == 3, "three in the first run")
+         call expect(error, second%breaking_points == 5 + jump, text(5 + jump) &
+                     //" in the second, but "//text(second%breaking_points))
+      end do
+   end subroutine test_passages
 
    !> y' = -y(t - 1), and -2 y(t - 1) from 3/2 on: a kink there and at 5/2. y(3) = 1/8 by hand.
    subroutine test_rate(error)
@@ -148,8 +170,8 @@ contains
       end do
    end subroutine test_too_many_steps
 
-   !> Each rising passage of sin t through 1/2, and each maximum, ends a run; the next goes on and
-   !> does not meet the same event again. With a watcher for each in turn all are met.
+   !> Each rising passage of sin t through 1/2, and each falling one of its slope, ends a run; the
+   !> next goes on and does not meet the same event again. Watchers for each take turns.
    subroutine test_events(error)
       type(error_type), allocatable, intent(out) :: error
       type(event_table) :: tables(2)
@@ -161,7 +183,7 @@ contains
       do i = 1, size(methods)
          continuation = continuation_type()
          tables(1) = event_table([1], [0.5_wp], [1], terminal=[.true.])
-         tables(2) = event_table([1], [0.0_wp], [-1], terminal=[.true.], of_slope=[.true.])
+         tables(2) = event_table([1], [0.3_wp], [-1], terminal=[.true.], of_slope=[.true.])
          do k = 0, 2
             call integrate(sine(), continuation%time(1), 100.0_wp, &
                            at_tolerance(1.0e-12_wp, methods(i)), outcome, failure, &
@@ -173,53 +195,19 @@ contains
                            at_tolerance(1.0e-12_wp, methods(i)), outcome, failure, &
                            watcher=tables(2), continuation=continuation)
             call expect_success(error, failure)
-            call expect_close(error, outcome%t, pi/2 + 2*pi*k, 1.0e-9_wp, methods(i)//", maximum")
+            call expect_close(error, outcome%t, acos(0.3_wp) + 2*pi*k, 1.0e-9_wp, &
+                              methods(i)//", slope")
          end do
          do k = 3, 5
             call integrate(sine(), continuation%time(1), 100.0_wp, &
                            at_tolerance(1.0e-12_wp, methods(i)), outcome, failure, &
                            watcher=tables(2), continuation=continuation)
             call expect_success(error, failure)
-            call expect_close(error, outcome%t, pi/2 + 2*pi*k, 1.0e-9_wp, methods(i)//", maxima")
+            call expect_close(error, outcome%t, acos(0.3_wp) + 2*pi*k, 1.0e-9_wp, &
+                              methods(i)//", slopes")
          end do
       end do
    end subroutine test_events
-
-   !> Zeros and extremes of sin t where, and a little beside where, one run ends and the next
-   !> begins: each is met once. In steps too short for it a Newton iteration leaves slopes that are
-   !> all rounding, so implicit methods are asked for less.
-   subroutine test_zero_between(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(event_table) :: table
-      type(continuation_type) :: continuation
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
-      real(wp), parameter :: beside(5) = [-10.0_wp, -1.0_wp, 0.0_wp, 1.0_wp, 10.0_wp]
-      real(wp) :: little
-      integer :: i, j, k
-
-      do i = 1, size(methods)
-         little = merge(1.0e-5_wp, 1.0e-15_wp, methods(i)(1:5) == "radau")
-         do j = 1, size(beside)
-            table = event_table([1, 1], [0.0_wp, 0.0_wp], [0, 0], of_slope=[.false., .true.])
-            continuation = continuation_type()
-            do k = 1, 12
-               call integrate(sine(), continuation%time(1), 0.5_wp*k*pi + little*beside(j), &
-                              at_tolerance(1.0e-10_wp, methods(i)), outcome, failure, &
-                              watcher=table, continuation=continuation)
-               call expect_success(error, failure)
-            end do
-            call integrate(sine(), continuation%time(1), 6.2_wp*pi, &
-                           at_tolerance(1.0e-10_wp, methods(i)), outcome, failure, &
-                           watcher=table, continuation=continuation)
-            call expect_success(error, failure)
-            call expect(error, table%received == 12, text(table%received)//" events, "//methods(i))
-            if (allocated(error)) return
-            call expect_close(error, table%time(:12)%hi, [(0.5_wp*k*pi, k=1, 12)], 1.0e-8_wp, &
-                              methods(i))
-         end do
-      end do
-   end subroutine test_zero_between
 
    !> What was written to a file and read back, as bits and as text, gives the same bits.
    subroutine test_file(error)

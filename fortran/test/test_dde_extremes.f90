@@ -2,14 +2,14 @@
 module test_dde_extremes
    use dde, only: continuation_type, elapsed, event_met, event_table, instant, integrate, &
                   integration_options, integration_result, methods, too_many_steps
-   use errors, only: failure_type => error_type
+   use errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_success
    use kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use solving, only: at_tolerance
    use spring_block, only: index_of_ln_v, spring_block_type
    use stiff_problems, only: prothero_robinson
-   use test_problems, only: swing
+   use test_problems, only: linear, swing
    implicit none (type, external)
    private
    public :: collect_dde_extremes
@@ -26,6 +26,8 @@ contains
       testsuite = [new_unittest("events of stiff relaxation", test_stiff), &
                    new_unittest("maxima of v at gamma 1e6", test_block), &
                    new_unittest("events within a spacing of t", test_events), &
+                   new_unittest("a slope that jumps", test_jump), &
+                   new_unittest("a zero where runs meet", test_zero_between), &
                    new_unittest("runs within a spacing of t", test_runs), &
                    new_unittest("in the middle of a slip", test_slip)]
    end subroutine collect_dde_extremes
@@ -106,6 +108,75 @@ contains
       call expect_close(error, [(elapsed(instant(100.0_wp), table%time(i))/(i*period), i=1, 19)], &
                         spread(1.0_wp, 1, 19), 1.0e-9_wp, "time in periods")
    end subroutine test_events
+
+   !> y' = -y(t - 1) from y = 0 with a jump to 1 at t = 0: the slope jumps from 0 to -1 at t = 1
+   !> and passes -1/2 there, and again at 5/2 on its way up from -1 to 0.
+   subroutine test_jump(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(event_table) :: table
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      integer :: i
+
+      do i = 1, size(methods)
+         table = event_table([1], [-0.5_wp], [0], of_slope=[.true.])
+         call integrate(linear(n=1, lag=[1.0_wp], component=[1], past=[0.0_wp], first=[1.0_wp]), &
+                        0.0_wp, 2.9_wp, at_tolerance(1.0e-10_wp, methods(i)), outcome, failure, &
+                        watcher=table)
+         call expect_success(error, failure)
+         call expect_close(error, table%time(:table%received)%hi, [1.0_wp, 2.5_wp], 1.0e-9_wp, &
+                           methods(i))
+         call expect_close(error, table%time(1)%hi, 1.0_wp, 0.0_wp, methods(i))
+      end do
+   end subroutine test_jump
+
+   !> Zeros and extremes of cos t where runs end, and amid runs so short that rounding is all that
+   !> their dense output shows: each is met once. A Newton iteration leaves rounding in its slopes
+   !> at the ends, too, so that implicit methods are asked for less.
+   subroutine test_zero_between(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(event_table) :: table
+      type(continuation_type) :: continuation
+      real(wp) :: little
+      integer :: i, j, k
+
+      do i = 1, size(methods)
+         do j = 0, 2
+            little = j*merge(1.0e-5_wp, 1.0e-14_wp, methods(i)(1:5) == "radau")
+            table = event_table([1, 1], [0.0_wp, 0.0_wp], [0, 0], of_slope=[.false., .true.])
+            continuation = continuation_type()
+            do k = 1, 12
+               call go_on(error, methods(i), 0.5_wp*k*pi - little, table, continuation)
+               if (j > 0) call go_on(error, methods(i), 0.5_wp*k*pi + little, table, continuation)
+            end do
+            call go_on(error, methods(i), 6.2_wp*pi, table, continuation)
+            call expect(error, table%received == 12, text(table%received)//" events, "//methods(i))
+            if (allocated(error)) return
+            call expect_close(error, table%time(:12)%hi, [(0.5_wp*k*pi, k=1, 12)], 1.0e-8_wp, &
+                              methods(i))
+         end do
+      end do
+   end subroutine test_zero_between
+
+   !> An oscillator goes on, watched.
+   subroutine go_on(error, method, t_end, table, continuation)
+      !> The first failure of the test
+      type(error_type), allocatable, intent(inout) :: error
+      !> The method
+      character(len=*), intent(in) :: method
+      !> Last instant
+      real(wp), intent(in) :: t_end
+      !> The watcher
+      type(event_table), intent(inout) :: table
+      !> Where it stands
+      type(continuation_type), intent(inout) :: continuation
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+
+      call integrate(swing(), continuation%time(1), t_end, at_tolerance(1.0e-10_wp, method), &
+                     outcome, failure, watcher=table, continuation=continuation)
+      call expect_success(error, failure)
+   end subroutine go_on
 
    !> A fast oscillator at t = 100, whose phase is lost with less than a spacing of t, in runs of a
    !> hundred steps.

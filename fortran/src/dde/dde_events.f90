@@ -3,8 +3,8 @@
 !> them over; which functions and what is done with an event is the watcher's.
 !>
 !> A function that stands off zero and then is at zero or beyond makes one event, at the first such
-!> instant. A zero at the first instant of a run is none. Where a function stays within the tolerance
-!> of zero, dense output may pass it though the solution does not.
+!> instant. A zero at the first instant of a run is none. Where a function stays within the
+!> tolerance of zero, dense output may pass it though the solution does not.
 module dde_events
    use dde_time, only: instant
    use errors, only: error_type, raise, text
