@@ -27,7 +27,7 @@ LIBRARIES = {
     "model": {"ieee_arithmetic"},
 }
 """For each floor: modules of others that it may use."""
-WITHOUT_ONLY = {("fftw", "iso_c_binding"), ("dde_explicit_step", "dde_dop853_tableau")}
+WITHOUT_ONLY = {("fftw", "iso_c_binding"), ("dde_explicit_stages", "dde_dop853_tableau")}
 """An interface passed on whole, and a list of coefficients used in one place."""
 PUBLIC = {"fftw", "dde_dop853_tableau"}
 """Modules without a secret: the same two."""

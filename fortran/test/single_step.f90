@@ -52,7 +52,7 @@ contains
 
       do i = 1, size(y)
          call step%interpolant(i, a)
-         y(i) = newton_value(step%nodes, a, s)
+         y(i) = newton_value(size(step%nodes), step%nodes, a, s)
       end do
    end function interpolated
 end module single_step

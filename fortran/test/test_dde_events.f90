@@ -204,7 +204,7 @@ contains
                      "a zero at the very end is seen")
          call expect_between(error, real(table%received, wp), 2.0_wp, 3.0_wp, "events")
          if (allocated(error)) return
-         call expect_close(error, table%time(:2)%hi, [1.0_wp, 2.0_wp], 4.0e-15_wp, methods(i))
+         call expect_close(error, table%time(:2)%hi, [1.0_wp, 2.0_wp], 1.0e-13_wp, methods(i))
       end do
    end subroutine test_zero_at_step_end
 

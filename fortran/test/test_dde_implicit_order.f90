@@ -124,7 +124,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(implicit_step_type) :: step
       type(oscillator) :: problem
-      real(wp), parameter :: longest(3) = [0.5_wp, 2.0_wp, 4.0_wp]
+      real(wp), parameter :: longest(3) = [0.5_wp, 2.0_wp, 5.0_wp]
       real(wp) :: estimate(2), h, inside(2), misfit(2)
       integer :: i, j, k
 

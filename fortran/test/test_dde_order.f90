@@ -177,7 +177,7 @@ contains
       type(explicit_step_type), intent(in) :: step
       real(wp) :: e(size(step%y))
 
-      e = matmul(step%k(:, [1, 6, 7, 8, 9, 10, 11, 12]), &
+      e = matmul(slopes(step), &
                  [er1, er6, er7, er8, er9, er10, er11, er12])
    end function e_5
 
@@ -187,7 +187,18 @@ contains
       type(explicit_step_type), intent(in) :: step
       real(wp) :: e(size(step%y))
 
-      e = matmul(step%k(:, [1, 6, 7, 8, 9, 10, 11, 12]), &
+      e = matmul(slopes(step), &
                  [b1 - bhh1, b6, b7, b8, b9 - bhh2, b10, b11, b12 - bhh3])
    end function e_3
+
+   !> Slopes 1 and 6 to 12, shape (n, 8).
+   pure function slopes(step) result(k)
+      !> A step
+      type(explicit_step_type), intent(in) :: step
+      real(wp) :: k(size(step%y), 8)
+      real(wp) :: by_component(size(step%k, 1)*size(step%k, 2), size(step%k, 3))
+
+      by_component = reshape(step%k, shape(by_component))
+      k = by_component(:size(step%y), [1, 6, 7, 8, 9, 10, 11, 12])
+   end function slopes
 end module test_dde_order

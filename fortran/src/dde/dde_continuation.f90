@@ -2,7 +2,8 @@
 !> that a caller can write to a file and read back.
 module dde_continuation
    use dde_breaking_points, only: kink_type
-   use dde_history, only: highest_degree, history_type
+   use dde_history, only: history_type
+   use dde_interpolant, only: highest_degree
    use dde_problem, only: dde_problem_type
    use dde_time, only: elapsed, instant, later
    use errors, only: error_type, raise, text
@@ -38,11 +39,9 @@ module dde_continuation
       real(wp), allocatable :: step_start(:, :)
       !> Its length, shape (steps)
       real(wp), allocatable :: step_length(:)
-      !> Degree of its polynomial, shape (steps)
-      integer, allocatable :: degree(:)
-      !> Newton nodes of its polynomial, shape (highest degree, steps), unused ones last
+      !> Newton nodes of its polynomial, shape (highest degree, steps)
       real(wp), allocatable :: nodes(:, :)
-      !> Newton coefficients, shape (1 + highest degree, kept, steps), unused ones last
+      !> Newton coefficients, shape (1 + highest degree, kept, steps), 0 above the degree in use
       real(wp), allocatable :: coefficients(:, :, :)
    contains
       !> Refuse a problem that cannot go on from here
@@ -101,22 +100,19 @@ contains
    pure logical function consistent(self) result(value)
       !> The continuation
       type(continuation_type), intent(in) :: self
-      integer :: highest, steps
+      integer :: steps
 
       value = allocated(self%slope) .and. allocated(self%rate) .and. allocated(self%kink) &
               .and. allocated(self%passages) .and. allocated(self%kept) &
               .and. allocated(self%step_start) .and. allocated(self%step_length) &
-              .and. allocated(self%degree) .and. allocated(self%nodes) &
-              .and. allocated(self%coefficients)
+              .and. allocated(self%nodes) .and. allocated(self%coefficients)
       if (.not. value) return
       steps = size(self%step_length)
-      highest = size(self%nodes, 1)
       value = all([size(self%slope), size(self%rate)] == size(self%y)) &
               .and. all(shape(self%kink) == [2, size(self%passages)]) &
-              .and. all(shape(self%step_start) == [2, steps]) .and. size(self%degree) == steps &
-              .and. size(self%nodes, 2) == steps &
-              .and. all(shape(self%coefficients) == [1 + highest, size(self%kept), steps])
-      if (value) value = all(self%degree >= 1 .and. self%degree <= highest)
+              .and. all(shape(self%step_start) == [2, steps]) &
+              .and. all(shape(self%nodes) == [highest_degree, steps]) &
+              .and. all(shape(self%coefficients) == [1 + highest_degree, size(self%kept), steps])
    end function consistent
 
    !> Whether each of some components is among the others.
@@ -155,25 +151,22 @@ contains
       type(kink_type), intent(in) :: kinks(:)
       type(kink_type), allocatable :: near(:)
       type(instant) :: start
-      real(wp), allocatable :: nodes(:), coefficients(:, :)
       integer(int64) :: step
       integer :: i, steps
 
       self%kept = past%kept
       steps = int(past%newest - past%oldest + 1)
-      allocate (self%step_start(2, steps), self%step_length(steps), self%degree(steps))
-      allocate (self%nodes(highest_degree, steps), source=0.0_wp)
-      allocate (self%coefficients(1 + highest_degree, size(past%kept), steps), source=0.0_wp)
+      allocate (self%step_start(2, steps), self%step_length(steps))
+      allocate (self%nodes(highest_degree, steps))
+      allocate (self%coefficients(1 + highest_degree, size(past%kept), steps))
       near = pack(kinks, size(past%kept) > 0)
       i = 0
       do step = past%oldest, past%newest
          i = i + 1
-         call past%recall(step, start, self%step_length(i), nodes, coefficients)
+         call past%recall(step, start, self%step_length(i), self%nodes(:, i), &
+                          self%coefficients(:, :, i))
          if (i == 1) near = pack(kinks, elapsed(start, kinks%at) >= 0.0_wp)
          self%step_start(:, i) = [start%hi, start%lo]
-         self%degree(i) = size(nodes)
-         self%nodes(:size(nodes), i) = nodes
-         self%coefficients(:1 + size(nodes), :, i) = coefficients
       end do
       allocate (self%kink(2, size(near)))
       self%kink(1, :) = near%at%hi
@@ -193,8 +186,7 @@ contains
 
       do i = 1, size(self%step_length)
          call past%append(instant(self%step_start(1, i), self%step_start(2, i)), &
-                          self%step_length(i), self%nodes(:self%degree(i), i), &
-                          self%coefficients(:1 + self%degree(i), :, i))
+                          self%step_length(i), self%nodes(:, i), self%coefficients(:, :, i))
       end do
       allocate (kinks(size(self%passages)))
       kinks%at%hi = self%kink(1, :)

@@ -44,7 +44,7 @@ contains
       end if
       h = min(h, options%longest_step, span)
       if (size(problem%lag) > 0) h = min(h, minval(problem%lag))
-      if (size(problem%lag) > 0) call past%values(problem, h, step%z)
+      call past%values(problem, [h], step%z)
       call problem%rhs(t_start + h, step%y + h*step%slope, step%z, slope_ahead)
       step%evaluations = step%evaluations + 1
       bend = length_of(slope_ahead - step%slope, scale)

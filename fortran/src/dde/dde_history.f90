@@ -1,18 +1,16 @@
 !> The past: the polynomials of accepted steps for the delayed components only, in a ring that
 !> forgets what no delay can reach any more; before the first instant, the problem's own history.
 module dde_history
-   use dde_interpolant, only: newton_value
+   use dde_interpolant, only: highest_degree, newton_values
    use dde_problem, only: dde_problem_type
    use dde_time, only: elapsed, instant, later
    use kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: highest_degree, history_type
+   public :: history_type
 
    !> Slots of a new ring; it doubles when the longest delay spans more steps.
    integer, parameter :: first_capacity = 64
-   !> Highest degree of an interpolant.
-   integer, parameter :: highest_degree = 8
 
    !> The past of one integration.
    type :: history_type
@@ -21,17 +19,15 @@ module dde_history
       integer, allocatable, public :: kept(:)
       !> First instant of the integration
       type(instant) :: origin
-      !> Newton nodes of each step's interpolant, shape (degree, slot), unused ones last
+      !> Newton nodes of each step's interpolant, shape (highest degree, slot), unused ones last
       real(wp), allocatable :: nodes(:, :)
-      !> Degree of each step's interpolant, per slot
-      integer, allocatable :: degree(:)
       !> Numbers of the oldest and the newest step kept; step i lives in slot modulo(i, capacity)
       integer(int64), public :: oldest = 0, newest = -1
       !> Start of each step kept, per slot
       type(instant), allocatable :: start(:)
       !> Length of each step kept, per slot
       real(wp), allocatable :: length(:)
-      !> Interpolant (0:degree, kept component, slot)
+      !> Its coefficients (0:highest degree, kept component, slot), 0 above the degree
       real(wp), allocatable :: coefficients(:, :, :)
       !> Row of `kept` that each delayed value reads
       integer, allocatable :: row(:)
@@ -56,7 +52,7 @@ module dde_history
       procedure :: forget
       !> Turn to the step that starts at a given instant
       procedure :: face
-      !> All delayed values at a place of the current step
+      !> All delayed values at places of the current step
       procedure :: values
    end type history_type
 
@@ -80,8 +76,7 @@ contains
       past%kept = pack([(i, i=1, problem%n)], [(any(problem%component == i), i=1, problem%n)])
       past%row = [(findloc(past%kept, problem%component(k), dim=1), k=1, terms)]
       allocate (past%start(0:first_capacity - 1), past%length(0:first_capacity - 1))
-      allocate (past%nodes(highest_degree, 0:first_capacity - 1))
-      allocate (past%degree(0:first_capacity - 1))
+      allocate (past%nodes(highest_degree, 0:first_capacity - 1), source=0.0_wp)
       allocate (past%coefficients(0:highest_degree, size(past%kept), 0:first_capacity - 1))
       allocate (past%found(terms), source=0_int64)
       allocate (past%slot(terms), source=0)
@@ -107,9 +102,9 @@ contains
       slot = int(modulo(self%newest, size(self%start, kind=int64)))
       self%start(slot) = start
       self%length(slot) = length
-      self%degree(slot) = size(nodes)
       self%nodes(:size(nodes), slot) = nodes
       self%coefficients(:size(nodes), :, slot) = coefficients
+      self%coefficients(size(nodes) + 1:, :, slot) = 0.0_wp
    end subroutine append
 
    !> Step number `step`, oldest..newest, as it was appended.
@@ -123,16 +118,16 @@ contains
       !> Length of the step
       real(wp), intent(out) :: length
       !> Newton nodes of its interpolant
-      real(wp), allocatable, intent(out) :: nodes(:)
-      !> Interpolant of the kept components, shape (degree + 1, kept)
-      real(wp), allocatable, intent(out) :: coefficients(:, :)
+      real(wp), intent(out) :: nodes(highest_degree)
+      !> Interpolant of the kept components, shape (0:highest_degree, kept)
+      real(wp), intent(out) :: coefficients(0:, :)
       integer :: slot
 
       slot = int(modulo(step, size(self%start, kind=int64)))
       start = self%start(slot)
       length = self%length(slot)
-      nodes = self%nodes(:self%degree(slot), slot)
-      coefficients = self%coefficients(:self%degree(slot), :, slot)
+      nodes = self%nodes(:, slot)
+      coefficients = self%coefficients(:, :, slot)
    end subroutine recall
 
    !> Drop the steps that ended before `horizon`; the newest stays.
@@ -171,38 +166,56 @@ contains
       end do
    end subroutine face
 
-   !> Delayed values z(k) at `ahead` after the start of the current step.
+   !> Delayed values at several places of the current step, each place after the one before.
    pure subroutine values(self, problem, ahead, z)
       !> The past
       class(history_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Time since the start of the current step, 0..length
-      real(wp), intent(in) :: ahead
-      !> Delayed values, shape (size(problem%lag))
-      real(wp), intent(out) :: z(:)
-      integer :: k
+      !> Times since the start of the current step, ascending, 0..length
+      real(wp), intent(in) :: ahead(:)
+      !> Delayed values, shape (size(problem%lag), size(ahead))
+      real(wp), intent(out) :: z(:, :)
+      integer :: i, k
 
-      do k = 1, size(z)
+      do k = 1, size(z, 1)
          if (self%before_origin(k)) then
-            z(k) = problem%history(self%now + (ahead - problem%lag(k)), problem%component(k))
+            do i = 1, size(ahead)
+               z(k, i) = problem%history(self%now + (ahead(i) - problem%lag(k)), &
+                                         problem%component(k))
+            end do
          else
-            do while (self%offset(k) + ahead > self%length(self%slot(k)))
-               if (self%found(k) == self%newest) exit
-               call point_at(self, k, self%found(k) + 1)
-            end do
-            do while (self%offset(k) + ahead < 0.0_wp)
-               if (self%found(k) == self%oldest) exit
-               call point_at(self, k, self%found(k) - 1)
-            end do
-            associate (slot => self%slot(k))
-               z(k) = newton_value(self%nodes(:self%degree(slot), slot), &
-                                   self%coefficients(:, self%row(k), slot), &
-                                   (self%offset(k) + ahead)/self%length(slot))
-            end associate
+            call look_up(self, k, ahead, z(k, :))
          end if
       end do
    end subroutine values
+
+   !> One delayed value at several places, ascending: step by step of the past.
+   pure subroutine look_up(self, k, ahead, z)
+      !> The past
+      class(history_type), intent(inout) :: self
+      !> Which delayed value
+      integer, intent(in) :: k
+      !> Times since the start of the current step, ascending
+      real(wp), intent(in) :: ahead(:)
+      !> The delayed value there
+      real(wp), intent(out) :: z(:)
+      real(wp) :: limit
+      integer :: first, slot
+
+      do while (self%offset(k) + ahead(1) < 0.0_wp .and. self%found(k) > self%oldest)
+         call point_at(self, k, self%found(k) - 1)
+      end do
+      first = 1
+      do
+         slot = self%slot(k)
+         limit = merge(huge(1.0_wp), self%length(slot), self%found(k) == self%newest)
+         call newton_values(self%nodes(:, slot), self%coefficients(:, self%row(k), slot), &
+                            self%offset(k), self%length(slot), limit, size(ahead), ahead, first, z)
+         if (first > size(ahead)) exit
+         call point_at(self, k, self%found(k) + 1)
+      end do
+   end subroutine look_up
 
    !> Let delayed value k read step number `step`.
    pure subroutine point_at(self, k, step)
@@ -228,20 +241,18 @@ contains
 
       capacity = size(self%start)
       allocate (wider%start(0:2*capacity - 1), wider%length(0:2*capacity - 1))
-      allocate (wider%degree(0:2*capacity - 1), wider%nodes(highest_degree, 0:2*capacity - 1))
+      allocate (wider%nodes(highest_degree, 0:2*capacity - 1), source=0.0_wp)
       allocate (wider%coefficients(0:highest_degree, size(self%kept), 0:2*capacity - 1))
       do step = self%oldest, self%newest
          from = int(modulo(step, int(capacity, int64)))
          to = int(modulo(step, int(2*capacity, int64)))
          wider%start(to) = self%start(from)
          wider%length(to) = self%length(from)
-         wider%degree(to) = self%degree(from)
          wider%nodes(:, to) = self%nodes(:, from)
          wider%coefficients(:, :, to) = self%coefficients(:, :, from)
       end do
       call move_alloc(wider%start, self%start)
       call move_alloc(wider%length, self%length)
-      call move_alloc(wider%degree, self%degree)
       call move_alloc(wider%nodes, self%nodes)
       call move_alloc(wider%coefficients, self%coefficients)
       self%slot = int(modulo(self%found, int(2*capacity, int64)))

@@ -77,7 +77,7 @@ contains
       step%predictive = .true.
       step%hold = keep_length
       step%nodes = [0.0_wp, step%method%c]
-      allocate (step%y(n), step%y_new(n), step%slope(n), step%z(delays), step%error_vector(n))
+      allocate (step%y(n), step%y_new(n), step%slope(n), step%z(delays, 1), step%error_vector(n))
       allocate (step%by_y(n, n), step%by_z(n, delays))
       allocate (step%differences(0:stages, n), step%last_differences(0:stages, n))
       step%stages = stage_iteration(step%method, n, delays)
@@ -163,7 +163,7 @@ contains
 
       singular = .false.
       if (.not. self%jacobian_serves) then
-         if (size(self%z) > 0) call past%values(problem, 0.0_wp, self%z)
+         call past%values(problem, [0.0_wp], self%z)
          call problem%jacobian(self%t, self%y, self%z, self%by_y, self%by_z)
          self%stages%systems%h = 0.0_wp
          singular = .not. (all(ieee_is_finite(self%by_y)) .and. all(ieee_is_finite(self%by_z)))
@@ -196,7 +196,7 @@ contains
       raw = matmul(self%stages%increments, self%method%e)/self%h
       self%error_vector = self%slope + raw
       call self%stages%systems%filter(self%error_vector)
-      error = scaled_norm(self%error_vector, scale)
+      error = scaled_norm(problem%n, self%error_vector, scale)
       if (error >= 1.0_wp .and. .not. self%last_h > 0.0_wp) then
          ! at a start, once more through the filter
          call problem%rhs(self%t, self%y + self%error_vector, self%z, self%error_vector)
@@ -204,7 +204,7 @@ contains
          if (all(ieee_is_finite(self%error_vector))) then
             self%error_vector = self%error_vector + raw
             call self%stages%systems%filter(self%error_vector)
-            error = scaled_norm(self%error_vector, scale)
+            error = scaled_norm(problem%n, self%error_vector, scale)
          end if
       end if
       self%y_new = self%y + self%stages%increments(:, self%method%stages)

@@ -42,8 +42,9 @@ contains
          end if
          singular = .not. abs(a(k, k)) > 0.0_wp
          if (singular) return
+         a(k, k) = 1.0_wp/a(k, k)
          do i = k + 1, size(a, 1)
-            a(i, k) = a(i, k)/a(k, k)
+            a(i, k) = a(i, k)*a(k, k)
          end do
          do j = k + 1, size(a, 1)
             do i = k + 1, size(a, 1)
@@ -73,10 +74,11 @@ contains
             a(k, k:) = a(j, k:)
             a(j, k:) = row(k:)
          end if
-         singular = .not. abs(a(k, k)) > 0.0_wp
+         singular = .not. abs(real(a(k, k))) + abs(aimag(a(k, k))) > 0.0_wp
          if (singular) return
+         a(k, k) = 1.0_wp/a(k, k)
          do i = k + 1, size(a, 1)
-            a(i, k) = a(i, k)/a(k, k)
+            a(i, k) = a(i, k)*a(k, k)
          end do
          do j = k + 1, size(a, 1)
             do i = k + 1, size(a, 1)
@@ -106,7 +108,7 @@ contains
          end do
       end do
       do k = size(b), 1, -1
-         b(k) = b(k)/a(k, k)
+         b(k) = b(k)*a(k, k)
          do i = 1, k - 1
             b(i) = b(i) - a(i, k)*b(k)
          end do
@@ -133,7 +135,7 @@ contains
          end do
       end do
       do k = size(b), 1, -1
-         b(k) = b(k)/a(k, k)
+         b(k) = b(k)*a(k, k)
          do i = 1, k - 1
             b(i) = b(i) - a(i, k)*b(k)
          end do

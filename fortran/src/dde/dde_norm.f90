@@ -13,16 +13,18 @@ contains
 
    !> Root mean square of x/scale; huge where an element is hopeless, not a number where one is not
    !> finite.
-   pure function scaled_norm(x, scale) result(norm)
+   pure function scaled_norm(n, x, scale) result(norm)
+      !> How many
+      integer, intent(in) :: n
       !> Elements
-      real(wp), intent(in) :: x(:)
-      !> Their scales, > 0, shape of x
-      real(wp), intent(in) :: scale(:)
+      real(wp), intent(in) :: x(n)
+      !> Their scales, > 0
+      real(wp), intent(in) :: scale(n)
       real(wp) :: norm
       integer :: i
 
       norm = 0.0_wp
-      do i = 1, size(x)
+      do i = 1, n
          if (.not. ieee_is_finite(x(i))) then
             norm = ieee_value(1.0_wp, ieee_quiet_nan)
             return
@@ -33,6 +35,6 @@ contains
             norm = norm + (x(i)/scale(i))**2
          end if
       end do
-      if (norm < huge(1.0_wp)) norm = sqrt(norm/size(x))
+      if (norm < huge(1.0_wp)) norm = sqrt(norm/n)
    end function scaled_norm
 end module dde_norm

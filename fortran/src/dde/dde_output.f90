@@ -115,7 +115,7 @@ contains
       do while (elapsed(instant_at(sampler%next), step_end) >= 0.0_wp)
          s = elapsed(start, instant_at(sampler%next))/step%h
          do i = 1, size(values)
-            values(i) = newton_value(step%nodes, coefficients(:, i), s)
+            values(i) = newton_value(size(step%nodes), step%nodes, coefficients(:, i), s)
          end do
          call sampler%take(values)
       end do

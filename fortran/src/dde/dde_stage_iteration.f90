@@ -95,8 +95,8 @@ contains
       if (size(problem%lag) == 0) return
       do i = 1, method%stages
          self%own_place(:, i) = method%c(i) - problem%lag/h
-         call past%values(problem, method%c(i)*h, self%delayed(:, i))
       end do
+      call past%values(problem, method%c*h, self%delayed)
    end subroutine place_delays
 
    !> Start of the iteration: the last step's polynomial carried on, or no change.
@@ -111,17 +111,19 @@ contains
       real(wp), intent(in) :: last_h
       !> Length of this step
       real(wp), intent(in) :: h
-      real(wp) :: nodes(method%stages), place
+      real(wp) :: nodes(method%stages), place, rise(size(last_differences, 2))
       integer :: i, k
 
       self%increments = 0.0_wp
       nodes = [0.0_wp, method%c(:method%stages - 1)]
       if (last_h > 0.0_wp) then
+         rise = [(newton_value(size(nodes), nodes, last_differences(:, k), 1.0_wp), &
+                  k=1, size(rise))]
          do i = 1, method%stages
             place = 1.0_wp + method%c(i)*h/last_h
-            do k = 1, size(last_differences, 2)
-               self%increments(k, i) = newton_value(nodes, last_differences(:, k), place) &
-                                       - newton_value(nodes, last_differences(:, k), 1.0_wp)
+            do k = 1, size(rise)
+               self%increments(k, i) = newton_value(size(nodes), nodes, last_differences(:, k), &
+                                                    place) - rise(k)
             end do
          end do
       end if
@@ -157,7 +159,7 @@ contains
       logical, intent(out) :: finite
       real(wp) :: change(size(scale), method%stages)
       real(wp) :: last_norm, last_rate, limit, norm, rate, rounding
-      integer :: i, iteration, most
+      integer :: iteration, most
 
       converged = .false.
       most = int(iterations_of_three + (method%stages - 3)*iterations_per_stage)
@@ -172,7 +174,7 @@ contains
          evaluations = evaluations + method%stages
          if (.not. finite) return
          change = self%systems%correct(method, self%slopes, self%increments, self%transforms)
-         norm = scaled_norm(reshape(change, [size(change)]), [(scale, i=1, size(change, 2))])
+         norm = scaled_norm(size(change), change, spread(scale, 2, method%stages))
          finite = ieee_is_finite(norm)
          if (.not. finite) return
          if (iteration > 1) then

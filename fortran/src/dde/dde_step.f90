@@ -26,8 +26,8 @@ module dde_step
       real(wp), allocatable :: y_new(:)
       !> Slope at the start of the step, shape (n)
       real(wp), allocatable :: slope(:)
-      !> Delayed values at one place, shape (number of delayed values)
-      real(wp), allocatable :: z(:)
+      !> Delayed values at one place, shape (number of delayed values, 1)
+      real(wp), allocatable :: z(:, :)
       !> Start of the step as an ordinary number
       real(wp) :: t = 0.0_wp
       !> Length of the step
@@ -142,7 +142,7 @@ contains
       !> Start of the step
       real(wp), intent(in) :: t
 
-      if (size(self%z) > 0) call past%values(problem, 0.0_wp, self%z)
+      call past%values(problem, [0.0_wp], self%z)
       call problem%rhs(t, self%y, self%z, self%slope)
       self%evaluations = self%evaluations + 1
       call self%reset()

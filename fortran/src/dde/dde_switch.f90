@@ -15,10 +15,13 @@ module dde_switch
    real(wp), parameter :: beyond_the_delay = 4.0_wp
    !> Implicit steps in a row that must agree to a return.
    integer, parameter :: steps_to_return = 3
-   !> Explicit steps in a row that must agree to a leave: at first, and at most after vain tries.
-   integer, parameter :: least_patience = 4, most_patience = 128
+   !> Explicit steps in a row that must agree to a leave: at first, how much more after a vain try,
+   !> and at most.
+   integer, parameter :: least_patience = 8, less_willing = 8, most_patience = 512
+   !> Implicit steps after which the method must have paid.
+   integer, parameter :: trial = 6
    !> Cost of an evaluation within the implicit method over one within the explicit.
-   real(wp), parameter :: implicit_cost = 4.0_wp
+   real(wp), parameter :: implicit_cost = 4.5_wp
 
    !> Evidence for a change of method.
    type :: switch_type
@@ -28,6 +31,8 @@ module dde_switch
       integer :: patience = least_patience
       !> Evaluations when the method last changed
       integer(int64) :: evaluations_then = 0
+      !> Steps since
+      integer :: steps = 0
       !> Time gone since
       real(wp) :: gone = 0.0_wp
       !> Time per cost that the explicit method made before it was left
@@ -56,12 +61,14 @@ contains
       measure = step%h*step%stiffness()
       self%gone = self%gone + step%h
       if (step%implicit) then
+         self%steps = self%steps + 1
          self%votes = merge(self%votes + 1, 0, measure < worth_returning &
                             .and. h_next/beyond_the_delay < shortest_delay)
-         other = self%votes >= steps_to_return
+         pace = self%gone/(implicit_cost*(step%evaluations - self%evaluations_then))
+         other = self%votes >= steps_to_return &
+                 .or. (self%steps >= trial .and. pace < self%explicit_pace)
          if (other) then
-            pace = self%gone/(implicit_cost*(step%evaluations - self%evaluations_then))
-            self%patience = merge(least_patience, min(2*self%patience, most_patience), &
+            self%patience = merge(least_patience, min(less_willing*self%patience, most_patience), &
                                   pace > self%explicit_pace)
          end if
       else
@@ -81,6 +88,7 @@ contains
       end if
       if (other) then
          self%votes = 0
+         self%steps = 0
          self%gone = 0.0_wp
          self%evaluations_then = step%evaluations
       end if
