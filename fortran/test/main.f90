@@ -3,13 +3,17 @@ program tester
    use, intrinsic :: iso_fortran_env, only: error_unit
    use mctc_env_testing, only: new_testsuite, run_testsuite, testsuite_type
    use test_dde_behaviour, only: collect_dde_behaviour
+   use test_dde_continuation, only: collect_dde_continuation
    use test_dde_controller, only: collect_dde_controller
    use test_dde_convergence, only: collect_dde_convergence
+   use test_dde_events, only: collect_dde_events
+   use test_dde_extremes, only: collect_dde_extremes
    use test_dde_gsl, only: collect_dde_gsl
    use test_dde_history, only: collect_dde_history
    use test_dde_implicit, only: collect_dde_implicit
    use test_dde_implicit_order, only: collect_dde_implicit_order
    use test_dde_order, only: collect_dde_order
+   use test_dde_receivers, only: collect_dde_receivers
    use test_dde_reentrant, only: collect_dde_reentrant
    use test_dde_refusals, only: collect_dde_refusals
    use test_dde_solutions, only: collect_dde_solutions
@@ -28,13 +32,17 @@ program tester
    integer :: failed, i, run
 
    allocate (suites, source=[new_testsuite("dde_behaviour", collect_dde_behaviour), &
+                             new_testsuite("dde_continuation", collect_dde_continuation), &
                              new_testsuite("dde_controller", collect_dde_controller), &
                              new_testsuite("dde_convergence", collect_dde_convergence), &
+                             new_testsuite("dde_events", collect_dde_events), &
+                             new_testsuite("dde_extremes", collect_dde_extremes), &
                              new_testsuite("dde_gsl", collect_dde_gsl), &
                              new_testsuite("dde_history", collect_dde_history), &
                              new_testsuite("dde_implicit", collect_dde_implicit), &
-             new_testsuite("dde_implicit_order", collect_dde_implicit_order), &
-             new_testsuite("dde_order", collect_dde_order), &
+                             new_testsuite("dde_implicit_order", collect_dde_implicit_order), &
+                             new_testsuite("dde_order", collect_dde_order), &
+                             new_testsuite("dde_receivers", collect_dde_receivers), &
                              new_testsuite("dde_reentrant", collect_dde_reentrant), &
                              new_testsuite("dde_refusals", collect_dde_refusals), &
                              new_testsuite("dde_solutions", collect_dde_solutions), &

@@ -7,7 +7,7 @@ module test_dde_behaviour
    use kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use solving, only: at_tolerance, solve
-   use test_problems, only: linear, mackey_glass, oscillator, wille_baker, without_delays
+   use test_problems, only: linear, mackey_glass, oscillator, swing, wille_baker
    implicit none (type, external)
    private
    public :: collect_dde_behaviour
@@ -266,10 +266,4 @@ contains
       problem = wille_baker(n=3, lag=[first_lag, second_lag], component=[1, 2], &
                             past=[1.0_wp, 1.0_wp, 1.0_wp], first=[1.0_wp, 1.0_wp, 1.0_wp])
    end function pair
-
-   !> An oscillator.
-   pure type(oscillator) function swing() result(problem)
-      problem = oscillator(n=2, past=[1.0_wp, 0.0_wp], first=[1.0_wp, 0.0_wp])
-      call without_delays(problem)
-   end function swing
 end module test_dde_behaviour

@@ -15,7 +15,7 @@ module test_dde_reentrant
    public :: collect_dde_reentrant
 
    !> Number of integrations, and of samples of each.
-   integer, parameter :: runs = 16, samples = 5
+   integer, parameter :: runs = 64, samples = 5
    !> End of each integration.
    real(wp), parameter :: t_end = 100.0_wp
 
@@ -51,7 +51,7 @@ contains
                    new_unittest("one inside the other", test_nested)]
    end subroutine collect_dde_reentrant
 
-   !> Sixteen integrations in four threads, three times over.
+   !> Sixty-four integrations in four threads, twice over.
    subroutine test_threads(error)
       type(error_type), allocatable, intent(out) :: error
       type(run_type) :: alone(runs), together(runs)
@@ -62,7 +62,7 @@ contains
          call perform(alone(i))
          call expect_success(error, alone(i)%failure)
       end do
-      do round = 1, 3
+      do round = 1, 2
          do i = 1, runs
             call prepare(i, together(i))
          end do

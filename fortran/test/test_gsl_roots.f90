@@ -38,6 +38,7 @@ contains
                    new_unittest("a root at the end", test_root_at_end), &
                    new_unittest("a jump", test_jump), &
                    new_unittest("signs that do not differ", test_same_signs), &
+                   new_unittest("a reversed bracket", test_reversed), &
                    new_unittest("no convergence", test_no_convergence)]
    end subroutine collect_gsl_roots
 
@@ -99,6 +100,18 @@ contains
       call find_root(cosine_less_line(), -1.0_wp, 0.5_wp, root, failure)
       call expect_failure(error, failure, "opposite signs expected")
    end subroutine test_same_signs
+
+   !> A bracket whose ends are exchanged, or one, is refused as such.
+   subroutine test_reversed(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      real(wp) :: root
+
+      call find_root(cosine_less_line(), 1.0_wp, 0.5_wp, root, failure)
+      call expect_failure(error, failure, "bracket 1.0..0.5; lower end < upper end expected")
+      call find_root(cosine_less_line(), 1.0_wp, 1.0_wp, root, failure)
+      call expect_failure(error, failure, "bracket 1.0..1.0")
+   end subroutine test_reversed
 
    !> A function without values inside the bracket ends in words, not in a wrong root.
    subroutine test_no_convergence(error)

@@ -7,7 +7,7 @@ module test_problems
    implicit none (type, external)
    private
    public :: blow_up, enzyme, falls_out, infection, linear, mackey_glass, oscillator, quadrature
-   public :: sine, wille_baker, without_delays
+   public :: sine, swing, wille_baker, without_delays
 
    !> The start of every problem here that has one: constant history and first state.
    type, extends(dde_problem_type), abstract :: constant_past
@@ -100,6 +100,15 @@ contains
 
       allocate (problem%lag(0), problem%component(0))
    end subroutine without_delays
+
+   !> An oscillator with y1 = cos(rate t), y2 = -sin(rate t); rate 1 if not given.
+   pure type(oscillator) function swing(rate) result(problem)
+      real(wp), intent(in), optional :: rate
+
+      problem = oscillator(n=2, past=[1.0_wp, 0.0_wp], first=[1.0_wp, 0.0_wp])
+      call without_delays(problem)
+      if (present(rate)) problem%rate = rate
+   end function swing
 
    !> The first state.
    pure subroutine first_state(self, y)

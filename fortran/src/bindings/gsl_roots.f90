@@ -112,13 +112,13 @@ contains
    subroutine find_root(f, lower, upper, root, error)
       !> The function
       class(scalar_function), intent(in), target :: f
-      !> One end of the bracket
+      !> Lower end of the bracket
       real(wp), intent(in) :: lower
-      !> The other end
+      !> Upper end
       real(wp), intent(in) :: upper
       !> The root
       real(wp), intent(out) :: root
-      !> The signs do not differ, or no convergence
+      !> No bracket, the signs do not differ, or no convergence
       type(error_type), allocatable, intent(out) :: error
       type(callback_data), target :: context
       type(c_ptr) :: old_handler, solver
@@ -126,6 +126,11 @@ contains
       integer :: i
 
       root = lower
+      if (.not. lower < upper) then
+         call raise(error, "find_root: bracket "//text(lower)//".."//text(upper) &
+                    //"; lower end < upper end expected")
+         return
+      end if
       context%f => f
       old_handler = gsl_set_error_handler_off()
       solver = gsl_root_fsolver_alloc(brent_of_gsl())

@@ -10,6 +10,9 @@ module dde_first_step
    private
    public :: choose_first_step
 
+   !> A change beyond this many scales in a unit of time says nothing on the first step.
+   real(wp), parameter :: hopeless = 1.0e140_wp
+
 contains
 
    !> First step length: about a hundredth of |y|/|y'|, refined by the second derivative (Hairer,
@@ -32,22 +35,39 @@ contains
       real(wp) :: scale(size(step%y)), slope_ahead(size(step%y)), slope, bend
 
       scale = options%absolute + options%relative*abs(step%y)
-      slope = norm2(step%slope/scale)
+      h = 1.0e-6_wp*span
+      slope = length_of(step%slope, scale)
+      if (slope > hopeless) return
       h = 1.0e-6_wp
-      if (slope > 1.0e-5_wp .and. norm2(step%y/scale) > 1.0e-5_wp) then
-         h = 0.01_wp*norm2(step%y/scale)/slope
+      if (slope > 1.0e-5_wp .and. length_of(step%y, scale) > 1.0e-5_wp) then
+         h = 0.01_wp*length_of(step%y, scale)/slope
       end if
       h = min(h, options%longest_step, span)
       if (size(problem%lag) > 0) h = min(h, minval(problem%lag))
       call past%values(problem, [h], step%z)
       call problem%rhs(t_start + h, step%y + h*step%slope, step%z, slope_ahead)
       step%evaluations = step%evaluations + 1
-      bend = norm2((slope_ahead - step%slope)/scale)/h
+      bend = length_of(slope_ahead - step%slope, scale)
+      if (bend > hopeless) return
+      bend = bend/h
       if (max(slope, bend) > 1.0e-15_wp) then
          h = min(100.0_wp*h, (0.01_wp/max(slope, bend))**(1.0_wp/step%error_order))
       else
          h = min(100.0_wp*h, max(1.0e-6_wp, 1.0e-3_wp*h))
       end if
-      if (.not. ieee_is_finite(h)) h = 1.0e-6_wp*span
    end subroutine choose_first_step
+
+   !> Length of x in units of `scale`; huge where it is hopeless or not finite.
+   pure function length_of(x, scale) result(length)
+      !> Elements
+      real(wp), intent(in) :: x(:)
+      !> Their scales, > 0, shape of x
+      real(wp), intent(in) :: scale(:)
+      real(wp) :: length
+
+      length = huge(1.0_wp)
+      if (.not. all(ieee_is_finite(x))) return
+      if (any(abs(x) > hopeless*scale)) return
+      length = norm2(x/scale)
+   end function length_of
 end module dde_first_step

@@ -22,7 +22,7 @@ module dde_history
       !> Newton nodes of each step's interpolant, shape (highest degree, slot), unused ones last
       real(wp), allocatable :: nodes(:, :)
       !> Numbers of the oldest and the newest step kept; step i lives in slot modulo(i, capacity)
-      integer(int64) :: oldest = 0, newest = -1
+      integer(int64), public :: oldest = 0, newest = -1
       !> Start of each step kept, per slot
       type(instant), allocatable :: start(:)
       !> Length of each step kept, per slot
@@ -46,6 +46,8 @@ module dde_history
    contains
       !> Take in an accepted step
       procedure :: append
+      !> Give a kept step back
+      procedure :: recall
       !> Drop what ended before a given instant
       procedure :: forget
       !> Turn to the step that starts at a given instant
@@ -104,6 +106,29 @@ contains
       self%coefficients(:size(nodes), :, slot) = coefficients
       self%coefficients(size(nodes) + 1:, :, slot) = 0.0_wp
    end subroutine append
+
+   !> Step number `step`, oldest..newest, as it was appended.
+   pure subroutine recall(self, step, start, length, nodes, coefficients)
+      !> The past
+      class(history_type), intent(in) :: self
+      !> Number of the step
+      integer(int64), intent(in) :: step
+      !> Start of the step
+      type(instant), intent(out) :: start
+      !> Length of the step
+      real(wp), intent(out) :: length
+      !> Newton nodes of its interpolant
+      real(wp), intent(out) :: nodes(highest_degree)
+      !> Interpolant of the kept components, shape (0:highest_degree, kept)
+      real(wp), intent(out) :: coefficients(0:, :)
+      integer :: slot
+
+      slot = int(modulo(step, size(self%start, kind=int64)))
+      start = self%start(slot)
+      length = self%length(slot)
+      nodes = self%nodes(:, slot)
+      coefficients = self%coefficients(:, :, slot)
+   end subroutine recall
 
    !> Drop the steps that ended before `horizon`; the newest stays.
    pure subroutine forget(self, horizon)

@@ -7,7 +7,7 @@ module dde_interpolant
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: highest_degree, newton_value, newton_values
+   public :: highest_degree, newton_state, newton_value, newton_values
 
    !> Highest degree of an interpolant.
    integer, parameter :: highest_degree = 8
@@ -66,4 +66,28 @@ contains
       end do
       first = i
    end subroutine newton_values
+
+   !> Values at s of several polynomials over the same nodes, and their derivatives by s.
+   pure subroutine newton_state(nodes, coefficients, s, values, slopes)
+      !> Nodes x(1..degree) of the method
+      real(wp), intent(in) :: nodes(:)
+      !> Coefficients a(0..degree) of each, shape (polynomials, 0:degree)
+      real(wp), intent(in) :: coefficients(:, 0:)
+      !> Place in the step, 0..1
+      real(wp), intent(in) :: s
+      !> Values, shape (polynomials)
+      real(wp), intent(out) :: values(:)
+      !> Derivatives, shape (polynomials)
+      real(wp), intent(out) :: slopes(:)
+      integer :: i, j
+
+      do i = 1, size(values)
+         values(i) = coefficients(i, size(nodes))
+         slopes(i) = 0.0_wp
+         do j = size(nodes), 1, -1
+            slopes(i) = values(i) + (s - nodes(j))*slopes(i)
+            values(i) = coefficients(i, j - 1) + (s - nodes(j))*values(i)
+         end do
+      end do
+   end subroutine newton_state
 end module dde_interpolant

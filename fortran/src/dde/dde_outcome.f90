@@ -7,19 +7,21 @@ module dde_outcome
    implicit none (type, external)
    private
    public :: explain, integration_result, limit_met
-   public :: reached_end, refused, step_underflow, too_many_steps, value_not_finite
+   public :: event_met, reached_end, refused, step_underflow, too_many_steps, value_not_finite
 
    !> Steps below this share of the time no longer move an instant.
    real(wp), parameter :: least_step = 1.0e-100_wp
 
    !> Why an integration ended.
    enum, bind(c)
-      enumerator :: reached_end, refused, step_underflow, too_many_steps, value_not_finite
+      enumerator :: reached_end, event_met, refused, step_underflow, too_many_steps, &
+         value_not_finite
    end enum
 
    !> What an integration did.
    type :: integration_result
-      !> Why it ended: reached_end, step_underflow, too_many_steps, value_not_finite or refused
+      !> Why it ended: reached_end, event_met, step_underflow, too_many_steps, value_not_finite or
+      !> refused
       integer :: reason = refused
       !> How far it came
       real(wp) :: t = 0.0_wp

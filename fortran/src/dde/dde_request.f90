@@ -1,20 +1,24 @@
 !> What a caller asks of an integration, and the refusal of what cannot be done.
 module dde_request
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
+   use dde_continuation, only: continuation_type
+   use dde_events, only: event_watcher_type
    use dde_problem, only: dde_problem_type
+   use dde_sampler, only: sampler_type
+   use dde_time, only: elapsed, instant, instant_at
    use errors, only: error_type, raise, text
    use kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: check, integration_options
+   public :: check, integration_options, methods
 
-   !> Methods to choose from.
+   !> Methods to choose from: `auto` changes between the explicit one and radau9.
    character(len=8), parameter :: methods(5) = ["auto    ", "explicit", "radau5  ", "radau9  ", &
                                                 "radau13 "]
 
    !> What a caller may choose.
    type :: integration_options
-      !> 'auto' or 'explicit'
+      !> One of `methods`
       character(len=8) :: method = "auto"
       !> Relative tolerance of one step
       real(wp) :: relative = 1.0e-9_wp
@@ -31,7 +35,7 @@ module dde_request
 contains
 
    !> Refuse what cannot be integrated.
-   pure subroutine check(problem, t_start, t_end, options, error)
+   pure subroutine check(problem, t_start, t_end, options, error, sampler, watcher, continuation)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> First instant
@@ -42,6 +46,30 @@ contains
       type(integration_options), intent(in) :: options
       !> What is wrong
       type(error_type), allocatable, intent(out) :: error
+      !> Receiver of samples
+      class(sampler_type), intent(in), optional :: sampler
+      !> Receiver of events
+      class(event_watcher_type), intent(in), optional :: watcher
+      !> Where an earlier run ended
+      type(continuation_type), intent(in), optional :: continuation
+
+      call check_problem(problem, error)
+      if (.not. allocated(error)) call check_span(t_start, t_end, error, continuation)
+      if (.not. allocated(error)) call check_options(options, error)
+      if (present(sampler) .and. .not. allocated(error)) call sampler%check(problem%n, error)
+      if (present(watcher) .and. .not. allocated(error)) call watcher%check(problem%n, error)
+      if (present(continuation) .and. .not. allocated(error)) then
+         call continuation%check(problem, t_start, error)
+      end if
+   end subroutine check
+
+   !> Refuse a problem that is not one.
+   pure subroutine check_problem(problem, error)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> What is wrong
+      type(error_type), allocatable, intent(out) :: error
+      integer :: k
 
       if (problem%n < 1) then
          call raise(error, "integrate: n = "//text(problem%n)//" equations; at least 1 expected")
@@ -51,26 +79,96 @@ contains
       else if (size(problem%lag) /= size(problem%component)) then
          call raise(error, "integrate: "//text(size(problem%lag))//" delays for " &
                     //text(size(problem%component))//" delayed components; as many expected")
-      else if (.not. all(problem%lag > 0.0_wp .and. ieee_is_finite(problem%lag))) then
-         call raise(error, "integrate: smallest delay = "//text(minval(problem%lag)) &
-                    //"; finite and > 0 expected")
-      else if (any(problem%component < 1 .or. problem%component > problem%n)) then
-         call raise(error, "integrate: a delayed component lies outside 1.."//text(problem%n))
-      else if (.not. (all(ieee_is_finite([t_start, t_end])) .and. t_end > t_start)) then
-         call raise(error, "integrate: t_end = "//text(t_end)//"; finite and > "//text(t_start) &
-                    //" expected")
-      else if (.not. (options%relative >= 0.0_wp .and. options%absolute > 0.0_wp)) then
+      end if
+      if (allocated(error)) return
+      do k = 1, size(problem%lag)
+         if (.not. positive(problem%lag(k))) then
+            call raise(error, "integrate: lag("//text(k)//") = "//text(problem%lag(k)) &
+                       //"; finite and > 0 expected")
+         else if (problem%component(k) < 1 .or. problem%component(k) > problem%n) then
+            call raise(error, "integrate: component("//text(k)//") = " &
+                       //text(problem%component(k))//"; 1.."//text(problem%n)//" expected")
+         end if
+         if (allocated(error)) return
+      end do
+   end subroutine check_problem
+
+   !> Refuse a span that is none; a run that goes on starts where the other ended, to the last bit.
+   pure subroutine check_span(t_start, t_end, error, continuation)
+      !> First instant
+      real(wp), intent(in) :: t_start
+      !> Last instant
+      real(wp), intent(in) :: t_end
+      !> What is wrong
+      type(error_type), allocatable, intent(out) :: error
+      !> Where an earlier run ended
+      type(continuation_type), intent(in), optional :: continuation
+      type(instant) :: start
+
+      if (all(ieee_is_finite([t_start, t_end]))) then
+         start = instant_at(t_start)
+         if (present(continuation)) then
+            if (allocated(continuation%y)) start%lo = continuation%time(2)
+         end if
+         if (elapsed(start, instant_at(t_end)) > 0.0_wp) return
+      end if
+      call raise(error, "integrate: t_end = "//text(t_end)//"; finite and > "//text(t_start) &
+                 //" expected")
+   end subroutine check_span
+
+   !> Refuse tolerances, limits and a method that there cannot be.
+   pure subroutine check_options(options, error)
+      !> Method, tolerances and limits
+      type(integration_options), intent(in) :: options
+      !> What is wrong
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: names
+      integer :: i
+
+      if (.not. ((positive(options%relative) .or. is_zero(options%relative)) &
+                 .and. positive(options%absolute))) then
          call raise(error, "integrate: tolerances relative = "//text(options%relative) &
-                    //", absolute = "//text(options%absolute)//"; >= 0 and > 0 expected")
-      else if (.not. (options%first_step >= 0.0_wp .and. ieee_is_finite(options%first_step))) then
+                    //", absolute = "//text(options%absolute) &
+                    //"; finite, >= 0 and > 0 expected")
+      else if (.not. (positive(options%first_step) .or. is_zero(options%first_step))) then
          call raise(error, "integrate: first_step = "//text(options%first_step) &
                     //"; finite and >= 0 expected (0: chosen by the solver)")
-      else if (.not. options%longest_step > 0.0_wp) then
+      else if (.not. above_zero(options%longest_step)) then
          call raise(error, "integrate: longest_step = "//text(options%longest_step) &
                     //"; > 0 expected")
       else if (all(options%method /= methods)) then
-         call raise(error, "integrate: method = '"//trim(options%method) &
-                    //"'; 'auto' or 'explicit' expected")
+         names = trim(methods(1))
+         do i = 2, size(methods)
+            names = names//", "//trim(methods(i))
+         end do
+         call raise(error, "integrate: method = '"//trim(options%method)//"'; one of "//names &
+                    //" expected")
       end if
-   end subroutine check
+   end subroutine check_options
+
+   !> Whether a number is finite and > 0.
+   elemental logical function positive(x) result(value)
+      !> The number
+      real(wp), intent(in) :: x
+
+      value = above_zero(x) .and. ieee_is_finite(x)
+   end function positive
+
+   !> Whether a number is > 0, infinite or not.
+   elemental logical function above_zero(x) result(value)
+      !> The number
+      real(wp), intent(in) :: x
+
+      value = .false.
+      if (.not. ieee_is_nan(x)) value = x > 0.0_wp
+   end function above_zero
+
+   !> Whether a number is 0.
+   elemental logical function is_zero(x) result(value)
+      !> The number
+      real(wp), intent(in) :: x
+
+      value = .false.
+      if (ieee_is_finite(x)) value = .not. abs(x) > 0.0_wp
+   end function is_zero
 end module dde_request

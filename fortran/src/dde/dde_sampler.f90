@@ -1,6 +1,7 @@
 !> Where samples of a trajectory go: the integrator hands over the wanted components at the wanted
 !> times, taken from dense output; what is done with them is the sampler's.
 module dde_sampler
+   use errors, only: error_type, raise, text
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -13,6 +14,8 @@ module dde_sampler
       !> Time of the next sample; beyond the end of the integration when none is wanted
       real(wp) :: next = huge(1.0_wp)
    contains
+      !> Refuse components that are not there
+      procedure :: check => check_wanted
       !> Receive the sample of time `next` and move `next` on
       procedure(take_sample), deferred :: take
    end type sampler_type
@@ -46,6 +49,29 @@ module dde_sampler
    end interface table_sampler
 
 contains
+
+   !> Refuse components that are not there.
+   pure subroutine check_wanted(self, n, error)
+      !> The sampler
+      class(sampler_type), intent(in) :: self
+      !> Number of equations
+      integer, intent(in) :: n
+      !> What is wrong
+      type(error_type), allocatable, intent(out) :: error
+      integer :: i
+
+      if (.not. allocated(self%wanted)) then
+         call raise(error, "integrate: wanted of the sampler is not allocated; components 1.." &
+                    //text(n)//" expected")
+         return
+      end if
+      do i = 1, size(self%wanted)
+         if (self%wanted(i) >= 1 .and. self%wanted(i) <= n) cycle
+         call raise(error, "integrate: wanted("//text(i)//") = "//text(self%wanted(i)) &
+                    //" of the sampler; 1.."//text(n)//" expected")
+         return
+      end do
+   end subroutine check_wanted
 
    !> An empty table for components `wanted` at times `time`.
    pure function new_table(wanted, time) result(table)

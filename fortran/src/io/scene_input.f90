@@ -1,5 +1,6 @@
 !> A scene: one parameter set of the delayed block, from the namelist group &scene.
 module scene_input
+   use dde, only: methods
    use errors, only: error_type, raise, text
    use kinds, only: wp
    use namelist_input, only: check_choice, check_number, close_namelist, not_given, open_namelist, &
@@ -10,9 +11,6 @@ module scene_input
 
    !> Variables that a scene can store.
    character(len=5), parameter :: variable_names(3) = ["theta", "u    ", "v    "]
-   !> Methods that a scene can ask for.
-   character(len=8), parameter :: methods(5) = ["auto    ", "explicit", "radau5  ", "radau9  ", &
-                                                "radau13 "]
    !> Longest name of a scene.
    integer, parameter :: longest_name = 64
 

@@ -1,0 +1,196 @@
+!> A run that can go on: all that a later run needs to carry on where one ended, in plain arrays
+!> that a caller can write to a file and read back.
+module dde_continuation
+   use dde_breaking_points, only: kink_type
+   use dde_history, only: history_type
+   use dde_interpolant, only: highest_degree
+   use dde_problem, only: dde_problem_type
+   use dde_time, only: elapsed, instant, later
+   use errors, only: error_type, raise, text
+   use kinds, only: int64, wp
+   implicit none (type, external)
+   private
+   public :: continuation_type
+
+   !> Where a run stands; empty (`y` not allocated) before the first. Each instant is a pair, its
+   !> second number what rounding took from the first.
+   type :: continuation_type
+      !> When
+      real(wp) :: time(2) = 0.0_wp
+      !> First instant of the first run: before it the problem's own history holds
+      real(wp) :: origin(2) = 0.0_wp
+      !> State, shape (n)
+      real(wp), allocatable :: y(:)
+      !> Its time derivative by dense output, shape (n): what event functions saw last
+      real(wp), allocatable :: slope(:)
+      !> Right-hand side, shape (n): a problem that gives another one makes a kink
+      real(wp), allocatable :: rate(:)
+      !> Length of the next step
+      real(wp) :: next_step = 0.0_wp
+      !> Name of the method in use
+      character(len=8) :: method = ""
+      !> Kinks in the steps kept, shape (2, kinks), ascending
+      real(wp), allocatable :: kink(:, :)
+      !> Passages through a delay that each has made; -1 for a jump of the solution
+      integer, allocatable :: passages(:)
+      !> Components of y that are kept
+      integer, allocatable :: kept(:)
+      !> Start of each step kept, shape (2, steps), ascending
+      real(wp), allocatable :: step_start(:, :)
+      !> Its length, shape (steps)
+      real(wp), allocatable :: step_length(:)
+      !> Newton nodes of its polynomial, shape (highest degree, steps)
+      real(wp), allocatable :: nodes(:, :)
+      !> Newton coefficients, shape (1 + highest degree, kept, steps), 0 above the degree in use
+      real(wp), allocatable :: coefficients(:, :, :)
+   contains
+      !> Refuse a problem that cannot go on from here
+      procedure :: check
+      !> Keep the past
+      procedure :: store
+      !> Give the past back
+      procedure :: restore
+   end type continuation_type
+
+contains
+
+   !> Refuse a problem that cannot go on from here, or numbers that do not fit each other.
+   pure subroutine check(self, problem, t_start, error)
+      !> The continuation
+      class(continuation_type), intent(in) :: self
+      !> The problem that shall go on
+      class(dde_problem_type), intent(in) :: problem
+      !> First instant of the run to come
+      real(wp), intent(in) :: t_start
+      !> What is wrong
+      type(error_type), allocatable, intent(out) :: error
+      integer :: k
+
+      if (.not. allocated(self%y)) return
+      if (size(self%y) /= problem%n) then
+         call raise(error, "integrate: a continuation of "//text(size(self%y))//" equations for " &
+                    //text(problem%n)//"; as many expected")
+      else if (.not. consistent(self)) then
+         call raise(error, "integrate: the arrays of the continuation do not fit each other; " &
+                    //"expected as an earlier run left them")
+      else if (.not. same_set(self%kept, problem%component)) then
+         call raise(error, "integrate: the continuation keeps components"//listed(self%kept) &
+                    //", delayed are"//listed(problem%component)//"; the same expected")
+      else if (abs(t_start - self%time(1)) > 0.0_wp) then
+         call raise(error, "integrate: t_start = "//text(t_start)//" is " &
+                    //text(t_start - self%time(1))//" off the time "//text(self%time(1)) &
+                    //" of the continuation; the same expected")
+      end if
+      if (allocated(error) .or. size(self%step_length) == 0) return
+      associate (oldest => instant(self%step_start(1, 1), self%step_start(2, 1)), &
+                 origin => instant(self%origin(1), self%origin(2)), &
+                 now => instant(self%time(1), self%time(2)))
+         if (elapsed(origin, oldest) <= 0.0_wp) return
+         do k = 1, size(problem%lag)
+            if (elapsed(oldest, later(now, -problem%lag(k))) >= 0.0_wp) cycle
+            call raise(error, "integrate: lag("//text(k)//") = "//text(problem%lag(k)) &
+                       //" reaches beyond the past that the continuation keeps; at most " &
+                       //text(elapsed(oldest, now))//" expected")
+            return
+         end do
+      end associate
+   end subroutine check
+
+   !> Whether the arrays fit each other.
+   pure logical function consistent(self) result(value)
+      !> The continuation
+      type(continuation_type), intent(in) :: self
+      integer :: steps
+
+      value = allocated(self%slope) .and. allocated(self%rate) .and. allocated(self%kink) &
+              .and. allocated(self%passages) .and. allocated(self%kept) &
+              .and. allocated(self%step_start) .and. allocated(self%step_length) &
+              .and. allocated(self%nodes) .and. allocated(self%coefficients)
+      if (.not. value) return
+      steps = size(self%step_length)
+      value = all([size(self%slope), size(self%rate)] == size(self%y)) &
+              .and. all(shape(self%kink) == [2, size(self%passages)]) &
+              .and. all(shape(self%step_start) == [2, steps]) &
+              .and. all(shape(self%nodes) == [highest_degree, steps]) &
+              .and. all(shape(self%coefficients) == [1 + highest_degree, size(self%kept), steps])
+   end function consistent
+
+   !> Whether each of some components is among the others.
+   pure logical function same_set(one, other) result(value)
+      !> Some
+      integer, intent(in) :: one(:)
+      !> The others
+      integer, intent(in) :: other(:)
+      integer :: i
+
+      value = all([(any(other == one(i)), i=1, size(one))]) &
+              .and. all([(any(one == other(i)), i=1, size(other))])
+   end function same_set
+
+   !> Numbers as words, each with a blank before it.
+   pure function listed(numbers) result(words)
+      !> Numbers
+      integer, intent(in) :: numbers(:)
+      character(len=:), allocatable :: words
+      integer :: i
+
+      words = ""
+      do i = 1, size(numbers)
+         words = words//" "//text(numbers(i))
+      end do
+      if (size(numbers) == 0) words = " none"
+   end function listed
+
+   !> Keep the steps that the past keeps, and the kinks in them.
+   pure subroutine store(self, past, kinks)
+      !> The continuation
+      class(continuation_type), intent(inout) :: self
+      !> The past
+      type(history_type), intent(in) :: past
+      !> Kinks up to now, ascending
+      type(kink_type), intent(in) :: kinks(:)
+      type(kink_type), allocatable :: near(:)
+      type(instant) :: start
+      integer(int64) :: step
+      integer :: i, steps
+
+      self%kept = past%kept
+      steps = int(past%newest - past%oldest + 1)
+      allocate (self%step_start(2, steps), self%step_length(steps))
+      allocate (self%nodes(highest_degree, steps))
+      allocate (self%coefficients(1 + highest_degree, size(past%kept), steps))
+      near = pack(kinks, size(past%kept) > 0)
+      i = 0
+      do step = past%oldest, past%newest
+         i = i + 1
+         call past%recall(step, start, self%step_length(i), self%nodes(:, i), &
+                          self%coefficients(:, :, i))
+         if (i == 1) near = pack(kinks, elapsed(start, kinks%at) >= 0.0_wp)
+         self%step_start(:, i) = [start%hi, start%lo]
+      end do
+      allocate (self%kink(2, size(near)))
+      self%kink(1, :) = near%at%hi
+      self%kink(2, :) = near%at%lo
+      self%passages = near%passages
+   end subroutine store
+
+   !> Give the past back.
+   pure subroutine restore(self, past, kinks)
+      !> The continuation
+      class(continuation_type), intent(in) :: self
+      !> The past, empty
+      type(history_type), intent(inout) :: past
+      !> Kinks in it, ascending
+      type(kink_type), allocatable, intent(out) :: kinks(:)
+      integer :: i
+
+      do i = 1, size(self%step_length)
+         call past%append(instant(self%step_start(1, i), self%step_start(2, i)), &
+                          self%step_length(i), self%nodes(:, i), self%coefficients(:, :, i))
+      end do
+      allocate (kinks(size(self%passages)))
+      kinks%at%hi = self%kink(1, :)
+      kinks%at%lo = self%kink(2, :)
+      kinks%passages = self%passages
+   end subroutine restore
+end module dde_continuation

@@ -1,0 +1,65 @@
+!> The methods: how each begins, follows another, and how long its steps may be.
+module dde_methods
+   use dde_explicit_step, only: explicit_step_type
+   use dde_implicit_step, only: implicit_step_type
+   use dde_problem, only: dde_problem_type
+   use dde_request, only: integration_options
+   use dde_step, only: step_type
+   use kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: change_method, choose_method, longest_step
+
+contains
+
+   !> A step of the method asked for.
+   subroutine choose_method(problem, method, step)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Name of the method
+      character(len=*), intent(in) :: method
+      !> Its step
+      class(step_type), allocatable, intent(out) :: step
+
+      select case (method)
+      case ("radau5")
+         allocate (step, source=implicit_step_type(problem, 3))
+      case ("radau9")
+         allocate (step, source=implicit_step_type(problem, 5))
+      case ("radau13")
+         allocate (step, source=implicit_step_type(problem, 7))
+      case default
+         allocate (step, source=explicit_step_type(problem))
+      end select
+   end subroutine choose_method
+
+   !> The other method takes over where the step stands.
+   subroutine change_method(problem, step)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The step, advanced; replaced by one of the other method
+      class(step_type), allocatable, intent(inout) :: step
+      class(step_type), allocatable :: other
+
+      call choose_method(problem, merge("explicit", "radau9  ", step%implicit), other)
+      other%y = step%y
+      other%slope = step%slope
+      other%evaluations = step%evaluations
+      other%factorised_before = step%factorisations()
+      call move_alloc(other, step)
+   end subroutine change_method
+
+   !> The longest step allowed: an explicit one ends before its delayed values lie in it.
+   pure function longest_step(problem, step, options) result(longest)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The step
+      class(step_type), intent(in) :: step
+      !> Limits
+      type(integration_options), intent(in) :: options
+      real(wp) :: longest
+
+      longest = options%longest_step
+      if (.not. step%implicit) longest = minval([longest, problem%lag])
+   end function longest_step
+end module dde_methods

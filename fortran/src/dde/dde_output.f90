@@ -1,0 +1,123 @@
+!> Where the dense output of accepted steps goes: events to the watcher, samples to the sampler, the
+!> delayed components to the history.
+module dde_output
+   use dde_event_search, only: event_search
+   use dde_events, only: event_watcher_type
+   use dde_history, only: history_type
+   use dde_interpolant, only: newton_value
+   use dde_problem, only: dde_problem_type
+   use dde_sampler, only: sampler_type
+   use dde_step, only: step_type
+   use dde_time, only: elapsed, instant, instant_at, later
+   use kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: hand_over, sample_start
+
+contains
+
+   !> Hand over the dense output of an accepted step, as far as it is wanted; without anyone who
+   !> wants it, it is not made.
+   subroutine hand_over(problem, step, past, search, start, step_end, ended, sampler, watcher)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The step, accepted and complete
+      class(step_type), intent(inout) :: step
+      !> The past, facing this step
+      type(history_type), intent(inout) :: past
+      !> The search for events, begun if there is a watcher
+      type(event_search), intent(inout) :: search
+      !> Start of the step
+      type(instant), intent(in) :: start
+      !> Its end; the event that ends the run, if one does
+      type(instant), intent(inout) :: step_end
+      !> Whether an event ends the run
+      logical, intent(out) :: ended
+      !> Receiver of samples
+      class(sampler_type), intent(inout), optional :: sampler
+      !> Receiver of events
+      class(event_watcher_type), intent(inout), optional :: watcher
+      logical :: delayed, sampled
+      real(wp) :: share
+
+      delayed = size(problem%lag) > 0
+      sampled = .false.
+      if (present(sampler)) sampled = elapsed(instant_at(sampler%next), step_end) >= 0.0_wp
+      if (delayed .or. sampled .or. present(watcher)) call step%extend(problem, past)
+      ended = .false.
+      share = 1.0_wp
+      if (present(watcher)) then
+         call search%look_through(watcher, step, start, step_end, share, ended)
+      end if
+      if (sampled) call sample(sampler, step, start, step_end)
+      if (delayed .and. share > 0.0_wp) then
+         call remember(past, step, start, share)
+         call past%forget(later(step_end, -maxval(problem%lag)))
+      end if
+   end subroutine hand_over
+
+   !> Append the delayed components' dense output to the past.
+   pure subroutine remember(past, step, start, share)
+      !> The past
+      type(history_type), intent(inout) :: past
+      !> The step, extended
+      class(step_type), intent(in) :: step
+      !> Start of the step
+      type(instant), intent(in) :: start
+      !> Share of the step that belongs to the run, > 0
+      real(wp), intent(in) :: share
+      real(wp) :: coefficients(0:size(step%nodes), size(past%kept))
+      integer :: i, j
+
+      do i = 1, size(past%kept)
+         call step%interpolant(past%kept(i), coefficients(:, i))
+      end do
+      if (share < 1.0_wp) then
+         ! the same polynomial over a shorter step
+         do j = 1, size(step%nodes)
+            coefficients(j, :) = share**j*coefficients(j, :)
+         end do
+      end if
+      call past%append(start, share*step%h, step%nodes/share, coefficients)
+   end subroutine remember
+
+   !> The first samples: those at (or before) the first instant.
+   subroutine sample_start(sampler, start, y)
+      !> Receiver
+      class(sampler_type), intent(inout) :: sampler
+      !> First instant
+      type(instant), intent(in) :: start
+      !> State there, shape (n)
+      real(wp), intent(in) :: y(:)
+
+      do while (elapsed(instant_at(sampler%next), start) >= 0.0_wp)
+         call sampler%take(y(sampler%wanted))
+      end do
+   end subroutine sample_start
+
+   !> The samples that lie in an accepted and extended step.
+   subroutine sample(sampler, step, start, step_end)
+      !> Receiver
+      class(sampler_type), intent(inout) :: sampler
+      !> The step
+      class(step_type), intent(in) :: step
+      !> Its start
+      type(instant), intent(in) :: start
+      !> Where the run stands after it
+      type(instant), intent(in) :: step_end
+      real(wp) :: coefficients(0:size(step%nodes), size(sampler%wanted))
+      real(wp) :: values(size(sampler%wanted)), s
+      integer :: i
+
+      do i = 1, size(values)
+         call step%interpolant(sampler%wanted(i), coefficients(:, i))
+      end do
+      do while (elapsed(instant_at(sampler%next), step_end) >= 0.0_wp)
+         s = elapsed(start, instant_at(sampler%next))/step%h
+         do i = 1, size(values)
+            values(i) = newton_value(size(step%nodes), step%nodes, coefficients(:, i), s)
+         end do
+         call sampler%take(values)
+      end do
+   end subroutine sample
+end module dde_output
