@@ -5,11 +5,11 @@ module dde_implicit_step
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use dde_collocation, only: divide_differences, shape_bump
    use dde_history, only: history_type
+   use dde_implicit_checks, only: confirmed, error_inside
    use dde_norm, only: scaled_norm
    use dde_problem, only: dde_problem_type
    use dde_radau_tableau, only: radau_iia, radau_tableau
    use dde_stage_iteration, only: stage_iteration
-   use dde_stage_systems, only: correct_real
    use dde_step, only: step_type
    use kinds, only: int64, wp
    implicit none (type, external)
@@ -37,8 +37,8 @@ module dde_implicit_step
       real(wp), allocatable :: differences(:, :), last_differences(:, :)
       !> Length of the last accepted step; 0 when its polynomial says nothing on this one
       real(wp) :: last_h = 0.0_wp
-      !> Filtered error of the embedded method, shape (n)
-      real(wp), allocatable :: error_vector(:)
+      !> Error of the embedded method, filtered and not, shape (n)
+      real(wp), allocatable :: error_vector(:), unfiltered(:)
       !> Whether the Jacobian belongs to the start of this step, and whether it still serves
       logical :: jacobian_fresh = .false., jacobian_serves = .false.
    contains
@@ -50,7 +50,7 @@ module dde_implicit_step
       procedure :: interpolant
       procedure :: stiffness
       procedure :: advance
-      procedure, private :: confirm, estimate, prepare
+      procedure, private :: difference, estimate, prepare
    end type implicit_step_type
 
    interface implicit_step_type
@@ -140,9 +140,18 @@ contains
       call self%stages%start(self%method, self%last_differences, self%last_h, h)
       call self%stages%iterate(problem, self%method, t, h, self%y, scale, asked, self%safety, &
                                self%evaluations, converged, finite)
-      if (converged) call self%confirm(problem, scale, converged)
+      if (converged) then
+         self%evaluations = self%evaluations + 1
+         converged = confirmed(problem, self%method, self%stages, t, h, self%y, scale)
+      end if
       if (converged) then
          call self%estimate(problem, scale, error)
+         call self%difference()
+         if (ieee_is_finite(error)) then
+            error = max(error, error_inside(self%method, h, self%differences, self%unfiltered, &
+                                            self%error_vector, scale, asked, &
+                                            max(relative, absolute)))
+         end if
       else
          ! the last polynomial carried on may have been too far off to start from
          self%last_h = 0.0_wp
@@ -183,37 +192,6 @@ contains
       end associate
    end subroutine prepare
 
-   !> Whether the last stage solves its equation by the Jacobian there too. Where the Jacobian of the
-   !> iteration is far too large, corrections are small without a solution.
-   pure subroutine confirm(self, problem, scale, confirmed)
-      !> The step, its iteration converged
-      class(implicit_step_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> Scale of each component
-      real(wp), intent(in) :: scale(:)
-      !> The answer
-      logical, intent(out) :: confirmed
-      real(wp) :: by_y(problem%n, problem%n), by_z(problem%n, size(problem%lag))
-      real(wp) :: misfit(problem%n), y_end(problem%n)
-      logical :: singular
-
-      confirmed = .false.
-      associate (stages => self%stages, last => self%method%stages)
-         y_end = self%y + stages%increments(:, last)
-         call problem%rhs(self%t + self%h, y_end, stages%delayed(:, last), misfit)
-         self%evaluations = self%evaluations + 1
-         if (.not. all(ieee_is_finite(misfit))) return
-         misfit = misfit - stages%slope_at_end(self%h)
-         confirmed = scaled_norm(problem%n, self%h*misfit, scale) <= self%method%real_eigenvalue
-         if (confirmed) return
-         call problem%jacobian(self%t + self%h, y_end, stages%delayed(:, last), by_y, by_z)
-         if (.not. all(ieee_is_finite(by_y))) return
-         call correct_real(self%method, self%h, by_y, misfit, singular)
-         if (.not. singular) confirmed = scaled_norm(problem%n, misfit, scale) <= 1.0_wp
-      end associate
-   end subroutine confirm
-
    !> Error of the embedded method of order s, filtered by the real system so that stiff components
    !> do not drown it (Hairer and Wanner 1996, eq. (IV.8.20)).
    pure subroutine estimate(self, problem, scale, error)
@@ -229,6 +207,7 @@ contains
 
       raw = matmul(self%stages%increments, self%method%e)/self%h
       self%error_vector = self%slope + raw
+      self%unfiltered = self%error_vector
       call self%stages%systems%filter(self%error_vector)
       error = scaled_norm(problem%n, self%error_vector, scale)
       if (error >= 1.0_wp .and. .not. self%last_h > 0.0_wp) then
@@ -237,6 +216,7 @@ contains
          self%evaluations = self%evaluations + 1
          if (all(ieee_is_finite(self%error_vector))) then
             self%error_vector = self%error_vector + raw
+            self%unfiltered = self%error_vector
             call self%stages%systems%filter(self%error_vector)
             error = scaled_norm(problem%n, self%error_vector, scale)
          end if
@@ -246,6 +226,19 @@ contains
    end subroutine estimate
 
    !> Newton coefficients of the collocation polynomial.
+   pure subroutine difference(self)
+      !> The step, its iteration converged
+      class(implicit_step_type), intent(inout) :: self
+      integer :: k
+
+      do k = 1, size(self%y)
+         self%differences(0, k) = 0.0_wp
+         self%differences(1:, k) = self%stages%increments(k, :)
+         call divide_differences(self%nodes, self%differences(:, k))
+      end do
+   end subroutine difference
+
+   !> Nothing is owed.
    pure subroutine complete(self, problem, past)
       !> The step
       class(implicit_step_type), intent(inout) :: self
@@ -253,13 +246,6 @@ contains
       class(dde_problem_type), intent(in) :: problem
       !> The past, facing this step
       type(history_type), intent(inout) :: past
-      integer :: k
-
-      do k = 1, problem%n
-         self%differences(0, k) = 0.0_wp
-         self%differences(1:, k) = self%stages%increments(k, :)
-         call divide_differences(self%nodes, self%differences(:, k))
-      end do
    end subroutine complete
 
    !> Nothing more to evaluate.

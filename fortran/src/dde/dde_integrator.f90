@@ -107,7 +107,7 @@ contains
             run%fresh = .true.
          end if
          if (other) then
-            call change_method(problem, run%step)
+            call change_method(problem, options, run%step)
             control = controller_type()
             outcome%switches = outcome%switches + 1
             longest = longest_step(problem, run%step, options)

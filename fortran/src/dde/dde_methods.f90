@@ -8,7 +8,11 @@ module dde_methods
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: change_method, choose_method, longest_step
+   public :: change_method, choose_method, implicit_method, longest_step
+
+   !> Tolerances from which on, and below which, `auto` takes another order than 9: fewer stages
+   !> cost less where little is asked, more where much is.
+   real(wp), parameter :: loose = 3.0e-5_wp, tight = 1.0e-11_wp
 
 contains
 
@@ -33,15 +37,30 @@ contains
       end select
    end subroutine choose_method
 
+   !> The implicit method of `auto`.
+   pure function implicit_method(options) result(method)
+      !> Tolerances
+      type(integration_options), intent(in) :: options
+      character(len=8) :: method
+
+      associate (tolerance => max(options%relative, options%absolute))
+         method = "radau9"
+         if (tolerance >= loose) method = "radau5"
+         if (tolerance < tight) method = "radau13"
+      end associate
+   end function implicit_method
+
    !> The other method takes over where the step stands.
-   subroutine change_method(problem, step)
+   subroutine change_method(problem, options, step)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
+      !> Tolerances
+      type(integration_options), intent(in) :: options
       !> The step, advanced; replaced by one of the other method
       class(step_type), allocatable, intent(inout) :: step
       class(step_type), allocatable :: other
 
-      call choose_method(problem, merge("explicit", "radau9  ", step%implicit), other)
+      call choose_method(problem, merge("explicit", implicit_method(options), step%implicit), other)
       other%y = step%y
       other%slope = step%slope
       other%evaluations = step%evaluations

@@ -25,6 +25,8 @@ module dde_radau_tableau
       complex(wp), allocatable :: complex_eigenvalues(:)
       !> Weights of the stage increments in the embedded error estimate, times the real eigenvalue
       real(wp), allocatable :: e(:)
+      !> About the largest value in the step of the product of x and all x - c but the last
+      real(wp) :: bulge = 0.0_wp
    end type radau_tableau
 
 contains
@@ -34,6 +36,7 @@ contains
       !> Number of stages
       integer, intent(in) :: stages
       type(radau_tableau) :: method
+      integer :: i
 
       select case (stages)
       case (3)
@@ -43,6 +46,9 @@ contains
       case default
          method = seven_stages()
       end select
+      associate (x => [(i/32.0_wp, i=1, 32)], c => method%c(:stages - 1))
+         method%bulge = maxval(x*[(abs(product(x(i) - c)), i=1, size(x))])
+      end associate
    end function radau_iia
 
    !> Order 5.

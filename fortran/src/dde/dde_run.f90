@@ -7,7 +7,7 @@ module dde_run
    use dde_event_search, only: event_search
    use dde_first_step, only: choose_first_step
    use dde_history, only: history_type
-   use dde_methods, only: choose_method, longest_step
+   use dde_methods, only: choose_method, implicit_method, longest_step
    use dde_problem, only: dde_problem_type
    use dde_request, only: integration_options
    use dde_step, only: step_type
@@ -135,7 +135,9 @@ contains
       self%origin = instant(continuation%origin(1), continuation%origin(2))
       self%h = continuation%next_step
       method = options%method
-      if (method == "auto" .and. continuation%method /= "explicit") method = "radau9"
+      if (method == "auto" .and. continuation%method /= "explicit") then
+         method = implicit_method(options)
+      end if
       call choose_method(problem, method, self%step)
       self%step%y = continuation%y
       self%first_slope = continuation%slope

@@ -8,32 +8,33 @@ module dde_switch
    public :: switch_type
 
    !> Above this, stability limits an explicit step.
-   real(wp), parameter :: limited_by_stability = 4.0_wp
+   real(wp), parameter :: limited_by_stability = 2.5_wp
    !> Below this, an explicit step may be as long as the implicit one is.
    real(wp), parameter :: worth_returning = 8.0_wp
    !> Above this, in units of the shortest delay, the delay limits an explicit step.
-   real(wp), parameter :: beyond_the_delay = 4.0_wp
+   real(wp), parameter :: beyond_the_delay = 1.5_wp
    !> Implicit steps in a row that must agree to a return.
    integer, parameter :: steps_to_return = 3
-   !> Explicit steps in a row that must agree to a leave: at first, how much more after a vain try,
-   !> and at most.
-   integer, parameter :: least_patience = 8, less_willing = 8, most_patience = 512
-   !> Implicit steps after which the method must have paid.
-   integer, parameter :: trial = 6
+   !> Votes that it takes to leave the explicit method, two from each step that speaks for it and one
+   !> back from each that does not: at first, how much more after a vain try, and at most.
+   integer, parameter :: least_patience = 8, less_willing = 4, most_patience = 512
+   !> The pace of the implicit method is taken over this many steps, the first time after as many
+   !> that it needs to grow them.
+   integer, parameter :: window = 6
    !> Cost of an evaluation within the implicit method over one within the explicit.
    real(wp), parameter :: implicit_cost = 4.5_wp
 
    !> Evidence for a change of method.
    type :: switch_type
-      !> Steps in a row that speak for the other method
+      !> What speaks for the other method
       integer :: votes = 0
       !> Votes that it takes to leave the explicit method
       integer :: patience = least_patience
-      !> Evaluations when the method last changed
+      !> Evaluations when that window began
       integer(int64) :: evaluations_then = 0
-      !> Steps since
+      !> Implicit steps since
       integer :: steps = 0
-      !> Time gone since
+      !> Time gone in the present window
       real(wp) :: gone = 0.0_wp
       !> Time per cost that the explicit method made before it was left
       real(wp) :: explicit_pace = 0.0_wp
@@ -65,17 +66,21 @@ contains
          self%votes = merge(self%votes + 1, 0, measure < worth_returning &
                             .and. h_next/beyond_the_delay < shortest_delay)
          pace = self%gone/(implicit_cost*(step%evaluations - self%evaluations_then))
-         other = self%votes >= steps_to_return &
-                 .or. (self%steps >= trial .and. pace < self%explicit_pace)
+         other = self%votes >= steps_to_return
+         if (modulo(self%steps, window) == 0) then
+            if (self%steps > window) other = other .or. pace < self%explicit_pace
+            self%gone = 0.0_wp
+            self%evaluations_then = step%evaluations
+         end if
          if (other) then
             self%patience = merge(least_patience, min(less_willing*self%patience, most_patience), &
                                   pace > self%explicit_pace)
          end if
       else
          if (measure > limited_by_stability .or. h_next/beyond_the_delay > shortest_delay) then
-            self%votes = self%votes + 1
+            self%votes = self%votes + 2
          else
-            self%votes = self%votes/2
+            self%votes = max(0, self%votes - 1)
          end if
          if (self%votes == 0) then
             self%gone = 0.0_wp
