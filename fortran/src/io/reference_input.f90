@@ -15,7 +15,7 @@ module reference_input
       character(len=10) :: method = ""
       !> The tolerance of the reference, and a larger one to check it by
       real(wp) :: tolerance = 0.0_wp, check_tolerance = 0.0_wp
-      !> Relative change of the velocity for t <= 0 by which the conditioning is measured
+      !> Change of theta and u, and relative change of v, for t <= 0, that measures the conditioning
       real(wp) :: disturbance = 0.0_wp
       !> Most steps of a run
       integer(int64) :: most_steps = 0

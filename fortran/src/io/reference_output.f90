@@ -62,7 +62,7 @@ contains
       class(reference_file), intent(inout) :: self
       !> The case
       type(case_type), intent(in) :: case
-      !> Relative change of the velocity for t <= 0 in the disturbed run
+      !> Change of theta and u and relative change of v for t <= 0 in the disturbed run
       real(wp), intent(in) :: disturbance
       !> The reference
       type(run_type), intent(in) :: best

@@ -46,12 +46,13 @@ contains
    pure function problem(self, disturbance) result(block)
       !> The case
       class(case_type), intent(in) :: self
-      !> Relative change of the velocity for t <= 0
+      !> Change of theta and u and relative change of v for t <= 0
       real(wp), intent(in) :: disturbance
       type(spring_block_type) :: block
 
       block = spring_block_type(as_double(self%tau), as_double(self%epsilon), as_double(self%xi), &
-                                as_double(self%gamma), as_double(self%theta), as_double(self%u), &
+                                as_double(self%gamma), as_double(self%theta) + disturbance, &
+                                as_double(self%u) + disturbance, &
                                 as_double(self%v)*(1.0_wp + disturbance))
    end function problem
 
