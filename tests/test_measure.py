@@ -194,7 +194,7 @@ def test_reference_that_stops_says_so(programs, run):
         ("epsilon", [0.3, -1.0], "case 'stiff': epsilon = -1.0; expected"),
         ("xi", [0.0, 0.5], "xi = 0.0; expected"),
         ("gamma", [0.8], "case 'stiff': gamma = NaN; expected"),
-        ("theta", [math.inf, 0.0], "theta = Infinity; expected"),
+        ("theta", [math.inf, 0.0], "theta = Inf; expected"),
         ("u", [0.0, math.nan], "u = NaN; expected"),
         ("v", [0.0, 1.1], "v = 0.0; expected a finite number > 0.0"),
         ("t_end", [0.0, 5.0], "t_end = 0.0; expected"),

@@ -1,6 +1,7 @@
 """The workflow in smoke size: everything once, nothing twice, and only what is asked for."""
 
 import re
+import shutil
 import zipfile
 
 import f90nml
@@ -108,11 +109,11 @@ def test_every_rule_ran(smoke_run):
 
 
 def test_smoke_run_is_short(smoke_run):
-    """The build included."""
+    """The build in both precisions included."""
     hours, minutes, seconds = re.search(
         r"Elapsed time: (\d+):(\d+):(\S+)", smoke_run[1].stdout
     ).groups()
-    assert 3600 * int(hours) + 60 * int(minutes) + float(seconds) < 90
+    assert 3600 * int(hours) + 60 * int(minutes) + float(seconds) < 150
 
 
 def test_every_figure_is_there_twice(smoke):
@@ -281,8 +282,7 @@ def test_changed_style_redraws_and_computes_nothing(scratch):
 def test_results_made_again_are_the_same_bytes(scratch):
     """All but logs and measured times."""
     before = scratch.outputs()
-    for name in before:
-        (scratch.folder / "results" / name).unlink()
+    shutil.rmtree(scratch.folder / "results")
     run = scratch.snakemake(*SMOKE)
     assert run.returncode == 0, run.stdout
     after = scratch.outputs()

@@ -24,8 +24,8 @@ program reference
    call stop_on(error)
    call read_reference(namelist_path, settings, error)
    call stop_on(error)
-   call file%create(output_path)
-   call stop_on(file%error)
+   call file%create(output_path, error)
+   call stop_on(error)
    associate (options => settings)
       best = run_type(options%method, options%tolerance)
       disturbed = best

@@ -2,7 +2,7 @@
 !> Whole or absent: written under another name, renamed when complete.
 module reference_output
    use errors, only: error_type, raise
-   use files, only: remove_file, rename_file
+   use files, only: remove_file, rename_file, write_file
    use kinds, only: wp
    use measured_case, only: case_type
    use measured_run, only: run_type
@@ -12,18 +12,18 @@ module reference_output
 
    !> Ending of a file that is not complete.
    character(len=*), parameter :: unfinished = ".part"
-   !> Between columns.
-   character(len=*), parameter :: tab = achar(9)
+   !> Between columns, and between rows.
+   character(len=*), parameter :: tab = achar(9), line_end = new_line("a")
+   !> Letters that hold any row.
+   integer, parameter :: row_length = 320
 
-   !> A table in the making; after the first error all further calls do nothing.
+   !> A table in the making.
    type :: reference_file
       private
       !> Path of the complete file
       character(len=:), allocatable :: path
-      !> Unit it is open on
-      integer :: unit = -1
-      !> First error met
-      type(error_type), allocatable, public :: error
+      !> Rows so far
+      character(len=:), allocatable :: content
    contains
       !> Begin a file
       procedure :: create
@@ -31,28 +31,24 @@ module reference_output
       procedure :: put
       !> Complete the file
       procedure :: finish
-      procedure, private :: note
+      procedure, private :: save => save_unfinished
    end type reference_file
 
 contains
 
-   !> Begin a file with the names of the columns.
-   subroutine create(self, path)
+   !> Begin a file with the names of the columns; what cannot be written is told before the work.
+   subroutine create(self, path, error)
       !> The file
       class(reference_file), intent(inout) :: self
       !> Its path once complete
       character(len=*), intent(in) :: path
-      character(len=256) :: reason
-      integer :: status
+      !> It cannot be written
+      type(error_type), allocatable, intent(out) :: error
 
       self%path = path
-      open (newunit=self%unit, file=path//unfinished, status="replace", action="write", &
-            iostat=status, iomsg=reason)
-      call self%note(status, reason)
-      if (allocated(self%error)) return
-      write (self%unit, "(*(a))", iostat=status, iomsg=reason) "case", tab, "status", tab, "time", &
-         tab, "theta", tab, "u", tab, "ln_v", tab, "uncertainty", tab, "amplification"
-      call self%note(status, reason)
+      self%content = "case"//tab//"status"//tab//"time"//tab//"theta"//tab//"u"//tab//"ln_v" &
+                     //tab//"uncertainty"//tab//"amplification"//line_end
+      call self%save(error)
    end subroutine create
 
    !> A case at its sample times: the state, how far the state at a larger tolerance is from it, and
@@ -71,19 +67,23 @@ contains
       !> The same from a disturbed history
       type(run_type), intent(in) :: disturbed
       real(wp) :: time(size(best%samples, 2))
-      character(len=256) :: reason
-      integer :: i, status
+      character(len=row_length) :: row
+      character(len=:), allocatable :: rows
+      integer :: i, used
 
       time = case%sample_times()
+      allocate (character(len=row_length*size(time)) :: rows)
+      used = 0
       do i = 1, size(time)
-         if (allocated(self%error)) return
-         write (self%unit, "(4a,4(es0.19e4,a),es0.3e4,a,es0.3e4)", iostat=status, iomsg=reason) &
-            trim(case%name), tab, trim(best%status), tab, time(i), tab, best%samples(1, i), tab, &
-            best%samples(2, i), tab, best%samples(3, i), tab, &
+         write (row, "(4a,4(es0.19e4,a),es0.3e4,a,es0.3e4,a)") trim(case%name), tab, &
+            trim(best%status), tab, time(i), tab, best%samples(1, i), tab, best%samples(2, i), &
+            tab, best%samples(3, i), tab, &
             distance(checking%samples(:, i), best%samples(:, i)), tab, &
-            distance(disturbed%samples(:, i), best%samples(:, i))/disturbance
-         call self%note(status, reason)
+            distance(disturbed%samples(:, i), best%samples(:, i))/disturbance, line_end
+         rows(used + 1:used + len_trim(row)) = trim(row)
+         used = used + len_trim(row)
       end do
+      self%content = self%content//rows(:used)
    end subroutine put
 
    !> Largest difference of a component, relative to the component where that is above 1.
@@ -96,39 +96,30 @@ contains
       value = maxval(abs(state - from)/max(1.0_wp, abs(from)))
    end function distance
 
-   !> Keep the first error and leave nothing behind.
-   subroutine note(self, status, reason)
-      !> The file
-      class(reference_file), intent(inout) :: self
-      !> I/O status
-      integer, intent(in) :: status
-      !> Its message
-      character(len=*), intent(in) :: reason
-      integer :: closed
-
-      if (status == 0 .or. allocated(self%error)) return
-      call raise(self%error, self%path//": cannot write: "//trim(reason))
-      close (self%unit, iostat=closed)
-      if (closed == 0) call remove_file(self%path//unfinished)
-   end subroutine note
-
-   !> Close the file and give it its name; on an error nothing is left behind.
+   !> Write the file and give it its name; on an error nothing is left behind.
    subroutine finish(self, error)
       !> The file
       class(reference_file), intent(inout) :: self
-      !> First error met
+      !> It could not be written
       type(error_type), allocatable, intent(out) :: error
-      character(len=256) :: reason
-      integer :: status
 
-      if (.not. allocated(self%error)) then
-         close (self%unit, iostat=status, iomsg=reason)
-         call self%note(status, reason)
-      end if
-      if (.not. allocated(self%error)) then
-         call rename_file(self%path//unfinished, self%path, self%error)
-         if (allocated(self%error)) call remove_file(self%path//unfinished)
-      end if
-      if (allocated(self%error)) allocate (error, source=self%error)
+      call self%save(error)
+      if (allocated(error)) return
+      call rename_file(self%path//unfinished, self%path, error)
+      if (allocated(error)) call remove_file(self%path//unfinished)
    end subroutine finish
+
+   !> Write what there is under the other name.
+   subroutine save_unfinished(self, error)
+      !> The file
+      class(reference_file), intent(inout) :: self
+      !> It could not be written
+      type(error_type), allocatable, intent(out) :: error
+      type(error_type), allocatable :: failure
+
+      call write_file(self%path//unfinished, self%content, failure)
+      if (.not. allocated(failure)) return
+      call remove_file(self%path//unfinished)
+      call raise(error, self%path//": cannot write")
+   end subroutine save_unfinished
 end module reference_output
