@@ -1,5 +1,6 @@
 # The configuration, checked, and what rules ask of it.
 import sys
+from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
@@ -99,3 +100,9 @@ def references_of_families():
         for name, family in families
         if family["reference"] == "quadruple"
     ]
+
+
+def tables_of_others(wildcards):
+    """The table of other solvers, measured by a command of its own, where there is one."""
+    table = Path("results/tables/benchmarks.tsv")
+    return [table] if table.exists() else []

@@ -151,6 +151,7 @@ rule work_precision_table:
 rule work_precision:
     input:
         table="results/tables/work-precision.tsv",
+        others=tables_of_others,
         code=DRAWING,
     output:
         pdf="results/figures/work_precision.pdf",
@@ -161,7 +162,5 @@ rule work_precision:
         ),
     log:
         "results/logs/figures/work_precision.log",
-    params:
-        others="results/tables/benchmarks.tsv",
     script:
         "../scripts/work_precision.py"

@@ -1,7 +1,5 @@
 """Figure of work against precision: one panel a scene, one line a solver."""
 
-from pathlib import Path
-
 from drawing import logged, save
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
@@ -53,12 +51,8 @@ def draw(rows: list[dict]) -> Figure:
     return figure
 
 
-def with_others(rows: list[dict], path: str | Path) -> list[dict]:
-    """The rows and, where there is such a table, those of other solvers."""
-    return [*rows, *read_table(path)] if Path(path).exists() else rows
-
-
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        table = with_others(read_table(snakemake.input.table), snakemake.params.others)
-        save(draw(table), snakemake.output.pdf, snakemake.output.png)
+        tables = [snakemake.input.table, *snakemake.input.others]
+        rows = [row for table in tables for row in read_table(table)]
+        save(draw(rows), snakemake.output.pdf, snakemake.output.png)

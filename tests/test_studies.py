@@ -109,7 +109,7 @@ def test_horizon_is_where_trust_ends(reference):
     row = row_of(made_up_run([0.0, 1e-12, 1e-11, 1e-9, 0.0]), reference, 1e-10)
     assert (row["horizon"], row["error"], row["amplification"]) == (2.0, 1e-11, 100.0)
     with pytest.raises(ValueError, match="no sample within the trusted error"):
-        row_of(made_up_run([0.0, 1.0]), reference, 1e-10)
+        row_of(made_up_run([0.0, 1.0, 0.0, 0.0, 0.0]), reference, 1e-10)
 
 
 def test_uncertain_reference_ends_trust_too(reference):
@@ -216,13 +216,11 @@ def test_stability_figure(tables, style):
     assert len(crosses) == len(ended) > 5
 
 
-def test_work_precision_figure(tables, style, tmp_path):
-    """A panel a scene; a table of other solvers is laid over where there is one."""
+def test_work_precision_figure(tables, style):
+    """A panel a scene; other solvers are laid over in the scenes that they were measured in."""
     rows = tables["work-precision"]
-    assert work_precision.with_others(rows, tmp_path / "nowhere.tsv") == rows
     other = {"scene": "torus", "solver": "other", "tolerance": 1e-6, "error_max": 1e-5}
-    write_table(tmp_path / "benchmarks.tsv", [{**other, "seconds": 0.1}])
-    figure = work_precision.draw(work_precision.with_others(rows, tmp_path / "benchmarks.tsv"))
+    figure = work_precision.draw([*rows, {**other, "seconds": 0.1}])
     figure.canvas.draw()
     scenes = list(dict.fromkeys(row["scene"] for row in rows))
     titles = [axes.get_title(loc="left").split(",")[0] for axes in figure.axes]
