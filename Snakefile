@@ -18,8 +18,9 @@ rule all:
     default_target: True
     input:
         expand(
-            "results/figures/figure_{n}.{ending}", n=range(1, 9), ending=["pdf", "png"]
+            "results/figures/{figure}.{ending}", figure=FIGURES, ending=["pdf", "png"]
         ),
+        "results/tables/tolerance-proportionality.tsv",
 
 
 include: "rules/build.smk"
@@ -28,3 +29,4 @@ include: "rules/curves.smk"
 include: "rules/spectra.smk"
 include: "rules/friction.smk"
 include: "rules/figures.smk"
+include: "rules/studies.smk"

@@ -1,10 +1,12 @@
 # The configuration, checked, and what rules ask of it.
 import sys
+from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
 sys.path.insert(0, f"{workflow.basedir}/scripts")
 import check_config
+import study_cases
 
 try:
     config = check_config.checked(config)
@@ -12,9 +14,17 @@ except check_config.ConfigError as problems:
     raise WorkflowError(problems) from None
 
 
+FIGURES = [*(f"figure_{n}" for n in range(1, 9)), "stability", "work_precision"]
+FAMILIES = list(config["stability"]["families"])
+WORK_SCENES = list(config["work_precision"]["scenes"])
+
+
 wildcard_constraints:
     scene="|".join(config["scenes"]),
     plane="|".join(config["hopf_curves"]),
+    family="|".join([*FAMILIES, *WORK_SCENES]),
+    work_scene="|".join(WORK_SCENES),
+    study="stability|trust",
 
 
 def scenes_of(figure):
@@ -70,3 +80,29 @@ def spectrum_values(wildcards):
         "trajectory": f"results/trajectories/{wildcards.scene}.nc",
         **config["spectra"],
     }
+
+
+def family_groups(wildcards):
+    """Namelists of a family of cases."""
+    return study_cases.stability_groups(config["stability"], wildcards.family)
+
+
+def trust_groups_of(wildcards):
+    """Namelists of a scene whose horizon of trust is sought."""
+    return study_cases.trust_groups(config["work_precision"], wildcards.work_scene)
+
+
+def references_of_families():
+    """Reference files of the families that have one."""
+    families = config["stability"]["families"].items()
+    return [
+        f"results/references/stability/{name}.tsv"
+        for name, family in families
+        if family["reference"] == "quadruple"
+    ]
+
+
+def tables_of_others(wildcards):
+    """The table of other solvers, measured by a command of its own, where there is one."""
+    table = Path("results/tables/benchmarks.tsv")
+    return [table] if table.exists() else []

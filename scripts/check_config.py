@@ -5,6 +5,7 @@ from pathlib import Path
 
 import jsonschema
 import yaml
+from study_cases import cases_of_family
 
 SCHEMA = Path(__file__).parent.parent / "config" / "schema.yaml"
 
@@ -15,6 +16,14 @@ FIGURE_VARIABLES = {
     "figure_7": {"v"},
 }
 """Variables of a trajectory that each figure uses."""
+
+
+MOST_CASES = 1000
+"""Cases that one namelist holds."""
+LONGEST_NAME = 64
+"""Letters of a case's name."""
+LONG = 1e4
+"""Time after which a decaying case counts as stationary."""
 
 
 class ConfigError(ValueError):
@@ -81,11 +90,18 @@ def _is_finite(value: int | float) -> bool:
 
 def _names_that_are_no_text(config: dict):
     """Names of a user's choice that YAML read as numbers or truth values."""
-    for key in ("scenes", "hopf_curves"):
-        named = config.get(key) if isinstance(config, dict) else None
+    for path in (
+        ["scenes"],
+        ["hopf_curves"],
+        ["stability", "families"],
+        ["work_precision", "scenes"],
+    ):
+        named = config
+        for key in path:
+            named = named.get(key) if isinstance(named, dict) else None
         for name in named if isinstance(named, dict) else ():
             if not isinstance(name, str):
-                yield f"config {key}: name {name!r}; expected text (quote it)"
+                yield f"{_place(path)}: name {name!r}; expected text (quote it)"
 
 
 def _in_words(error: jsonschema.ValidationError) -> str:
@@ -183,3 +199,40 @@ def _contradictions(config: dict):
             yield f"{place}: epsilon_window = {plane['epsilon_window']}; expected an end > 0"
         if plane["ordinate"] == "tau" and plane["fixed"] <= 0:
             yield f"{place}: fixed (xi) = {plane['fixed']}; expected a finite number > 0"
+    yield from _contradictions_of_studies(config)
+
+
+def _contradictions_of_studies(config: dict):
+    """The same for stability and work against precision."""
+    for study in ("stability", "work_precision"):
+        reference = config[study]["reference"]
+        if reference["check_tolerance"] <= reference["tolerance"]:
+            yield (
+                f"config {study} reference: check_tolerance = {reference['check_tolerance']};"
+                f" expected a finite number > tolerance = {reference['tolerance']}"
+            )
+    for name, family in config["stability"]["families"].items():
+        cases = cases_of_family(name, family)
+        if len(cases) > MOST_CASES:
+            yield (
+                f"config stability families {name}: {len(cases)} combinations; expected at most"
+                f" {MOST_CASES}"
+            )
+        longest = max((case["name"] for case in cases), key=len)
+        if len(longest) > LONGEST_NAME:
+            yield (
+                f"config stability families {name}: case '{longest}' of {len(longest)} letters;"
+                f" expected at most {LONGEST_NAME} (shorten the family's name)"
+            )
+        if family["reference"] == "stationary" and family["t_end"] < LONG:
+            yield (
+                f"config stability families {name}: t_end = {family['t_end']}; expected a finite"
+                f" number >= {LONG} where the reference is the stationary state"
+            )
+    for name, scene in config["work_precision"]["scenes"].items():
+        if scene["sample_interval"] > scene["t_end"]:
+            yield (
+                f"config work_precision scenes {name}: sample_interval ="
+                f" {scene['sample_interval']}; expected a finite number > 0 and <= t_end ="
+                f" {scene['t_end']}"
+            )

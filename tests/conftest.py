@@ -38,6 +38,16 @@ MADE = {
 """Folders that hold none of the project's own files."""
 
 
+def timeless(path: Path) -> bytes:
+    """Contents of a file; of a table without its column of measured seconds."""
+    content = path.read_bytes()
+    if path.parent.name != "tables":
+        return content
+    rows = [line.split(b"\t") for line in content.splitlines()]
+    kept = [i for i, name in enumerate(rows[0]) if name != b"seconds"]
+    return b"\n".join(b"\t".join(row[i] for i in kept) for row in rows)
+
+
 @dataclass
 class Project:
     """A copy of the project in which the workflow runs."""
@@ -66,8 +76,8 @@ class Project:
         results = self.folder / "results"
         files = [path for path in results.rglob("*") if path.is_file()]
         names = {path.relative_to(results).as_posix(): path for path in files}
-        changing = ("logs/", "benchmarks/")
-        return {n: path.read_bytes() for n, path in names.items() if not n.startswith(changing)}
+        changing = ("logs/", "benchmarks/", "measurements/", "figures/work_precision")
+        return {n: timeless(path) for n, path in names.items() if not n.startswith(changing)}
 
 
 @dataclass

@@ -13,9 +13,10 @@ MAY_USE = {
     "bindings": {"bindings"} | BASE,
     "dde": {"dde"} | BASE,
     "model": {"model", "dde facade"} | BASE,
+    "measure": {"measure", "model", "dde facade"} | BASE,
     "analysis": {"analysis", "model", "dde facade", "bindings"} | BASE,
-    "io": {"io", "analysis", "model", "dde facade", "files"} | BASE,
-    "app": {"io", "analysis", "model", "dde facade"} | BASE,
+    "io": {"io", "analysis", "measure", "model", "dde facade", "files"} | BASE,
+    "app": {"io", "analysis", "measure", "model", "dde facade"} | BASE,
 }
 """For each floor: the floors that its modules may use."""
 LIBRARIES = {
@@ -25,6 +26,7 @@ LIBRARIES = {
     "io": {"ieee_arithmetic", "iso_fortran_env", "netcdf"},
     "base": {"ieee_arithmetic", "iso_fortran_env"},
     "model": {"ieee_arithmetic"},
+    "measure": {"ieee_arithmetic"},
 }
 """For each floor: modules of others that it may use."""
 WITHOUT_ONLY = {("fftw", "iso_c_binding"), ("dde_explicit_stages", "dde_dop853_tableau")}
@@ -120,6 +122,11 @@ def test_facade_of_the_solver_uses_the_solver_only():
         ("model", "use dde_history, only: history_type"),
         ("model", "use fftw, only: fftw_plan_dft_r2c_1d"),
         ("model", "   USE :: netcdf_output, only: output_file"),
+        ("model", "use measured_case, only: case_type"),
+        ("analysis", "use measured_run, only: run_type"),
+        ("measure", "use dde_integrator, only: integrate"),
+        ("measure", "use cases_input, only: read_cases"),
+        ("measure", "use files, only: rename_file"),
         ("analysis", "use hopf_input, only: hopf_settings"),
         ("analysis", "use netcdf, only: nf90_open"),
         ("analysis", "use dde_integrator"),

@@ -1,12 +1,14 @@
 """The workflow in smoke size: everything once, nothing twice, and only what is asked for."""
 
 import re
+import shutil
 import zipfile
 
 import f90nml
 import numpy as np
 import pytest
 import xarray as xr
+import yaml
 from conftest import ROOT, SMOKE, rules_in
 
 
@@ -15,7 +17,17 @@ def data_of(*scenes: str) -> set[str]:
     return {f"{kind}/{scene}.nc" for kind in ("trajectories", "spectra") for scene in scenes}
 
 
-FIGURES = [f"figure_{n}" for n in range(1, 9)]
+def settings(*path: str) -> dict:
+    """A section of the config as it stands in the file."""
+    section = yaml.safe_load((ROOT / "config" / "config.yaml").read_text())
+    for key in path:
+        section = section[key]
+    return section
+
+
+FAMILIES = settings("stability", "families")
+WORK_SCENES = settings("work_precision", "scenes")
+FIGURES = [*(f"figure_{n}" for n in range(1, 9)), "stability", "work_precision"]
 RULES_OF = {
     "figure_1": set(),
     "figure_2": {"build", "hopf_namelist", "hopf_curves"},
@@ -25,6 +37,17 @@ RULES_OF = {
     "figure_6": {"build", "scene_namelist", "trajectory", "spectrum_namelist", "spectrum"},
     "figure_7": {"build", "scene_namelist", "trajectory", "spectrum_namelist", "spectrum"},
     "figure_8": {"build", "velocity_step_namelist", "velocity_step"},
+    "stability": {"build", "stability_namelists", "reference", "measurement", "stability_table"},
+    "work_precision": {
+        "build",
+        "trust_namelists",
+        "reference",
+        "measurement",
+        "trusted_horizons",
+        "work_precision_namelist",
+        "work_precision_runs",
+        "work_precision_table",
+    },
 }
 """Rules that each figure needs besides its own."""
 OUTPUTS_OF = {
@@ -36,6 +59,16 @@ OUTPUTS_OF = {
     "figure_6": {"bin/trajectory", "bin/spectrum", *data_of("oscillation", "torus")},
     "figure_7": {"bin/trajectory", "bin/spectrum", *data_of("chaos")},
     "figure_8": {"bin/velocity_step", "friction/velocity_step.nc"},
+    "stability": {
+        "bin/measure",
+        "bin/reference",
+        *(f"stability/{family}.nc" for family in FAMILIES),
+    },
+    "work_precision": {
+        "bin/measure",
+        "bin/reference",
+        *(f"{study}/{name}.nc" for study in ("trust", "work_precision") for name in WORK_SCENES),
+    },
 }
 """Programs and data that figures need."""
 MY_SCENE = """
@@ -76,11 +109,11 @@ def test_every_rule_ran(smoke_run):
 
 
 def test_smoke_run_is_short(smoke_run):
-    """The build included."""
+    """The build in both precisions included."""
     hours, minutes, seconds = re.search(
         r"Elapsed time: (\d+):(\d+):(\S+)", smoke_run[1].stdout
     ).groups()
-    assert 3600 * int(hours) + 60 * int(minutes) + float(seconds) < 90
+    assert 3600 * int(hours) + 60 * int(minutes) + float(seconds) < 150
 
 
 def test_every_figure_is_there_twice(smoke):
@@ -98,7 +131,8 @@ def test_every_job_has_a_log_and_every_computation_a_benchmark(smoke):
     """Beside the results, by the same path."""
     results = smoke.folder / "results"
     computed = {path.relative_to(results) for path in results.rglob("*.nc")}
-    assert len(computed) == 10
+    computed |= {path.relative_to(results) for path in (results / "references").rglob("*.tsv")}
+    assert len(computed) == 10 + 2 * len(FAMILIES) - 2 + 3 * len(WORK_SCENES)
     for path in computed:
         assert (results / "logs" / path).with_suffix(".log").is_file()
         assert (results / "benchmarks" / path).with_suffix(".tsv").is_file()
@@ -112,6 +146,7 @@ def test_namelists_hold_the_config(smoke, smoke_config):
     read = {
         path.relative_to(folder).with_suffix("").as_posix(): f90nml.read(path).todict()
         for path in folder.rglob("*.nml")
+        if path.relative_to(folder).parts[0] not in ("measurements", "references")
     }
     scenes = smoke_config["scenes"].items()
     expected = {
@@ -123,6 +158,26 @@ def test_namelists_hold_the_config(smoke, smoke_config):
         source = {"trajectory": f"results/trajectories/{scene}.nc"}
         expected[f"spectra/{scene}"] = {"spectrum": source | smoke_config["spectra"]}
     assert read == expected
+
+
+def test_namelists_of_studies_hold_the_config(smoke, smoke_config):
+    """Every family with its references, and every scene up to its horizon."""
+    folder = smoke.folder / "results" / "namelists"
+    study = smoke_config["stability"]
+    for name, family in study["families"].items():
+        for kind in ("measurements", "references"):
+            cases = f90nml.read(folder / kind / "stability" / f"{name}.nml")["cases_list"]
+            assert np.unique(cases["gamma"]).tolist() == family["gamma"]
+            assert np.unique(cases["v"]).tolist() == family["v"]
+            assert set(np.atleast_1d(cases["t_end"])) == {family["t_end"]}
+    study = smoke_config["work_precision"]
+    for name, scene in study["scenes"].items():
+        groups = f90nml.read(folder / "measurements" / "work_precision" / f"{name}.nml").todict()
+        assert groups["cases_list"]["t_end"] <= scene["t_end"]
+        assert groups["measure"]["tolerances"] == study["tolerances"]
+        trusted = f90nml.read(folder / "references" / "trust" / f"{name}.nml").todict()
+        assert trusted["cases_list"]["t_end"] == scene["t_end"]
+        assert trusted["reference"].items() >= study["reference"].items()
 
 
 def test_nothing_unfinished_is_left(smoke):
@@ -161,6 +216,10 @@ def test_figure_runs_only_its_own_rules(project, figure):
         ("results/figures/figure_1.png", {"figure_1"}),
         ("results/hopf/xi_of_epsilon.nc", {"build", "hopf_namelist", "hopf_curves"}),
         ("build/release/bin/spectrum", {"build"}),
+        (
+            "results/references/stability/strong.tsv",
+            {"build", "stability_namelists", "reference"},
+        ),
     ],
 )
 def test_any_file_can_be_asked_for(project, target, rules):
@@ -195,6 +254,25 @@ def test_changed_scene_reruns_only_what_depends_on_it(scratch):
     )
 
 
+def test_changed_family_computes_no_other(smoke, tmp_path):
+    """References of the others are kept."""
+    text = "stability: { families: { spring: { t_end: 11.0 } } }"
+    (tmp_path / "mine.yaml").write_text(text)
+    run = smoke.snakemake("--dry-run", *SMOKE, str(tmp_path / "mine.yaml"))
+    expected = {"all", "stability_namelists", "reference", "measurement"}
+    assert rules_in(run.stdout) == expected | {"stability_table", "stability"}
+    assert outputs_in(run.stdout) == {"stability/spring.nc"}
+
+
+def test_table_of_other_solvers_is_drawn_where_there_is_one(scratch):
+    """It redraws one figure and is needed for none."""
+    table = scratch.folder / "results" / "tables" / "benchmarks.tsv"
+    table.write_text("scene\tsolver\ttolerance\terror_max\tseconds\ntorus\tother\t1\t1\t1\n")
+    run = scratch.snakemake(*SMOKE)
+    assert run.returncode == 0, run.stdout
+    assert rules_in(run.stdout) == {"all", "work_precision"}
+
+
 def test_changed_setting_of_a_figure_redraws_only_that_figure(smoke, tmp_path):
     """Another length of an axis computes nothing."""
     (tmp_path / "mine.yaml").write_text("figures: { figure_7: { frequency_shown: 0.9 } }")
@@ -213,8 +291,7 @@ def test_changed_style_redraws_and_computes_nothing(scratch):
 def test_results_made_again_are_the_same_bytes(scratch):
     """All but logs and measured times."""
     before = scratch.outputs()
-    for name in before:
-        (scratch.folder / "results" / name).unlink()
+    shutil.rmtree(scratch.folder / "results")
     run = scratch.snakemake(*SMOKE)
     assert run.returncode == 0, run.stdout
     after = scratch.outputs()
@@ -255,6 +332,7 @@ def test_one_key_of_a_scene_can_be_changed(project, tmp_path):
         ("scenes: { mine: { tau: 1.0 } }", "scene 'mine': key ['epsilon'"),
         ("scenes: { Mine: {} }", "config scenes: name 'Mine'"),
         ("scenes: { torus: }", "torus = None"),
+        ("stability: { tolerance: 1.0 }", "config stability: tolerance = 1.0; expected "),
         ("scenes: { 5: { tau: 1.0, epsilon: 0.5, xi: 1.0, gamma: 1.0, t_end: 9.0 } }", "name 5"),
         ("threads: 2", "unknown key ['threads']"),
     ],

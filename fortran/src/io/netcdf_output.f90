@@ -4,8 +4,8 @@ module netcdf_output
    use errors, only: error_type, raise
    use files, only: remove_file, rename_file
    use kinds, only: int64, wp
-   use netcdf, only: nf90_clobber, nf90_close, nf90_create, nf90_def_dim, nf90_def_var, &
-                     nf90_double, nf90_global, nf90_int, nf90_netcdf4, nf90_noerr, &
+   use netcdf, only: nf90_char, nf90_clobber, nf90_close, nf90_create, nf90_def_dim, &
+                     nf90_def_var, nf90_double, nf90_global, nf90_int, nf90_netcdf4, nf90_noerr, &
                      nf90_put_att, nf90_put_var, nf90_strerror
    use version, only: project_version
    implicit none (type, external)
@@ -35,6 +35,8 @@ module netcdf_output
       generic :: attribute => text_attribute, real_attribute, integer_attribute
       !> Values of a variable
       generic :: put => put_reals, put_integers
+      !> A variable of words, or a compressed one over two dimensions, with its values
+      procedure :: words, table
       !> Complete the file
       procedure :: finish
       !> Give it up
@@ -123,6 +125,50 @@ contains
       call self%note(nf90_def_var(self%id, name, nf90_int, [dimension], id))
       call self%attribute("long_name", long_name, id)
    end function integer_variable
+
+   !> Define and write a variable of words over one dimension.
+   subroutine words(self, name, dimension, values, long_name)
+      !> The file
+      class(output_file), intent(inout) :: self
+      !> Its name
+      character(len=*), intent(in) :: name
+      !> Its dimension
+      integer, intent(in) :: dimension
+      !> Its values
+      character(len=*), intent(in) :: values(:)
+      !> What it is
+      character(len=*), intent(in) :: long_name
+      integer :: id, letters
+
+      letters = self%dimension(name//"_letters", len(values))
+      if (allocated(self%error)) return
+      call self%note(nf90_def_var(self%id, name, nf90_char, [letters, dimension], id))
+      call self%attribute("_Encoding", "utf-8", id)
+      call self%attribute("long_name", long_name, id)
+      if (.not. allocated(self%error)) call self%note(nf90_put_var(self%id, id, values))
+   end subroutine words
+
+   !> Define and write a compressed variable of nondimensional real numbers over two dimensions.
+   subroutine table(self, name, dimensions, values, long_name)
+      !> The file
+      class(output_file), intent(inout) :: self
+      !> Its name
+      character(len=*), intent(in) :: name
+      !> Its dimensions, the faster first
+      integer, intent(in) :: dimensions(2)
+      !> Its values
+      real(wp), intent(in) :: values(:, :)
+      !> What it is
+      character(len=*), intent(in) :: long_name
+      integer :: id
+
+      if (allocated(self%error)) return
+      call self%note(nf90_def_var(self%id, name, nf90_double, dimensions, id, deflate_level=4, &
+                                  shuffle=.true.))
+      call self%attribute("long_name", long_name, id)
+      call self%attribute("units", "1", id)
+      if (.not. allocated(self%error)) call self%note(nf90_put_var(self%id, id, values))
+   end subroutine table
 
    !> A word or sentence.
    subroutine text_attribute(self, name, value, variable)

@@ -20,7 +20,7 @@ contains
       namelist_path = argument(1)
       output_path = argument(2)
       if (command_argument_count() /= 2) then
-         call raise(error, "usage: "//argument(0)//" NAMELIST OUTPUT.nc")
+         call raise(error, "usage: "//argument(0)//" NAMELIST OUTPUT")
       end if
    end subroutine get_paths
 

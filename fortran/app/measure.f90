@@ -1,0 +1,38 @@
+!> Measured runs: cases solved by several methods at several tolerances, with what each run gave and
+!> what it cost. A run that fails is a row with its reason.
+program measure
+   use cases_input, only: read_cases
+   use errors, only: error_type
+   use kinds, only: wp
+   use measure_input, only: measure_settings, read_measure
+   use measure_output, only: measured_runs, write_measured_runs
+   use measured_case, only: case_type
+   use measured_run, only: measure_run
+   use namelist_input, only: not_given
+   use program_arguments, only: get_paths, stop_on
+   implicit none (type, external)
+   character(len=:), allocatable :: namelist_path, output_path
+   type(case_type), allocatable :: cases(:)
+   type(error_type), allocatable :: error
+   type(measure_settings) :: settings
+   type(measured_runs), allocatable :: measured(:)
+   integer :: i, j
+
+   call get_paths(namelist_path, output_path, error)
+   call stop_on(error)
+   call read_cases(namelist_path, cases, error)
+   call stop_on(error)
+   call read_measure(namelist_path, settings, error)
+   call stop_on(error)
+   allocate (measured(size(cases)))
+   do i = 1, size(cases)
+      measured(i)%case = cases(i)
+      measured(i)%runs = settings%runs
+      do j = 1, size(settings%runs)
+         call measure_run(cases(i), 0.0_wp, settings%most_steps, settings%repeats, &
+                      settings%least_seconds, measured(i)%runs(j))
+      end do
+   end do
+   call write_measured_runs(output_path, measured, not_given(), error)
+   call stop_on(error)
+end program measure

@@ -1,0 +1,42 @@
+!> References: cases solved in quadruple precision, each with the evidence of its own uncertainty
+!> and of how much the case magnifies a disturbance of its history.
+program reference
+   use cases_input, only: read_cases
+   use errors, only: error_type
+   use kinds, only: wp
+   use measured_case, only: case_type
+   use measured_run, only: measure_run, run_type
+   use program_arguments, only: get_paths, stop_on
+   use reference_input, only: read_reference, reference_settings
+   use reference_output, only: reference_file
+   implicit none (type, external)
+   character(len=:), allocatable :: namelist_path, output_path
+   type(case_type), allocatable :: cases(:)
+   type(error_type), allocatable :: error
+   type(reference_file) :: file
+   type(reference_settings) :: settings
+   type(run_type) :: best, checking, disturbed
+   integer :: i
+
+   call get_paths(namelist_path, output_path, error)
+   call stop_on(error)
+   call read_cases(namelist_path, cases, error)
+   call stop_on(error)
+   call read_reference(namelist_path, settings, error)
+   call stop_on(error)
+   call file%create(output_path, error)
+   call stop_on(error)
+   associate (options => settings)
+      best = run_type(options%method, options%tolerance)
+      disturbed = best
+      checking = run_type(options%method, options%check_tolerance)
+      do i = 1, size(cases)
+         call measure_run(cases(i), 0.0_wp, options%most_steps, 0, 0.0_wp, best)
+         call measure_run(cases(i), 0.0_wp, options%most_steps, 0, 0.0_wp, checking)
+         call measure_run(cases(i), options%disturbance, options%most_steps, 0, 0.0_wp, disturbed)
+         call file%put(cases(i), options%disturbance, best, checking, disturbed)
+      end do
+   end associate
+   call file%finish(error)
+   call stop_on(error)
+end program reference

@@ -1,0 +1,103 @@
+!> Cases to measure, from the namelist group &cases_list: one list a key, one element a case.
+module cases_input
+   use errors, only: error_type, raise, text
+   use kinds, only: wp
+   use measured_case, only: case_name_length, case_type
+   use namelist_input, only: check_number, close_namelist, not_given, open_namelist, word_length
+   implicit none (type, external)
+   private
+   public :: read_cases
+
+   !> Most cases in one file.
+   integer, parameter :: most_cases = 1000
+   !> Most samples of a case.
+   real(wp), parameter :: most_samples = 1.0e6_wp
+
+contains
+
+   !> Read and check the cases.
+   subroutine read_cases(path, cases, error)
+      !> Path of the namelist file
+      character(len=*), intent(in) :: path
+      !> The cases
+      type(case_type), allocatable, intent(out) :: cases(:)
+      !> They cannot be read, or a value is out of range
+      type(error_type), allocatable, intent(out) :: error
+      integer :: i
+
+      call read_group(path, cases, error)
+      if (allocated(error)) return
+      if (size(cases) == 0) call raise(error, path//": name: no case; expected at least one")
+      do i = 1, size(cases)
+         call check_case(path//": case '"//trim(cases(i)%name)//"'", cases(i), error)
+         if (allocated(error)) return
+         if (any(cases(:i - 1)%name == cases(i)%name)) then
+            call raise(error, path//": name = '"//trim(cases(i)%name) &
+                       //"' twice; expected each once")
+         end if
+      end do
+   end subroutine read_cases
+
+   !> Read the group &cases_list.
+   subroutine read_group(path, cases, error)
+      !> Path of the namelist file
+      character(len=*), intent(in) :: path
+      !> The cases
+      type(case_type), allocatable, intent(out) :: cases(:)
+      !> They cannot be read
+      type(error_type), allocatable, intent(out) :: error
+      character(len=word_length) :: name(most_cases)
+      real(wp), dimension(most_cases) :: tau, epsilon, xi, gamma, theta, u, v, t_end, &
+                                         sample_interval
+      character(len=256) :: reason
+      integer :: i, status, unit
+      namelist /cases_list/ name, tau, epsilon, xi, gamma, theta, u, v, t_end, sample_interval
+
+      name = ""
+      tau = not_given()
+      epsilon = tau
+      xi = tau
+      gamma = tau
+      theta = tau
+      u = tau
+      v = tau
+      t_end = tau
+      sample_interval = tau
+      call open_namelist(path, unit, error)
+      if (allocated(error)) return
+      read (unit, nml=cases_list, iostat=status, iomsg=reason)
+      call close_namelist(path, "cases_list", unit, status, reason, error)
+      cases = [(case_type(name(i) (:case_name_length), tau(i), epsilon(i), xi(i), gamma(i), &
+                          theta(i), u(i), v(i), t_end(i), sample_interval(i)), &
+                i=1, count(name /= ""))]
+      if (allocated(error)) return
+      if (any(len_trim(name) > case_name_length)) then
+         call raise(error, path//": name of "//text(maxval(len_trim(name))) &
+                    //" letters; expected 1 to "//text(case_name_length))
+      end if
+   end subroutine read_group
+
+   !> Refuse what cannot be solved.
+   pure subroutine check_case(place, case, error)
+      !> File and case, for messages
+      character(len=*), intent(in) :: place
+      !> The case
+      type(case_type), intent(in) :: case
+      !> A value is out of range
+      type(error_type), allocatable, intent(inout) :: error
+
+      call check_number(error, place, "tau", case%tau, at_least=0.0_wp)
+      call check_number(error, place, "epsilon", case%epsilon, above=-1.0_wp)
+      call check_number(error, place, "xi", case%xi, above=0.0_wp)
+      call check_number(error, place, "gamma", case%gamma, above=0.0_wp)
+      call check_number(error, place, "theta", case%theta)
+      call check_number(error, place, "u", case%u)
+      call check_number(error, place, "v", case%v, above=0.0_wp)
+      call check_number(error, place, "t_end", case%t_end, above=0.0_wp)
+      call check_number(error, place, "sample_interval", case%sample_interval, above=0.0_wp, &
+                        at_most=case%t_end)
+      if (allocated(error)) return
+      call check_number(error, place, "number of samples t_end/sample_interval", &
+                        case%t_end/case%sample_interval, at_most=most_samples)
+   end subroutine check_case
+end module cases_input

@@ -1,0 +1,132 @@
+!> Files of measured runs: one row a run, with its samples.
+module measure_output
+   use errors, only: error_type
+   use kinds, only: wp
+   use measured_case, only: case_type
+   use measured_run, only: run_type
+   use netcdf_output, only: output_file
+   implicit none (type, external)
+   private
+   public :: measured_runs, write_measured_runs
+
+   !> A case with its runs.
+   type :: measured_runs
+      !> The case
+      type(case_type) :: case
+      !> Its runs
+      type(run_type), allocatable :: runs(:)
+   end type measured_runs
+
+   !> Longest reason of an end.
+   integer, parameter :: reason_length = 200
+   !> Longest other word.
+   integer, parameter :: word_length = 64
+
+contains
+
+   !> Write all runs of all cases; a case with fewer samples than another is filled up with NaN.
+   subroutine write_measured_runs(path, measured, filling, error)
+      !> Path of the file
+      character(len=*), intent(in) :: path
+      !> Cases and their runs
+      type(measured_runs), intent(in) :: measured(:)
+      !> What stands where there is no sample
+      real(wp), intent(in) :: filling
+      !> It could not be written
+      type(error_type), allocatable, intent(out) :: error
+      type(output_file) :: file
+      type(case_type), allocatable :: cases(:)
+      type(run_type), allocatable :: runs(:)
+      real(wp), allocatable :: table(:, :)
+      character(len=reason_length), allocatable :: reasons(:)
+      integer :: i, j, most_samples, run, sample, samples
+
+      allocate (cases(0), runs(0))
+      do i = 1, size(measured)
+         cases = [cases, [(measured(i)%case, j=1, size(measured(i)%runs))]]
+         runs = [runs, measured(i)%runs]
+      end do
+      allocate (reasons(size(runs)))
+      do i = 1, size(runs)
+         reasons(i) = runs(i)%reason
+      end do
+      most_samples = maxval([(size(runs(i)%samples, 2), i=1, size(runs))])
+
+      call file%create(path, "Measured runs of the spring block with delayed friction")
+      run = file%dimension("run", size(runs))
+      sample = file%dimension("sample", most_samples)
+      call file%words("case", run, cases%name, "name of the case")
+      call file%words("method", run, runs%method, "method")
+      call file%words("status", run, runs%status, "ok, or why the run ended before t_end")
+      call file%words("reason", run, reasons, "the same in the solver's words")
+      call put("setting", runs%setting, "tolerance, or length of the steps of rk4 methods")
+      call put("tau", cases%tau, "delay")
+      call put("epsilon", cases%epsilon, "sensitivity of the velocity relaxation")
+      call put("xi", cases%xi, "spring constant")
+      call put("gamma", cases%gamma, "frequency")
+      call put("history_theta", cases%theta, "friction state for t <= 0")
+      call put("history_u", cases%u, "displacement for t <= 0")
+      call put("history_v", cases%v, "velocity for t <= 0")
+      call put("t_end", cases%t_end, "last time asked for")
+      call put("t_reached", runs%outcome%t, "last time reached")
+      call put("steps_accepted", real(runs%outcome%accepted, wp), "steps accepted")
+      call put("steps_rejected", real(runs%outcome%rejected, wp), "steps rejected")
+      call put("steps_implicit", real(runs%outcome%implicit_steps, wp), "implicit steps accepted")
+      call put("evaluations", real(runs%outcome%evaluations, wp), "right-hand sides evaluated")
+      call put("factorisations", real(runs%outcome%factorisations, wp), "matrices factorised")
+      call put("switches", real(runs%outcome%switches, wp), "changes of method")
+      call put("least_ln_v", runs%least_ln_v, "smallest ln v on a grid 8 times that of samples")
+      call put("most_ln_v", runs%most_ln_v, "largest ln v on a grid 8 times that of samples")
+      call put("seconds", runs%seconds, "CPU time of the solver alone, median of repeats", "s")
+
+      allocate (table(most_samples, size(runs)))
+      table = filling
+      do i = 1, size(runs)
+         samples = size(runs(i)%samples, 2)
+         table(:samples, i) = cases(i)%sample_times()
+      end do
+      call file%table("time", [sample, run], table, "time of the sample")
+      call put_samples("theta", 1, "friction state")
+      call put_samples("u", 2, "displacement")
+      call put_samples("ln_v", 3, "logarithm of the velocity")
+      call file%finish(error)
+
+   contains
+
+      !> A number of each run.
+      subroutine put(name, values, long_name, units)
+         !> Name of the variable
+         character(len=*), intent(in) :: name
+         !> Its values
+         real(wp), intent(in) :: values(:)
+         !> What it is
+         character(len=*), intent(in) :: long_name
+         !> Its unit, if any
+         character(len=*), intent(in), optional :: units
+         integer :: id
+
+         if (present(units)) then
+            id = file%real_variable(name, run, long_name, units)
+         else
+            id = file%real_variable(name, run, long_name, "1")
+         end if
+         call file%put(id, values)
+      end subroutine put
+
+      !> Samples of one component of each run.
+      subroutine put_samples(name, component, long_name)
+         !> Name of the variable
+         character(len=*), intent(in) :: name
+         !> Index into the state
+         integer, intent(in) :: component
+         !> What it is
+         character(len=*), intent(in) :: long_name
+
+         table = filling
+         do i = 1, size(runs)
+            table(:size(runs(i)%samples, 2), i) = runs(i)%samples(component, :)
+         end do
+         call file%table(name, [sample, run], table, long_name)
+      end subroutine put_samples
+   end subroutine write_measured_runs
+end module measure_output

@@ -1,0 +1,125 @@
+!> Reference files: tables of text with 20 digits, more than a number in double precision holds.
+!> Whole or absent: written under another name, renamed when complete.
+module reference_output
+   use errors, only: error_type, raise
+   use files, only: remove_file, rename_file, write_file
+   use kinds, only: wp
+   use measured_case, only: case_type
+   use measured_run, only: run_type
+   implicit none (type, external)
+   private
+   public :: reference_file
+
+   !> Ending of a file that is not complete.
+   character(len=*), parameter :: unfinished = ".part"
+   !> Between columns, and between rows.
+   character(len=*), parameter :: tab = achar(9), line_end = new_line("a")
+   !> Letters that hold any row.
+   integer, parameter :: row_length = 320
+
+   !> A table in the making.
+   type :: reference_file
+      private
+      !> Path of the complete file
+      character(len=:), allocatable :: path
+      !> Rows so far
+      character(len=:), allocatable :: content
+   contains
+      !> Begin a file
+      procedure :: create
+      !> The rows of a case
+      procedure :: put
+      !> Complete the file
+      procedure :: finish
+      procedure, private :: save => save_unfinished
+   end type reference_file
+
+contains
+
+   !> Begin a file with the names of the columns; what cannot be written is told before the work.
+   subroutine create(self, path, error)
+      !> The file
+      class(reference_file), intent(inout) :: self
+      !> Its path once complete
+      character(len=*), intent(in) :: path
+      !> It cannot be written
+      type(error_type), allocatable, intent(out) :: error
+
+      self%path = path
+      self%content = "case"//tab//"status"//tab//"time"//tab//"theta"//tab//"u"//tab//"ln_v" &
+                     //tab//"uncertainty"//tab//"amplification"//line_end
+      call self%save(error)
+   end subroutine create
+
+   !> A case at its sample times: the state, how far the state at a larger tolerance is from it, and
+   !> how far that of a disturbed history, in units of the disturbance.
+   subroutine put(self, case, disturbance, best, checking, disturbed)
+      !> The file
+      class(reference_file), intent(inout) :: self
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Change of theta and u and relative change of v for t <= 0 in the disturbed run
+      real(wp), intent(in) :: disturbance
+      !> The reference
+      type(run_type), intent(in) :: best
+      !> The same at a larger tolerance
+      type(run_type), intent(in) :: checking
+      !> The same from a disturbed history
+      type(run_type), intent(in) :: disturbed
+      real(wp) :: time(size(best%samples, 2))
+      character(len=row_length) :: row
+      character(len=:), allocatable :: rows
+      integer :: i, used
+
+      time = case%sample_times()
+      allocate (character(len=row_length*size(time)) :: rows)
+      used = 0
+      do i = 1, size(time)
+         write (row, "(4a,4(es0.19e4,a),es0.3e4,a,es0.3e4,a)") trim(case%name), tab, &
+            trim(best%status), tab, time(i), tab, best%samples(1, i), tab, best%samples(2, i), &
+            tab, best%samples(3, i), tab, &
+            distance(checking%samples(:, i), best%samples(:, i)), tab, &
+            distance(disturbed%samples(:, i), best%samples(:, i))/disturbance, line_end
+         rows(used + 1:used + len_trim(row)) = trim(row)
+         used = used + len_trim(row)
+      end do
+      self%content = self%content//rows(:used)
+   end subroutine put
+
+   !> Largest difference of a component, relative to the component where that is above 1.
+   pure real(wp) function distance(state, from) result(value)
+      !> A state
+      real(wp), intent(in) :: state(:)
+      !> Another
+      real(wp), intent(in) :: from(:)
+
+      value = maxval(abs(state - from)/max(1.0_wp, abs(from)))
+   end function distance
+
+   !> Write the file and give it its name; on an error nothing is left behind.
+   subroutine finish(self, error)
+      !> The file
+      class(reference_file), intent(inout) :: self
+      !> It could not be written
+      type(error_type), allocatable, intent(out) :: error
+
+      call self%save(error)
+      if (allocated(error)) return
+      call rename_file(self%path//unfinished, self%path, error)
+      if (allocated(error)) call remove_file(self%path//unfinished)
+   end subroutine finish
+
+   !> Write what there is under the other name.
+   subroutine save_unfinished(self, error)
+      !> The file
+      class(reference_file), intent(inout) :: self
+      !> It could not be written
+      type(error_type), allocatable, intent(out) :: error
+      type(error_type), allocatable :: failure
+
+      call write_file(self%path//unfinished, self%content, failure)
+      if (.not. allocated(failure)) return
+      call remove_file(self%path//unfinished)
+      call raise(error, self%path//": cannot write")
+   end subroutine save_unfinished
+end module reference_output

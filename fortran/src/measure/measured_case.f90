@@ -1,0 +1,67 @@
+!> A case to measure: one parameter set of the delayed block, its history and its sample times. All
+!> quantities are nondimensional.
+module measured_case
+   use double_numbers, only: as_double, evenly_spaced
+   use kinds, only: wp
+   use spring_block, only: spring_block_type
+   implicit none (type, external)
+   private
+   public :: case_name_length, case_type
+
+   !> Longest name of a case.
+   integer, parameter :: case_name_length = 64
+
+   !> One case.
+   type :: case_type
+      !> Name
+      character(len=case_name_length) :: name = ""
+      !> Delay
+      real(wp) :: tau = 0.0_wp
+      !> Sensitivity of the velocity relaxation
+      real(wp) :: epsilon = 0.0_wp
+      !> Spring constant
+      real(wp) :: xi = 1.0_wp
+      !> Frequency
+      real(wp) :: gamma = 1.0_wp
+      !> Friction state for t <= 0
+      real(wp) :: theta = 0.0_wp
+      !> Displacement for t <= 0
+      real(wp) :: u = 0.0_wp
+      !> Velocity for t <= 0
+      real(wp) :: v = 1.0_wp
+      !> Last time
+      real(wp) :: t_end = 1.0_wp
+      !> Time between samples
+      real(wp) :: sample_interval = 1.0_wp
+   contains
+      !> The problem that the solver takes
+      procedure :: problem
+      !> Times of samples, from 0 on
+      procedure :: sample_times
+   end type case_type
+
+contains
+
+   !> The block with this case's parameters, rounded to double precision in any precision.
+   pure function problem(self, disturbance) result(block)
+      !> The case
+      class(case_type), intent(in) :: self
+      !> Change of theta and u and relative change of v for t <= 0
+      real(wp), intent(in) :: disturbance
+      type(spring_block_type) :: block
+
+      block = spring_block_type(as_double(self%tau), as_double(self%epsilon), as_double(self%xi), &
+                                as_double(self%gamma), as_double(self%theta) + disturbance, &
+                                as_double(self%u) + disturbance, &
+                                as_double(self%v)*(1.0_wp + disturbance))
+   end function problem
+
+   !> Times of samples: multiples of the interval up to t_end.
+   pure function sample_times(self) result(time)
+      !> The case
+      class(case_type), intent(in) :: self
+      real(wp), allocatable :: time(:)
+
+      time = evenly_spaced(as_double(self%sample_interval), as_double(self%t_end))
+   end function sample_times
+end module measured_case

@@ -1,0 +1,184 @@
+!> One measured run: a case by one method at one tolerance or step length, what it gave and what it
+!> cost.
+module measured_run
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use dde, only: integrate, integration_options, integration_result, reached_end, step_underflow, &
+                  too_many_steps, value_not_finite
+   use double_numbers, only: as_double
+   use errors, only: error_type
+   use fixed_step_rk4, only: integrate_rk4
+   use kinds, only: int64, wp
+   use measured_case, only: case_type
+   use spring_block, only: spring_block_type
+   use watching_sampler, only: watcher
+   implicit none (type, external)
+   private
+   public :: baseline_methods, measure_run, run_type, solver_methods
+
+   !> Methods of the solver, which take a tolerance.
+   character(len=10), parameter :: solver_methods(5) = ["auto      ", "explicit  ", "radau5    ", &
+                                                        "radau9    ", "radau13   "]
+   !> Methods with steps of one length, which take that.
+   character(len=10), parameter :: baseline_methods(2) = ["rk4_linear", "rk4_cubic "]
+
+   !> CPU seconds above which one run is measure enough.
+   real(wp), parameter :: long_run = 0.5_wp
+
+   !> A run asked for, and what it gave.
+   type :: run_type
+      !> Name of the method
+      character(len=10) :: method = ""
+      !> Tolerance, or length of the steps
+      real(wp) :: setting = 0.0_wp
+      !> 'ok' or the reason in one word
+      character(len=16) :: status = ""
+      !> The reason in the solver's own words; empty where it reached t_end
+      character(len=:), allocatable :: reason
+      !> What the solver did
+      type(integration_result) :: outcome
+      !> theta, u, ln v, shape (3, times); not a number where it did not come
+      real(wp), allocatable :: samples(:, :)
+      !> Smallest and largest ln v over a grid eight times as fine as the samples
+      real(wp) :: least_ln_v = 0.0_wp, most_ln_v = 0.0_wp
+      !> CPU seconds of the solver alone; with its samples where the run was not repeated
+      real(wp) :: seconds = 0.0_wp
+   end type run_type
+
+contains
+
+   !> Run a case and measure it.
+   subroutine measure_run(case, disturbance, most_steps, repeats, least_seconds, run)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Change of theta and u and relative change of v for t <= 0
+      real(wp), intent(in) :: disturbance
+      !> Most steps of the solver
+      integer(int64), intent(in) :: most_steps
+      !> Times measured, of which the median counts; 0 for the first run alone, as with long runs
+      !> and those that do not reach the end
+      integer, intent(in) :: repeats
+      !> Shortest time to measure: shorter runs are measured several in a row
+      real(wp), intent(in) :: least_seconds
+      !> Method and setting; filled with the rest
+      type(run_type), intent(inout) :: run
+      type(error_type), allocatable :: error
+      type(spring_block_type) :: block_model
+      type(watcher) :: sampler
+      real(wp) :: no_number, now, start
+
+      no_number = ieee_value(1.0_wp, ieee_quiet_nan)
+      block_model = case%problem(disturbance)
+      sampler = watcher(block_model%n, case%sample_times(), no_number)
+      call cpu_time(start)
+      call solve(block_model, as_double(case%t_end), most_steps, run, error, sampler)
+      call cpu_time(now)
+      run%status = status_of(run%outcome%reason)
+      run%reason = ""
+      if (allocated(error)) run%reason = error%message
+      run%samples = sampler%values
+      run%least_ln_v = merge(sampler%least, no_number, sampler%received > 0)
+      run%most_ln_v = merge(sampler%most, no_number, sampler%received > 0)
+      run%seconds = now - start
+      if (repeats > 0 .and. run%seconds < long_run .and. run%status == "ok") then
+         run%seconds = time_taken(block_model, as_double(case%t_end), most_steps, &
+                                  repeats, least_seconds, run)
+      end if
+   end subroutine measure_run
+
+   !> Solve it by the run's method.
+   subroutine solve(block_model, t_end, most_steps, run, error, sampler)
+      !> The problem
+      type(spring_block_type), intent(in) :: block_model
+      !> Last time
+      real(wp), intent(in) :: t_end
+      !> Most steps of the solver
+      integer(int64), intent(in) :: most_steps
+      !> Method and setting; filled with the outcome
+      type(run_type), intent(inout) :: run
+      !> Why it did not reach t_end
+      type(error_type), allocatable, intent(out) :: error
+      !> Receiver of samples
+      type(watcher), intent(inout), optional :: sampler
+
+      if (any(baseline_methods == run%method)) then
+         call integrate_rk4(block_model, t_end, run%setting, run%method == "rk4_cubic", &
+                            run%outcome, error, sampler)
+      else
+         call integrate(block_model, 0.0_wp, t_end, &
+                        integration_options(method=run%method(:8), relative=run%setting, &
+                                            absolute=run%setting, most_steps=most_steps), &
+                        run%outcome, error, sampler)
+      end if
+   end subroutine solve
+
+   !> The reason of an end in one word.
+   pure function status_of(reason) result(word)
+      !> Reason of the solver
+      integer, intent(in) :: reason
+      character(len=16) :: word
+
+      select case (reason)
+      case (reached_end)
+         word = "ok"
+      case (step_underflow)
+         word = "step_underflow"
+      case (too_many_steps)
+         word = "too_many_steps"
+      case (value_not_finite)
+         word = "value_not_finite"
+      case default
+         word = "refused"
+      end select
+   end function status_of
+
+   !> CPU seconds of one run: the median over the repeats.
+   real(wp) function time_taken(block_model, t_end, most_steps, repeats, least_seconds, run) &
+      result(seconds)
+      !> The problem
+      type(spring_block_type), intent(in) :: block_model
+      !> Last time
+      real(wp), intent(in) :: t_end
+      !> Most steps of the solver
+      integer(int64), intent(in) :: most_steps
+      !> Times measured
+      integer, intent(in) :: repeats
+      !> Shortest time to measure
+      real(wp), intent(in) :: least_seconds
+      !> Method and setting
+      type(run_type), intent(in) :: run
+      type(error_type), allocatable :: error
+      type(run_type) :: again
+      real(wp) :: measured(repeats), start, now
+      integer :: i, runs
+
+      again = run
+      do i = 1, repeats
+         call cpu_time(start)
+         now = start
+         runs = 0
+         do while (runs == 0 .or. now - start < least_seconds)
+            call solve(block_model, t_end, most_steps, again, error)
+            runs = runs + 1
+            call cpu_time(now)
+         end do
+         measured(i) = (now - start)/runs
+      end do
+      seconds = median(measured)
+   end function time_taken
+
+   !> The middle one, or of an even number the mean of the two in the middle.
+   pure real(wp) function median(values) result(value)
+      !> Values, at least one
+      real(wp), intent(in) :: values(:)
+      real(wp) :: sorted(size(values))
+      integer :: i, middle, place
+
+      sorted = values
+      do i = 1, size(sorted)
+         place = i - 1 + minloc(sorted(i:), dim=1)
+         sorted([i, place]) = sorted([place, i])
+      end do
+      middle = (size(sorted) + 1)/2
+      value = 0.5_wp*(sorted(middle) + sorted(size(sorted) + 1 - middle))
+   end function median
+end module measured_run

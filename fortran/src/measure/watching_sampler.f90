@@ -1,0 +1,77 @@
+!> Samples in a table, and the extremes of ln v over a finer grid between them.
+module watching_sampler
+   use dde, only: sampler_type
+   use kinds, only: wp
+   use spring_block, only: index_of_ln_v
+   implicit none (type, external)
+   private
+   public :: watcher
+
+   !> Looks at the state from one sample to the next.
+   integer, parameter :: looks = 8
+
+   !> Sampler that keeps every eighth state and the extremes of all.
+   type, extends(sampler_type) :: watcher
+      !> Times of samples, ascending from the first instant
+      real(wp), allocatable :: time(:)
+      !> Samples, shape (n, times); those not reached are what they were filled with
+      real(wp), allocatable :: values(:, :)
+      !> Number of samples received
+      integer :: received = 0
+      !> Smallest and largest ln v
+      real(wp) :: least = huge(1.0_wp), most = -huge(1.0_wp)
+      !> Looks since the last sample
+      integer, private :: looked = 0
+   contains
+      procedure :: take
+   end type watcher
+
+   interface watcher
+      module procedure :: new_watcher
+   end interface watcher
+
+contains
+
+   !> Nothing seen yet.
+   pure function new_watcher(n, time, filling) result(sampler)
+      !> Number of equations
+      integer, intent(in) :: n
+      !> Times of samples, ascending from the first instant
+      real(wp), intent(in) :: time(:)
+      !> What a sample not reached holds
+      real(wp), intent(in) :: filling
+      type(watcher) :: sampler
+      integer :: i
+
+      sampler%wanted = [(i, i=1, n)]
+      sampler%time = time
+      allocate (sampler%values(n, size(time)), source=filling)
+      sampler%next = time(1)
+   end function new_watcher
+
+   !> Look at the state; keep it where a sample is due.
+   subroutine take(self, y)
+      !> The sampler
+      class(watcher), intent(inout) :: self
+      !> The state
+      real(wp), intent(in) :: y(:)
+
+      self%least = min(self%least, y(index_of_ln_v))
+      self%most = max(self%most, y(index_of_ln_v))
+      if (self%looked == 0) then
+         self%received = self%received + 1
+         self%values(:, self%received) = y
+      end if
+      self%looked = modulo(self%looked + 1, looks)
+      associate (last => self%received)
+         if (last == size(self%time)) then
+            self%next = huge(1.0_wp)
+         else if (self%looked == 0) then
+            self%next = self%time(last + 1)
+         else
+            self%next = self%time(last) + (self%time(last + 1) - self%time(last)) &
+                        *self%looked/looks
+         end if
+      end associate
+   end subroutine take
+end module watching_sampler

@@ -1,0 +1,206 @@
+!> The baseline with fixed steps on problems with exact solutions, and measured runs.
+module test_measure
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use dde, only: dde_problem_type, integration_result, table_sampler, value_not_finite
+   use double_numbers, only: as_double, evenly_spaced
+   use errors, only: failure_type => error_type
+   use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
+   use fixed_step_rk4, only: integrate_rk4
+   use kinds, only: int64, wp
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use measured_case, only: case_type
+   use measured_run, only: measure_run, run_type
+   use test_problems, only: falls_out, linear, oscillator, sine, without_delays
+   implicit none (type, external)
+   private
+   public :: collect_measure
+
+   real(wp), parameter :: pi = acos(-1.0_wp)
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_measure(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("order of rk4, kinks on the grid", test_order_kinks), &
+                   new_unittest("order of rk4, delay off the grid", test_order_off_grid), &
+                   new_unittest("order of rk4 without delay", test_order_without_delay), &
+                   new_unittest("samples of rk4", test_rk4_samples), &
+                   new_unittest("refusals of rk4", test_rk4_refusals), &
+                   new_unittest("double numbers", test_double_numbers), &
+                   new_unittest("sample times", test_sample_times), &
+                   new_unittest("measured run", test_measured_run), &
+                   new_unittest("measured run that stops", test_stopped_run)]
+   end subroutine collect_measure
+
+   !> y' = -y(t-1), y = 1 up to t = 0, at t = 10.
+   subroutine test_order_kinks(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(linear) :: problem
+
+      problem = linear(n=1, lag=[1.0_wp], component=[1], past=[1.0_wp], first=[1.0_wp])
+      call expect_orders(problem, 10.0_wp, 10493.0_wp/518400, 0.05_wp, error)
+   end subroutine test_order_kinks
+
+   !> y' = -y(t - pi/2) goes on as sin t; delayed values lie a third of a step off the grid points.
+   subroutine test_order_off_grid(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(sine) :: problem
+      real(wp), parameter :: h = 0.5_wp*pi/(31.0_wp + 1.0_wp/3.0_wp)
+
+      problem = sine()
+      call expect_orders(problem, 50*h, sin(50*h), h, error)
+   end subroutine test_order_off_grid
+
+   !> An oscillator, where both are the same method.
+   subroutine test_order_without_delay(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(oscillator) :: problem
+
+      problem = oscillator(n=2, past=[1.0_wp, 0.0_wp], first=[1.0_wp, 0.0_wp])
+      call without_delays(problem)
+      call expect_between(error, order_of(problem, .false., 2.0_wp, cos(2.0_wp), 0.05_wp), &
+                          3.8_wp, 4.2_wp, "order")
+   end subroutine test_order_without_delay
+
+   !> Order 4 with a cubic history and 2 with a linear one.
+   subroutine expect_orders(problem, t_end, known, h, error)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Last time
+      real(wp), intent(in) :: t_end
+      !> First component there
+      real(wp), intent(in) :: known
+      !> Length of the longer steps
+      real(wp), intent(in) :: h
+      !> The first failure of the test
+      type(error_type), allocatable, intent(inout) :: error
+
+      call expect_between(error, order_of(problem, .true., t_end, known, h), 3.8_wp, 4.2_wp, &
+                          "order with a cubic history")
+      call expect_between(error, order_of(problem, .false., t_end, known, h), 1.8_wp, 2.2_wp, &
+                          "order with a linear history")
+   end subroutine expect_orders
+
+   !> How the error falls from steps of length h to half of that.
+   real(wp) function order_of(problem, cubic, t_end, known, h) result(order)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Cubic history, or linear
+      logical, intent(in) :: cubic
+      !> Last time
+      real(wp), intent(in) :: t_end
+      !> First component there
+      real(wp), intent(in) :: known
+      !> Length of the longer steps
+      real(wp), intent(in) :: h
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      real(wp) :: misfit(2)
+      integer :: i
+
+      do i = 1, 2
+         call integrate_rk4(problem, t_end, h/i, cubic, outcome, failure)
+         misfit(i) = abs(outcome%y(1) - known)
+      end do
+      order = log(misfit(1)/misfit(2))/log(2.0_wp)
+   end function order_of
+
+   !> Between grid points, at both ends, and as many as asked for.
+   subroutine test_rk4_samples(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(sine) :: problem
+      type(table_sampler) :: table
+      real(wp) :: time(6)
+
+      time = [0.0_wp, 0.013_wp, 1.0_wp, 2.0_wp, 4.99_wp, 5.0_wp]
+      problem = sine()
+      table = table_sampler([1], time)
+      call integrate_rk4(problem, 5.0_wp, 0.01_wp, .true., outcome, failure, table)
+      call expect_success(error, failure)
+      call expect(error, table%received == size(time), "every sample is taken")
+      call expect_close(error, table%values(1, :), sin(time), 1.0e-8_wp, "samples")
+      call expect(error, outcome%accepted == 500_int64, "500 steps")
+      call expect(error, outcome%evaluations == 2001_int64, "four evaluations a step")
+   end subroutine test_rk4_samples
+
+   !> Steps longer than the delay, and a value that is not finite.
+   subroutine test_rk4_refusals(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(falls_out) :: no_number
+      type(sine) :: problem
+
+      problem = sine()
+      call integrate_rk4(problem, 10.0_wp, 2.0_wp, .true., outcome, failure)
+      call expect_failure(error, failure, "longer than the shortest delay, 1.570796")
+      no_number = falls_out(n=1, past=[0.0_wp], first=[0.0_wp])
+      call without_delays(no_number)
+      call integrate_rk4(no_number, 2.0_wp, 0.1_wp, .true., outcome, failure)
+      call expect_failure(error, failure, "not finite")
+      call expect(error, outcome%reason == value_not_finite, "the reason says so")
+      call expect_close(error, outcome%t, 0.9_wp, 1.0e-12_wp, "time reached")
+   end subroutine test_rk4_refusals
+
+   !> In double precision every number stays what it is.
+   subroutine test_double_numbers(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: numbers(6) = [0.0_wp, 0.1_wp, -pi, 1.0e-300_wp, 1.0e300_wp, 7.0_wp]
+
+      call expect_close(error, as_double(numbers), numbers, 0.0_wp, "numbers")
+   end subroutine test_double_numbers
+
+   !> The last one is t_end, also where the quotient rounds down.
+   subroutine test_sample_times(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable :: time(:)
+
+      time = evenly_spaced(0.1_wp, 0.3_wp)
+      call expect(error, size(time) == 4, "four times")
+      call expect_close(error, time(4), 0.3_wp, 0.0_wp, "last time")
+      time = evenly_spaced(2.0_wp, 5.0_wp)
+      call expect(error, size(time) == 3, "multiples up to the end")
+      call expect_close(error, time(3), 4.0_wp, 0.0_wp, "last multiple")
+   end subroutine test_sample_times
+
+   !> A case that decays, by the solver and by the baseline.
+   subroutine test_measured_run(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(run_type) :: baseline, run
+      type(case_type) :: case
+
+      case = case_type("decay", 10.0_wp, 0.2_wp, 0.8_wp, 0.8_wp, 0.0_wp, 0.0_wp, 1.1_wp, 50.0_wp, &
+                       0.5_wp)
+      run = run_type("auto", 1.0e-10_wp)
+      call measure_run(case, 0.0_wp, 100000_int64, 3, 1.0e-3_wp, run)
+      baseline = run_type("rk4_cubic", 0.01_wp)
+      call measure_run(case, 0.0_wp, 100000_int64, 0, 0.0_wp, baseline)
+      call expect(error, run%status == "ok" .and. run%reason == "", "the run is ok")
+      call expect(error, baseline%status == "ok", "the baseline is ok")
+      call expect(error, size(run%samples, 2) == 101, "101 samples")
+      call expect_close(error, run%samples(3, :), baseline%samples(3, :), 1.0e-7_wp, "ln v")
+      call expect_close(error, run%most_ln_v, log(1.1_wp), 1.0e-15_wp, "largest ln v")
+      call expect(error, run%least_ln_v <= minval(run%samples(3, :)), "smallest ln v")
+      call expect_between(error, run%seconds, 0.0_wp, 1.0_wp, "seconds")
+   end subroutine test_measured_run
+
+   !> It keeps its samples and says why it ended.
+   subroutine test_stopped_run(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(run_type) :: run
+      type(case_type) :: case
+
+      case = case_type("stiff", 1.0_wp, 0.7_wp, 0.5_wp, 1.0e2_wp, 0.0_wp, 0.0_wp, 1.1_wp, 50.0_wp, &
+                       0.05_wp)
+      run = run_type("explicit", 1.0e-8_wp)
+      call measure_run(case, 0.0_wp, 500_int64, 3, 0.0_wp, run)
+      call expect(error, run%status == "too_many_steps", "too many steps")
+      call expect(error, index(run%reason, "500 steps (most_steps) were used up") > 0, run%reason)
+      call expect(error, .not. any(ieee_is_nan(run%samples(:, 1:3))), "samples that it reached")
+      call expect(error, all(ieee_is_nan(run%samples(:, 1001))), "none at the end")
+   end subroutine test_stopped_run
+end module test_measure

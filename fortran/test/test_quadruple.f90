@@ -1,0 +1,90 @@
+!> The solver compiled in quadruple precision, on problems with exact solutions far below what
+!> double precision holds.
+module test_quadruple
+   use double_numbers, only: as_double
+   use expectations, only: expect, expect_close
+   use kinds, only: wp
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use solving, only: at_tolerance, solve
+   use test_problems, only: linear, oscillator, without_delays
+   implicit none (type, external)
+   private
+   public :: collect_quadruple
+
+   !> Methods tried.
+   character(len=8), parameter :: methods(3) = ["explicit", "radau9  ", "radau13 "]
+   !> Tolerance, and what errors must stay below.
+   real(wp), parameter :: tolerance = 1.0e-22_wp, within = 1.0e-20_wp
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_quadruple(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("precision", test_precision), &
+                   new_unittest("numbers of double precision", test_double_numbers), &
+                   new_unittest("linear", test_linear), &
+                   new_unittest("linear with a jump", test_jump), &
+                   new_unittest("oscillator", test_oscillator)]
+   end subroutine collect_quadruple
+
+   !> More than 30 digits.
+   subroutine test_precision(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call expect(error, precision(1.0_wp) > 30, "more than 30 digits")
+   end subroutine test_precision
+
+   !> 0.1 is rounded as double precision rounds it, numbers that it holds are not.
+   subroutine test_double_numbers(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call expect_close(error, (as_double(0.1_wp) - 0.1_wp)*2.0_wp**56, 0.4_wp, 1.0e-12_wp, &
+                        "rounding of 0.1")
+      call expect_close(error, as_double(0.375_wp), 0.375_wp, 0.0_wp, "a number held")
+   end subroutine test_double_numbers
+
+   !> y' = -y(t-1), y = 1 up to t = 0.
+   subroutine test_linear(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(linear) :: problem
+      real(wp), allocatable :: y(:, :)
+      integer :: i
+
+      problem = linear(n=1, lag=[1.0_wp], component=[1], past=[1.0_wp], first=[1.0_wp])
+      do i = 1, size(methods)
+         call solve(problem, [5.0_wp, 10.0_wp], at_tolerance(tolerance, methods(i)), y, error)
+         call expect_close(error, y(1, :), [19.0_wp/120, 10493.0_wp/518400], within, methods(i))
+      end do
+   end subroutine test_linear
+
+   !> The same with y = 0 before t = 0.
+   subroutine test_jump(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(linear) :: problem
+      real(wp), allocatable :: y(:, :)
+      integer :: i
+
+      problem = linear(n=1, lag=[1.0_wp], component=[1], past=[0.0_wp], first=[1.0_wp])
+      do i = 1, size(methods)
+         call solve(problem, [5.0_wp, 10.0_wp], at_tolerance(tolerance, methods(i)), y, error)
+         call expect_close(error, y(1, :), [5.0_wp/24, 19223.0_wp/362880], within, methods(i))
+      end do
+   end subroutine test_jump
+
+   !> y = cos t.
+   subroutine test_oscillator(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(oscillator) :: problem
+      real(wp), allocatable :: y(:, :)
+      integer :: i
+
+      problem = oscillator(n=2, past=[1.0_wp, 0.0_wp], first=[1.0_wp, 0.0_wp])
+      call without_delays(problem)
+      do i = 1, size(methods)
+         call solve(problem, [3.0_wp], at_tolerance(tolerance, methods(i)), y, error)
+         call expect_close(error, y(1, :), [cos(3.0_wp)], within, methods(i))
+      end do
+   end subroutine test_oscillator
+end module test_quadruple

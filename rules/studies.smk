@@ -1,0 +1,166 @@
+# Measured runs and their references in quadruple precision: stability on stiff and extreme cases,
+# and work against precision.
+
+
+rule stability_namelists:
+    output:
+        measurement="results/namelists/measurements/stability/{family}.nml",
+        reference="results/namelists/references/stability/{family}.nml",
+    log:
+        "results/logs/namelists/stability/{family}.log",
+    params:
+        groups=family_groups,
+    script:
+        "../scripts/write_study_namelists.py"
+
+
+rule trust_namelists:
+    output:
+        measurement="results/namelists/measurements/trust/{work_scene}.nml",
+        reference="results/namelists/references/trust/{work_scene}.nml",
+    log:
+        "results/logs/namelists/trust/{work_scene}.log",
+    params:
+        groups=trust_groups_of,
+    script:
+        "../scripts/write_study_namelists.py"
+
+
+rule reference:
+    input:
+        program="build/release/bin/reference",
+        namelist="results/namelists/references/{study}/{family}.nml",
+    output:
+        "results/references/{study}/{family}.tsv",
+    log:
+        "results/logs/references/{study}/{family}.log",
+    benchmark:
+        "results/benchmarks/references/{study}/{family}.tsv"
+    shell:
+        "{input.program} {input.namelist} {output} 2> {log} || {{ cat {log} >&2; exit 1; }}"
+
+
+rule measurement:
+    input:
+        program="build/release/bin/measure",
+        namelist="results/namelists/measurements/{study}/{family}.nml",
+    output:
+        "results/measurements/{study}/{family}.nc",
+    log:
+        "results/logs/measurements/{study}/{family}.log",
+    benchmark:
+        "results/benchmarks/measurements/{study}/{family}.tsv"
+    shell:
+        "{input.program} {input.namelist} {output} 2> {log} || {{ cat {log} >&2; exit 1; }}"
+
+
+rule stability_table:
+    input:
+        measurements=expand(
+            "results/measurements/stability/{family}.nc", family=FAMILIES
+        ),
+        references=references_of_families(),
+    output:
+        "results/tables/stability.tsv",
+    log:
+        "results/logs/tables/stability.log",
+    params:
+        references={
+            name: family["reference"]
+            for name, family in config["stability"]["families"].items()
+        },
+    script:
+        "../scripts/stability_table.py"
+
+
+rule stability:
+    input:
+        table="results/tables/stability.tsv",
+        code=DRAWING,
+    output:
+        pdf="results/figures/stability.pdf",
+        png=report(
+            "results/figures/stability.png",
+            caption="../scripts/stability.rst",
+            category="Solver",
+        ),
+    log:
+        "results/logs/figures/stability.log",
+    script:
+        "../scripts/stability.py"
+
+
+rule trusted_horizons:
+    input:
+        measurements=expand("results/measurements/trust/{scene}.nc", scene=WORK_SCENES),
+        references=expand("results/references/trust/{scene}.tsv", scene=WORK_SCENES),
+    output:
+        "results/tables/trusted-horizons.tsv",
+    log:
+        "results/logs/tables/trusted-horizons.log",
+    params:
+        trusted_error=config["work_precision"]["trusted_error"],
+    script:
+        "../scripts/trusted_horizons.py"
+
+
+rule work_precision_namelist:
+    input:
+        horizons="results/tables/trusted-horizons.tsv",
+    output:
+        "results/namelists/measurements/work_precision/{work_scene}.nml",
+    log:
+        "results/logs/namelists/work_precision/{work_scene}.log",
+    params:
+        study=config["work_precision"],
+    script:
+        "../scripts/write_measured_scene.py"
+
+
+# runs alone, so that nothing else is in the times
+rule work_precision_runs:
+    input:
+        program="build/release/bin/measure",
+        namelist="results/namelists/measurements/work_precision/{work_scene}.nml",
+    output:
+        "results/measurements/work_precision/{work_scene}.nc",
+    log:
+        "results/logs/measurements/work_precision/{work_scene}.log",
+    benchmark:
+        "results/benchmarks/measurements/work_precision/{work_scene}.tsv"
+    threads: 2
+    shell:
+        "{input.program} {input.namelist} {output} 2> {log} || {{ cat {log} >&2; exit 1; }}"
+
+
+rule work_precision_table:
+    input:
+        measurements=expand(
+            "results/measurements/work_precision/{scene}.nc", scene=WORK_SCENES
+        ),
+        references=expand("results/references/trust/{scene}.tsv", scene=WORK_SCENES),
+    output:
+        errors="results/tables/work-precision.tsv",
+        proportionality="results/tables/tolerance-proportionality.tsv",
+    log:
+        "results/logs/tables/work-precision.log",
+    script:
+        "../scripts/work_precision_table.py"
+
+
+rule work_precision:
+    input:
+        table="results/tables/work-precision.tsv",
+        others=tables_of_others,
+        code=DRAWING,
+    output:
+        pdf="results/figures/work_precision.pdf",
+        png=report(
+            "results/figures/work_precision.png",
+            caption="../scripts/work_precision.rst",
+            category="Solver",
+        ),
+    log:
+        "results/logs/figures/work_precision.log",
+    script:
+        "../scripts/work_precision.py"

@@ -1,0 +1,15 @@
+"""Write the namelists of a study, each output its groups."""
+
+from pathlib import Path
+
+from write_namelist import write_groups
+
+
+def write_all(paths: dict[str, str], groups: dict[str, dict]) -> None:
+    """Write each file with its groups."""
+    for name, path in paths.items():
+        write_groups(Path(path), groups[name])
+
+
+if __name__ == "__main__":
+    write_all(dict(snakemake.output.items()), snakemake.params.groups)

@@ -1,0 +1,237 @@
+"""Scripts of the studies: tables from runs and references, and what their figures show."""
+
+import math
+
+import numpy as np
+import pytest
+import stability
+import stability_table
+import work_precision
+from accuracy import Reference, distances, errors_of, largest, read_references, read_runs
+from conftest import ROOT
+from drawing import STYLE
+from matplotlib import pyplot as plt
+from study_cases import cases_of_family, columns, work_precision_groups
+from tables import read_table, write_table
+from trusted_horizons import horizon, row_of
+from work_precision_table import proportionality
+from write_measured_scene import horizon_of
+
+COLUMNS = {
+    "stability": (
+        "case tau epsilon xi gamma history_theta history_u history_v t_end method status steps"
+        " rejections evaluations least_ln_v most_ln_v error reference reference_uncertainty"
+        " amplification seconds reason"
+    ),
+    "work-precision": (
+        "scene solver tolerance status error_quarter error_half error_end error_max steps"
+        " rejections evaluations seconds"
+    ),
+    "tolerance-proportionality": "scene solver slope points",
+    "trusted-horizons": "scene t_end trusted_error horizon amplification",
+}
+"""Columns that readers of each table rely on."""
+
+
+@pytest.fixture(scope="module")
+def tables(smoke) -> dict[str, list[dict]]:
+    """Tables of the smoke run."""
+    folder = smoke.folder / "results" / "tables"
+    return {name: read_table(folder / f"{name}.tsv") for name in COLUMNS}
+
+
+@pytest.fixture
+def reference() -> Reference:
+    """A made-up case of five samples."""
+    time = np.arange(5.0)
+    uncertainty = np.full(5, 1e-17)
+    return Reference("ok", time, np.zeros((3, 5)), uncertainty, 10.0**time)
+
+
+def made_up_run(errors: list[float]) -> dict:
+    """A run off zero by these errors."""
+    state = np.zeros((3, len(errors)))
+    state[1] = errors
+    time = np.arange(float(len(errors)))
+    return {"case": "made up", "setting": 1e-13, "t_end": 4.0, "time": time, "state": state}
+
+
+def test_table_is_read_as_written(tmp_path):
+    """Words, numbers, and no number."""
+    rows = [{"a": "word", "b": 1.5e-9, "c": math.nan}, {"a": "two words", "b": 3.0, "c": 0.0}]
+    write_table(tmp_path / "table.tsv", rows)
+    assert (tmp_path / "table.tsv").read_text() == "a\tb\tc\nword\t1.5e-09\t\ntwo words\t3\t0\n"
+    read = read_table(tmp_path / "table.tsv")
+    assert read[0]["b"] == 1.5e-9
+    assert math.isnan(read[0]["c"])
+    assert read[1] == {"a": "two words", "b": 3.0, "c": 0.0}
+
+
+def test_family_is_all_combinations():
+    """Names say what differs, sample times divide the run."""
+    lists = {"tau": [0.0, 1.0], "epsilon": [0.7], "xi": [0.5], "gamma": [1e4, 0.8]}
+    history = {"theta": [0.0], "u": [0.0], "v": [1.1]}
+    cases = cases_of_family("made", {**lists, **history, "t_end": 100.0, "samples": 200})
+    assert [case["name"] for case in cases] == [
+        "made tau=0 gamma=10000",
+        "made tau=0 gamma=0.8",
+        "made tau=1 gamma=10000",
+        "made tau=1 gamma=0.8",
+    ]
+    assert columns(cases)["sample_interval"] == 4 * [0.5]
+
+
+def test_distance_is_relative_above_one():
+    """The largest over theta, u, ln v."""
+    state, known = np.array([[0.2], [50.0], [0.0]]), np.array([[0.1], [40.0], [0.0]])
+    assert distances(state, known) == pytest.approx([0.25])
+
+
+def test_first_sample_does_not_count():
+    """Nothing has happened there."""
+    assert largest(np.array([9.0, 1.0, np.nan, 2.0])) == 2.0
+    assert math.isnan(largest(np.array([0.0, np.nan])))
+
+
+def test_samples_at_other_times_are_refused(reference):
+    """They would be compared with the wrong state."""
+    run = made_up_run([0.0, 0.0])
+    run["time"] = np.array([0.0, 0.9])
+    with pytest.raises(ValueError, match=r"case 'made up'.*different times"):
+        errors_of(run, reference)
+
+
+def test_horizon_is_where_trust_ends(reference):
+    """The last sample before the first error too large, or the end."""
+    assert horizon(made_up_run([0.0, 1e-12, 1e-9, 0.0, 0.0]), reference, 1e-10) == 1
+    assert horizon(made_up_run([0.0, 1e-12, np.nan, 0.0, 0.0]), reference, 1e-10) == 1
+    assert horizon(made_up_run([0.0] * 5), reference, 1e-10) == 4
+    row = row_of(made_up_run([0.0, 1e-12, 1e-11, 1e-9, 0.0]), reference, 1e-10)
+    assert (row["horizon"], row["error"], row["amplification"]) == (2.0, 1e-11, 100.0)
+    with pytest.raises(ValueError, match="no sample within the trusted error"):
+        row_of(made_up_run([0.0, 1.0, 0.0, 0.0, 0.0]), reference, 1e-10)
+
+
+def test_uncertain_reference_ends_trust_too(reference):
+    """It cannot vouch for a run."""
+    reference.uncertainty[3] = 1e-9
+    assert horizon(made_up_run([0.0] * 5), reference, 1e-10) == 2
+
+
+def test_measured_runs_end_at_the_horizon(smoke_config):
+    """As the table says for the scene."""
+    rows = [{"scene": "torus", "horizon": 17.0}, {"scene": "chaos", "horizon": 8.0}]
+    groups = work_precision_groups(smoke_config["work_precision"], "chaos", 8.0)
+    assert horizon_of(rows, "chaos") == 8.0
+    assert groups["measurement"]["cases_list"]["t_end"] == [8.0]
+
+
+def test_proportionality_is_the_slope_of_useful_errors():
+    """Errors at rounding or of the size of the attractor do not count."""
+    rows = [
+        {"scene": "s", "solver": "a", "tolerance": 10.0**-k, "error_max": 5 * 10.0**-k}
+        for k in range(1, 15)
+    ]
+    rows += [{"scene": "s", "solver": "b", "tolerance": 1e-3, "error_max": math.nan}]
+    first, second = proportionality(rows)
+    assert first["slope"] == pytest.approx(1.0)
+    assert first["median_error_per_tolerance"] == pytest.approx(5.0)
+    assert first["points"] == 10
+    assert second["points"] == 0
+    assert math.isnan(second["slope"])
+
+
+@pytest.mark.parametrize("name", COLUMNS)
+def test_table_has_its_columns(tables, name):
+    """Those that readers rely on."""
+    assert set(COLUMNS[name].split()) <= set(tables[name][0])
+
+
+def test_every_case_is_a_row_of_each_method(tables, smoke_config):
+    """And ends ok or with a reason; no number only where there is none."""
+    study = smoke_config["stability"]
+    cases = [
+        case["name"]
+        for name in study["families"]
+        for case in cases_of_family(name, study["families"][name])
+    ]
+    rows = tables["stability"]
+    assert [row["case"] for row in rows[:: len(study["methods"])]] == cases
+    for row in rows:
+        assert row["status"] == "ok" or "stopped at t = " in row["reason"]
+        if row["status"] == "ok" and not row["reference"].startswith("none"):
+            assert row["error"] >= 0
+        if row["method"] == "auto" and row["error_expected"] >= 0:
+            assert row["error"] < 1e3 * max(row["error_expected"], row["tolerance"])
+
+
+def test_errors_fall_with_the_tolerance(tables, smoke_config):
+    """Of the solver's methods on the mild scenes; the baseline has its order."""
+    for row in tables["tolerance-proportionality"]:
+        if row["scene"] in ("oscillation", "torus"):
+            order = {"rk4_linear": 2.0, "rk4_cubic": 4.0}.get(row["solver"], 1.0)
+            assert row["slope"] == pytest.approx(order, rel=0.35)
+
+
+def test_references_are_beside_their_runs(smoke):
+    """Every run of a family has a reference at its times."""
+    results = smoke.folder / "results"
+    references = read_references(results / "references" / "stability" / "grid_fast.tsv")
+    runs = read_runs(results / "measurements" / "stability" / "grid_fast.nc")
+    assert {run["case"] for run in runs} == set(references)
+    for row in stability_table.rows_of("grid_fast", "quadruple", runs, references):
+        assert row["reference_uncertainty"] < 1e-12 or row["status"] != "ok"
+
+
+def test_stationary_reference(smoke):
+    """A case that has decayed is at rest to rounding or to tolerance."""
+    runs = read_runs(smoke.folder / "results/measurements/stability/long_decay.nc")
+    rows = stability_table.rows_of("long_decay", "stationary", runs, {})
+    assert all(row["error"] < 1e-8 and row["reference_status"] == "exact" for row in rows)
+
+
+@pytest.fixture
+def style():
+    """The style of the figures."""
+    with plt.style.context(STYLE):
+        yield
+    plt.close("all")
+
+
+def test_stability_figure(tables, style):
+    """Two maps of the grid and all cases below."""
+    figure = stability.draw(tables["stability"])
+    figure.canvas.draw()
+    titles = [axes.get_title(loc="left") for axes in figure.axes[:3]]
+    assert [title.split()[-1] for title in titles] == ["auto", "explicit", "reference"]
+    frequencies = [label.get_text() for label in figure.axes[0].get_yticklabels()]
+    assert frequencies == ["0.01", "0.8", "100", *(f"$10^{{{k}}}$" for k in (4, 6, 8, 10, 12))]
+    crosses = [line for line in figure.axes[1].get_lines() if line.get_marker() == "x"]
+    ended = [
+        row
+        for row in tables["stability"]
+        if row["method"] == "explicit" and row["family"].startswith("grid_")
+        if row["status"] != "ok"
+    ]
+    assert len(crosses) == len(ended) > 5
+
+
+def test_work_precision_figure(tables, style):
+    """A panel a scene; other solvers are laid over in the scenes that they were measured in."""
+    rows = tables["work-precision"]
+    other = {"scene": "torus", "solver": "other", "tolerance": 1e-6, "error_max": 1e-5}
+    figure = work_precision.draw([*rows, {**other, "seconds": 0.1}])
+    figure.canvas.draw()
+    scenes = list(dict.fromkeys(row["scene"] for row in rows))
+    titles = [axes.get_title(loc="left").split(",")[0] for axes in figure.axes]
+    assert titles == [scene.replace("_", " ") for scene in scenes]
+    words = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert {"auto", "rk4 cubic", "other"} <= set(words)
+    drawn = {line.get_label(): line for line in figure.axes[scenes.index("torus")].get_lines()}
+    assert drawn["other"].get_ydata().tolist() == [1e-5]
+
+
+@pytest.mark.parametrize("name", ["stability", "work_precision"])
+def test_caption_is_there(name):
+    """In whole sentences."""
+    assert (ROOT / "scripts" / f"{name}.rst").read_text().rstrip().endswith(".")
