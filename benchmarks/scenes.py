@@ -1,0 +1,110 @@
+"""Scenes of the benchmarks and the solutions that errors are measured against."""
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import yaml
+
+ROOT = Path(__file__).resolve().parent.parent
+PAPER = ("fixed_point", "oscillation", "torus", "chaos")
+"""Scenes of the paper; their parameters are those of config/config.yaml."""
+HARD = {
+    "stick": {"tau": 10.0, "epsilon": 0.9, "xi": 0.8, "gamma": 0.8},
+    "stiff": {"tau": 1.0, "epsilon": 0.7, "xi": 0.5, "gamma": 1.0e6},
+}
+"""Scenes beyond the paper, with the paper's history."""
+HISTORY = {"torus": {"theta": 0.0, "u": 0.0, "v": 1.5}}
+"""Histories that differ from those of the configuration."""
+T_END = 1000.0
+"""Last time, for all but chaos."""
+CHAOS_T_END = 150.0
+"""Last time of chaos where no reference says how far it can be trusted."""
+
+
+class SceneError(ValueError):
+    """What is wrong with a scene or its reference."""
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Parameters, the constant past in theta, u, ln v, and the last time; nondimensional."""
+
+    name: str
+    tau: float
+    epsilon: float
+    xi: float
+    gamma: float
+    past: tuple[float, float, float]
+    t_end: float
+
+    def line(self) -> str:
+        """The scene as its workers read it."""
+        values = (self.tau, self.epsilon, self.xi, self.gamma, *self.past, self.t_end)
+        return " ".join(f"{value:.17g}" for value in values)
+
+
+def scenes(config: dict, references: Path, chaos_end: float | None = None) -> dict[str, Scene]:
+    """All scenes by name; chaos ends where its reference does unless said otherwise."""
+    found = {}
+    for name in (*PAPER, *HARD):
+        values = HARD.get(name) or config["scenes"][name]
+        usual = config["scenes"]["torus"]["history"]
+        history = HISTORY.get(name) or values.get("history", usual)
+        past = (history["theta"], history["u"], math.log(history["v"]))
+        parameters = [float(values[key]) for key in ("tau", "epsilon", "xi", "gamma")]
+        t_end = chaos_end if name == "chaos" and chaos_end else last_time(name, references)
+        found[name] = Scene(name, *parameters, past, float(t_end))
+    return found
+
+
+def last_time(name: str, references: Path) -> float:
+    """Where a scene ends: chaos as far as its reference can be trusted."""
+    if name != "chaos":
+        return T_END
+    path = references / "chaos.tsv"
+    return float(math.floor(read_samples(path)[-1, 0])) if path.exists() else CHAOS_T_END
+
+
+def read_config(path: Path = ROOT / "config" / "config.yaml") -> dict:
+    """The project's configuration."""
+    return yaml.safe_load(path.read_text())
+
+
+def read_samples(path: Path) -> np.ndarray:
+    """Rows of t, theta, u, ln v; lines of names and comments are left out."""
+    rows = []
+    for line in path.read_text().splitlines():
+        fields = line.split("\t")
+        if line.startswith("#") or fields[0] == "t":
+            continue
+        try:
+            rows.append([float(field) for field in fields])
+        except ValueError:
+            raise SceneError(f"{path}: {line!r}; expected numbers") from None
+    if not rows or {len(row) for row in rows} != {4}:
+        raise SceneError(f"{path}: expected rows of t, theta, u, ln_v")
+    return np.array(rows)
+
+
+def read_reference(path: Path, scene: Scene) -> np.ndarray:
+    """Samples of a reference at whole times up to the scene's end; it must be of this scene."""
+    samples = read_samples(path)
+    whole = np.abs(samples[:, 0] - np.round(samples[:, 0])) < 1e-9
+    samples = samples[whole & (samples[:, 0] <= scene.t_end + 1e-9)]
+    if len(samples) == 0 or not np.allclose(samples[0], (0.0, *scene.past), rtol=0, atol=1e-12):
+        raise SceneError(f"{path}: does not begin with t = 0 and the past {scene.past}")
+    return samples
+
+
+def largest_difference(samples: np.ndarray, reference: np.ndarray) -> float:
+    """Largest difference in theta, u, ln v over the times that both have; NaN if samples end early.
+
+    Times are whole numbers, but for rounding.
+    """
+    at = {round(row[0]): row[1:] for row in samples}
+    rows = [(at.get(round(row[0])), row[1:]) for row in reference]
+    if any(mine is None for mine, _ in rows):
+        return math.nan
+    return float(max(np.max(np.abs(mine - theirs)) for mine, theirs in rows))
