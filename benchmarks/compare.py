@@ -177,7 +177,7 @@ def runs_of(seconds: float) -> int:
     """How many integrations make one measurement; none where the first one is enough."""
     if seconds > LONG_SECONDS:
         return 0
-    return max(1, math.ceil(BATCH_SECONDS / max(seconds, 1e-4)))
+    return max(1, math.ceil(BATCH_SECONDS / max(seconds, 1e-3)))
 
 
 def rows_of_scene(scene: Scene, options: argparse.Namespace) -> list[dict]:

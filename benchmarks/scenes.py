@@ -103,8 +103,6 @@ def largest_difference(samples: np.ndarray, reference: np.ndarray) -> float:
 
     Times are whole numbers, but for rounding.
     """
-    at = {round(row[0]): row[1:] for row in samples}
-    rows = [(at.get(round(row[0])), row[1:]) for row in reference]
-    if any(mine is None for mine, _ in rows):
-        return math.nan
-    return float(max(np.max(np.abs(mine - theirs)) for mine, theirs in rows))
+    at = {round(time): row for time, *row in samples.tolist() if math.isfinite(time)}
+    found = np.array([at.get(round(time), [math.nan] * 3) for time in reference[:, 0]])
+    return float(np.max(np.abs(found - reference[:, 1:])))
