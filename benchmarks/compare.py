@@ -86,7 +86,6 @@ def arguments(given: list[str]) -> argparse.Namespace:
     parser.add_argument("--solvers", type=names_of(known_solvers), default=list(known_solvers))
     parser.add_argument("--time-limit", type=positive, default=60.0)
     parser.add_argument("--repeats", type=whole, default=5)
-    parser.add_argument("--chaos-end", type=whole)
     parser.add_argument("--references", type=Path, default=ROOT / "results" / "references")
     parser.add_argument("--output", type=Path, default=ROOT / "results" / "tables")
     return parser.parse_args(given)
@@ -162,7 +161,7 @@ def measure(rows: list[dict], workers: dict[str, Worker], repeats: int, limit: f
                     row["tolerance"], runs.get(index, 1), limit + BATCH_SECONDS
                 )
             except SolverError as failure:
-                row["status"] = str(failure)
+                row["status"], row["error_max"] = str(failure), None
                 continue
             if repeat == 0:
                 runs[index] = runs_of(found)
@@ -256,8 +255,8 @@ def printed(rows: list[dict], solvers: list[str]) -> str:
 def main(given: list[str]) -> None:
     """Measure, write both tables, print the ratios."""
     options = arguments(given)
-    found = scenes(read_config(), options.references, options.chaos_end)
     try:
+        found = scenes(read_config(), options.references)
         rows = [row for name in options.scenes for row in rows_of_scene(found[name], options)]
     except (SceneError, SolverError) as failure:
         raise SystemExit(f"benchmarks: {failure}") from None

@@ -37,9 +37,10 @@ def prepare(solver: jitcdde.jitcdde, past: list[float], tolerance: float) -> Non
 def sampled(solver: jitcdde.jitcdde, times: np.ndarray) -> np.ndarray:
     """State at the given times, from the start on."""
     solver.step_on_discontinuities()
-    begun = solver.get_state()
-    rows = [begun.get_state(time) if time <= solver.t else solver.integrate(time) for time in times]
-    return np.array(rows)
+    begun, begun_until = solver.get_state(), solver.t
+    return np.array(
+        [begun.get_state(t) if t <= begun_until else solver.integrate(t) for t in times]
+    )
 
 
 def answer(solver, past, t_end: float, tolerance: float, runs: int, path: str) -> str:

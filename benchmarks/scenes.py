@@ -17,10 +17,10 @@ HARD = {
 """Scenes beyond the paper, with the paper's history."""
 HISTORY = {"torus": {"theta": 0.0, "u": 0.0, "v": 1.5}}
 """Histories that differ from those of the configuration."""
-T_END = 1000.0
-"""Last time, for all but chaos."""
-CHAOS_T_END = 150.0
-"""Last time of chaos where no reference says how far it can be trusted."""
+T_END = {"chaos": 150.0, "stick": 200.0}
+"""Last times of scenes that magnify errors, where no reference says how far it can be trusted."""
+USUAL_T_END = 1000.0
+"""Last time of the other scenes."""
 
 
 class SceneError(ValueError):
@@ -45,8 +45,8 @@ class Scene:
         return " ".join(f"{value:.17g}" for value in values)
 
 
-def scenes(config: dict, references: Path, chaos_end: float | None = None) -> dict[str, Scene]:
-    """All scenes by name; chaos ends where its reference does unless said otherwise."""
+def scenes(config: dict, references: Path) -> dict[str, Scene]:
+    """All scenes by name, each up to the end of its reference where there is one."""
     found = {}
     for name in (*PAPER, *HARD):
         values = HARD.get(name) or config["scenes"][name]
@@ -54,17 +54,16 @@ def scenes(config: dict, references: Path, chaos_end: float | None = None) -> di
         history = HISTORY.get(name) or values.get("history", usual)
         past = (history["theta"], history["u"], math.log(history["v"]))
         parameters = [float(values[key]) for key in ("tau", "epsilon", "xi", "gamma")]
-        t_end = chaos_end if name == "chaos" and chaos_end else last_time(name, references)
-        found[name] = Scene(name, *parameters, past, float(t_end))
+        found[name] = Scene(name, *parameters, past, last_time(name, references))
     return found
 
 
 def last_time(name: str, references: Path) -> float:
-    """Where a scene ends: chaos as far as its reference can be trusted."""
-    if name != "chaos":
-        return T_END
-    path = references / "chaos.tsv"
-    return float(math.floor(read_samples(path)[-1, 0])) if path.exists() else CHAOS_T_END
+    """Last whole time of a scene's reference; without one a time that can be trusted."""
+    path = references / f"{name}.tsv"
+    if not path.exists():
+        return T_END.get(name, USUAL_T_END)
+    return float(math.floor(read_samples(path)[-1, 0] + 1e-9))
 
 
 def read_config(path: Path = ROOT / "config" / "config.yaml") -> dict:

@@ -10,7 +10,7 @@ from pathlib import Path
 from scenes import Scene
 
 HERE = Path(__file__).resolve().parent
-BUILD = HERE / ".build"
+BUILD = HERE / "build"
 START_LIMIT = 120.0
 """Seconds in which a worker must have started, which may include compilation."""
 
