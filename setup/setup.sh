@@ -2,14 +2,24 @@
 # Sets up what is missing: the Debian packages of setup/apt-packages.txt, then
 # the Python packages of requirements.lock in .venv. When all is there it does
 # nothing and needs no network. An interrupted run is repaired by the next one.
+# `setup/setup.sh FOLDER` does the same for FOLDER's own lists, with FOLDER/.venv.
 set -euo pipefail
 cd -P "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
+
+list=setup/apt-packages.txt
+lock=requirements.lock
+venv=.venv
+if (($#)); then
+    list=$1/apt-packages.txt
+    lock=$1/requirements.lock
+    venv=$1/.venv
+fi
 
 say() { printf 'set-up: %s\n' "$*" >&2; }
 
 missing_packages() {
     local wanted
-    wanted=$(sed 's/#.*//' setup/apt-packages.txt | xargs -n 1 | sort -u)
+    wanted=$(sed 's/#.*//' "$list" | xargs -n 1 | sort -u)
     # dpkg-query fails when it knows nothing of a package, and still lists the others
     # shellcheck disable=SC2016,SC2086
     { dpkg-query --show --showformat='${Package} ${db:Status-Status}\n' $wanted 2>/dev/null || true; } |
@@ -44,30 +54,30 @@ ask_for_packages() {
     exit 1
 }
 
-# What .venv must have been made from: the locked packages, the interpreter,
+# What the virtual environment must have been made from: the locked packages, the interpreter,
 # and the folder, since the scripts of a virtual environment hold its path.
 venv_source() {
-    sha256sum requirements.lock
+    sha256sum "$lock"
     /usr/bin/python3 --version
     pwd
 }
 
 venv_is_ready() {
-    [[ -x .venv/bin/python && $(cat .venv/made-from 2>/dev/null) == "$(venv_source)" ]]
+    [[ -x $venv/bin/python && $(cat "$venv/made-from" 2>/dev/null) == "$(venv_source)" ]]
 }
 
 make_venv() {
-    say "making .venv with the Python packages of requirements.lock"
+    say "making $venv with the Python packages of $lock"
     # settings that would send the packages elsewhere or change their versions
     unset PYTHONHOME PYTHONPATH PIP_CONSTRAINT PIP_PREFIX PIP_ROOT PIP_TARGET PIP_USER
-    /usr/bin/python3 -m venv --clear .venv
-    .venv/bin/python -W ignore:DEPRECATION -m pip install --quiet --no-input --no-user \
-        --disable-pip-version-check --require-hashes -r requirements.lock
+    /usr/bin/python3 -m venv --clear "$venv"
+    "$venv/bin/python" -W ignore:DEPRECATION -m pip install --quiet --no-input --no-user \
+        --disable-pip-version-check --require-hashes -r "$lock"
     # Snakemake leaves its interpreter unquoted, so that scripts fail in a folder
     # whose name holds a space (snakemake issue 2645, open)
-    sed -i 's/"{py_exec} {fname:q}"/"{py_exec:q} {fname:q}"/' \
+    [[ $venv != .venv ]] || sed -i 's/"{py_exec} {fname:q}"/"{py_exec:q} {fname:q}"/' \
         .venv/lib/python3.*/site-packages/snakemake/script/__init__.py
-    venv_source >.venv/made-from
+    venv_source >"$venv/made-from"
 }
 
 # A build, too, holds the path of its folder: drop those made before a move.

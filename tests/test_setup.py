@@ -6,7 +6,9 @@ import subprocess
 import pytest
 from conftest import ROOT, project_files
 
-SCRIPTS = ["reproduce", "test", "setup/setup.sh", ".ci/run"]
+SCRIPTS = ["reproduce", "test", "setup/setup.sh", ".ci/run", "benchmarks/run"]
+LOCKS = [".", "benchmarks"]
+"""Folders with a lock of Python packages."""
 
 
 def run(*command: str, **options) -> subprocess.CompletedProcess[str]:
@@ -14,9 +16,9 @@ def run(*command: str, **options) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, capture_output=True, text=True, timeout=60, **options)
 
 
-def locked_packages() -> list[str]:
+def locked_packages(folder: str) -> list[str]:
     """Each package of the lock with its hashes, as one line."""
-    text = (ROOT / "requirements.lock").read_text()
+    text = (ROOT / folder / "requirements.lock").read_text()
     lines = re.sub(r"\\\n", " ", re.sub(r"^\s*#.*\n", "", text, flags=re.MULTILINE)).splitlines()
     return [line for line in lines if line.strip()]
 
@@ -32,26 +34,29 @@ def test_shell_script_is_sound(script):
     assert "set -euo pipefail" in text or "\nexec " in text
 
 
-def test_every_locked_package_has_version_and_hash():
+@pytest.mark.parametrize("folder", LOCKS)
+def test_every_locked_package_has_version_and_hash(folder):
     """Nothing but `name==version` with sha256 hashes."""
-    packages = locked_packages()
-    assert len(packages) > 30
+    packages = locked_packages(folder)
+    assert len(packages) > (30 if folder == "." else 5)
     line = re.compile(r"[a-zA-Z0-9._-]+==\S+( ; [^;]+?)?( +--hash=sha256:[0-9a-f]{64})+ *")
     assert [package for package in packages if not line.fullmatch(package)] == []
 
 
-def test_lock_holds_every_required_package():
+@pytest.mark.parametrize("folder", LOCKS)
+def test_lock_holds_every_required_package(folder):
     """What requirements.in names is locked."""
-    text = (ROOT / "requirements.in").read_text()
+    text = (ROOT / folder / "requirements.in").read_text()
     wanted = {name.lower() for name in re.findall(r"^([a-zA-Z][\w.-]*)", text, re.MULTILINE)}
-    locked = {package.split("==")[0].lower() for package in locked_packages()}
-    assert len(wanted) > 10
+    locked = {package.split("==")[0].lower() for package in locked_packages(folder)}
+    assert len(wanted) > (10 if folder == "." else 2)
     assert wanted <= locked
 
 
-def test_lock_names_no_address():
+@pytest.mark.parametrize("folder", LOCKS)
+def test_lock_names_no_address(folder):
     """Where packages come from is the user's business."""
-    text = (ROOT / "requirements.lock").read_text()
+    text = (ROOT / folder / "requirements.lock").read_text()
     assert not re.search(r"://|index-url|find-links|trusted-host", text)
 
 
@@ -67,11 +72,12 @@ def test_no_file_names_a_package_index():
     assert [name for name, text in texts.items() if address.search(text)] == []
 
 
-def test_apt_list_is_sorted_out():
+@pytest.mark.parametrize("folder", ["setup", "benchmarks"])
+def test_apt_list_is_sorted_out(folder):
     """One Debian package a line, none twice."""
-    text = (ROOT / "setup" / "apt-packages.txt").read_text()
+    text = (ROOT / folder / "apt-packages.txt").read_text()
     packages = [line for line in re.sub(r"#.*", "", text).split("\n") if line.strip()]
-    assert len(packages) > 10
+    assert len(packages) > (10 if folder == "setup" else 2)
     assert len(packages) == len(set(packages))
     assert all(re.fullmatch(r"[a-z0-9][a-z0-9+.-]+", package) for package in packages)
 

@@ -1,0 +1,238 @@
+"""The benchmarks where they need no other solver: ratios, scenes, references, options, tables."""
+
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+import compare
+import numpy as np
+import pytest
+import ratios
+import scenes
+import workers
+from conftest import ROOT
+
+SCENE = scenes.Scene("torus", 10.0, 0.5, 0.8, 0.8, (0.0, 0.0, 0.25), 3.0)
+SAMPLES = "# made by hand\nt\ttheta\tu\tln_v\n0\t0\t0\t0.25\n0.5\t9\t9\t9\n1\t1\t2\t3\n2\t4\t5\t6\n"
+
+
+@pytest.fixture
+def scene_references(tmp_path) -> Path:
+    """A folder with a reference for the torus."""
+    (tmp_path / "torus.tsv").write_text(SAMPLES)
+    return tmp_path
+
+
+def stand_in(script: str) -> list[str]:
+    """The command of a solver that is a few lines of Python."""
+    return [sys.executable, "-u", "-c", f"import sys, time\nscene = input()\n{script}"]
+
+
+def test_time_between_points_is_logarithmic():
+    """Halfway between 1e-4 and 1e-6 the time is the geometric mean."""
+    points = [(1e-4, 1.0), (1e-6, 4.0)]
+    assert ratios.seconds_at(1e-5, points) == pytest.approx(2.0)
+    assert ratios.seconds_at(1e-6, points) == 4.0
+
+
+def test_easy_level_costs_the_loosest_point():
+    """No time is made up beyond the points."""
+    assert ratios.seconds_at(1e-2, [(1e-4, 1.0), (1e-6, 4.0)]) == 1.0
+
+
+def test_level_not_reached_has_no_time():
+    """Nor has one without points."""
+    assert ratios.seconds_at(1e-7, [(1e-4, 1.0), (1e-6, 4.0)]) is None
+    assert ratios.seconds_at(1e-7, []) is None
+
+
+def test_least_time_counts_where_errors_go_up_and_down():
+    """Of two ways to one error the cheaper one."""
+    points = [(1e-3, 1.0), (1e-5, 2.0), (1e-4, 3.0), (1e-6, 8.0)]
+    assert ratios.seconds_at(1e-5, points) == 2.0
+
+
+def test_ratios_are_of_runs_that_ended_well():
+    """A solver that stopped has none; at equal error time over ours."""
+    row = {"scene": "torus", "status": "ok"}
+    rows = [
+        {**row, "solver": "ours", "error_max": 1e-4, "seconds": 1.0},
+        {**row, "solver": "ours", "error_max": 1e-8, "seconds": 2.0},
+        {**row, "solver": "slow", "error_max": 1e-4, "seconds": 20.0},
+        {**row, "solver": "slow", "error_max": 1e-8, "seconds": 60.0},
+        {**row, "solver": "bad", "status": "stopped", "error_max": 1e-9, "seconds": 1.0},
+    ]
+    found = ratios.ratio_rows(rows, "ours", ["slow", "bad"])
+    assert [row["error"] for row in found] == pytest.approx([10.0**-k for k in range(4, 13)])
+    assert (found[0]["our_seconds"], found[0]["slow"]) == (1.0, 20.0)
+    assert found[4]["slow"] == pytest.approx(30.0)
+    assert [row["slow"] for row in found[5:]] == [None] * 4
+    assert {row["bad"] for row in found} == {None}
+
+
+def test_scenes_take_the_parameters_of_the_configuration(default_config, tmp_path):
+    """The torus with a history of its own; chaos ends where it can no longer be trusted."""
+    found = scenes.scenes(default_config, tmp_path)
+    assert list(found) == ["fixed_point", "oscillation", "torus", "chaos", "stick", "stiff"]
+    torus = found["torus"]
+    assert (torus.tau, torus.epsilon, torus.t_end) == (10.0, 0.5, 1000.0)
+    assert torus.past == (0.0, 0.0, math.log(1.5))
+    assert found["stick"].past == found["chaos"].past == (0.0, 0.0, math.log(1.1))
+    assert (found["chaos"].t_end, found["stick"].t_end) == (150.0, 200.0)
+
+
+def test_scene_ends_with_its_reference(default_config, tmp_path):
+    """At the last whole time in it."""
+    (tmp_path / "chaos.tsv").write_text("t\ttheta\tu\tln_v\n0\t0\t0\t0\n212.5\t0\t0\t0\n")
+    assert scenes.scenes(default_config, tmp_path)["chaos"].t_end == 212.0
+
+
+def test_reference_is_read_at_whole_times(scene_references):
+    """Comments, names and other times are left out."""
+    found = scenes.read_reference(scene_references / "torus.tsv", SCENE)
+    np.testing.assert_array_equal(found, [[0, 0, 0, 0.25], [1, 1, 2, 3], [2, 4, 5, 6]])
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("t\ttheta\tu\tln_v\n0\t0\t0\t0.5\n", "does not begin"),
+        ("t\ttheta\tu\tln_v\n1\t0\t0\t0.25\n", "does not begin"),
+        ("t\ttheta\tu\tln_v\n", "expected rows"),
+        ("0\t0\t0\n", "expected rows"),
+        ("0\t0\tmuch\t0\n", "expected numbers"),
+    ],
+)
+def test_reference_of_something_else_is_refused(tmp_path, text, said):
+    """Another past, another start, no rows, no numbers."""
+    (tmp_path / "torus.tsv").write_text(text)
+    with pytest.raises(scenes.SceneError, match=said):
+        scenes.read_reference(tmp_path / "torus.tsv", SCENE)
+
+
+def test_difference_is_the_largest_at_times_of_the_reference():
+    """Samples may have more times but no fewer; what is not a number stays so."""
+    reference = np.array([[0.0, 0, 0, 0], [2.0, 1, 2, 3]])
+    samples = np.array([[0.0, 0, 0, 0.5], [1.0, 9, 9, 9], [2.0, 1, 4, 3]])
+    assert scenes.largest_difference(samples, reference) == 2.0
+    assert math.isnan(scenes.largest_difference(samples[:2], reference))
+    samples[0, 1] = math.nan
+    assert math.isnan(scenes.largest_difference(samples, reference))
+
+
+def test_worker_answers_and_says_why_not():
+    """What it says besides its answers is left out."""
+    script = "print('hello')\nprint('answer: 1.2')\nfor line in sys.stdin:\n    print('answer: '"
+    script += " + ('0.5 ok' if line.split()[1] == '7' else '0 too stiff for me'))"
+    with workers.Worker(stand_in(script), SCENE) as worker:
+        assert worker.seconds(1e-3, 7, 30.0) == 0.5
+        assert worker.version == "1.2"
+        with pytest.raises(workers.SolverError, match="too stiff for me"):
+            worker.seconds(1e-3, 8, 30.0)
+
+
+def test_worker_starts_again_after_its_end():
+    """Whether it ended by itself or took too long."""
+    script = "print('answer: 1')\nline = input()\nif line.split()[1] == '1':\n    sys.exit(3)\n"
+    script += "if line.split()[1] == '2':\n    time.sleep(60)\nprint('answer: 0.5 ok')"
+    with workers.Worker(stand_in(script), SCENE) as worker:
+        with pytest.raises(workers.SolverError, match="status 3"):
+            worker.seconds(1e-3, 1, 30.0)
+        with pytest.raises(workers.TimeLimitError, match=r"longer than 0\.2 s"):
+            worker.seconds(1e-3, 2, 0.2)
+        assert worker.seconds(1e-3, 3, 30.0) == 0.5
+
+
+def test_no_tighter_tolerance_after_one_that_took_too_long():
+    """The other failures do not stop the series."""
+    script = (
+        "print('answer: 1')\nfor line in sys.stdin:\n    tolerance, runs, path = line.split()\n"
+    )
+    script += "    time.sleep(60 if tolerance == '1e-05' else 0)\n"
+    script += "    value = 'nan' if tolerance == '0.0001' else '0.25'\n"
+    script += "    open(path, 'w').write(f'0\\t0\\t0\\t{value}\\n')\n    print('answer: 0 ok')"
+    reference = np.array([[0.0, 0.0, 0.0, 0.0]])
+    with workers.Worker(stand_in(script), SCENE) as worker:
+        rows = compare.errors(worker, reference, 0.5)
+    assert rows[0]["error_max"] == 0.25
+    assert "not a number" in rows[1]["status"]
+    assert rows[2]["status"] == "longer than 0.5 s"
+    assert {row["status"] for row in rows[3:]} == {"not tried: 1e-05 took too long"}
+
+
+def test_seconds_are_the_median_of_turns():
+    """Solvers take turns; one that fails in its turn keeps its words and has no time."""
+    good = "print('answer: 1')\nfor n, line in enumerate(sys.stdin):\n    print('answer:', n, 'ok')"
+    bad = "print('answer: 1')\nfor line in sys.stdin:\n    print('answer: 0 no more')"
+    rows = [
+        {"solver": name, "tolerance": 1e-3, "status": "ok", "error_max": 1.0}
+        for name in ("good", "bad")
+    ]
+    found = {
+        name: workers.Worker(stand_in(script), SCENE)
+        for name, script in (("good", good), ("bad", bad))
+    }
+    try:
+        compare.measure(rows, found, 5, 30.0)
+    finally:
+        for worker in found.values():
+            worker.stop()
+    assert (rows[0]["status"], rows[0]["seconds"]) == ("ok", 3.0)
+    assert rows[1]["status"] == "no more"
+    assert "seconds" not in rows[1]
+
+
+@pytest.mark.parametrize(
+    ("seconds", "runs"), [(10.0, 0), (1.0, 1), (0.03, 4), (1e-3, 100), (0.0, 100)]
+)
+def test_short_runs_are_repeated(seconds, runs):
+    """Long ones are measured once, by the run that showed their length."""
+    assert compare.runs_of(seconds) == runs
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        (["--scenes", "torus,nonsense"], "'nonsense'"),
+        (["--solvers", "radau"], "'radau'"),
+        (["--time-limit", "0"], "'0'"),
+        (["--time-limit", "inf"], "'inf'"),
+        (["--time-limit", "soon"], "'soon'"),
+        (["--repeats", "1.5"], "'1.5'"),
+        (["--repeats", "0"], "'0'"),
+        (["nonsense"], "nonsense"),
+    ],
+)
+def test_bad_options_are_refused(given, said, capsys):
+    """With the option and the value met."""
+    with pytest.raises(SystemExit) as refusal:
+        compare.arguments(given)
+    assert refusal.value.code == 2
+    assert said in capsys.readouterr().err
+
+
+def test_options_choose_scenes_and_solvers():
+    """In the order of the tables, each once."""
+    options = compare.arguments(["--scenes", "stiff,torus,stiff", "--solvers", "jitcdde,ours"])
+    assert options.scenes == ["torus", "stiff"]
+    assert options.solvers == ["ours", "jitcdde"]
+
+
+def test_table_has_a_header_and_empty_cells(tmp_path):
+    """Comments, names, four digits; line ends within words are gone."""
+    rows = [{"a": 1.23456e-7, "b": None}, {"a": "two\nwords"}]
+    compare.write_table(tmp_path / "new" / "table.tsv", ["a", "b"], rows, ["made here"])
+    text = (tmp_path / "new" / "table.tsv").read_text()
+    assert text == "# made here\na\tb\n1.235e-07\t\ntwo words\t\n"
+
+
+@pytest.mark.parametrize("option", ["--help", "-h"])
+def test_run_says_how_it_is_used(option, tmp_path):
+    """From any folder, before anything is set up, with every option."""
+    run = subprocess.run(
+        [ROOT / "benchmarks" / "run", option], cwd=tmp_path, capture_output=True, text=True
+    )
+    assert run.returncode == 0
+    options = compare.arguments([])
+    assert all(f"--{name.replace('_', '-')} " in run.stdout for name in vars(options))
