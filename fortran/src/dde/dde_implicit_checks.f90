@@ -33,7 +33,7 @@ contains
       real(wp), intent(in) :: scale(:)
       logical :: value
       real(wp) :: by_y(problem%n, problem%n), by_z(problem%n, size(problem%lag))
-      real(wp) :: misfit(problem%n), y_end(problem%n)
+      real(wp) :: allowed, misfit(problem%n), y_end(problem%n)
       logical :: singular
 
       value = .false.
@@ -41,12 +41,15 @@ contains
       call problem%rhs(t + h, y_end, stages%delayed(:, method%stages), misfit)
       if (.not. all(ieee_is_finite(misfit))) return
       misfit = misfit - stages%slope_at_end(h)
-      value = scaled_norm(problem%n, h*misfit, scale) <= method%real_eigenvalue
+      ! the tolerance, and what rounding does to the slope
+      allowed = 1.0_wp + epsilon(1.0_wp)*maxval(abs(y_end))/minval(scale) &
+                *sum(abs(stages%systems%a_inverse(method%stages, :)))
+      value = scaled_norm(problem%n, h*misfit, scale) <= method%real_eigenvalue*allowed
       if (value) return
       call problem%jacobian(t + h, y_end, stages%delayed(:, method%stages), by_y, by_z)
       if (.not. all(ieee_is_finite(by_y))) return
       call correct_real(method, h, by_y, misfit, singular)
-      if (.not. singular) value = scaled_norm(problem%n, misfit, scale) <= 1.0_wp
+      if (.not. singular) value = scaled_norm(problem%n, misfit, scale) <= allowed
    end function confirmed
 
    !> Error between the ends, in units of the tolerance. A stiff component that follows the others
