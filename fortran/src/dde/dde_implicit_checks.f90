@@ -41,8 +41,8 @@ contains
       call problem%rhs(t + h, y_end, stages%delayed(:, method%stages), misfit)
       if (.not. all(ieee_is_finite(misfit))) return
       misfit = misfit - stages%slope_at_end(h)
-      ! the tolerance, and what rounding does to the slope
-      allowed = 1.0_wp + epsilon(1.0_wp)*maxval(abs(y_end))/minval(scale) &
+      ! a part of the tolerance, and what rounding does to the slope
+      allowed = 0.1_wp + 4.0_wp*epsilon(1.0_wp)*maxval(abs(y_end))/minval(scale) &
                 *sum(abs(stages%systems%a_inverse(method%stages, :)))
       value = scaled_norm(problem%n, h*misfit, scale) <= method%real_eigenvalue*allowed
       if (value) return
