@@ -17,6 +17,7 @@ program tester
    use test_dde_reentrant, only: collect_dde_reentrant
    use test_dde_refusals, only: collect_dde_refusals
    use test_dde_solutions, only: collect_dde_solutions
+   use test_dde_stiff, only: collect_dde_stiff
    use test_dde_stops, only: collect_dde_stops
    use test_dde_time, only: collect_dde_time
    use test_friction, only: collect_friction
@@ -47,6 +48,7 @@ program tester
                              new_testsuite("dde_reentrant", collect_dde_reentrant), &
                              new_testsuite("dde_refusals", collect_dde_refusals), &
                              new_testsuite("dde_solutions", collect_dde_solutions), &
+                             new_testsuite("dde_stiff", collect_dde_stiff), &
                              new_testsuite("dde_stops", collect_dde_stops), &
                              new_testsuite("dde_time", collect_dde_time), &
                              new_testsuite("friction", collect_friction), &

@@ -8,7 +8,7 @@ module test_dde_implicit
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use solving, only: at_tolerance, solve
    use spring_block, only: spring_block_type
-   use stiff_problems, only: exponential_decay, prothero_robinson
+   use stiff_problems, only: exponential_decay
    use test_problems, only: blow_up, enzyme, falls_out, infection, linear, mackey_glass, &
                             wille_baker, without_delays
    implicit none (type, external)
@@ -30,9 +30,7 @@ contains
                    new_unittest("enzyme kinetics", test_enzyme), &
                    new_unittest("mackey-glass", test_mackey_glass), &
                    new_unittest("steps longer than the delay", test_overlap), &
-                   new_unittest("stiff accuracy", test_prothero_robinson), &
                    new_unittest("jacobian of the block", test_jacobian), &
-                   new_unittest("through slips at gamma 1e12", test_slips), &
                    new_unittest("auto takes the better method", test_auto), &
                    new_unittest("reasons to stop", test_stops)]
    end subroutine collect_dde_implicit
@@ -138,25 +136,6 @@ contains
       end do
    end subroutine test_overlap
 
-   !> y = cos t at rates up to -1e12, in steps that the solution needs and not the rate. Here the
-   !> order falls to s + 1 (order reduction); the error stays within a hundred tolerances.
-   subroutine test_prothero_robinson(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
-      integer :: i, power
-
-      do power = 2, 12, 5
-         do i = 1, size(methods)
-            call integrate(prothero_robinson(-10.0_wp**power), 0.0_wp, 10.0_wp, &
-                           at_tolerance(1.0e-8_wp, methods(i)), outcome, failure)
-            call expect_success(error, failure)
-            call expect_close(error, outcome%y, [cos(10.0_wp)], 1.0e-6_wp, trim(methods(i)))
-            call expect_between(error, real(outcome%accepted, wp), 5.0_wp, 800.0_wp, "steps")
-         end do
-      end do
-   end subroutine test_prothero_robinson
-
    !> The block's own derivatives against central differences.
    subroutine test_jacobian(error)
       type(error_type), allocatable, intent(out) :: error
@@ -187,26 +166,6 @@ contains
          deallocate (z, by_z)
       end do
    end subroutine test_jacobian
-
-   !> Without delay, gamma = 1e12: the run passes several slips, in which steps are far below the
-   !> spacing of t, and methods of different order agree.
-   subroutine test_slips(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
-      type(spring_block_type) :: block_model
-      real(wp) :: first(3)
-      integer :: i
-
-      block_model = spring_block_type(0.0_wp, 0.7_wp, 0.5_wp, 1.0e12_wp, 0.0_wp, 0.5_wp, 1.1_wp)
-      do i = 1, size(methods)
-         call integrate(block_model, 0.0_wp, 100.0_wp, at_tolerance(1.0e-9_wp, methods(i)), &
-                        outcome, failure)
-         call expect_success(error, failure)
-         if (i == 1) first = outcome%y
-         call expect_close(error, outcome%y, first, 1.0e-4_wp, trim(methods(i)))
-      end do
-   end subroutine test_slips
 
    !> A mild scene stays explicit; a stiff one is done with few evaluations.
    subroutine test_auto(error)

@@ -29,7 +29,8 @@ contains
 
       testsuite = [new_unittest("conditions B, C and D", test_conditions), &
                    new_unittest("powers of t", test_powers), &
-                   new_unittest("one step of an oscillator", test_oscillator)]
+                   new_unittest("one step of an oscillator", test_oscillator), &
+                   new_unittest("ten steps of an oscillator", test_global_order)]
    end subroutine collect_dde_implicit_order
 
    !> Butcher's conditions B(2 s - 1), C(s) and D(s - 1), which make the order 2 s - 1 (Hairer and
@@ -148,6 +149,35 @@ contains
          end associate
       end do
    end subroutine test_oscillator
+
+   !> After ten steps, and twice as many of half the length, the error falls with order 2 s - 1.
+   subroutine test_global_order(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(implicit_step_type) :: step
+      type(oscillator) :: problem
+      real(wp), parameter :: longest(3) = [0.5_wp, 2.0_wp, 4.0_wp]
+      real(wp) :: estimate, h, misfit(2)
+      integer :: i, j, k
+
+      problem = oscillator(n=2, past=[1.0_wp, 0.0_wp], first=[1.0_wp, 0.0_wp])
+      call without_delays(problem)
+      do i = 1, size(stages)
+         do j = 1, 2
+            h = longest(i)*0.5_wp**j
+            step = implicit_step_type(problem, stages(i))
+            do k = 1, 10*j
+               call take_step(problem, (k - 1)*h, h, step, estimate, tight(stages(i)), &
+                              tight(stages(i)))
+               call step%advance()
+            end do
+            associate (t => 10*j*h)
+               misfit(j) = norm2(step%y - [cos(t), -sin(t)])
+            end associate
+         end do
+         call expect_between(error, halvings(misfit), 2*stages(i) - 1.5_wp, 2*stages(i) - 0.5_wp, &
+                             "global order")
+      end do
+   end subroutine test_global_order
 
    !> Tolerance at which a method of s stages asks `rounding` of its estimate of order s.
    pure real(wp) function tight(s) result(tolerance)

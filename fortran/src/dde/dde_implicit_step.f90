@@ -211,8 +211,8 @@ contains
       call self%stages%systems%filter(self%error_vector)
       error = scaled_norm(problem%n, self%error_vector, scale)
       if (error >= 1.0_wp .and. .not. self%last_h > 0.0_wp) then
-         ! at a start, once more through the filter; the slope of an earlier polynomial is not that of
-         ! the state, and only what the error changes of it counts
+         ! at a start, once more through the filter; the slope of an earlier polynomial is not that
+         ! of the state, and only what the error changes of it counts
          call problem%rhs(self%t, self%y, self%z, slope)
          call problem%rhs(self%t, self%y + self%error_vector, self%z, self%error_vector)
          self%evaluations = self%evaluations + 2

@@ -15,8 +15,8 @@ module dde_switch
    real(wp), parameter :: beyond_the_delay = 1.5_wp
    !> Implicit steps in a row that must agree to a return.
    integer, parameter :: steps_to_return = 3
-   !> Votes that it takes to leave the explicit method, two from each step that speaks for it and one
-   !> back from each that does not: at first, how much more after a vain try, and at most.
+   !> Votes that it takes to leave the explicit method, two from each step that speaks for it and
+   !> one back from each that does not: at first, how much more after a vain try, and at most.
    integer, parameter :: least_patience = 8, less_willing = 4, most_patience = 512
    !> The pace of the implicit method is taken over this many steps, the first time after as many
    !> that it needs to grow them.

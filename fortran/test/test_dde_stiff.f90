@@ -1,0 +1,113 @@
+!> Stiff runs of the implicit methods and of `auto`: accuracy at and between the ends of steps,
+!> slips, and the fall of v after them.
+module test_dde_stiff
+   use dde, only: integrate, integration_result
+   use errors, only: failure_type => error_type
+   use expectations, only: expect_between, expect_close, expect_success
+   use kinds, only: wp
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use solving, only: at_tolerance, solve
+   use spring_block, only: spring_block_type
+   use stiff_problems, only: prothero_robinson
+   implicit none (type, external)
+   private
+   public :: collect_dde_stiff
+
+   !> Methods under test.
+   character(len=8), parameter :: methods(4) = ["radau5  ", "radau9  ", "radau13 ", "auto    "]
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_dde_stiff(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("stiff accuracy", test_prothero_robinson), &
+                   new_unittest("between the ends of stiff steps", test_inside), &
+                   new_unittest("through slips at gamma 1e12", test_slips), &
+                   new_unittest("down to where v is 1e-34", test_fall)]
+   end subroutine collect_dde_stiff
+
+   !> y = cos t at rates up to -1e12, in steps that the solution needs and not the rate. Here the
+   !> order falls to s + 1 (order reduction); the error stays within a hundred tolerances.
+   subroutine test_prothero_robinson(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      integer :: i, power
+
+      do power = 2, 12, 5
+         do i = 1, size(methods)
+            call integrate(prothero_robinson(-10.0_wp**power), 0.0_wp, 10.0_wp, &
+                           at_tolerance(1.0e-8_wp, methods(i)), outcome, failure)
+            call expect_success(error, failure)
+            call expect_close(error, outcome%y, [cos(10.0_wp)], 1.0e-6_wp, trim(methods(i)))
+            call expect_between(error, real(outcome%accepted, wp), 5.0_wp, 800.0_wp, "steps")
+         end do
+      end do
+   end subroutine test_prothero_robinson
+
+   !> Samples between the ends of steps that are far longer than the time in which y follows cos t.
+   subroutine test_inside(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable :: y(:, :)
+      real(wp), parameter :: tolerance(2) = [1.0e-6_wp, 1.0e-10_wp]
+      real(wp) :: time(1000)
+      integer :: i, j
+
+      time = [(0.02_wp*i, i=1, size(time))]
+      do j = 1, size(tolerance)
+         do i = 1, size(methods)
+            call solve(prothero_robinson(-1.0e6_wp), time, at_tolerance(tolerance(j), methods(i)), &
+                       y, error)
+            call expect_close(error, y(1, :), cos(time), 10.0_wp*tolerance(j), trim(methods(i)))
+         end do
+      end do
+   end subroutine test_inside
+
+   !> Without delay, gamma = 1e12: the run passes several slips, in which steps are far below the
+   !> spacing of t, and methods of different order agree.
+   subroutine test_slips(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(spring_block_type) :: block_model
+      real(wp) :: first(3)
+      integer :: i
+
+      block_model = spring_block_type(0.0_wp, 0.7_wp, 0.5_wp, 1.0e12_wp, 0.0_wp, 0.5_wp, 1.1_wp)
+      do i = 1, size(methods)
+         call integrate(block_model, 0.0_wp, 100.0_wp, at_tolerance(1.0e-9_wp, methods(i)), &
+                        outcome, failure)
+         call expect_success(error, failure)
+         if (i == 1) first = outcome%y
+         call expect_close(error, outcome%y, first, 1.0e-4_wp, trim(methods(i)))
+      end do
+   end subroutine test_slips
+
+   !> After a slip at great epsilon v falls to 1e-34 within 1e-29 of time, less than moves even a
+   !> compensated time. A false solution of a step's equations would throw the block far off; on the
+   !> true one forces balance before and after.
+   subroutine test_fall(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(spring_block_type) :: block_model
+      real(wp), parameter :: tolerance(3) = [1.0e-4_wp, 1.0e-6_wp, 1.0e-9_wp]
+      integer :: i, j
+
+      block_model = spring_block_type(0.0_wp, 5.0_wp, 0.5_wp, 1.0e4_wp, 0.0_wp, 0.0_wp, 1.1_wp)
+      do j = 1, size(tolerance)
+         do i = 1, size(methods)
+            call integrate(block_model, 0.0_wp, 50.0_wp, at_tolerance(tolerance(j), methods(i)), &
+                           outcome, failure)
+            call expect_success(error, failure)
+            associate (theta => outcome%y(1), u => outcome%y(2), w => outcome%y(3))
+               call expect_between(error, abs(u), 0.0_wp, 1000.0_wp, trim(methods(i))//": u")
+               call expect_close(error, [u + (theta + w)/0.5_wp], [0.0_wp], &
+                                 1000.0_wp*tolerance(j), trim(methods(i))//": balance of forces")
+            end associate
+         end do
+      end do
+   end subroutine test_fall
+end module test_dde_stiff
