@@ -1,11 +1,12 @@
 !> Order of one Radau IIA step, of its interpolant and of its error estimate, for 3, 5 and 7 stages.
 module test_dde_implicit_order
+   use dde_collocation, only: combined
    use dde_implicit_step, only: implicit_step_type
    use dde_linear, only: factorise, solve
    use dde_radau_tableau, only: radau_iia, radau_tableau
    use dde_stage_systems, only: stage_systems
    use errors, only: text
-   use expectations, only: expect_between, expect_close
+   use expectations, only: expect, expect_between, expect_close
    use kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use single_step, only: interpolated, take_step
@@ -30,7 +31,8 @@ contains
       testsuite = [new_unittest("conditions B, C and D", test_conditions), &
                    new_unittest("powers of t", test_powers), &
                    new_unittest("one step of an oscillator", test_oscillator), &
-                   new_unittest("ten steps of an oscillator", test_global_order)]
+                   new_unittest("ten steps of an oscillator", test_global_order), &
+                   new_unittest("a row of huge numbers", test_huge_row)]
    end subroutine collect_dde_implicit_order
 
    !> Butcher's conditions B(2 s - 1), C(s) and D(s - 1), which make the order 2 s - 1 (Hairer and
@@ -178,6 +180,42 @@ contains
                              "global order")
       end do
    end subroutine test_global_order
+
+   !> One Newton correction of a block deep in stick (stiffness 1e23, near balance of forces), alone
+   !> and with the delay inside the step: theta stays, u falls by h c. The row of ln v must not serve
+   !> as pivot for the others.
+   subroutine test_huge_row(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(radau_tableau) :: method
+      type(stage_systems) :: systems
+      real(wp), parameter :: h = 2.8e-4_wp, stiffness = 1.0e23_wp
+      real(wp), allocatable :: change(:, :), own_place(:, :), slopes(:, :)
+      real(wp) :: by_y(3, 3), by_z(3, 1)
+      integer :: i, lag
+      logical :: singular
+
+      by_y = 0.0_wp
+      by_y(3, :) = -stiffness*[2.0_wp, 1.0_wp, 2.0_wp - 2.0e-8_wp]
+      by_z = 0.0_wp
+      do i = 1, size(stages)
+         do lag = 0, 1
+            method = radau_iia(stages(i))
+            systems = stage_systems(method, 3)
+            allocate (own_place, source=reshape(method%c - (0.35_wp + lag), [1, stages(i)]))
+            allocate (slopes(3, stages(i)))
+            slopes(1, :) = 0.0_wp
+            slopes(2, :) = -1.0_wp
+            slopes(3, :) = -2.0e-8_wp*stiffness
+            call systems%prepare(method, h, by_y, by_z, [3], own_place, singular)
+            change = systems%correct(method, slopes, 0.0_wp*slopes, 0.0_wp*slopes)
+            change = combined(3, stages(i), method%t, change)
+            call expect(error, systems%coupled .neqv. lag == 1, "coupled by a short delay")
+            call expect_close(error, change(1, :), 0.0_wp*method%c, 1.0e-15_wp, "theta")
+            call expect_close(error, change(2, :), -h*method%c, 1.0e-15_wp, "u")
+            deallocate (own_place, slopes)
+         end do
+      end do
+   end subroutine test_huge_row
 
    !> Tolerance at which a method of s stages asks `rounding` of its estimate of order s.
    pure real(wp) function tight(s) result(tolerance)

@@ -180,7 +180,7 @@ contains
       finite = all(ieee_is_finite(slope))
    end subroutine evaluate
 
-   !> The estimate h |e5|^2 / sqrt(|e5|^2 + 0.01 |e3|^2), each in the root mean square norm over the
+   !> The estimate |e5|^2 / sqrt(|e5|^2 + 0.01 |e3|^2), each in the root mean square norm over the
    !> tolerance (Hairer, Norsett and Wanner 1993, eq. (II.10.17)).
    pure function error_853(n, k, h, scale) result(error)
       !> Number of equations
@@ -195,16 +195,17 @@ contains
       real(wp), dimension(lanes, (n + lanes - 1)/lanes) :: e3, e5
       real(wp) :: norm3, norm5
 
-      e3 = (b1 - bhh1)*k(:, :, 1) + b6*k(:, :, 6) + b7*k(:, :, 7) + b8*k(:, :, 8) &
-           + (b9 - bhh2)*k(:, :, 9) + b10*k(:, :, 10) + b11*k(:, :, 11) + (b12 - bhh3)*k(:, :, 12)
-      e5 = er1*k(:, :, 1) + er6*k(:, :, 6) + er7*k(:, :, 7) + er8*k(:, :, 8) + er9*k(:, :, 9) &
-           + er10*k(:, :, 10) + er11*k(:, :, 11) + er12*k(:, :, 12)
+      e3 = h*((b1 - bhh1)*k(:, :, 1) + b6*k(:, :, 6) + b7*k(:, :, 7) + b8*k(:, :, 8) &
+              + (b9 - bhh2)*k(:, :, 9) + b10*k(:, :, 10) + b11*k(:, :, 11) &
+              + (b12 - bhh3)*k(:, :, 12))
+      e5 = h*(er1*k(:, :, 1) + er6*k(:, :, 6) + er7*k(:, :, 7) + er8*k(:, :, 8) &
+              + er9*k(:, :, 9) + er10*k(:, :, 10) + er11*k(:, :, 11) + er12*k(:, :, 12))
       norm3 = scaled_norm(n, e3, scale)
       norm5 = scaled_norm(n, e5, scale)
       if (max(norm3, norm5) >= huge(1.0_wp)) then
          error = huge(1.0_wp)
       else if (norm5 > 0.0_wp) then
-         error = abs(h)*norm5*(norm5/hypot(norm5, 0.1_wp*norm3))
+         error = norm5*(norm5/hypot(norm5, 0.1_wp*norm3))
       else
          error = 0.0_wp
       end if

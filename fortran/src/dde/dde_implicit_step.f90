@@ -134,16 +134,22 @@ contains
       asked = max(relative, absolute)**((self%method%stages + 1.0_wp)/(self%method%stages + 2.0_wp))
       scale = asked/max(relative, absolute)*(absolute + relative*abs(self%y))
       call self%stages%place_delays(problem, past, self%method, h)
-      call self%prepare(problem, past, singular)
       error = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (singular) return
-      call self%stages%start(self%method, self%last_differences, self%last_h, h)
-      call self%stages%iterate(problem, self%method, t, h, self%y, scale, asked, self%safety, &
-                               self%evaluations, converged, finite)
-      if (converged) then
-         self%evaluations = self%evaluations + 1
-         converged = confirmed(problem, self%method, self%stages, t, h, self%y, scale)
-      end if
+      do
+         call self%prepare(problem, past, singular)
+         if (singular) return
+         call self%stages%start(self%method, self%last_differences, self%last_h, h)
+         call self%stages%iterate(problem, self%method, t, h, self%y, scale, asked, self%safety, &
+                                  self%evaluations, converged, finite)
+         if (converged) then
+            self%evaluations = self%evaluations + 1
+            converged = confirmed(problem, self%method, self%stages, t, h, self%y, scale)
+         end if
+         if (converged .or. .not. self%last_h > 0.0_wp) exit
+         ! the last polynomial carried on may be too far off, the Jacobian too old: once more anew
+         self%last_h = 0.0_wp
+         self%jacobian_serves = self%jacobian_fresh
+      end do
       if (converged) then
          call self%estimate(problem, scale, error)
          call self%difference()
@@ -151,14 +157,10 @@ contains
             error = max(error, error_inside(self%method, h, self%differences, self%unfiltered, &
                                             self%error_vector, scale, asked, &
                                             max(relative, absolute)))
+            if (error <= 1.0_wp) return
          end if
-      else
-         ! the last polynomial carried on may have been too far off to start from
-         self%last_h = 0.0_wp
-         if (finite) error = huge(1.0_wp)
-      end if
-      if (ieee_is_finite(error)) then
-         if (error <= 1.0_wp) return
+      else if (finite) then
+         error = huge(1.0_wp)
       end if
       if (.not. self%jacobian_fresh) self%jacobian_serves = .false.
    end subroutine attempt

@@ -1,5 +1,6 @@
-!> Small dense linear systems by Gaussian elimination with partial pivoting, real and complex.
-!> LAPACK has the same in double precision only; this source also compiles in quadruple precision.
+!> Small dense linear systems by Gaussian elimination, real and complex. Pivots are the largest of
+!> their column relative to their rows: in a stiff system a row of huge numbers must not serve as
+!> pivot for the others. LAPACK pivots without that, and in double precision only.
 module dde_linear
    use kinds, only: wp
    implicit none (type, external)
@@ -28,17 +29,19 @@ contains
       integer, intent(out) :: pivot(:)
       !> Whether a pivot vanished
       logical, intent(out) :: singular
-      real(wp) :: row(size(a, 2))
+      real(wp) :: largest(size(a, 1)), row(size(a, 2))
       integer :: i, j, k
 
+      largest = max(maxval(abs(a), dim=2), tiny(1.0_wp))
       singular = .false.
       do k = 1, size(a, 1)
-         j = k - 1 + maxloc(abs(a(k:, k)), dim=1)
+         j = k - 1 + maxloc(abs(a(k:, k))/largest(k:), dim=1)
          pivot(k) = j
          if (j /= k) then
             row(k:) = a(k, k:)
             a(k, k:) = a(j, k:)
             a(j, k:) = row(k:)
+            largest(j) = largest(k)
          end if
          singular = .not. abs(a(k, k)) > 0.0_wp
          if (singular) return
@@ -63,16 +66,19 @@ contains
       !> Whether a pivot vanished
       logical, intent(out) :: singular
       complex(wp) :: row(size(a, 2))
+      real(wp) :: largest(size(a, 1))
       integer :: i, j, k
 
+      largest = max(maxval(abs(real(a)) + abs(aimag(a)), dim=2), tiny(1.0_wp))
       singular = .false.
       do k = 1, size(a, 1)
-         j = k - 1 + maxloc(abs(real(a(k:, k))) + abs(aimag(a(k:, k))), dim=1)
+         j = k - 1 + maxloc((abs(real(a(k:, k))) + abs(aimag(a(k:, k))))/largest(k:), dim=1)
          pivot(k) = j
          if (j /= k) then
             row(k:) = a(k, k:)
             a(k, k:) = a(j, k:)
             a(j, k:) = row(k:)
+            largest(j) = largest(k)
          end if
          singular = .not. abs(real(a(k, k))) + abs(aimag(a(k, k))) > 0.0_wp
          if (singular) return

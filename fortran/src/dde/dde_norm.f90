@@ -29,7 +29,7 @@ contains
             norm = ieee_value(1.0_wp, ieee_quiet_nan)
             return
          end if
-         if (abs(x(i)) > hopeless*scale(i)) then
+         if (abs(x(i))/hopeless > scale(i)) then
             norm = huge(1.0_wp)
          else if (norm < huge(1.0_wp)) then
             norm = norm + (x(i)/scale(i))**2

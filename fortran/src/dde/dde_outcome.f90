@@ -10,7 +10,7 @@ module dde_outcome
    public :: event_met, reached_end, refused, step_underflow, too_many_steps, value_not_finite
 
    !> Steps below this share of the time no longer move an instant.
-   real(wp), parameter :: least_step = 1.0e-100_wp
+   real(wp), parameter :: least_step = 1.0e-140_wp
 
    !> Why an integration ended.
    enum, bind(c)

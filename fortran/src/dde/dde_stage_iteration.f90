@@ -180,7 +180,7 @@ contains
          change = self%systems%correct(method, self%slopes, self%increments, self%transforms)
          norm = scaled_norm(size(change), change, scales)
          finite = ieee_is_finite(norm)
-         if (.not. finite) return
+         if (.not. (finite .and. norm < huge(1.0_wp))) return
          if (iteration > 1) then
             rate = norm/last_norm
             self%contraction = merge(rate, sqrt(rate*last_rate), iteration == 2)

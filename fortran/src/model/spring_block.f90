@@ -15,8 +15,8 @@ module spring_block
    !> Place of w = ln v: in w no step can leave the domain v > 0.
    integer, parameter :: index_of_ln_v = 3
 
-   !> Beyond this exp(w) or gamma^2 exp(-w) would overflow; no solution comes near it.
-   real(wp), parameter :: largest_ln_v = 600.0_wp
+   !> Beyond these exp(w) or gamma^2 exp(-w), times the rest of (4), might overflow.
+   real(wp), parameter :: least_ln_v = -600.0_wp, largest_ln_v = 300.0_wp
 
    !> The block with its parameters; all nondimensional.
    type, extends(dde_problem_type) :: spring_block_type
@@ -110,7 +110,7 @@ contains
       real(wp) :: delayed_w, v
 
       associate (theta => y(index_of_theta), u => y(index_of_u), w => y(index_of_ln_v))
-         if (abs(w) > largest_ln_v) then
+         if (w < least_ln_v .or. w > largest_ln_v) then
             dydt = ieee_value(1.0_wp, ieee_quiet_nan)
             return
          end if
