@@ -31,7 +31,7 @@ program long_run
 contains
 
    !> The mark that Linux keeps of this process, in kB.
-   integer function peak_memory()
+   integer function peak_memory() result(kilobytes)
       character(len=80) :: line
       integer :: unit
 
@@ -41,7 +41,7 @@ contains
          read (unit, "(a)", iostat=status, iomsg=message) line
          if (line(:6) == "VmHWM:") exit
       end do
-      if (status == 0) read (line(7:), *, iostat=status, iomsg=message) peak_memory
+      if (status == 0) read (line(7:), *, iostat=status, iomsg=message) kilobytes
       if (status /= 0) error stop "long_run: /proc/self/status: "//trim(message)
       close (unit)
    end function peak_memory
