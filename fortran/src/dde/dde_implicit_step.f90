@@ -224,7 +224,7 @@ contains
          end if
       end if
       self%y_new = self%y + self%stages%increments(:, self%method%stages)
-      if (.not. all(ieee_is_finite([error, self%y_new]))) error = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (.not. all(ieee_is_finite(self%y_new))) error = ieee_value(1.0_wp, ieee_quiet_nan)
    end subroutine estimate
 
    !> Newton coefficients of the collocation polynomial.
