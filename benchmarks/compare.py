@@ -11,20 +11,22 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
+from accuracy import Reference
+from long_runs import COLUMNS as LONG_RUN_COLUMNS
+from long_runs import rows_of_long_runs
 from ratios import ratio_rows
 from scenes import (
-    HARD,
-    PAPER,
+    HORIZONS,
     ROOT,
     Scene,
-    SceneError,
-    largest_difference,
-    read_config,
-    read_reference,
-    read_samples,
-    scenes,
+    error_max,
+    read_horizons,
+    read_study,
+    reference_of,
+    reference_path,
+    scene_of,
 )
-from workers import SOLVERS, SolverError, TimeLimitError, Worker, our_command
+from workers import SOLVERS, SolverError, TimeLimitError, Worker
 
 OURS = "ours"
 TOLERANCES = tuple(float(f"1e-{k}") for k in range(3, 14))
@@ -32,8 +34,7 @@ BATCH_SECONDS = 0.1
 """A measurement repeats short integrations for about this time."""
 LONG_SECONDS = 5.0
 """An integration longer than this is measured once."""
-CHECK_SECONDS = 15.0
-"""Time for the second of two methods that check each other."""
+LONG_RUN_SCENE = "torus"
 COLUMNS = (
     "scene",
     "solver",
@@ -43,7 +44,6 @@ COLUMNS = (
     "status",
     "error_max",
     "seconds",
-    "reference",
 )
 
 
@@ -78,55 +78,30 @@ def whole(text: str) -> int:
     return int(text)
 
 
-def arguments(given: list[str]) -> argparse.Namespace:
+def arguments(given: list[str], known_scenes: tuple[str, ...]) -> argparse.Namespace:
     """The options of benchmarks/run."""
-    known_scenes, known_solvers = (*PAPER, *HARD), tuple(SOLVERS)
+    known_solvers = tuple(SOLVERS)
     parser = argparse.ArgumentParser(prog="benchmarks/run", allow_abbrev=False)
     parser.add_argument("--scenes", type=names_of(known_scenes), default=list(known_scenes))
     parser.add_argument("--solvers", type=names_of(known_solvers), default=list(known_solvers))
     parser.add_argument("--time-limit", type=positive, default=60.0)
     parser.add_argument("--repeats", type=whole, default=5)
-    parser.add_argument("--references", type=Path, default=ROOT / "results" / "references")
     parser.add_argument("--output", type=Path, default=ROOT / "results" / "tables")
     return parser.parse_args(given)
 
 
-def reference_of(scene: Scene, folder: Path, limit: float) -> tuple[np.ndarray, str]:
-    """The solution that errors of a scene are measured against, and where it comes from."""
-    path = folder / f"{scene.name}.tsv"
-    if path.exists():
-        return read_reference(path, scene), path.name
-    samples = sampled(our_command("radau13"), scene, limit)
-    for method in ("explicit", "radau9"):
-        try:
-            other = sampled(our_command(method), scene, min(limit, CHECK_SECONDS))
-        except SolverError:
-            continue
-        difference = largest_difference(samples, other)
-        return samples, f"radau13 at 1e-13, {method} differs by {difference:.1e}"
-    return samples, "radau13 at 1e-13, unchecked"
-
-
-def sampled(command: list[str], scene: Scene, limit: float) -> np.ndarray:
-    """Samples of one run at the tightest tolerance."""
-    with Worker(command, scene) as worker, tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "samples.tsv"
-        worker.sample(TOLERANCES[-1], path, limit)
-        return read_samples(path)
-
-
-def error_of(worker: Worker, tolerance: float, reference: np.ndarray, limit: float) -> float:
+def error_of(worker: Worker, tolerance: float, reference: Reference, limit: float) -> float:
     """Largest error of one run over the samples."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "samples.tsv"
         worker.sample(tolerance, path, limit)
-        error = largest_difference(read_samples(path), reference)
+        error = error_max(np.loadtxt(path, ndmin=2), worker.scene, reference)
     if not math.isfinite(error):
         raise SolverError("the result is not a number, and no error was reported")
     return error
 
 
-def errors(worker: Worker, reference: np.ndarray, limit: float) -> list[dict]:
+def errors(worker: Worker, reference: Reference, limit: float) -> list[dict]:
     """A row for each tolerance, with its error or why there is none.
 
     After a run that took too long no tighter tolerance is tried.
@@ -181,7 +156,7 @@ def runs_of(seconds: float) -> int:
 
 def rows_of_scene(scene: Scene, options: argparse.Namespace) -> list[dict]:
     """All solvers and tolerances on one scene."""
-    reference, source = reference_of(scene, options.references, options.time_limit)
+    reference = reference_of(scene)
     workers = {name: Worker(SOLVERS[name], scene) for name in options.solvers}
     rows = []
     try:
@@ -195,7 +170,6 @@ def rows_of_scene(scene: Scene, options: argparse.Namespace) -> list[dict]:
         for row in rows:
             row["version"] = workers[row["solver"]].version
             row["t_end"] = scene.t_end
-            row["reference"] = source
     finally:
         for worker in workers.values():
             worker.stop()
@@ -231,7 +205,7 @@ def machine() -> list[str]:
         f"compilers: {first_line('gfortran', '--version')}; {first_line('gcc', '--version')}",
         f"{first_line('R', '--version')}; Python {platform.python_version()}",
         "seconds: CPU time of the solver alone, median of repeats in one process",
-        "error_max: largest error in theta, u, ln v at whole times",
+        "error_max: largest error of theta, u, ln v over the samples, relative where above 1",
     ]
 
 
@@ -252,13 +226,27 @@ def printed(rows: list[dict], solvers: list[str]) -> str:
     return "\n".join(lines)
 
 
+def compute_references(names: tuple[str, ...]) -> None:
+    """Let the project's workflow make the references of the scenes and the table of horizons."""
+    files = [path.relative_to(ROOT) for path in (HORIZONS, *map(reference_path, names))]
+    subprocess.run([ROOT / "reproduce", *files, "--quiet", "all"], stdout=sys.stderr, check=True)
+
+
 def main(given: list[str]) -> None:
-    """Measure, write both tables, print the ratios."""
-    options = arguments(given)
+    """Measure, write the tables, print the ratios."""
+    study = read_study()
+    names = tuple(study["scenes"])
+    options = arguments(given, names)
     try:
-        found = scenes(read_config(), options.references)
-        rows = [row for name in options.scenes for row in rows_of_scene(found[name], options)]
-    except (SceneError, SolverError) as failure:
+        compute_references(names)
+        horizons = read_horizons()
+        rows = [
+            row
+            for name in options.scenes
+            for row in rows_of_scene(scene_of(study, horizons, name), options)
+        ]
+        long_runs = rows_of_long_runs(scene_of(study, horizons, LONG_RUN_SCENE))
+    except (subprocess.CalledProcessError, SolverError) as failure:
         raise SystemExit(f"benchmarks: {failure}") from None
     header = machine()
     write_table(options.output / "benchmarks.tsv", list(COLUMNS), rows, header)
@@ -267,6 +255,7 @@ def main(given: list[str]) -> None:
     meaning = "columns of solvers: their time over ours, at equal error; empty where not reached"
     columns = ["scene", "error", "our_seconds", *others]
     write_table(options.output / "benchmark-ratios.tsv", columns, ratios, [*header, meaning])
+    write_table(options.output / "long-runs.tsv", list(LONG_RUN_COLUMNS), long_runs, header[:2])
     print(printed(ratios, others))
 
 

@@ -43,19 +43,18 @@ def sampled(solver: jitcdde.jitcdde, times: np.ndarray) -> np.ndarray:
     )
 
 
-def answer(solver, past, t_end: float, tolerance: float, runs: int, path: str) -> str:
-    """CPU seconds of one run; or, for no runs, nothing but samples at every unit of time."""
+def answer(solver, past, times: np.ndarray, tolerance: float, runs: int, path: str) -> str:
+    """CPU seconds of one run to the last time; or, for no runs, nothing but samples."""
     seconds = 0.0
     try:
         if runs == 0:
-            times = np.arange(0.0, t_end + 0.5)
             prepare(solver, past, tolerance)
             np.savetxt(path, np.column_stack([times, sampled(solver, times)]), delimiter="\t")
         for _ in range(runs):
             prepare(solver, past, tolerance)
             start = time.process_time()
             solver.step_on_discontinuities()
-            solver.integrate(t_end)
+            solver.integrate(times[-1])
             seconds += time.process_time() - start
     except jitcdde.UnsuccessfulIntegration as failure:
         return f"0 {str(failure).strip().splitlines()[0]}"
@@ -68,12 +67,13 @@ def main() -> None:
     # what JiTCDDE says while it works must not be taken for an answer
     with os.fdopen(os.dup(1), "w") as out, contextlib.redirect_stdout(sys.stderr):
         os.dup2(2, 1)
-        *parameters, t_end = map(float, sys.stdin.readline().split())
+        *parameters, t_end, interval = map(float, sys.stdin.readline().split())
+        times = interval * np.arange(round(t_end / interval) + 1)
         solver, past = compiled(*parameters[:4]), parameters[4:]
         print(f"answer: {jitcdde.__version__}", file=out, flush=True)
         for line in sys.stdin:
             tolerance, runs, path = line.rstrip("\n").split(" ", 2)
-            reply = answer(solver, past, t_end, float(tolerance), int(runs), path)
+            reply = answer(solver, past, times, float(tolerance), int(runs), path)
             print(f"answer: {reply}", file=out, flush=True)
 
 

@@ -10,8 +10,8 @@ program our_worker
    implicit none (type, external)
    character(len=8) :: method
    character(len=1024) :: message, request
-   integer :: i, runs, status
-   real(wp) :: finish, scene(8), start, t_end, tolerance
+   integer :: i, last, runs, status
+   real(wp) :: finish, scene(9), start, t_end, tolerance
    type(error_type), allocatable :: error
    type(integration_options) :: options
    type(integration_result) :: outcome
@@ -24,6 +24,7 @@ program our_worker
    block_model = spring_block_type(scene(1), scene(2), scene(3), scene(4), scene(5), scene(6), &
                                    exp(scene(7)))
    t_end = scene(8)
+   last = nint(t_end/scene(9))
    print "(a)", "answer: "//project_version
 
    do
@@ -34,7 +35,7 @@ program our_worker
       options = integration_options(method=method, relative=tolerance, absolute=tolerance)
       if (runs == 0) then
          samples = table_sampler([index_of_theta, index_of_u, index_of_ln_v], &
-                                 [(real(i, wp), i=0, int(t_end))])
+                                 [(min(i*scene(9), t_end), i=0, last)])
          call integrate(block_model, 0.0_wp, t_end, options, outcome, error, samples)
          call write_table(trim(request(index(request, " 0 ") + 3:)), samples)
       end if

@@ -1,4 +1,4 @@
-"""Scenes of the benchmarks and the solutions that errors are measured against."""
+"""Scenes of the benchmarks: those of work against precision, up to when they can be trusted."""
 
 import math
 from dataclasses import dataclass
@@ -6,30 +6,19 @@ from pathlib import Path
 
 import numpy as np
 import yaml
+from accuracy import Reference, distances, read_references
+from check_config import checked
+from study_cases import case_of_scene
+from tables import read_table
+from write_measured_scene import horizon_of
 
 ROOT = Path(__file__).resolve().parent.parent
-PAPER = ("fixed_point", "oscillation", "torus", "chaos")
-"""Scenes of the paper; their parameters are those of config/config.yaml."""
-HARD = {
-    "stick": {"tau": 10.0, "epsilon": 0.9, "xi": 0.8, "gamma": 0.8},
-    "stiff": {"tau": 1.0, "epsilon": 0.7, "xi": 0.5, "gamma": 1.0e6},
-}
-"""Scenes beyond the paper, with the paper's history."""
-HISTORY = {"torus": {"theta": 0.0, "u": 0.0, "v": 1.5}}
-"""Histories that differ from those of the configuration."""
-T_END = {"chaos": 150.0, "stick": 200.0}
-"""Last times of scenes that magnify errors, where no reference says how far it can be trusted."""
-USUAL_T_END = 1000.0
-"""Last time of the other scenes."""
-
-
-class SceneError(ValueError):
-    """What is wrong with a scene or its reference."""
+HORIZONS = ROOT / "results" / "tables" / "trusted-horizons.tsv"
 
 
 @dataclass(frozen=True)
 class Scene:
-    """Parameters, the constant past in theta, u, ln v, and the last time; nondimensional."""
+    """Parameters, the constant past in theta, u, ln v, last and sample times; nondimensional."""
 
     name: str
     tau: float
@@ -38,70 +27,47 @@ class Scene:
     gamma: float
     past: tuple[float, float, float]
     t_end: float
+    sample_interval: float
 
     def line(self) -> str:
         """The scene as its workers read it."""
-        values = (self.tau, self.epsilon, self.xi, self.gamma, *self.past, self.t_end)
-        return " ".join(f"{value:.17g}" for value in values)
+        values = (self.tau, self.epsilon, self.xi, self.gamma, *self.past)
+        return " ".join(f"{value:.17g}" for value in (*values, self.t_end, self.sample_interval))
 
 
-def scenes(config: dict, references: Path) -> dict[str, Scene]:
-    """All scenes by name, each up to the end of its reference where there is one."""
-    found = {}
-    for name in (*PAPER, *HARD):
-        values = HARD.get(name) or config["scenes"][name]
-        usual = config["scenes"]["torus"]["history"]
-        history = HISTORY.get(name) or values.get("history", usual)
-        past = (history["theta"], history["u"], math.log(history["v"]))
-        parameters = [float(values[key]) for key in ("tau", "epsilon", "xi", "gamma")]
-        found[name] = Scene(name, *parameters, past, last_time(name, references))
-    return found
+def read_study() -> dict:
+    """Section work_precision of the project's configuration, with its defaults."""
+    config = yaml.safe_load((ROOT / "config" / "config.yaml").read_text())
+    return checked(config)["work_precision"]
 
 
-def last_time(name: str, references: Path) -> float:
-    """Last whole time of a scene's reference; without one a time that can be trusted."""
-    path = references / f"{name}.tsv"
-    if not path.exists():
-        return T_END.get(name, USUAL_T_END)
-    return float(math.floor(read_samples(path)[-1, 0] + 1e-9))
+def reference_path(name: str) -> Path:
+    """Where the workflow puts a scene's reference."""
+    return ROOT / "results" / "references" / "trust" / f"{name}.tsv"
 
 
-def read_config(path: Path = ROOT / "config" / "config.yaml") -> dict:
-    """The project's configuration."""
-    return yaml.safe_load(path.read_text())
+def reference_of(scene: Scene) -> Reference:
+    """The solution in quadruple precision."""
+    return read_references(reference_path(scene.name))[scene.name]
 
 
-def read_samples(path: Path) -> np.ndarray:
-    """Rows of t, theta, u, ln v; lines of names and comments are left out."""
-    rows = []
-    for line in path.read_text().splitlines():
-        fields = line.split("\t")
-        if line.startswith("#") or fields[0] == "t":
-            continue
-        try:
-            rows.append([float(field) for field in fields])
-        except ValueError:
-            raise SceneError(f"{path}: {line!r}; expected numbers") from None
-    if not rows or {len(row) for row in rows} != {4}:
-        raise SceneError(f"{path}: expected rows of t, theta, u, ln_v")
-    return np.array(rows)
+def scene_of(study: dict, horizons: list[dict], name: str) -> Scene:
+    """A scene of the study, up to the time in the table of horizons."""
+    case = case_of_scene(name, study["scenes"][name])
+    parameters = [float(case[key]) for key in ("tau", "epsilon", "xi", "gamma")]
+    past = (float(case["theta"]), float(case["u"]), math.log(case["v"]))
+    return Scene(name, *parameters, past, horizon_of(horizons, name), case["sample_interval"])
 
 
-def read_reference(path: Path, scene: Scene) -> np.ndarray:
-    """Samples of a reference at whole times up to the scene's end; it must be of this scene."""
-    samples = read_samples(path)
-    whole = np.abs(samples[:, 0] - np.round(samples[:, 0])) < 1e-9
-    samples = samples[whole & (samples[:, 0] <= scene.t_end + 1e-9)]
-    if len(samples) == 0 or not np.allclose(samples[0], (0.0, *scene.past), rtol=0, atol=1e-12):
-        raise SceneError(f"{path}: does not begin with t = 0 and the past {scene.past}")
-    return samples
+def read_horizons() -> list[dict]:
+    """Until when each scene can be trusted."""
+    return read_table(HORIZONS)
 
 
-def largest_difference(samples: np.ndarray, reference: np.ndarray) -> float:
-    """Largest difference in theta, u, ln v over the times that both have; NaN if samples end early.
-
-    Times are whole numbers, but for rounding.
-    """
-    at = {round(time): row for time, *row in samples.tolist() if math.isfinite(time)}
-    found = np.array([at.get(round(time), [math.nan] * 3) for time in reference[:, 0]])
-    return float(np.max(np.abs(found - reference[:, 1:])))
+def error_max(samples: np.ndarray, scene: Scene, reference: Reference) -> float:
+    """Largest error over all samples, rows of t, theta, u, ln v; NaN where one is missing."""
+    count = round(scene.t_end / scene.sample_interval) + 1
+    times = reference.time[:count]
+    if samples.shape != (count, 4) or not np.allclose(samples[:, 0], times, rtol=0, atol=1e-6):
+        return math.nan
+    return float(np.max(distances(samples[:, 1:].T, reference.state[:, :count])))

@@ -36,7 +36,7 @@ def desolve_command(interpolation: int) -> list[str]:
 
 SOLVERS = {
     "ours": our_command("auto"),
-    "jitcdde": [str(HERE / ".venv" / "bin" / "python"), str(HERE / "jitcdde_worker.py")],
+    "jitcdde": [str(HERE / ".venv" / "bin" / "python"), "-I", str(HERE / "jitcdde_worker.py")],
     "desolve": desolve_command(1),
     "desolve_interpol_2": desolve_command(2),
 }
@@ -64,7 +64,7 @@ class Worker:
         return self._ask(f"{tolerance:g} {runs} -", limit)
 
     def sample(self, tolerance: float, path: Path, limit: float) -> None:
-        """Integrate once and write samples at whole times to a file."""
+        """Integrate once and write samples to a file."""
         self._ask(f"{tolerance:g} 0 {path}", limit)
 
     def stop(self) -> None:

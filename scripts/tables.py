@@ -27,11 +27,15 @@ def as_text(value) -> str:
 
 
 def read_table(path: str | Path) -> list[dict]:
-    """Rows of a table, numbers as numbers and NaN where a cell is empty."""
+    """Rows of a table, numbers as numbers and NaN where a cell is empty.
+
+    Lines above it that begin with # are left out.
+    """
     with open(path, newline="") as file:
+        lines = (line for line in file if not line.startswith("#"))
         return [
             {key: as_value(text) for key, text in row.items()}
-            for row in csv.DictReader(file, delimiter="\t")
+            for row in csv.DictReader(lines, delimiter="\t")
         ]
 
 

@@ -1,27 +1,36 @@
-"""The benchmarks where they need no other solver: ratios, scenes, references, options, tables."""
+"""The benchmarks where they need no other solver: ratios, scenes, long runs, options, tables."""
 
+import dataclasses
 import math
 import subprocess
 import sys
-from pathlib import Path
 
 import compare
+import long_runs
 import numpy as np
 import pytest
 import ratios
 import scenes
 import workers
+from accuracy import Reference
 from conftest import ROOT
+from tables import read_table
 
-SCENE = scenes.Scene("torus", 10.0, 0.5, 0.8, 0.8, (0.0, 0.0, 0.25), 3.0)
-SAMPLES = "# made by hand\nt\ttheta\tu\tln_v\n0\t0\t0\t0.25\n0.5\t9\t9\t9\n1\t1\t2\t3\n2\t4\t5\t6\n"
+SCENE = scenes.Scene("torus", 10.0, 0.5, 0.8, 0.8, (0.0, 0.0, 0.25), 1.0, 0.5)
+NAMES = ("fixed_point", "oscillation", "torus", "chaos", "stick", "stiff")
 
 
 @pytest.fixture
-def scene_references(tmp_path) -> Path:
-    """A folder with a reference for the torus."""
-    (tmp_path / "torus.tsv").write_text(SAMPLES)
-    return tmp_path
+def reference() -> Reference:
+    """Zero but for a large theta at the end, and longer than the scene."""
+    state = np.zeros((3, 4))
+    state[0, 2] = -10.0
+    return Reference("ok", 0.5 * np.arange(4.0), state, np.zeros(4), np.ones(4))
+
+
+def samples_of(reference: Reference) -> np.ndarray:
+    """Those of a run over the scene without errors."""
+    return np.column_stack([reference.time, reference.state.T])[:3]
 
 
 def stand_in(script: str) -> list[str]:
@@ -71,54 +80,79 @@ def test_ratios_are_of_runs_that_ended_well():
     assert {row["bad"] for row in found} == {None}
 
 
-def test_scenes_take_the_parameters_of_the_configuration(default_config, tmp_path):
-    """The torus with a history of its own; chaos ends where it can no longer be trusted."""
-    found = scenes.scenes(default_config, tmp_path)
-    assert list(found) == ["fixed_point", "oscillation", "torus", "chaos", "stick", "stiff"]
+def test_scenes_are_those_of_work_against_precision():
+    """With their histories, up to when they can be trusted."""
+    study = scenes.read_study()
+    assert tuple(study["scenes"]) == NAMES
+    horizons = [{"scene": name, "horizon": 100.0 + i} for i, name in enumerate(NAMES)]
+    found = {name: scenes.scene_of(study, horizons, name) for name in NAMES}
     torus = found["torus"]
-    assert (torus.tau, torus.epsilon, torus.t_end) == (10.0, 0.5, 1000.0)
+    assert (torus.tau, torus.epsilon, torus.t_end, torus.sample_interval) == (10.0, 0.5, 102.0, 1.0)
     assert torus.past == (0.0, 0.0, math.log(1.5))
     assert found["stick"].past == found["chaos"].past == (0.0, 0.0, math.log(1.1))
-    assert (found["chaos"].t_end, found["stick"].t_end) == (150.0, 200.0)
+    assert (
+        found["stiff"].line() == f"1 0.69999999999999996 0.5 1000000 0 0 {math.log(1.1):.17g} 105 1"
+    )
 
 
-def test_scene_ends_with_its_reference(default_config, tmp_path):
-    """At the last whole time in it."""
-    (tmp_path / "chaos.tsv").write_text("t\ttheta\tu\tln_v\n0\t0\t0\t0\n212.5\t0\t0\t0\n")
-    assert scenes.scenes(default_config, tmp_path)["chaos"].t_end == 212.0
+def test_reference_is_the_one_of_the_workflow(smoke, monkeypatch):
+    """Under its name, with the start of the scene."""
+    monkeypatch.setattr(scenes, "ROOT", smoke.folder)
+    monkeypatch.setattr(scenes, "HORIZONS", smoke.folder / "results/tables/trusted-horizons.tsv")
+    scene = scenes.scene_of(scenes.read_study(), scenes.read_horizons(), "torus")
+    found = scenes.reference_of(scene)
+    assert found.time[0] == 0.0
+    assert found.time[-1] >= scene.t_end == 30.0
+    assert found.state[:, 0] == pytest.approx(scene.past)
 
 
-def test_reference_is_read_at_whole_times(scene_references):
-    """Comments, names and other times are left out."""
-    found = scenes.read_reference(scene_references / "torus.tsv", SCENE)
-    np.testing.assert_array_equal(found, [[0, 0, 0, 0.25], [1, 1, 2, 3], [2, 4, 5, 6]])
+def test_error_is_the_largest_of_all_samples(reference):
+    """Relative where the reference is above 1; its later samples do not count."""
+    samples = samples_of(reference)
+    samples[1, 3] = 0.125
+    assert scenes.error_max(samples, SCENE, reference) == 0.125
+    samples[2, 1] += 5.0
+    assert scenes.error_max(samples, SCENE, reference) == 0.5
+    reference.state[:, 3] = 9.0
+    assert scenes.error_max(samples, SCENE, reference) == 0.5
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ("t\ttheta\tu\tln_v\n0\t0\t0\t0.5\n", "does not begin"),
-        ("t\ttheta\tu\tln_v\n1\t0\t0\t0.25\n", "does not begin"),
-        ("t\ttheta\tu\tln_v\n", "expected rows"),
-        ("0\t0\t0\n", "expected rows"),
-        ("0\t0\tmuch\t0\n", "expected numbers"),
-    ],
-)
-def test_reference_of_something_else_is_refused(tmp_path, text, said):
-    """Another past, another start, no rows, no numbers."""
-    (tmp_path / "torus.tsv").write_text(text)
-    with pytest.raises(scenes.SceneError, match=said):
-        scenes.read_reference(tmp_path / "torus.tsv", SCENE)
+def test_samples_missing_or_at_other_times_have_no_error(reference):
+    """Nor have those that are not numbers."""
+    samples = samples_of(reference)
+    assert scenes.error_max(samples, SCENE, reference) == 0.0
+    assert math.isnan(scenes.error_max(samples[:2], SCENE, reference))
+    for place in ((1, 0), (1, 2)):
+        spoiled = samples.copy()
+        spoiled[place] = math.nan
+        assert math.isnan(scenes.error_max(spoiled, SCENE, reference))
+    samples[1, 0] = 0.6
+    assert math.isnan(scenes.error_max(samples, SCENE, reference))
 
 
-def test_difference_is_the_largest_at_times_of_the_reference():
-    """Samples may have more times but no fewer; what is not a number stays so."""
-    reference = np.array([[0.0, 0, 0, 0], [2.0, 1, 2, 3]])
-    samples = np.array([[0.0, 0, 0, 0.5], [1.0, 9, 9, 9], [2.0, 1, 4, 3]])
-    assert scenes.largest_difference(samples, reference) == 2.0
-    assert math.isnan(scenes.largest_difference(samples[:2], reference))
-    samples[0, 1] = math.nan
-    assert math.isnan(scenes.largest_difference(samples, reference))
+def test_long_runs_differ_in_their_last_time_only(tmp_path, monkeypatch):
+    """Each in a process that is told scene and tolerance, and answers seconds, steps, memory."""
+    program = tmp_path / "long_run"
+    program.write_text('#!/bin/sh\nread line\necho "$line" >> said\necho 0.5 2500 3000\n')
+    program.chmod(0o755)
+    monkeypatch.setattr(long_runs, "BUILD", tmp_path)
+    monkeypatch.chdir(tmp_path)
+    rows = long_runs.rows_of_long_runs(SCENE)
+    said = [line.split() for line in (tmp_path / "said").read_text().splitlines()]
+    assert [line[7:] for line in said] == [[f"{10**k}", "0.5", "1e-08"] for k in range(3, 7)]
+    assert all(set(row) == set(long_runs.COLUMNS) for row in rows)
+    assert rows[0]["seconds_per_time"] == 5e-4
+    assert (rows[0]["steps"], rows[0]["peak_memory_mb"]) == (2500, pytest.approx(3.072))
+
+
+def test_long_run_that_stops_says_why(tmp_path, monkeypatch):
+    """In its own words."""
+    program = tmp_path / "long_run"
+    program.write_text("#!/bin/sh\necho stopped at t = 7 >&2\nexit 1\n")
+    program.chmod(0o755)
+    monkeypatch.setattr(long_runs, "BUILD", tmp_path)
+    with pytest.raises(workers.SolverError, match="stopped at t = 7"):
+        long_runs.rows_of_long_runs(SCENE)
 
 
 def test_worker_answers_and_says_why_not():
@@ -144,7 +178,7 @@ def test_worker_starts_again_after_its_end():
         assert worker.seconds(1e-3, 3, 30.0) == 0.5
 
 
-def test_no_tighter_tolerance_after_one_that_took_too_long():
+def test_no_tighter_tolerance_after_one_that_took_too_long(reference):
     """The other failures do not stop the series."""
     script = (
         "print('answer: 1')\nfor line in sys.stdin:\n    tolerance, runs, path = line.split()\n"
@@ -152,8 +186,8 @@ def test_no_tighter_tolerance_after_one_that_took_too_long():
     script += "    time.sleep(60 if tolerance == '1e-05' else 0)\n"
     script += "    value = 'nan' if tolerance == '0.0001' else '0.25'\n"
     script += "    open(path, 'w').write(f'0\\t0\\t0\\t{value}\\n')\n    print('answer: 0 ok')"
-    reference = np.array([[0.0, 0.0, 0.0, 0.0]])
-    with workers.Worker(stand_in(script), SCENE) as worker:
+    start = dataclasses.replace(SCENE, t_end=0.0)
+    with workers.Worker(stand_in(script), start) as worker:
         rows = compare.errors(worker, reference, 0.5)
     assert rows[0]["error_max"] == 0.25
     assert "not a number" in rows[1]["status"]
@@ -207,14 +241,16 @@ def test_short_runs_are_repeated(seconds, runs):
 def test_bad_options_are_refused(given, said, capsys):
     """With the option and the value met."""
     with pytest.raises(SystemExit) as refusal:
-        compare.arguments(given)
+        compare.arguments(given, NAMES)
     assert refusal.value.code == 2
     assert said in capsys.readouterr().err
 
 
 def test_options_choose_scenes_and_solvers():
     """In the order of the tables, each once."""
-    options = compare.arguments(["--scenes", "stiff,torus,stiff", "--solvers", "jitcdde,ours"])
+    options = compare.arguments(
+        ["--scenes", "stiff,torus,stiff", "--solvers", "jitcdde,ours"], NAMES
+    )
     assert options.scenes == ["torus", "stiff"]
     assert options.solvers == ["ours", "jitcdde"]
 
@@ -225,6 +261,10 @@ def test_table_has_a_header_and_empty_cells(tmp_path):
     compare.write_table(tmp_path / "new" / "table.tsv", ["a", "b"], rows, ["made here"])
     text = (tmp_path / "new" / "table.tsv").read_text()
     assert text == "# made here\na\tb\n1.235e-07\t\ntwo words\t\n"
+    assert [row["a"] for row in read_table(tmp_path / "new" / "table.tsv")] == [
+        1.235e-7,
+        "two words",
+    ]
 
 
 @pytest.mark.parametrize("option", ["--help", "-h"])
@@ -234,5 +274,5 @@ def test_run_says_how_it_is_used(option, tmp_path):
         [ROOT / "benchmarks" / "run", option], cwd=tmp_path, capture_output=True, text=True
     )
     assert run.returncode == 0
-    options = compare.arguments([])
+    options = compare.arguments([], NAMES)
     assert all(f"--{name.replace('_', '-')} " in run.stdout for name in vars(options))

@@ -104,6 +104,14 @@ def test_missing_key_is_refused(config, path):
     assert f"{' '.join(['config', *path[:-1]])}: key ['{path[-1]}'] is missing" in refusal(config)
 
 
+def test_scenes_of_the_paper_are_measured_as_they_are(default_config):
+    """Scenes of one name have the same parameters in both sections."""
+    measured = default_config["work_precision"]["scenes"]
+    for name, scene in default_config["scenes"].items():
+        for key in ("tau", "epsilon", "xi", "gamma"):
+            assert measured[name][key] == scene[key]
+
+
 @pytest.mark.parametrize("place", [FAMILY[:2], SCENE[:2]])
 @pytest.mark.parametrize("name", ["Torus", "a b", "", 5])
 def test_name_that_makes_no_file_name_is_refused(config, place, name):

@@ -217,18 +217,22 @@ def test_stability_figure(tables, style):
 
 
 def test_work_precision_figure(tables, style):
-    """A panel a scene; other solvers are laid over in the scenes that they were measured in."""
+    """A panel a scene; other solvers are laid over where they were measured, ours is not again."""
     rows = tables["work-precision"]
     other = {"scene": "torus", "solver": "other", "tolerance": 1e-6, "error_max": 1e-5}
-    figure = work_precision.draw([*rows, {**other, "seconds": 0.1}])
+    others = [{**other, "seconds": 0.1}, {**other, "solver": "ours", "seconds": 0.2}]
+    figure = work_precision.draw(rows, others)
     figure.canvas.draw()
     scenes = list(dict.fromkeys(row["scene"] for row in rows))
     titles = [axes.get_title(loc="left").split(",")[0] for axes in figure.axes]
     assert titles == [scene.replace("_", " ") for scene in scenes]
     words = [text.get_text() for text in figure.legends[0].get_texts()]
     assert {"auto", "rk4 cubic", "other"} <= set(words)
+    assert "ours" not in words
     drawn = {line.get_label(): line for line in figure.axes[scenes.index("torus")].get_lines()}
     assert drawn["other"].get_ydata().tolist() == [1e-5]
+    looks = [(line.get_color(), line.get_linestyle(), line.get_marker()) for line in drawn.values()]
+    assert len(set(looks)) == len(looks)
 
 
 @pytest.mark.parametrize("name", ["stability", "work_precision"])
