@@ -7,7 +7,7 @@ program measure
    use measure_input, only: measure_settings, read_measure
    use measure_output, only: measured_runs, write_measured_runs
    use measured_case, only: case_type
-   use measured_run, only: measure_run
+   use measured_run, only: measure_run, time_runs
    use namelist_input, only: not_given
    use program_arguments, only: get_paths, stop_on
    implicit none (type, external)
@@ -29,9 +29,10 @@ program measure
       measured(i)%case = cases(i)
       measured(i)%runs = settings%runs
       do j = 1, size(settings%runs)
-         call measure_run(cases(i), 0.0_wp, settings%most_steps, settings%repeats, &
-                      settings%least_seconds, measured(i)%runs(j))
+         call measure_run(cases(i), 0.0_wp, settings%most_steps, measured(i)%runs(j))
       end do
+      call time_runs(cases(i), settings%most_steps, settings%repeats, settings%least_seconds, &
+                     measured(i)%runs)
    end do
    call write_measured_runs(output_path, measured, not_given(), error)
    call stop_on(error)

@@ -31,9 +31,9 @@ program reference
       disturbed = best
       checking = run_type(options%method, options%check_tolerance)
       do i = 1, size(cases)
-         call measure_run(cases(i), 0.0_wp, options%most_steps, 0, 0.0_wp, best)
-         call measure_run(cases(i), 0.0_wp, options%most_steps, 0, 0.0_wp, checking)
-         call measure_run(cases(i), options%disturbance, options%most_steps, 0, 0.0_wp, disturbed)
+         call measure_run(cases(i), 0.0_wp, options%most_steps, best)
+         call measure_run(cases(i), 0.0_wp, options%most_steps, checking)
+         call measure_run(cases(i), options%disturbance, options%most_steps, disturbed)
          call file%put(cases(i), options%disturbance, best, checking, disturbed)
       end do
    end associate

@@ -9,7 +9,7 @@ module test_measure
    use kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use measured_case, only: case_type
-   use measured_run, only: measure_run, run_type
+   use measured_run, only: measure_run, run_type, time_runs
    use test_problems, only: falls_out, linear, oscillator, sine, without_delays
    implicit none (type, external)
    private
@@ -170,37 +170,45 @@ contains
    !> A case that decays, by the solver and by the baseline.
    subroutine test_measured_run(error)
       type(error_type), allocatable, intent(out) :: error
-      type(run_type) :: baseline, run
+      type(run_type) :: runs(2)
       type(case_type) :: case
+      integer :: i
 
       case = case_type("decay", 10.0_wp, 0.2_wp, 0.8_wp, 0.8_wp, 0.0_wp, 0.0_wp, 1.1_wp, 50.0_wp, &
                        0.5_wp)
-      run = run_type("auto", 1.0e-10_wp)
-      call measure_run(case, 0.0_wp, 100000_int64, 3, 1.0e-3_wp, run)
-      baseline = run_type("rk4_cubic", 0.01_wp)
-      call measure_run(case, 0.0_wp, 100000_int64, 0, 0.0_wp, baseline)
-      call expect(error, run%status == "ok" .and. run%reason == "", "the run is ok")
-      call expect(error, baseline%status == "ok", "the baseline is ok")
-      call expect(error, size(run%samples, 2) == 101, "101 samples")
-      call expect_close(error, run%samples(3, :), baseline%samples(3, :), 1.0e-7_wp, "ln v")
-      call expect_close(error, run%most_ln_v, log(1.1_wp), 1.0e-15_wp, "largest ln v")
-      call expect(error, run%least_ln_v <= minval(run%samples(3, :)), "smallest ln v")
-      call expect_between(error, run%seconds, 0.0_wp, 1.0_wp, "seconds")
+      runs = [run_type("auto", 1.0e-10_wp), run_type("rk4_cubic", 0.01_wp)]
+      do i = 1, 2
+         call measure_run(case, 0.0_wp, 100000_int64, runs(i))
+         runs(i)%seconds = 0.0_wp
+         call expect(error, runs(i)%status == "ok" .and. runs(i)%reason == "", "the run is ok")
+      end do
+      call expect(error, size(runs(1)%samples, 2) == 101, "101 samples")
+      call expect_close(error, runs(1)%samples(3, :), runs(2)%samples(3, :), 1.0e-7_wp, "ln v")
+      call expect_close(error, runs(1)%most_ln_v, log(1.1_wp), 1.0e-15_wp, "largest ln v")
+      call expect(error, runs(1)%least_ln_v <= minval(runs(1)%samples(3, :)), "smallest ln v")
+      call time_runs(case, 100000_int64, 3, 1.0e-3_wp, runs)
+      do i = 1, 2
+         call expect_between(error, runs(i)%seconds, 1.0e-7_wp, 1.0_wp, "seconds")
+      end do
    end subroutine test_measured_run
 
    !> It keeps its samples and says why it ended.
    subroutine test_stopped_run(error)
       type(error_type), allocatable, intent(out) :: error
-      type(run_type) :: run
+      type(run_type) :: run(1)
       type(case_type) :: case
 
       case = case_type("stiff", 1.0_wp, 0.7_wp, 0.5_wp, 1.0e2_wp, 0.0_wp, 0.0_wp, 1.1_wp, 50.0_wp, &
                        0.05_wp)
-      run = run_type("explicit", 1.0e-8_wp)
-      call measure_run(case, 0.0_wp, 500_int64, 3, 0.0_wp, run)
-      call expect(error, run%status == "too_many_steps", "too many steps")
-      call expect(error, index(run%reason, "500 steps (most_steps) were used up") > 0, run%reason)
-      call expect(error, .not. any(ieee_is_nan(run%samples(:, 1:3))), "samples that it reached")
-      call expect(error, all(ieee_is_nan(run%samples(:, 1001))), "none at the end")
+      run = [run_type("explicit", 1.0e-8_wp)]
+      call measure_run(case, 0.0_wp, 500_int64, run(1))
+      call expect(error, run(1)%status == "too_many_steps", "too many steps")
+      call expect(error, index(run(1)%reason, "500 steps (most_steps) were used up") > 0, &
+                  run(1)%reason)
+      call expect(error, .not. any(ieee_is_nan(run(1)%samples(:, 1:3))), "samples that it reached")
+      call expect(error, all(ieee_is_nan(run(1)%samples(:, 1001))), "none at the end")
+      run%seconds = -1.0_wp
+      call time_runs(case, 500_int64, 3, 0.0_wp, run)
+      call expect_close(error, run%seconds, [-1.0_wp], 0.0_wp, "seconds of a run that stopped")
    end subroutine test_stopped_run
 end module test_measure

@@ -66,10 +66,7 @@ contains
       !> Number of stages: 3, 5 or 7
       integer, intent(in) :: stages
       type(implicit_step_type) :: step
-      integer :: delays, n
 
-      n = problem%n
-      delays = size(problem%lag)
       step%method = radau_iia(stages)
       write (step%name, "(a,i0)") "radau", 2*stages - 1
       step%order = 2*stages - 1
@@ -78,10 +75,12 @@ contains
       step%predictive = .true.
       step%hold = keep_length
       step%nodes = [0.0_wp, step%method%c]
-      allocate (step%y(n), step%y_new(n), step%slope(n), step%z(delays, 1), step%error_vector(n))
-      allocate (step%by_y(n, n), step%by_z(n, delays))
-      allocate (step%differences(0:stages, n), step%last_differences(0:stages, n))
-      step%stages = stage_iteration(step%method, n, delays)
+      associate (n => problem%n, delays => size(problem%lag))
+         allocate (step%y(n), step%y_new(n), step%slope(n), step%z(delays, 1))
+         allocate (step%error_vector(n), step%by_y(n, n), step%by_z(n, delays))
+         allocate (step%differences(0:stages, n), step%last_differences(0:stages, n))
+         step%stages = stage_iteration(step%method, n, delays)
+      end associate
       call shape_bump(step%method%c, step%bump, step%bump_slope)
       call problem%initial(step%y)
    end function new_step
@@ -146,7 +145,7 @@ contains
             converged = confirmed(problem, self%method, self%stages, t, h, self%y, scale)
          end if
          if (converged .or. .not. self%last_h > 0.0_wp) exit
-         ! the last polynomial carried on may be too far off, the Jacobian too old: once more anew
+         ! the polynomial carried on may be too far off, the Jacobian too old: once more anew
          self%last_h = 0.0_wp
          self%jacobian_serves = self%jacobian_fresh
       end do

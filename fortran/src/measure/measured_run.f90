@@ -13,7 +13,7 @@ module measured_run
    use watching_sampler, only: watcher
    implicit none (type, external)
    private
-   public :: baseline_methods, measure_run, run_type, solver_methods
+   public :: baseline_methods, measure_run, run_type, solver_methods, time_runs
 
    !> Methods of the solver, which take a tolerance.
    character(len=10), parameter :: solver_methods(5) = ["auto      ", "explicit  ", "radau5    ", &
@@ -40,25 +40,20 @@ module measured_run
       real(wp), allocatable :: samples(:, :)
       !> Smallest and largest ln v over a grid eight times as fine as the samples
       real(wp) :: least_ln_v = 0.0_wp, most_ln_v = 0.0_wp
-      !> CPU seconds of the solver alone; with its samples where the run was not repeated
+      !> CPU seconds; with its samples where the run was not repeated
       real(wp) :: seconds = 0.0_wp
    end type run_type
 
 contains
 
-   !> Run a case and measure it.
-   subroutine measure_run(case, disturbance, most_steps, repeats, least_seconds, run)
+   !> Run a case once, with samples.
+   subroutine measure_run(case, disturbance, most_steps, run)
       !> The case
       type(case_type), intent(in) :: case
       !> Change of theta and u and relative change of v for t <= 0
       real(wp), intent(in) :: disturbance
       !> Most steps of the solver
       integer(int64), intent(in) :: most_steps
-      !> Times measured, of which the median counts; 0 for the first run alone, as with long runs
-      !> and those that do not reach the end
-      integer, intent(in) :: repeats
-      !> Shortest time to measure: shorter runs are measured several in a row
-      real(wp), intent(in) :: least_seconds
       !> Method and setting; filled with the rest
       type(run_type), intent(inout) :: run
       type(error_type), allocatable :: error
@@ -79,11 +74,37 @@ contains
       run%least_ln_v = merge(sampler%least, no_number, sampler%received > 0)
       run%most_ln_v = merge(sampler%most, no_number, sampler%received > 0)
       run%seconds = now - start
-      if (repeats > 0 .and. run%seconds < long_run .and. run%status == "ok") then
-         run%seconds = time_taken(block_model, as_double(case%t_end), most_steps, &
-                                  repeats, least_seconds, run)
-      end if
    end subroutine measure_run
+
+   !> CPU seconds of the runs of a case without samples, each the median of its repeats. The runs
+   !> take turns, so that a machine that is busy for a while hits all alike. A long run, and one that
+   !> did not reach the end, keeps the time of its first.
+   subroutine time_runs(case, most_steps, repeats, least_seconds, runs)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Most steps of the solver
+      integer(int64), intent(in) :: most_steps
+      !> Turns; none if 0
+      integer, intent(in) :: repeats
+      !> Shortest time to measure: shorter runs are measured several in a row
+      real(wp), intent(in) :: least_seconds
+      !> The runs, each run once; their seconds are replaced
+      type(run_type), intent(inout) :: runs(:)
+      logical :: timed(size(runs))
+      real(wp) :: measured(repeats, size(runs))
+      integer :: i, j
+
+      if (repeats == 0) return
+      timed = runs%seconds < long_run .and. runs%status == "ok"
+      do i = 1, repeats
+         do j = 1, size(runs)
+            if (timed(j)) measured(i, j) = time_taken(case, most_steps, least_seconds, runs(j))
+         end do
+      end do
+      do j = 1, size(runs)
+         if (timed(j)) runs(j)%seconds = median(measured(:, j))
+      end do
+   end subroutine time_runs
 
    !> Solve it by the run's method.
    subroutine solve(block_model, t_end, most_steps, run, error, sampler)
@@ -131,39 +152,31 @@ contains
       end select
    end function status_of
 
-   !> CPU seconds of one run: the median over the repeats.
-   real(wp) function time_taken(block_model, t_end, most_steps, repeats, least_seconds, run) &
-      result(seconds)
-      !> The problem
-      type(spring_block_type), intent(in) :: block_model
-      !> Last time
-      real(wp), intent(in) :: t_end
+   !> CPU seconds of one run: the mean of as many in a row as fill the shortest time to measure.
+   real(wp) function time_taken(case, most_steps, least_seconds, run) result(seconds)
+      !> The case
+      type(case_type), intent(in) :: case
       !> Most steps of the solver
       integer(int64), intent(in) :: most_steps
-      !> Times measured
-      integer, intent(in) :: repeats
       !> Shortest time to measure
       real(wp), intent(in) :: least_seconds
       !> Method and setting
       type(run_type), intent(in) :: run
       type(error_type), allocatable :: error
       type(run_type) :: again
-      real(wp) :: measured(repeats), start, now
-      integer :: i, runs
+      real(wp) :: start, now
+      integer :: runs
 
       again = run
-      do i = 1, repeats
-         call cpu_time(start)
-         now = start
-         runs = 0
-         do while (runs == 0 .or. now - start < least_seconds)
-            call solve(block_model, t_end, most_steps, again, error)
-            runs = runs + 1
-            call cpu_time(now)
-         end do
-         measured(i) = (now - start)/runs
+      call cpu_time(start)
+      now = start
+      runs = 0
+      do while (runs == 0 .or. now - start < least_seconds)
+         call solve(case%problem(0.0_wp), as_double(case%t_end), most_steps, again, error)
+         runs = runs + 1
+         call cpu_time(now)
       end do
-      seconds = median(measured)
+      seconds = (now - start)/runs
    end function time_taken
 
    !> The middle one, or of an even number the mean of the two in the middle.
