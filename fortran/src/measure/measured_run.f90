@@ -77,8 +77,8 @@ contains
    end subroutine measure_run
 
    !> CPU seconds of the runs of a case without samples, each the median of its repeats. The runs
-   !> take turns, so that a machine that is busy for a while hits all alike. A long run, and one that
-   !> did not reach the end, keeps the time of its first.
+   !> take turns, so that a machine that is busy for a while hits all alike. A long run, and one
+   !> that did not reach the end, keeps the time of its first.
    subroutine time_runs(case, most_steps, repeats, least_seconds, runs)
       !> The case
       type(case_type), intent(in) :: case
