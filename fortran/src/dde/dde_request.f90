@@ -12,7 +12,7 @@ module dde_request
    private
    public :: check, integration_options, methods
 
-   !> Methods to choose from: `auto` changes between the explicit one and radau9.
+   !> Methods to choose from: `auto` changes between the explicit one and one of the others.
    character(len=8), parameter :: methods(5) = ["auto    ", "explicit", "radau5  ", "radau9  ", &
                                                 "radau13 "]
 

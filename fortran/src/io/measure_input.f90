@@ -1,8 +1,9 @@
 !> What to measure of the cases, from the namelist group &measure.
 module measure_input
+   use dde, only: solver_methods => methods
    use errors, only: error_type
    use kinds, only: int64, wp
-   use measured_run, only: baseline_methods, run_type, solver_methods
+   use measured_run, only: baseline_methods, run_type
    use namelist_input, only: check_choice, check_count, check_number, close_namelist, not_given, &
                              open_namelist, word_length
    implicit none (type, external)
@@ -11,6 +12,9 @@ module measure_input
 
    !> Most methods, tolerances or lengths of steps.
    integer, parameter :: most = 100
+   !> Methods to choose from.
+   character(len=10), parameter :: choices(*) = [character(len=10) :: solver_methods, &
+                                                 baseline_methods]
 
    !> The runs of each case and how they are measured.
    type :: measure_settings
@@ -53,13 +57,13 @@ contains
       call check_count(error, path, "most_steps", most_steps, 1)
       call check_count(error, path, "repeats", repeats, 0)
       call check_number(error, path, "least_seconds", least_seconds, at_least=0.0_wp)
-      call check_choice(error, path, "methods", methods(1), [solver_methods, baseline_methods])
+      call check_choice(error, path, "methods", methods(1), choices)
       settings%most_steps = most_steps
       settings%repeats = repeats
       settings%least_seconds = least_seconds
       allocate (settings%runs(0))
       do i = 1, count(methods /= "")
-         call check_choice(error, path, "methods", methods(i), [solver_methods, baseline_methods])
+         call check_choice(error, path, "methods", methods(i), choices)
          if (any(baseline_methods == methods(i))) then
             do j = 1, max(1, given(steps))
                call check_number(error, path, "steps", steps(j), above=0.0_wp)

@@ -1,8 +1,8 @@
 !> How references are computed, from the namelist group &reference.
 module reference_input
+   use dde, only: methods
    use errors, only: error_type
    use kinds, only: int64, wp
-   use measured_run, only: solver_methods
    use namelist_input, only: check_choice, check_count, check_number, close_namelist, not_given, &
                              open_namelist, word_length
    implicit none (type, external)
@@ -46,7 +46,7 @@ contains
       if (allocated(error)) return
       read (unit, nml=reference, iostat=status, iomsg=reason)
       call close_namelist(path, "reference", unit, status, reason, error)
-      call check_choice(error, path, "method", method, solver_methods)
+      call check_choice(error, path, "method", method, methods)
       call check_number(error, path, "tolerance", tolerance, at_least=1.0e-22_wp, &
                         at_most=1.0e-10_wp)
       call check_number(error, path, "check_tolerance", check_tolerance, above=tolerance, &

@@ -13,12 +13,9 @@ module measured_run
    use watching_sampler, only: watcher
    implicit none (type, external)
    private
-   public :: baseline_methods, measure_run, run_type, solver_methods, time_runs
+   public :: baseline_methods, measure_run, run_type, time_runs
 
-   !> Methods of the solver, which take a tolerance.
-   character(len=10), parameter :: solver_methods(5) = ["auto      ", "explicit  ", "radau5    ", &
-                                                        "radau9    ", "radau13   "]
-   !> Methods with steps of one length, which take that.
+   !> Methods with steps of one length, which they take instead of a tolerance.
    character(len=10), parameter :: baseline_methods(2) = ["rk4_linear", "rk4_cubic "]
 
    !> CPU seconds above which one run is measure enough.
