@@ -5,7 +5,7 @@ module exponent_averages
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: average_growth, dimension_of, exponent_type, without_sign
+   public :: average_growth, dimension_of, exponent_type, running_averages, without_sign
 
    !> An exponent this many error bars from zero, or closer, has no sign.
    real(wp), parameter :: error_bars = 3.0_wp
@@ -60,6 +60,31 @@ contains
          exponents(i + 1) = moving
       end do
    end function average_growth
+
+   !> Plain averages of the growth from the beginning on, at evenly spaced times.
+   pure subroutine running_averages(growth, interval, most_times, time, averages)
+      !> Logarithm of the growth of each vector in each interval, shape (vectors, intervals)
+      real(wp), intent(in) :: growth(:, :)
+      !> Length of an interval
+      real(wp), intent(in) :: interval
+      !> Most times
+      integer, intent(in) :: most_times
+      !> Times since the beginning
+      real(wp), allocatable, intent(out) :: time(:)
+      !> Averages up to each, shape (vectors, times)
+      real(wp), allocatable, intent(out) :: averages(:, :)
+      real(wp) :: total(size(growth, 1))
+      integer :: every, i
+
+      every = (size(growth, 2) + most_times - 1)/most_times
+      allocate (time(size(growth, 2)/every), averages(size(growth, 1), size(growth, 2)/every))
+      total = 0.0_wp
+      do i = 1, size(time)
+         total = total + sum(growth(:, (i - 1)*every + 1:i*every), dim=2)
+         time(i) = i*every*interval
+         averages(:, i) = total/time(i)
+      end do
+   end subroutine running_averages
 
    !> Whether an exponent is zero as far as can be told.
    elemental logical function without_sign(exponent, zero_level) result(value)
