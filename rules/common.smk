@@ -14,7 +14,15 @@ except check_config.ConfigError as problems:
     raise WorkflowError(problems) from None
 
 
-FIGURES = [*(f"figure_{n}" for n in range(1, 9)), "stability", "work_precision"]
+FIGURES = [
+    *(f"figure_{n}" for n in range(1, 9)),
+    "exponents",
+    "stability",
+    "work_precision",
+]
+SCENES_WITH_EXPONENTS = [
+    name for name, scene in config["scenes"].items() if "exponents" in scene
+]
 FAMILIES = list(config["stability"]["families"])
 WORK_SCENES = list(config["work_precision"]["scenes"])
 
@@ -66,7 +74,23 @@ def sources_of(wildcards):
 
 def scene_values(wildcards):
     """The scene's namelist group."""
-    return {"name": wildcards.scene, **config["scenes"][wildcards.scene]}
+    scene = {
+        key: value
+        for key, value in config["scenes"][wildcards.scene].items()
+        if key != "exponents"
+    }
+    return {"name": wildcards.scene, **scene}
+
+
+def exponents_groups(wildcards):
+    """The scene and how its exponents are measured, as namelist groups."""
+    wanted = config["scenes"][wildcards.scene]["exponents"]
+    return {
+        "runs": {
+            "scene": scene_values(wildcards),
+            "exponents": {**wanted, **config["exponents"]},
+        }
+    }
 
 
 def plane_values(wildcards):

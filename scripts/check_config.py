@@ -18,6 +18,8 @@ FIGURE_VARIABLES = {
 """Variables of a trajectory that each figure uses."""
 
 
+EQUATIONS = 3
+"""Equations of the block: exponents that it has without delay."""
 MOST_CASES = 1000
 """Cases that one namelist holds."""
 LONGEST_NAME = 64
@@ -38,6 +40,7 @@ def checked(config: dict) -> dict:
         problems = [_in_words(error) for error in validator.iter_errors(config)]
     if not problems:
         _fill_in_variables(config)
+        _fill_in_ends_of_exponents(config)
         problems = list(_contradictions(config))
     if problems:
         raise ConfigError("\n".join(["the configuration is refused:", *sorted(set(problems))]))
@@ -155,6 +158,13 @@ def _fill_in_variables(config: dict) -> None:
         scene.setdefault("variables", [variable for variable in order if variable in used])
 
 
+def _fill_in_ends_of_exponents(config: dict) -> None:
+    """Exponents are measured up to the end of their scene where nothing else is said."""
+    for scene in config["scenes"].values():
+        if "exponents" in scene:
+            scene["exponents"].setdefault("t_end", scene["t_end"])
+
+
 def _contradictions(config: dict):
     """Problems that involve more than one key."""
     for name, scene in config["scenes"].items():
@@ -169,6 +179,7 @@ def _contradictions(config: dict):
                 f"{place}: sample_interval = {scene['sample_interval']}; expected a finite number"
                 f" > 0 and <= t_end = {scene['t_end']}"
             )
+        yield from _contradictions_of_exponents(place, scene)
         lacking = variables_used(config, name) - set(scene["variables"])
         if lacking:
             yield (
@@ -200,6 +211,21 @@ def _contradictions(config: dict):
         if plane["ordinate"] == "tau" and plane["fixed"] <= 0:
             yield f"{place}: fixed (xi) = {plane['fixed']}; expected a finite number > 0"
     yield from _contradictions_of_studies(config)
+
+
+def _contradictions_of_exponents(place: str, scene: dict):
+    """The same for the exponents of a scene."""
+    wanted = scene.get("exponents")
+    if wanted and scene["tau"] == 0 and wanted["count"] > EQUATIONS:
+        yield (
+            f"{place} exponents: count = {wanted['count']}; expected a whole number >= 1 and"
+            f" <= {EQUATIONS} without delay"
+        )
+    if wanted and wanted["t_end"] <= max(scene["t_transient"], scene["tau"]):
+        yield (
+            f"{place} exponents: t_end = {wanted['t_end']}; expected a finite number >"
+            f" t_transient = {scene['t_transient']} and > tau = {scene['tau']}"
+        )
 
 
 def _contradictions_of_studies(config: dict):

@@ -22,7 +22,7 @@ MAY_USE = {
 LIBRARIES = {
     "bindings": {"iso_c_binding"},
     "dde": {"ieee_arithmetic"},
-    "analysis": {"iso_c_binding"},
+    "analysis": {"ieee_arithmetic", "iso_c_binding"},
     "io": {"ieee_arithmetic", "iso_fortran_env", "netcdf"},
     "base": {"ieee_arithmetic", "iso_fortran_env"},
     "model": {"ieee_arithmetic"},

@@ -27,7 +27,7 @@ def settings(*path: str) -> dict:
 
 FAMILIES = settings("stability", "families")
 WORK_SCENES = settings("work_precision", "scenes")
-FIGURES = [*(f"figure_{n}" for n in range(1, 9)), "stability", "work_precision"]
+FIGURES = [*(f"figure_{n}" for n in range(1, 9)), "exponents", "stability", "work_precision"]
 RULES_OF = {
     "figure_1": set(),
     "figure_2": {"build", "hopf_namelist", "hopf_curves"},
@@ -37,6 +37,7 @@ RULES_OF = {
     "figure_6": {"build", "scene_namelist", "trajectory", "spectrum_namelist", "spectrum"},
     "figure_7": {"build", "scene_namelist", "trajectory", "spectrum_namelist", "spectrum"},
     "figure_8": {"build", "velocity_step_namelist", "velocity_step"},
+    "exponents": {"build", "exponents_namelist", "exponents_runs", "exponents_table"},
     "stability": {"build", "stability_namelists", "reference", "measurement", "stability_table"},
     "work_precision": {
         "build",
@@ -59,6 +60,10 @@ OUTPUTS_OF = {
     "figure_6": {"bin/trajectory", "bin/spectrum", *data_of("oscillation", "torus")},
     "figure_7": {"bin/trajectory", "bin/spectrum", *data_of("chaos")},
     "figure_8": {"bin/velocity_step", "friction/velocity_step.nc"},
+    "exponents": {
+        "bin/exponents",
+        *(f"exponents/{scene}.nc" for scene in ("oscillation", "torus", "chaos")),
+    },
     "stability": {
         "bin/measure",
         "bin/reference",
@@ -132,7 +137,7 @@ def test_every_job_has_a_log_and_every_computation_a_benchmark(smoke):
     results = smoke.folder / "results"
     computed = {path.relative_to(results) for path in results.rglob("*.nc")}
     computed |= {path.relative_to(results) for path in (results / "references").rglob("*.tsv")}
-    assert len(computed) == 10 + 2 * len(FAMILIES) - 2 + 3 * len(WORK_SCENES)
+    assert len(computed) == 13 + 2 * len(FAMILIES) - 2 + 3 * len(WORK_SCENES)
     for path in computed:
         assert (results / "logs" / path).with_suffix(".log").is_file()
         assert (results / "benchmarks" / path).with_suffix(".tsv").is_file()
@@ -148,15 +153,20 @@ def test_namelists_hold_the_config(smoke, smoke_config):
         for path in folder.rglob("*.nml")
         if path.relative_to(folder).parts[0] not in ("measurements", "references")
     }
-    scenes = smoke_config["scenes"].items()
+    scenes = {
+        name: {"name": name, **{key: scene[key] for key in scene if key != "exponents"}}
+        for name, scene in smoke_config["scenes"].items()
+    }
     expected = {
-        **{f"trajectories/{name}": {"scene": {"name": name, **scene}} for name, scene in scenes},
+        **{f"trajectories/{name}": {"scene": scene} for name, scene in scenes.items()},
         **{f"hopf/{k}": {"hopf_curves": v} for k, v in smoke_config["hopf_curves"].items()},
         "velocity_step": {"velocity_step": smoke_config["velocity_step"]},
     }
     for scene in ("oscillation", "torus", "chaos"):
         source = {"trajectory": f"results/trajectories/{scene}.nc"}
         expected[f"spectra/{scene}"] = {"spectrum": source | smoke_config["spectra"]}
+        wanted = smoke_config["scenes"][scene]["exponents"] | smoke_config["exponents"]
+        expected[f"exponents/{scene}"] = {"scene": scenes[scene], "exponents": wanted}
     assert read == expected
 
 
@@ -237,19 +247,20 @@ def test_everything_from_one_command(project):
 
 
 def test_changed_scene_reruns_only_what_depends_on_it(scratch):
-    """Another tolerance of the torus: its trajectory, its spectrum and their figures."""
+    """Another tolerance of the torus: its trajectory, spectrum, exponents and their figures."""
     (scratch.folder / "mine.yaml").write_text("scenes: { torus: { tolerance: 1.0e-8 } }")
     before = scratch.outputs()
     run = scratch.snakemake(*SMOKE, "mine.yaml")
     assert run.returncode == 0, run.stdout
     expected = {"all", "scene_namelist", "trajectory", "spectrum", "figure_5", "figure_6"}
+    expected |= {"exponents_namelist", "exponents_runs", "exponents_table", "exponents"}
     assert rules_in(run.stdout) == expected
     after = scratch.outputs()
     assert set(after) == set(before)
     changed = {name for name in after if after[name] != before[name]}
     assert {"trajectories/torus.nc", "namelists/trajectories/torus.nml"} <= changed
     assert all(
-        "torus" in name or name.startswith("figures/figure_5")
+        "torus" in name or name.startswith(("figures/figure_5", "figures/exp", "tables/exp"))
         for name in changed - {"figures/figure_6.pdf", "figures/figure_6.png"}
     )
 

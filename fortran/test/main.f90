@@ -20,6 +20,7 @@ program tester
    use test_dde_stiff, only: collect_dde_stiff
    use test_dde_stops, only: collect_dde_stops
    use test_dde_time, only: collect_dde_time
+   use test_exponents, only: collect_exponents
    use test_friction, only: collect_friction
    use test_gsl_roots, only: collect_gsl_roots
    use test_hopf, only: collect_hopf
@@ -28,6 +29,7 @@ program tester
    use test_model, only: collect_model
    use test_spectral_peaks, only: collect_spectral_peaks
    use test_spectrum, only: collect_spectrum
+   use test_tangents, only: collect_tangents
    implicit none (type, external)
    type(testsuite_type), allocatable :: suites(:)
    character(len=32) :: wanted
@@ -51,6 +53,7 @@ program tester
                              new_testsuite("dde_stiff", collect_dde_stiff), &
                              new_testsuite("dde_stops", collect_dde_stops), &
                              new_testsuite("dde_time", collect_dde_time), &
+                             new_testsuite("exponents", collect_exponents), &
                              new_testsuite("friction", collect_friction), &
                              new_testsuite("gsl_roots", collect_gsl_roots), &
                              new_testsuite("hopf", collect_hopf), &
@@ -58,7 +61,8 @@ program tester
                              new_testsuite("measure", collect_measure), &
                              new_testsuite("model", collect_model), &
                              new_testsuite("spectral_peaks", collect_spectral_peaks), &
-                             new_testsuite("spectrum", collect_spectrum)])
+                             new_testsuite("spectrum", collect_spectrum), &
+                             new_testsuite("tangents", collect_tangents)])
    wanted = ""
    if (command_argument_count() > 0) call get_command_argument(1, wanted)
    failed = 0

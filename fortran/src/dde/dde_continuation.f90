@@ -23,7 +23,8 @@ module dde_continuation
       real(wp), allocatable :: y(:)
       !> Its time derivative by dense output, shape (n): what event functions saw last
       real(wp), allocatable :: slope(:)
-      !> Right-hand side, shape (n): a problem that gives another one makes a kink
+      !> Right-hand side, shape (n): a problem that gives another one makes a kink; of size 0 where
+      !> a caller changed the solution smoothly, all of its past with it: then there is none
       real(wp), allocatable :: rate(:)
       !> Length of the next step
       real(wp) :: next_step = 0.0_wp
@@ -108,7 +109,7 @@ contains
               .and. allocated(self%nodes) .and. allocated(self%coefficients)
       if (.not. value) return
       steps = size(self%step_length)
-      value = all([size(self%slope), size(self%rate)] == size(self%y)) &
+      value = size(self%slope) == size(self%y) .and. any(size(self%rate) == [0, size(self%y)]) &
               .and. all(shape(self%kink) == [2, size(self%passages)]) &
               .and. all(shape(self%step_start) == [2, steps]) &
               .and. all(shape(self%nodes) == [highest_degree, steps]) &

@@ -227,13 +227,15 @@ contains
       call continuation%store(self%past, met)
    end subroutine keep
 
-   !> Whether two lists hold the same finite numbers.
+   !> Whether two lists hold the same finite numbers, or the other none at all.
    pure logical function same(one, other) result(value)
       !> One
       real(wp), intent(in) :: one(:)
-      !> The other, as long
+      !> The other, as long or empty
       real(wp), intent(in) :: other(:)
 
+      value = size(other) == 0
+      if (value) return
       value = all(ieee_is_finite(one)) .and. all(ieee_is_finite(other))
       if (value) value = .not. any(abs(one - other) > 0.0_wp)
    end function same

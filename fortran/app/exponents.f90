@@ -1,0 +1,43 @@
+!> Lyapunov exponents of one scene, at its own tolerance and at others.
+program exponents
+   use dde, only: integration_options
+   use errors, only: error_type
+   use exponents_input, only: exponents_settings, read_exponents
+   use exponents_output, only: write_exponents
+   use kinds, only: wp
+   use lyapunov_spectrum, only: growth_settings, growth_type, measure_growth
+   use program_arguments, only: get_paths, stop_on
+   use scene_input, only: read_scene, scene_type
+   use spring_block, only: spring_block_type
+   implicit none (type, external)
+   character(len=:), allocatable :: namelist_path, output_path
+   type(error_type), allocatable :: error
+   type(exponents_settings) :: settings
+   type(growth_type), allocatable :: measured(:)
+   type(scene_type) :: scene
+   type(spring_block_type) :: block_model
+   real(wp), allocatable :: tolerances(:)
+   integer :: i
+
+   call get_paths(namelist_path, output_path, error)
+   call stop_on(error)
+   call read_scene(namelist_path, scene, error)
+   call stop_on(error)
+   call read_exponents(namelist_path, scene, settings, error)
+   call stop_on(error)
+
+   block_model = spring_block_type(scene%tau, scene%epsilon, scene%xi, scene%gamma, &
+                                   scene%history%theta, scene%history%u, scene%history%v)
+   tolerances = [scene%tolerance, settings%check_tolerances]
+   allocate (measured(size(tolerances)))
+   do i = 1, size(tolerances)
+      call measure_growth(block_model, &
+                          growth_settings(settings%exponents, scene%t_transient, settings%t_end, &
+                                          settings%t_turning, settings%interval, settings%blocks), &
+                          integration_options(method=trim(scene%method), relative=tolerances(i), &
+                                              absolute=tolerances(i)), measured(i), error)
+      call stop_on(error)
+   end do
+   call write_exponents(output_path, scene, settings, tolerances, measured, error)
+   call stop_on(error)
+end program exponents

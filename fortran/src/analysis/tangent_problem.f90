@@ -1,0 +1,141 @@
+!> A delayed problem together with small disturbances of its solution: the variational equations
+!>
+!>     d delta_j/dt = (df/dy) delta_j(t) + (df/dz) [component c(k) of delta_j](t - lag(k)),
+!>
+!> j = 1..m, beside dy/dt = f, for the solver to integrate as one problem of n (m + 1) equations
+!> with the same delays (Farmer 1982, Physica D 4, 366). The problem must give its derivatives
+!> itself: those by differences are not accurate enough.
+module tangent_problem
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+   use dde, only: dde_problem_type
+   use kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: tangent_problem_type
+
+   !> State y, then the tangent vectors delta_1, ..., delta_m; delayed values in the same order.
+   type, extends(dde_problem_type) :: tangent_problem_type
+      !> The problem that is disturbed
+      class(dde_problem_type), allocatable :: base
+      !> Number of tangent vectors
+      integer :: vectors = 0
+   contains
+      procedure :: initial => undisturbed_state
+      procedure :: history => undisturbed_history
+      procedure :: rhs => variational_equations
+      procedure :: jacobian => blocks_on_the_diagonal
+   end type tangent_problem_type
+
+   interface tangent_problem_type
+      module procedure :: new_problem
+   end interface tangent_problem_type
+
+contains
+
+   !> The problem with so many tangent vectors.
+   function new_problem(base, vectors) result(problem)
+      !> The problem
+      class(dde_problem_type), intent(in) :: base
+      !> Number of tangent vectors
+      integer, intent(in) :: vectors
+      type(tangent_problem_type) :: problem
+      integer :: j, k
+
+      allocate (problem%base, source=base)
+      problem%vectors = vectors
+      problem%n = base%n*(vectors + 1)
+      allocate (problem%lag, source=[((base%lag(k), k=1, size(base%lag)), j=0, vectors)])
+      allocate (problem%component, source=[((base%component(k) + j*base%n, &
+                                             k=1, size(base%lag)), j=0, vectors)])
+   end function new_problem
+
+   !> No disturbance.
+   pure subroutine undisturbed_state(self, y)
+      !> The problem
+      class(tangent_problem_type), intent(in) :: self
+      !> State and tangent vectors
+      real(wp), intent(out) :: y(self%n)
+
+      y = 0.0_wp
+      call self%base%initial(y(:self%base%n))
+   end subroutine undisturbed_state
+
+   !> No disturbance.
+   pure function undisturbed_history(self, t, component) result(value)
+      !> The problem
+      class(tangent_problem_type), intent(in) :: self
+      !> Time
+      real(wp), intent(in) :: t
+      !> Index into state and tangent vectors
+      integer, intent(in) :: component
+      real(wp) :: value
+
+      value = 0.0_wp
+      if (component <= self%base%n) value = self%base%history(t, component)
+   end function undisturbed_history
+
+   !> Right-hand side and variational equations.
+   pure subroutine variational_equations(self, t, y, z, dydt)
+      !> The problem
+      class(tangent_problem_type), intent(in) :: self
+      !> Time
+      real(wp), intent(in) :: t
+      !> State and tangent vectors
+      real(wp), intent(in) :: y(self%n)
+      !> Delayed values
+      real(wp), intent(in) :: z(size(self%lag))
+      !> Time derivatives
+      real(wp), intent(out) :: dydt(self%n)
+      real(wp) :: by_y(self%base%n, self%base%n), by_z(self%base%n, size(self%base%lag))
+      integer :: i, j
+
+      associate (base => self%base, n => self%base%n, delays => size(self%base%lag))
+         call base%rhs(t, y(:n), z(:delays), dydt(:n))
+         if (.not. all(ieee_is_finite(dydt(:n)))) then
+            dydt = ieee_value(1.0_wp, ieee_quiet_nan)
+            return
+         end if
+         call base%jacobian(t, y(:n), z(:delays), by_y, by_z)
+         dydt(n + 1:) = 0.0_wp
+         do j = 1, self%vectors
+            associate (slope => dydt(j*n + 1:(j + 1)*n))
+               do i = 1, n
+                  slope = slope + y(j*n + i)*by_y(:, i)
+               end do
+               do i = 1, delays
+                  slope = slope + z(j*delays + i)*by_z(:, i)
+               end do
+            end associate
+         end do
+      end associate
+   end subroutine variational_equations
+
+   !> Derivatives for simplified Newton iterations: the blocks on the diagonal, all the same. How
+   !> the variational equations change with the state is left out: that part lies below the
+   !> diagonal, and an iteration makes up for it once the state has converged.
+   pure subroutine blocks_on_the_diagonal(self, t, y, z, by_y, by_z)
+      !> The problem
+      class(tangent_problem_type), intent(in) :: self
+      !> Time
+      real(wp), intent(in) :: t
+      !> State and tangent vectors
+      real(wp), intent(in) :: y(self%n)
+      !> Delayed values
+      real(wp), intent(in) :: z(size(self%lag))
+      !> Derivatives by state and tangent vectors
+      real(wp), intent(out) :: by_y(self%n, self%n)
+      !> Derivatives by delayed values
+      real(wp), intent(out) :: by_z(self%n, size(self%lag))
+      integer :: j
+
+      by_y = 0.0_wp
+      by_z = 0.0_wp
+      associate (n => self%base%n, delays => size(self%base%lag))
+         call self%base%jacobian(t, y(:n), z(:delays), by_y(:n, :n), by_z(:n, :delays))
+         do j = 1, self%vectors
+            by_y(j*n + 1:(j + 1)*n, j*n + 1:(j + 1)*n) = by_y(:n, :n)
+            by_z(j*n + 1:(j + 1)*n, j*delays + 1:(j + 1)*delays) = by_z(:n, :delays)
+         end do
+      end associate
+   end subroutine blocks_on_the_diagonal
+end module tangent_problem

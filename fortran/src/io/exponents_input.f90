@@ -1,0 +1,96 @@
+!> How exponents of a scene are measured, from the namelist group &exponents.
+module exponents_input
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use errors, only: error_type, raise, text
+   use kinds, only: wp
+   use namelist_input, only: check_count, check_number, close_namelist, not_given, open_namelist
+   use scene_input, only: scene_type
+   implicit none (type, external)
+   private
+   public :: exponents_settings, read_exponents
+
+   !> Most tolerances to check by.
+   integer, parameter :: most_checks = 8
+   !> Most exponents and blocks.
+   integer, parameter :: most_exponents = 64, most_blocks = 1000
+
+   !> What is measured.
+   type :: exponents_settings
+      !> Number of exponents
+      integer :: exponents = 0
+      !> Time at which measuring ends
+      real(wp) :: t_end = 0.0_wp
+      !> Time before measuring in which the vectors turn
+      real(wp) :: t_turning = 0.0_wp
+      !> Longest time between two orthonormalisations
+      real(wp) :: interval = 0.0_wp
+      !> Number of blocks
+      integer :: blocks = 0
+      !> An exponent this close to zero has no sign
+      real(wp) :: zero_level = 0.0_wp
+      !> Tolerances at which all is measured once more
+      real(wp), allocatable :: check_tolerances(:)
+   end type exponents_settings
+
+contains
+
+   !> Read and check the settings of a scene.
+   subroutine read_exponents(path, scene, settings, error)
+      !> Path of the namelist file
+      character(len=*), intent(in) :: path
+      !> The scene
+      type(scene_type), intent(in) :: scene
+      !> The settings
+      type(exponents_settings), intent(out) :: settings
+      !> They cannot be read, or a value is out of range
+      type(error_type), allocatable, intent(out) :: error
+      integer :: i
+
+      call read_group(path, settings, error)
+      call check_count(error, path, "count", settings%exponents, at_least=1)
+      call check_count(error, path, "blocks", settings%blocks, at_least=2)
+      if (.not. allocated(error) .and. settings%exponents > most_exponents) then
+         call raise(error, path//": count = "//text(settings%exponents) &
+                    //"; expected a whole number <= "//text(most_exponents))
+      else if (.not. allocated(error) .and. settings%blocks > most_blocks) then
+         call raise(error, path//": blocks = "//text(settings%blocks) &
+                    //"; expected a whole number <= "//text(most_blocks))
+      end if
+      call check_number(error, path, "t_end", settings%t_end, above=scene%t_transient)
+      call check_number(error, path, "t_turning", settings%t_turning, at_least=0.0_wp)
+      call check_number(error, path, "interval", settings%interval, above=0.0_wp)
+      call check_number(error, path, "zero_level", settings%zero_level, at_least=0.0_wp)
+      do i = 1, size(settings%check_tolerances)
+         call check_number(error, path, "check_tolerances("//text(i)//")", &
+                           settings%check_tolerances(i), at_least=1.0e-13_wp, at_most=1.0e-2_wp)
+      end do
+   end subroutine read_exponents
+
+   !> Read the group &exponents.
+   subroutine read_group(path, settings, error)
+      !> Path of the namelist file
+      character(len=*), intent(in) :: path
+      !> The settings
+      type(exponents_settings), intent(out) :: settings
+      !> They cannot be read
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: check_tolerances(most_checks), interval, t_end, t_turning, zero_level
+      character(len=256) :: reason
+      integer :: blocks, count, status, unit
+      namelist /exponents/ count, t_end, t_turning, interval, blocks, zero_level, check_tolerances
+
+      count = 0
+      blocks = 0
+      t_end = not_given()
+      t_turning = t_end
+      interval = t_end
+      zero_level = t_end
+      check_tolerances = t_end
+      call open_namelist(path, unit, error)
+      if (allocated(error)) return
+      read (unit, nml=exponents, iostat=status, iomsg=reason)
+      call close_namelist(path, "exponents", unit, status, reason, error)
+      settings = exponents_settings(count, t_end, t_turning, interval, blocks, zero_level, &
+                                    pack(check_tolerances, .not. ieee_is_nan(check_tolerances)))
+   end subroutine read_group
+end module exponents_input

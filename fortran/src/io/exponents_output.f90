@@ -1,0 +1,92 @@
+!> Files of exponents.
+module exponents_output
+   use errors, only: error_type
+   use exponent_averages, only: average_growth, dimension_of, exponent_type, running_averages, &
+                                without_sign
+   use exponents_input, only: exponents_settings
+   use kinds, only: int64, wp
+   use lyapunov_spectrum, only: growth_type
+   use netcdf_output, only: output_file
+   use scene_input, only: scene_type
+   implicit none (type, external)
+   private
+   public :: write_exponents
+
+   !> Most times of running averages.
+   integer, parameter :: most_times = 400
+
+contains
+
+   !> Write the exponents of a scene at its own tolerance, the first, and at others.
+   subroutine write_exponents(path, scene, settings, tolerances, measured, error)
+      !> Path of the file
+      character(len=*), intent(in) :: path
+      !> The scene
+      type(scene_type), intent(in) :: scene
+      !> How they were measured
+      type(exponents_settings), intent(in) :: settings
+      !> Tolerances
+      real(wp), intent(in) :: tolerances(:)
+      !> Growth at each
+      type(growth_type), intent(in) :: measured(:)
+      !> It could not be written
+      type(error_type), allocatable, intent(out) :: error
+      type(exponent_type), allocatable :: exponents(:)
+      type(output_file) :: file
+      real(wp), dimension(settings%exponents, size(tolerances)) :: bars, values
+      real(wp), dimension(size(tolerances)) :: dimension, dimension_error
+      real(wp), allocatable :: averages(:, :), blocks(:, :), time(:)
+      integer :: i, id, ids(4)
+
+      allocate (blocks(settings%exponents, settings%blocks))
+      do i = size(tolerances), 1, -1
+         exponents = average_growth(measured(i)%growth, measured(i)%interval, settings%blocks)
+         values(:, i) = exponents%value
+         bars(:, i) = exponents%error
+         call dimension_of(exponents, settings%zero_level, dimension(i), dimension_error(i))
+      end do
+      do i = 1, settings%exponents
+         blocks(i, :) = exponents(i)%blocks
+      end do
+      associate (first => measured(1))
+         call running_averages(first%growth, first%interval, most_times, time, averages)
+         call file%create(path, "Lyapunov exponents of the spring block with delayed friction")
+         ids = [file%dimension("exponent", settings%exponents), &
+                file%dimension("tolerance", size(tolerances)), &
+                file%dimension("time", size(time)), file%dimension("block", settings%blocks)]
+         id = file%real_variable("tolerance", ids(2), "tolerance, the scene's own first", "1")
+         call file%put(id, tolerances)
+         id = file%real_variable("dimension", ids(2), "Kaplan-Yorke dimension", "1")
+         call file%put(id, dimension)
+         id = file%real_variable("dimension_error", ids(2), "its standard error", "1")
+         call file%put(id, dimension_error)
+         id = file%real_variable("time", ids(3), "time", "1")
+         call file%put(id, first%t_begin + time)
+         call file%table("value", ids([1, 2]), values, "exponent")
+         call file%table("error", ids([1, 2]), bars, "standard error from blocks")
+         call file%table("block_value", ids([1, 4]), blocks, "exponent in each block")
+         call file%table("running_average", ids([1, 3]), averages, "plain average up to a time")
+         call file%attribute("scene", trim(scene%name))
+         call file%attribute("tau", scene%tau)
+         call file%attribute("epsilon", scene%epsilon)
+         call file%attribute("xi", scene%xi)
+         call file%attribute("gamma", scene%gamma)
+         call file%attribute("history_theta", scene%history%theta)
+         call file%attribute("history_u", scene%history%u)
+         call file%attribute("history_v", scene%history%v)
+         call file%attribute("method", trim(scene%method))
+         call file%attribute("t_begin", first%t_begin)
+         call file%attribute("t_end", settings%t_end)
+         call file%attribute("t_turning", settings%t_turning)
+         call file%attribute("interval", first%interval)
+         call file%attribute("zero_level", settings%zero_level)
+         call file%attribute("zero_exponents", &
+                             int(count(without_sign(exponents, settings%zero_level)), int64))
+         call file%attribute("least_share", first%least_share)
+         call file%attribute("steps_accepted", first%steps)
+         call file%attribute("steps_implicit", first%implicit_steps)
+         call file%attribute("evaluations", first%evaluations)
+      end associate
+      call file%finish(error)
+   end subroutine write_exponents
+end module exponents_output

@@ -1,0 +1,241 @@
+!> Tangent vectors, averages of their growth, and what is refused.
+module test_tangents
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use dde, only: continuation_type, integrate, integration_result
+   use errors, only: failure_type => error_type, text
+   use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
+   use exponent_averages, only: average_growth, dimension_of, exponent_type, without_sign
+   use kinds, only: wp
+   use lyapunov_spectrum, only: growth_settings, growth_type, measure_growth
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use pseudo_random, only: uniform
+   use solving, only: at_tolerance
+   use spring_block, only: spring_block_type
+   use tangent_problem, only: tangent_problem_type
+   use tangent_vectors, only: orthonormalise, start_vectors
+   use test_problems, only: linear, swing
+   implicit none (type, external)
+   private
+   public :: collect_tangents
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_tangents(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("variational equations", test_variational_equations), &
+                   new_unittest("norm", test_norm), &
+                   new_unittest("smooth restart", test_smooth_restart), &
+                   new_unittest("averages", test_averages), &
+                   new_unittest("dimension", test_dimension), &
+                   new_unittest("refusals", test_refusals), &
+                   new_unittest("directions lost", test_directions_lost)]
+   end subroutine collect_tangents
+
+   !> Tangent vectors follow small differences of solutions; their derivatives are the blocks.
+   subroutine test_variational_equations(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(spring_block_type) :: block
+      type(tangent_problem_type) :: problem
+      real(wp), parameter :: h = 1.0e-6_wp
+      real(wp) :: by_y(9, 9), by_z(9, 3), dydt(9), ahead(3), back(3), y(9), z(3)
+      integer :: i, j
+
+      block = spring_block_type(10.0_wp, 0.5_wp, 0.8_wp, 2.0_wp, 0.1_wp, 0.2_wp, 1.1_wp)
+      problem = tangent_problem_type(block, 2)
+      call expect(error, problem%n == 9, "equations")
+      call expect(error, all(problem%component == [3, 6, 9]), "delayed components")
+      call expect_close(error, problem%lag, [10.0_wp, 10.0_wp, 10.0_wp], 0.0_wp, "delays")
+      call expect_close(error, problem%history(-1.0_wp, 3), log(1.1_wp), 0.0_wp, "history")
+      call expect_close(error, problem%history(-1.0_wp, 6), 0.0_wp, 0.0_wp, "history of a vector")
+      do i = 1, 20
+         y = uniform(i, 9, -1.0_wp, 1.0_wp)
+         z = uniform(100 + i, 3, -1.0_wp, 1.0_wp)
+         call problem%rhs(0.0_wp, y, z, dydt)
+         call problem%jacobian(0.0_wp, y, z, by_y, by_z)
+         do j = 1, 2
+            associate (delta => y(3*j + 1:3*j + 3), slope => dydt(3*j + 1:3*j + 3))
+               call block%rhs(0.0_wp, y(:3) + h*delta, z(:1) + h*z(j + 1), ahead)
+               call block%rhs(0.0_wp, y(:3) - h*delta, z(:1) - h*z(j + 1), back)
+               call expect_close(error, slope, (ahead - back)/(2.0_wp*h), 1.0e-7_wp, &
+                                 "slope of vector "//text(j))
+               call expect_close(error, matmul(by_y(3*j + 1:3*j + 3, :), y) &
+                                 + matmul(by_z(3*j + 1:3*j + 3, :), z), slope, 1.0e-12_wp, &
+                                 "derivatives of vector "//text(j))
+            end associate
+         end do
+      end do
+   end subroutine test_variational_equations
+
+   !> The first start vector of y' = -y(t - 1) has cos(1) as state and all of its past: its norm is
+   !> cos(1) sqrt(2), its orthonormal successors keep being so.
+   subroutine test_norm(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(continuation_type) :: continuation, undisturbed
+      type(integration_result) :: outcome
+      type(linear) :: problem
+      type(tangent_problem_type) :: tangent
+      real(wp) :: norm(4), share
+
+      problem = linear(n=1, lag=[1.0_wp], component=[1], past=[1.0_wp], first=[1.0_wp])
+      call integrate(problem, 0.0_wp, 2.3_wp, at_tolerance(1.0e-9_wp), outcome, failure, &
+                     continuation=undisturbed)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      tangent = tangent_problem_type(problem, 4)
+      call start_vectors(tangent, undisturbed, continuation)
+      call orthonormalise(tangent, 1.0_wp, continuation, norm, share)
+      call expect_close(error, norm(1), cos(1.0_wp)*sqrt(2.0_wp), 1.0e-14_wp, "first norm")
+      call expect_between(error, share, 0.01_wp, 0.999_wp, "least share")
+      call orthonormalise(tangent, 0.5_wp, continuation, norm, share)
+      call expect_close(error, norm, [1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp], 1.0e-12_wp, "norms")
+      call expect_close(error, share, 1.0_wp, 1.0e-12_wp, "share of orthonormal vectors")
+      call orthonormalise(tangent, 1.0_wp, continuation, norm, share)
+      call expect_close(error, norm, [0.5_wp, 0.5_wp, 0.5_wp, 0.5_wp], 1.0e-12_wp, "smaller ones")
+      call expect_close(error, continuation%y(1), undisturbed%y(1), 0.0_wp, "the state itself")
+      call expect_close(error, pack(continuation%coefficients(:, 1, :), .true.), &
+                        pack(undisturbed%coefficients, .true.), 0.0_wp, "its past")
+   end subroutine test_norm
+
+   !> Other vectors of the same solutions make no kink.
+   subroutine test_smooth_restart(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(continuation_type) :: continuation, undisturbed
+      type(integration_result) :: outcome
+      type(linear) :: problem
+      type(tangent_problem_type) :: tangent
+      real(wp) :: norm(2), share
+
+      problem = linear(n=1, lag=[1.0_wp], component=[1], past=[1.0_wp], first=[1.0_wp])
+      call integrate(problem, 0.0_wp, 20.3_wp, at_tolerance(1.0e-9_wp), outcome, failure, &
+                     continuation=undisturbed)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      tangent = tangent_problem_type(problem, 2)
+      call start_vectors(tangent, undisturbed, continuation)
+      continuation%rate = [undisturbed%rate, 0.0_wp, 0.0_wp]
+      call integrate(tangent, 20.3_wp, 40.3_wp, at_tolerance(1.0e-9_wp), outcome, failure, &
+                     continuation=continuation)
+      call expect_success(error, failure)
+      call expect(error, outcome%breaking_points == 8, "the start makes a kink")
+      call orthonormalise(tangent, 1.0_wp, continuation, norm, share)
+      call integrate(tangent, 40.3_wp, 50.3_wp, at_tolerance(1.0e-9_wp), outcome, failure, &
+                     continuation=continuation)
+      call expect_success(error, failure)
+      call expect(error, outcome%breaking_points == 0, "orthonormalisation makes none")
+   end subroutine test_smooth_restart
+
+   !> Constant growth is its own average whatever the blocks; a sine hardly counts; the error bar is
+   !> that of the blocks; the order is descending.
+   subroutine test_averages(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(exponent_type), allocatable :: exponents(:)
+      real(wp) :: growth(3, 400)
+      integer :: i
+
+      growth(1, :) = -0.5_wp
+      growth(2, :) = [(0.25_wp + sin(0.7_wp*i), i=1, 400)]
+      do i = 1, 400
+         growth(3, i) = 1.0_wp + (i - 1)/100
+      end do
+      exponents = average_growth(growth, 0.5_wp, 4)
+      call expect_close(error, exponents%value, [5.0_wp, 0.5_wp, -1.0_wp], 1.0e-4_wp, "values")
+      call expect_close(error, exponents(1)%blocks, [2.0_wp, 4.0_wp, 6.0_wp, 8.0_wp], 1.0e-12_wp, &
+                        "blocks")
+      call expect_close(error, exponents(1)%error, sqrt(20.0_wp/12.0_wp), 1.0e-12_wp, "error bar")
+      call expect_close(error, exponents(3)%error, 0.0_wp, 1.0e-12_wp, "no error")
+   end subroutine test_averages
+
+   !> Worked by hand; a zero exponent counts as 0 on either side; nothing where more are needed.
+   subroutine test_dimension(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(exponent_type) :: exponents(3)
+      real(wp) :: dimension, spread
+      integer :: i
+
+      do i = 1, 3
+         exponents(i)%blocks = [0.0_wp, 0.0_wp]
+      end do
+      call find([0.1_wp, 0.0_wp, -0.4_wp])
+      call expect_close(error, dimension, 2.25_wp, 1.0e-15_wp, "chaos")
+      call find([-1.0e-6_wp, -0.1_wp, -0.4_wp])
+      call expect_close(error, dimension, 1.0_wp, 0.0_wp, "cycle")
+      call find([-0.1_wp, -0.1_wp, -0.4_wp])
+      call expect_close(error, dimension, 0.0_wp, 0.0_wp, "fixed point")
+      call find([0.1_wp, 0.0_wp, -0.05_wp])
+      call expect(error, ieee_is_nan(dimension), "unknown")
+      exponents(1)%error = 0.04_wp
+      call expect(error, without_sign(exponents(1), 1.0e-5_wp), "within three error bars")
+      exponents(1)%error = 0.03_wp
+      call expect(error, .not. without_sign(exponents(1), 1.0e-5_wp), "beyond them")
+
+   contains
+
+      !> Dimension for exponents the same in all blocks.
+      subroutine find(values)
+         real(wp), intent(in) :: values(3)
+         integer :: j
+
+         do j = 1, 3
+            exponents(j)%value = values(j)
+            exponents(j)%blocks = values(j)
+         end do
+         call dimension_of(exponents, 1.0e-5_wp, dimension, spread)
+         if (ieee_is_nan(dimension)) return
+         call expect_close(error, spread, 0.0_wp, 0.0_wp, "error of the dimension")
+      end subroutine find
+   end subroutine test_dimension
+
+   !> What cannot be measured.
+   subroutine test_refusals(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(growth_settings), parameter :: good = &
+         growth_settings(exponents=2, t_begin=10.0_wp, t_end=20.0_wp, interval=1.0_wp, blocks=2)
+      type(growth_settings) :: settings
+
+      settings = good
+      settings%exponents = 3
+      call expect_refusal("3 asked for of 2 equations without delay")
+      settings%exponents = 0
+      call expect_refusal("0 asked for; at least 1 expected")
+      settings = good
+      settings%blocks = 1
+      call expect_refusal("1 blocks; at least 2 expected")
+      settings = good
+      settings%interval = 0.0_wp
+      call expect_refusal("interval = 0.0; > 0 expected")
+      settings = good
+      settings%t_end = 10.0_wp
+      call expect_refusal("t_end = 10.0; expected > 10.0")
+
+   contains
+
+      !> The oscillator is refused with these words.
+      subroutine expect_refusal(words)
+         character(len=*), intent(in) :: words
+         type(failure_type), allocatable :: failure
+         type(growth_type) :: measured
+
+         call measure_growth(swing(), settings, at_tolerance(1.0e-6_wp), measured, failure)
+         call expect_failure(error, failure, words)
+      end subroutine expect_refusal
+   end subroutine test_refusals
+
+   !> A direction that shrinks below the rounding of the others within an interval is an error,
+   !> never a number.
+   subroutine test_directions_lost(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(growth_type) :: measured
+
+      call measure_growth(spring_block_type(0.0_wp, 0.7_wp, 0.5_wp, 100.0_wp, 0.0_wp, 0.0_wp, &
+                                            1.1_wp), &
+                          growth_settings(exponents=3, t_begin=2.0_wp, t_end=20.0_wp, &
+                                          interval=1.0_wp, blocks=2), &
+                          at_tolerance(1.0e-6_wp, "auto"), measured, failure)
+      call expect_failure(error, failure, "is left of a vector without those before it")
+   end subroutine test_directions_lost
+end module test_tangents

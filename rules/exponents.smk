@@ -1,0 +1,55 @@
+# Lyapunov exponents of the scenes that ask for them.
+
+
+rule exponents_namelist:
+    output:
+        runs="results/namelists/exponents/{scene}.nml",
+    log:
+        "results/logs/namelists/exponents/{scene}.log",
+    params:
+        groups=exponents_groups,
+    script:
+        "../scripts/write_study_namelists.py"
+
+
+rule exponents_runs:
+    input:
+        program="build/release/bin/exponents",
+        namelist="results/namelists/exponents/{scene}.nml",
+    output:
+        "results/exponents/{scene}.nc",
+    log:
+        "results/logs/exponents/{scene}.log",
+    benchmark:
+        "results/benchmarks/exponents/{scene}.tsv"
+    shell:
+        "{input.program} {input.namelist} {output} 2> {log} || {{ cat {log} >&2; exit 1; }}"
+
+
+rule exponents_table:
+    input:
+        runs=expand("results/exponents/{scene}.nc", scene=SCENES_WITH_EXPONENTS),
+    output:
+        "results/tables/exponents.tsv",
+    log:
+        "results/logs/tables/exponents.log",
+    script:
+        "../scripts/exponents_table.py"
+
+
+rule exponents:
+    input:
+        runs=expand("results/exponents/{scene}.nc", scene=SCENES_WITH_EXPONENTS),
+        table="results/tables/exponents.tsv",
+        code=DRAWING,
+    output:
+        pdf="results/figures/exponents.pdf",
+        png=report(
+            "results/figures/exponents.png",
+            caption="../scripts/exponents.rst",
+            category="Supplement",
+        ),
+    log:
+        "results/logs/figures/exponents.log",
+    script:
+        "../scripts/exponents.py"

@@ -1,0 +1,40 @@
+"""The table of exponents: each scene, each tolerance, each exponent with its error bar."""
+
+import xarray as xr
+from drawing import logged
+from tables import write_table
+
+ERROR_BARS = 3.0
+"""An exponent this many error bars from zero, or closer, counts as zero."""
+
+
+def rows_of(run: xr.Dataset) -> list[dict]:
+    """Rows of a scene, its own tolerance first."""
+    return [
+        {
+            "scene": run.attrs["scene"],
+            "i": i + 1,
+            "exponent": float(at.value[i]),
+            "error": float(at.error[i]),
+            "sign": sign(float(at.value[i]), float(at.error[i]), run.attrs["zero_level"]),
+            "dimension": float(at.dimension),
+            "dimension_error": float(at.dimension_error),
+            "t": run.attrs["t_end"] - run.attrs["t_begin"],
+            "tolerance": float(at.tolerance),
+        }
+        for at in (run.isel(tolerance=k) for k in range(run.sizes["tolerance"]))
+        for i in range(run.sizes["exponent"])
+    ]
+
+
+def sign(value: float, error: float, zero_level: float) -> str:
+    """What can be told of an exponent's sign."""
+    if abs(value) <= max(zero_level, ERROR_BARS * error):
+        return "zero"
+    return "positive" if value > 0 else "negative"
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        table = [row for path in snakemake.input.runs for row in rows_of(xr.load_dataset(path))]
+        write_table(snakemake.output[0], table)

@@ -1,0 +1,190 @@
+"""Exponents: the program against known roots, its refusals, the config, table and figure."""
+
+import math
+
+import exponents
+import exponents_table
+import numpy as np
+import pytest
+import xarray as xr
+from check_config import checked
+from config_refusals import NO_NUMBERS, line_about, out_of_range, put, refusal
+from drawing import STYLE
+from figure_contents import title_of, words_in
+from matplotlib import pyplot as plt
+from tables import read_table
+from write_namelist import write_groups
+
+SCENES = ["oscillation", "torus", "chaos"]
+COLUMNS = "scene i exponent error sign dimension dimension_error t tolerance"
+SETTING_RANGES = {
+    ("exponents", "t_turning"): (">= 0", [-1.0]),
+    ("exponents", "interval"): ("> 0", [0.0, -1.0]),
+    ("exponents", "blocks"): ("a whole number >= 2", [1, 1001, 2.5]),
+    ("exponents", "zero_level"): (">= 0", [-1e-9]),
+    ("scenes", "torus", "exponents", "count"): ("a whole number >= 1", [0, 65, 2.5]),
+    ("scenes", "torus", "exponents", "t_end"): ("> t_transient", [0.0, -1.0, 2000.0]),
+}
+"""For each number: words of its range, and values out of range."""
+
+
+@pytest.fixture
+def groups(config) -> dict[str, dict]:
+    """Namelist groups that the program accepts, to change: the fixed point without delay."""
+    config = checked(config)
+    scene = {"name": "fixed_point", **config["scenes"]["fixed_point"]}
+    settings = {**config["exponents"], "t_turning": 100.0, "interval": 0.5}
+    return {
+        "scene": scene | {"t_transient": 200.0, "t_end": 300.0},
+        "exponents": {"count": 3, "t_end": 500.0, **settings},
+    }
+
+
+def run(programs, groups: dict[str, dict]):
+    """Run the program with these groups."""
+    write_groups(programs.folder / "input.nml", groups)
+    return programs.run("exponents", "input.nml", programs.output.name)
+
+
+def test_exponents_of_a_fixed_point_are_its_roots(programs, groups):
+    """Real parts of the roots of (5) without delay, at each tolerance."""
+    done = run(programs, groups)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    assert programs.left_behind() == ["output.nc"]
+    made = xr.load_dataset(programs.output)
+    ratio = 0.8**2 / 0.8
+    roots = np.roots([1, 1 + ratio, 0.8**2 + ratio - 1.3 * ratio, 0.8**2])
+    known = np.sort(roots.real)[::-1]
+    assert made.tolerance.values.tolist() == [1e-9, 1e-7, 1e-5]
+    # what is left of the way to the fixed point, and the turning of the pair
+    np.testing.assert_allclose(made.value, np.tile(known, (3, 1)), atol=1e-3)
+    np.testing.assert_allclose(made.value[0].sum(), -(1 + ratio), atol=1e-4)
+    np.testing.assert_allclose(made.block_value.mean("block"), made.value[0], atol=1e-12)
+    assert made.dimension.values.tolist() == [0, 0, 0]
+    assert made.time[-1] == pytest.approx(500)
+    assert made.attrs["zero_exponents"] == 0
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "words"),
+    [
+        ("count", 0, "count = 0; expected a whole number >= 1"),
+        ("count", 65, "count = 65; expected a whole number <= 64"),
+        ("count", 4, "4 asked for of 3 equations without delay"),
+        ("blocks", 1, "blocks = 1; expected a whole number >= 2"),
+        ("t_end", 200.0, "t_end = 200.0; expected a finite number > 200"),
+        ("interval", 0.0, "interval = 0.0; expected a finite number > 0"),
+        ("t_turning", math.nan, "t_turning = NaN; expected a finite number >= 0"),
+        ("zero_level", -1.0, "zero_level = -1.0; expected a finite number >= 0"),
+        ("check_tolerances", [1e-5, 0.1], "check_tolerances(2) = 0.1; expected a finite number"),
+        ("colour", 1, "&exponents"),
+    ],
+)
+def test_bad_input_is_refused(programs, groups, key, value, words):
+    """In one line; nothing is left behind."""
+    groups["exponents"][key] = value
+    done = run(programs, groups)
+    assert (done.returncode, done.stdout) == (1, "")
+    assert programs.left_behind() == []
+    (line,) = done.stderr.splitlines()
+    assert line.startswith("error: ")
+    assert words in line
+
+
+@pytest.mark.parametrize("group", ["scene", "exponents"])
+def test_file_without_a_group_is_refused(programs, groups, group):
+    """The line names it."""
+    del groups[group]
+    done = run(programs, groups)
+    assert done.returncode == 1
+    assert f"&{group}" in done.stderr
+
+
+def test_lost_directions_are_an_error(programs, groups):
+    """Never a number: the third vector shrinks by exp(-200) in an interval."""
+    groups["exponents"]["interval"] = 100.0
+    done = run(programs, groups)
+    assert done.returncode == 1
+    assert "is left of a vector without those before it" in done.stderr
+    assert programs.left_behind() == []
+
+
+def test_end_is_that_of_the_scene_where_none_is_given(config):
+    """And a scene without the key gets none."""
+    del config["scenes"]["torus"]["exponents"]["t_end"]
+    scenes = checked(config)["scenes"]
+    assert scenes["torus"]["exponents"] == {"count": 6, "t_end": scenes["torus"]["t_end"]}
+    assert "exponents" not in scenes["fixed_point"]
+
+
+@pytest.mark.parametrize(("path", "value", "words"), out_of_range(SETTING_RANGES))
+def test_setting_out_of_range_is_refused(config, path, value, words):
+    """The line names key, value and range."""
+    put(config, path, value)
+    line = line_about(refusal(config), path[-1])
+    assert f"{path[-1]} = {value!r}; expected " in line
+    assert words in line
+
+
+@pytest.mark.parametrize("value", NO_NUMBERS)
+@pytest.mark.parametrize("path", SETTING_RANGES)
+def test_setting_that_is_no_finite_number_is_refused(config, path, value):
+    """Text, truth, nothing, lists, NaN and infinity."""
+    put(config, path, value)
+    assert f"{path[-1]} = {value!r}; expected " in line_about(refusal(config), path[-1])
+
+
+def test_more_exponents_than_equations_are_refused_without_delay(config):
+    """A fixed point of three equations has three."""
+    config["scenes"]["fixed_point"]["exponents"] = {"count": 4}
+    line = line_about(refusal(config), "count")
+    assert line.startswith("scene 'fixed_point' exponents: count = 4; expected ")
+    assert "<= 3 without delay" in line
+
+
+def test_table_holds_all_exponents_of_all_scenes(smoke):
+    """At each tolerance, in descending order, as in the files."""
+    rows = read_table(smoke.folder / "results/tables/exponents.tsv")
+    assert set(COLUMNS.split()) == set(rows[0])
+    for scene in SCENES:
+        made = xr.load_dataset(smoke.folder / f"results/exponents/{scene}.nc")
+        own = [row for row in rows if row["scene"] == scene]
+        values = np.array([row["exponent"] for row in own]).reshape(3, 6)
+        np.testing.assert_allclose(values, made.value, rtol=1e-5)
+        assert (np.diff(values) <= 0).all()
+        assert [row["i"] for row in own] == 3 * [1, 2, 3, 4, 5, 6]
+        signs = [row["sign"] for row in own[:6]]
+        assert signs.count("zero") == made.attrs["zero_exponents"]
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "sign"),
+    [
+        (1e-6, 0.0, "zero"),
+        (-0.02, 0.01, "zero"),
+        (0.02, 0.005, "positive"),
+        (-0.02, 0.005, "negative"),
+    ],
+)
+def test_sign_needs_three_error_bars(value, error, sign):
+    """And more than the zero level."""
+    assert exponents_table.sign(value, error, 1e-5) == sign
+
+
+def test_figure_shows_time_and_tolerance(smoke):
+    """A row a scene, with its verdict; all is on the page."""
+    results = smoke.folder / "results"
+    runs = [xr.load_dataset(results / f"exponents/{scene}.nc") for scene in SCENES]
+    with plt.style.context(STYLE):
+        figure = exponents.draw(runs, read_table(results / "tables/exponents.tsv"))
+        figure.canvas.draw()
+    assert len(figure.axes) == 6
+    for scene, axes in zip(SCENES, figure.axes[::2], strict=True):
+        assert f"scene {scene}: " in title_of(axes)
+        assert len([line for line in axes.lines if len(line.get_xdata()) > 10]) == 6
+    assert "time averaged over" in words_in(figure)
+    box, (width, height) = figure.get_tightbbox(), figure.get_size_inches()
+    assert min(box.x0, box.y0) >= -0.02
+    assert box.x1 <= width + 0.02
+    assert box.y1 <= height + 0.02
+    plt.close(figure)
