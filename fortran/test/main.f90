@@ -24,6 +24,7 @@ program tester
    use test_gsl_roots, only: collect_gsl_roots
    use test_hopf, only: collect_hopf
    use test_hopf_curves, only: collect_hopf_curves
+   use test_linear, only: collect_linear
    use test_measure, only: collect_measure
    use test_model, only: collect_model
    use test_spectral_peaks, only: collect_spectral_peaks
@@ -55,6 +56,7 @@ program tester
                              new_testsuite("gsl_roots", collect_gsl_roots), &
                              new_testsuite("hopf", collect_hopf), &
                              new_testsuite("hopf_curves", collect_hopf_curves), &
+                             new_testsuite("linear", collect_linear), &
                              new_testsuite("measure", collect_measure), &
                              new_testsuite("model", collect_model), &
                              new_testsuite("spectral_peaks", collect_spectral_peaks), &
