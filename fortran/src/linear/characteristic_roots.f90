@@ -11,7 +11,7 @@ module characteristic_roots
    public :: find_roots
 
    !> Intervals between the nodes of the first try and of the last.
-   integer, parameter :: first_intervals = 16, most_intervals = 128
+   integer, parameter :: first_intervals = 16, most_intervals = 256
    !> Roots nearer than this, relative to 1 + |s|, are the same.
    real(wp), parameter :: same_root = 1.0e-8_wp
    !> Farthest way from an eigenvalue to its root, relative to 1 + |s|.
