@@ -21,11 +21,14 @@ rule all:
             "results/figures/{figure}.{ending}", figure=FIGURES, ending=["pdf", "png"]
         ),
         "results/tables/tolerance-proportionality.tsv",
+        "results/tables/hopf-points.tsv",
+        "results/tables/linear-stability.tsv",
 
 
 include: "rules/build.smk"
 include: "rules/trajectories.smk"
 include: "rules/curves.smk"
+include: "rules/linear_stability.smk"
 include: "rules/spectra.smk"
 include: "rules/friction.smk"
 include: "rules/figures.smk"

@@ -93,6 +93,13 @@ def exponents_groups(wildcards):
     }
 
 
+def linear_stability_values(wildcards):
+    """The scene's parameters, and what is asked of its linear stability."""
+    scene = config["scenes"][wildcards.scene]
+    parameters = {key: scene[key] for key in ["tau", "epsilon", "xi", "gamma"]}
+    return {**parameters, **config["linear_stability"]}
+
+
 def plane_values(wildcards):
     """The plane's namelist group."""
     return config["hopf_curves"][wildcards.plane]

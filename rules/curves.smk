@@ -25,3 +25,15 @@ rule hopf_curves:
         "results/benchmarks/hopf/{plane}.tsv"
     shell:
         "{input.program} {input.namelist} {output} 2> {log} || {{ cat {log} >&2; exit 1; }}"
+
+
+rule hopf_points:
+    input:
+        curves=expand("results/hopf/{plane}.nc", plane=config["hopf_curves"]),
+        scenes=expand("results/linear_stability/{scene}.nc", scene=config["scenes"]),
+    output:
+        "results/tables/hopf-points.tsv",
+    log:
+        "results/logs/tables/hopf-points.log",
+    script:
+        "../scripts/hopf_points_table.py"

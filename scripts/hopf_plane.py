@@ -7,28 +7,38 @@ import xarray as xr
 from drawing import INK
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 SYMBOLS = {"tau": r"$\tau$", "xi": r"$\xi$"}
+SUBCRITICAL = (0, (3, 1.5))
+"""Dashes."""
+MARKERS = {
+    "generalised_hopf": ("D", "generalised Hopf point"),
+    "double_hopf": ("s", "double Hopf point"),
+    "hopf_without_delay": ("^", "Hopf point without delay"),
+}
 NAMES = {"tau": r"delay $\tau$", "xi": r"spring constant $\xi$"}
 
 
 def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
-    """Curves by branch, solid where a growing delay makes a pair unstable, and the scenes."""
+    """Curves by branch, solid where supercritical, over the number of unstable pairs; scenes."""
     ordinate = curves.attrs["ordinate"]
     fixed = "xi" if ordinate == "tau" else "tau"
-    figure, axes = plt.subplots(figsize=(4.6, 4.2))
+    figure, axes = plt.subplots(figsize=(5.2, 4.4))
     axes.set(xlim=(0, float(curves.epsilon.max())), ylim=(0, float(curves[ordinate].max())))
+    shades = shade(axes, curves)
     ends = []
     for piece in np.unique(curves.piece):
         line = curves.isel(point=curves.piece.values == piece)
         branch = int(line.branch[0])
         colour = f"C{branch % 8}"
         x, y = line.epsilon.values, line[ordinate].values
-        draw_piece(axes, x, y, line.crossing.values, colour)
+        draw_piece(axes, x, y, line.l1.values, colour)
         last = x.argmax() if x.max() > 0.99 * axes.get_xlim()[1] else y.argmax()
         ends.append((float(y[last]), float(x[last]), branch, colour))
+    points = mark_special_points(axes, curves)
     label_branches(axes, ends)
     marked = mark_scenes(axes, scenes, ordinate, fixed, curves.attrs[fixed], curves.attrs["gamma"])
     axes.set_title(
@@ -40,25 +50,52 @@ def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
         ylabel=NAMES[ordinate],
     )
     handles = [
-        Line2D([], [], color=INK, label=r"a pair becomes unstable as $\tau$ grows"),
-        Line2D(
-            [],
-            [],
-            color=INK,
-            ls=(0, (3, 1.5)),
-            label=r"a pair becomes stable as $\tau$ grows",
-        ),
+        Line2D([], [], color=INK, label="supercritical"),
+        Line2D([], [], color=INK, ls=SUBCRITICAL, label="subcritical"),
     ]
-    figure.legend(handles=handles + marked, loc="outside lower center", ncols=2)
+    bar = figure.colorbar(shades, ax=axes, label="unstable pairs", pad=0.03)
+    bar.set_ticks(range(round(shades.norm.vmax - 0.5) + 1))
+    figure.legend(handles=handles + points + marked, loc="outside lower center", ncols=2)
     return figure
 
 
-def draw_piece(axes: Axes, x: np.ndarray, y: np.ndarray, crossing: np.ndarray, colour: str) -> None:
-    """One unbroken piece, dashed where the sign of d Re(lambda)/d tau is negative."""
-    ends = np.flatnonzero(np.diff(crossing)) + 1
+def shade(axes: Axes, curves: xr.Dataset):
+    """The number of unstable pairs, white where there is none."""
+    pairs = curves.map_unstable_pairs.values
+    most = max(int(pairs.max()), 1)
+    greys = ListedColormap([str(1 - 0.45 * i / most) for i in range(most + 1)])
+    return axes.pcolormesh(
+        curves.map_epsilon,
+        curves.map_ordinate,
+        pairs,
+        cmap=greys,
+        norm=Normalize(-0.5, most + 0.5),
+        rasterized=True,
+        zorder=0,
+    )
+
+
+def mark_special_points(axes: Axes, curves: xr.Dataset) -> list[Line2D]:
+    """Points where the kind of the bifurcation changes, and their names for the legend."""
+    handles = []
+    kinds = np.char.strip(curves.special_kind.values.astype(str))
+    ordinate = curves[f"special_{curves.attrs['ordinate']}"].values
+    for kind, (marker, name) in MARKERS.items():
+        these = kinds == kind
+        if not these.any():
+            continue
+        style = {"ls": "", "marker": marker, "color": INK, "mfc": "white", "ms": 4}
+        axes.plot(curves.special_epsilon.values[these], ordinate[these], clip_on=False, **style)
+        handles.append(Line2D([], [], label=name, **style))
+    return handles
+
+
+def draw_piece(axes: Axes, x: np.ndarray, y: np.ndarray, l1: np.ndarray, colour: str) -> None:
+    """One unbroken piece, dashed where the first Lyapunov coefficient is positive."""
+    ends = np.flatnonzero(np.diff(l1 > 0)) + 1
     for part in np.split(np.arange(x.size), ends):
         part = np.append(part, part[-1] + 1) if part[-1] + 1 < x.size else part
-        style = "-" if crossing[part[0]] > 0 else (0, (3, 1.5))
+        style = "-" if l1[part[0]] < 0 else SUBCRITICAL
         axes.plot(x[part], y[part], color=colour, ls=style)
 
 

@@ -22,6 +22,7 @@ GROUPS = {
     "trajectory": "scene",
     "spectrum": "spectrum",
     "hopf": "hopf_curves",
+    "linear_stability": "linear_stability",
     "velocity_step": "velocity_step",
 }
 """Namelist group of each program."""
@@ -208,6 +209,10 @@ def good_inputs(config, smoke) -> dict[str, dict]:
     return {
         "trajectory": {**scene, "sample_interval": 0.25, "variables": ["theta", "u", "v"]},
         "spectrum": {"trajectory": trajectory, **config["spectra"]},
-        "hopf": config["hopf_curves"]["tau_of_epsilon"],
+        "hopf": config["hopf_curves"]["tau_of_epsilon"] | {"cells": 20},
+        "linear_stability": {
+            **{key: scene[key] for key in ("tau", "epsilon", "xi", "gamma")},
+            **config["linear_stability"],
+        },
         "velocity_step": config["velocity_step"],
     }

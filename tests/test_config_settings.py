@@ -21,6 +21,7 @@ SETTING_RANGES = {
     ("hopf_curves", "tau_of_epsilon", "fixed"): ("> 0", [0.0, -1.0]),
     ("hopf_curves", "xi_of_epsilon", "fixed"): (">= 0", [-1.0]),
     ("hopf_curves", "tau_of_epsilon", "gamma"): ("> 0", [0.0]),
+    ("hopf_curves", "tau_of_epsilon", "cells"): ("a whole number >= 1", [0, 2.5, 2001]),
     ("velocity_step", "mu0"): (">= 0", [-0.1]),
     ("velocity_step", "a"): (">= 0", [-0.1]),
     ("velocity_step", "b"): (">= 0", [-0.1]),

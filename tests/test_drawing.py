@@ -141,7 +141,7 @@ def test_what_a_spectrum_shows_is_said_beside_the_paper():
 
 
 def a_plane(ordinate: str, fixed: str) -> xr.Dataset:
-    """A made-up plane: one piece that turns from stable to unstable, and one of branch 1."""
+    """A made-up plane: one piece that turns subcritical, and one of branch 1."""
     epsilon = np.array([0.2, 0.3, 0.4, 0.5, 1.0, 1.0])
     height = np.array([1.0, 2.0, 3.0, 4.0, 2.0, 4.0])
     columns = {
@@ -149,17 +149,26 @@ def a_plane(ordinate: str, fixed: str) -> xr.Dataset:
         ordinate: height,
         "branch": np.array([0, 0, 0, 0, 1, 1]),
         "piece": np.array([1, 1, 1, 1, 2, 2]),
-        "crossing": np.array([1, 1, -1, -1, 1, 1]),
+        "l1": np.array([-0.1, -0.2, 0.1, 0.2, -0.1, -0.1]),
     }
     data = {name: ("point", column) for name, column in columns.items()}
+    data["special_kind"] = ("special", np.array([b"double_hopf      "]))
+    data["special_epsilon"] = ("special", [0.35])
+    data[f"special_{ordinate}"] = ("special", [2.5])
+    data["map_epsilon"] = ("map_epsilon", [0.25, 0.75])
+    data["map_ordinate"] = ("map_ordinate", [1.0, 3.0])
+    data["map_unstable_pairs"] = (("map_ordinate", "map_epsilon"), [[0.0, 1.0], [1.0, 2.0]])
     return xr.Dataset(data, attrs={"ordinate": ordinate, fixed: 0.5, "gamma": 0.8})
 
 
 @pytest.mark.parametrize(("ordinate", "fixed"), [("tau", "xi"), ("xi", "tau")])
-def test_curves_are_dashed_where_a_pair_becomes_stable(ordinate, fixed):
+def test_curves_are_dashed_where_subcritical(ordinate, fixed):
     """Solid and dashed parts of one colour meet; another branch has another colour."""
     figure = hopf_plane.draw(a_plane(ordinate, fixed), {})
-    solid, dashed, other = figure.axes[0].lines
+    solid, dashed, other, double = figure.axes[0].lines
+    assert double.get_xydata().tolist() == [[0.35, 2.5]]
+    assert "double Hopf point" in words_in(figure)
+    assert "generalised Hopf point" not in words_in(figure)
     assert solid.get_linestyle() == other.get_linestyle() == "-"
     assert dashed.get_linestyle() != "-"
     assert solid.get_color() == dashed.get_color() != other.get_color()

@@ -93,6 +93,9 @@ def test_figure_fits_a_page(figure):
 def test_axes_are_labelled(figure):
     """Every axes with data says what its two axes are, itself or through those it shares."""
     for axes in figure.axes:
+        if axes.get_label() == "<colorbar>":
+            assert axes.get_ylabel()
+            continue
         below = axes.get_shared_x_axes().get_siblings(axes)
         beside = axes.get_shared_y_axes().get_siblings(axes)
         assert any(other.get_xlabel() for other in below)
@@ -127,6 +130,16 @@ def test_curves_have_all_branches_and_scenes(figure, plane, smoke):
         assert f"$k$ = {branch}" in words
     for scene in SCENES:
         assert scene.replace("_", " ") in words
+
+
+@these(2, 3)
+def test_curves_say_what_kind_of_bifurcation(figure):
+    """By their line, over the number of unstable pairs."""
+    words = words_in(figure)
+    for word in ("supercritical", "subcritical", "generalised Hopf point", "double Hopf point"):
+        assert word in words
+    assert "unstable pairs" in words
+    assert {"-", "--"} <= {line.get_linestyle() for line in figure.axes[0].lines}
 
 
 @these(2)

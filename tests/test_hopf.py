@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 import xarray as xr
+from hopf_points_table import COLUMNS, rows_of
+from tables import read_table, write_table
 
 PLANES = ["tau_of_epsilon", "xi_of_epsilon"]
 
@@ -10,7 +12,7 @@ PLANES = ["tau_of_epsilon", "xi_of_epsilon"]
 @pytest.fixture
 def plane(request, config) -> dict:
     """Settings of a plane as in the config."""
-    return config["hopf_curves"][request.param]
+    return config["hopf_curves"][request.param] | {"cells": 20}
 
 
 @pytest.fixture
@@ -176,7 +178,7 @@ def test_crossing_is_the_way_the_root_moves(curves):
 
 def test_branch_zero_starts_without_delay(programs, config):
     """Routh and Hurwitz: at tau = 0 the state is lost at epsilon = gamma^2 xi/(xi + gamma^2)."""
-    plane = config["hopf_curves"]["tau_of_epsilon"]
+    plane = config["hopf_curves"]["tau_of_epsilon"] | {"cells": 20}
     curves = programs.made_by("hopf", plane)
     first = curves.isel(point=int(curves.tau.values.argmin()))
     xi, gamma = plane["fixed"], plane["gamma"]
@@ -220,6 +222,61 @@ def test_two_runs_make_the_same_bytes(programs, plane):
 
 def test_window_without_a_curve_makes_an_empty_file(programs, config):
     """Below epsilon = 0.1 nothing oscillates by itself at small delays."""
-    plane = config["hopf_curves"]["tau_of_epsilon"]
+    plane = config["hopf_curves"]["tau_of_epsilon"] | {"cells": 20}
     plane |= {"epsilon_window": [0.0, 0.05], "ordinate_window": [0.0, 1.0]}
-    assert programs.made_by("hopf", plane).sizes["point"] == 0
+    curves = programs.made_by("hopf", plane)
+    assert curves.sizes["point"] == curves.sizes["special"] == 0
+    assert rows_of("empty", curves) == []
+
+
+def count_by_crossings(epsilon, tau, xi, gamma):
+    """Unstable pairs, independently: those of the cubic at tau = 0, and what crosses up to tau."""
+    lost = gamma**2 * xi / (xi + gamma**2)
+    pairs = 1 if epsilon > lost else 0
+    c = xi**2 / gamma**4
+    cubic = [c, c + 1 - 2 * c * gamma**2, 1 - 2 * c * gamma**2 + xi**2 - (1 + epsilon) ** 2, xi**2]
+    squares = np.roots(cubic)
+    squares = np.sort(squares[(abs(squares.imag) < 1e-9) & (squares.real > 0)].real)
+    for way, omega in zip((-1, 1), np.sqrt(squares), strict=False):
+        _, angle = closed_form(omega, xi, gamma)
+        turns = np.arange(100)
+        delays = (angle + 2 * np.pi * turns) / omega
+        pairs += way * np.count_nonzero((delays > 0) & (delays < tau))
+    return pairs
+
+
+@both_planes
+def test_map_counts_the_crossings(curves, plane):
+    """In every cell: pairs at tau = 0 plus crossings of all curves below."""
+    for i, epsilon in enumerate(curves.map_epsilon.values):
+        for j, ordinate in enumerate(curves.map_ordinate.values):
+            place = {plane["ordinate"]: ordinate}
+            tau, xi = place.get("tau", plane["fixed"]), place.get("xi", plane["fixed"])
+            expected = count_by_crossings(epsilon, tau, xi, plane["gamma"])
+            assert curves.map_unstable_pairs.values[j, i] == expected
+
+
+@both_planes
+def test_special_points_solve_the_characteristic_equation(curves):
+    """At one frequency or two, to rounding; coefficients vanish where they should."""
+    rows = rows_of("plane", curves)
+    assert {"double_hopf", "generalised_hopf"} <= {row["kind"] for row in rows}
+    for row in rows:
+        place = [float(row[key]) for key in ("epsilon", "tau", "xi", "gamma")]
+        omegas = [float(row[key]) for key in ("omega_1", "omega_2") if row[key]]
+        assert len(omegas) == (2 if row["kind"] == "double_hopf" else 1)
+        for omega in omegas:
+            assert residual(1j * omega, *place) < 1e-10
+        assert (row["l1_1"] == "0") is (row["kind"] == "generalised_hopf")
+
+
+@both_planes
+def test_table_of_points_is_whole(curves, tmp_path):
+    """What is written is read again, also of no points."""
+    rows = rows_of("plane", curves)
+    write_table(tmp_path / "points.tsv", rows, COLUMNS)
+    read = read_table(tmp_path / "points.tsv")
+    assert [list(row) for row in read] == [COLUMNS] * len(rows)
+    assert [row["tau"] for row in read] == [float(row["tau"]) for row in rows]
+    write_table(tmp_path / "none.tsv", [], COLUMNS)
+    assert (tmp_path / "none.tsv").read_text().split() == COLUMNS

@@ -11,10 +11,11 @@ BASE = {"base"}
 MAY_USE = {
     "base": BASE,
     "bindings": {"bindings"} | BASE,
+    "linear": {"linear", "bindings"} | BASE,
     "dde": {"dde"} | BASE,
     "model": {"model", "dde facade"} | BASE,
     "measure": {"measure", "model", "dde facade"} | BASE,
-    "analysis": {"analysis", "model", "dde facade", "bindings"} | BASE,
+    "analysis": {"analysis", "model", "dde facade", "linear", "bindings"} | BASE,
     "io": {"io", "analysis", "measure", "model", "dde facade", "files"} | BASE,
     "app": {"io", "analysis", "measure", "model", "dde facade"} | BASE,
 }
@@ -118,6 +119,10 @@ def test_facade_of_the_solver_uses_the_solver_only():
         ("base", "use dde, only: integrate"),
         ("bindings", "use spring_block, only: spring_block_type"),
         ("dde", "use spring_block, only: spring_block_type"),
+        ("dde", "use lapack, only: solve"),
+        ("linear", "use spring_block, only: spring_block_type"),
+        ("linear", "use dde, only: integrate"),
+        ("model", "use normal_form, only: first_lyapunov_coefficient"),
         ("dde", "use, intrinsic :: iso_c_binding, only: c_int"),
         ("model", "use dde_history, only: history_type"),
         ("model", "use fftw, only: fftw_plan_dft_r2c_1d"),

@@ -35,6 +35,15 @@ RANGES = {
         "ordinate_window(1)": ([(">=", 0)], [-1e-9]),
         "ordinate_window(2)": ([(">", 0)], [0.0, -1.0]),
     },
+    "linear_stability": {
+        "tau": ([(">=", 0)], [-0.1]),
+        "epsilon": ([(">", -1)], [-1.0]),
+        "xi": ([(">", 0)], [0.0]),
+        "gamma": ([(">", 0)], [0.0]),
+        "root_bound": ([("<=", 0)], [0.1]),
+        "tau_most": ([(">", 0)], [0.0]),
+        "epsilon_most": ([(">", 0)], [0.0]),
+    },
     "velocity_step": {
         "mu0": ([(">=", 0)], [-0.1]),
         "a": ([(">=", 0)], [-0.1]),
@@ -56,7 +65,11 @@ OUT_OF_RANGE = [
     for key, (bounds, values) in keys.items()
     for value in values
 ]
-COUNTS = [("spectrum", "segments", 0, 1), ("velocity_step", "samples", 1, 2)]
+COUNTS = [
+    ("hopf", "cells", 0, 1),
+    ("spectrum", "segments", 0, 1),
+    ("velocity_step", "samples", 1, 2),
+]
 WORDS = [
     ("trajectory", "method", "auto explicit"),
     ("spectrum", "window", "hann boxcar"),

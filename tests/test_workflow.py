@@ -137,7 +137,7 @@ def test_every_job_has_a_log_and_every_computation_a_benchmark(smoke):
     results = smoke.folder / "results"
     computed = {path.relative_to(results) for path in results.rglob("*.nc")}
     computed |= {path.relative_to(results) for path in (results / "references").rglob("*.tsv")}
-    assert len(computed) == 13 + 2 * len(FAMILIES) - 2 + 3 * len(WORK_SCENES)
+    assert len(computed) == 17 + 2 * len(FAMILIES) - 2 + 3 * len(WORK_SCENES)
     for path in computed:
         assert (results / "logs" / path).with_suffix(".log").is_file()
         assert (results / "benchmarks" / path).with_suffix(".tsv").is_file()
@@ -162,6 +162,10 @@ def test_namelists_hold_the_config(smoke, smoke_config):
         **{f"hopf/{k}": {"hopf_curves": v} for k, v in smoke_config["hopf_curves"].items()},
         "velocity_step": {"velocity_step": smoke_config["velocity_step"]},
     }
+    for name, scene in scenes:
+        parameters = {key: scene[key] for key in ("tau", "epsilon", "xi", "gamma")}
+        asked = {"linear_stability": parameters | smoke_config["linear_stability"]}
+        expected[f"linear_stability/{name}"] = asked
     for scene in ("oscillation", "torus", "chaos"):
         source = {"trajectory": f"results/trajectories/{scene}.nc"}
         expected[f"spectra/{scene}"] = {"spectrum": source | smoke_config["spectra"]}
@@ -242,7 +246,9 @@ def test_any_file_can_be_asked_for(project, target, rules):
 def test_everything_from_one_command(project):
     """Without a target: all figures and no computation that none of them needs."""
     run = project.snakemake("--dry-run")
-    everything = set.union({"all", *FIGURES}, *RULES_OF.values())
+    tables = {"hopf_points", "linear_stability_namelist", "linear_stability"}
+    tables |= {"linear_stability_table"}
+    everything = set.union({"all", *tables, *FIGURES}, *RULES_OF.values())
     assert rules_in(run.stdout) == everything
 
 

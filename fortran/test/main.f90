@@ -25,10 +25,13 @@ program tester
    use test_gsl_roots, only: collect_gsl_roots
    use test_hopf, only: collect_hopf
    use test_hopf_curves, only: collect_hopf_curves
+   use test_hopf_points, only: collect_hopf_points
+   use test_linear, only: collect_linear
    use test_measure, only: collect_measure
    use test_model, only: collect_model
    use test_spectral_peaks, only: collect_spectral_peaks
    use test_spectrum, only: collect_spectrum
+   use test_stability_changes, only: collect_stability_changes
    use test_tangents, only: collect_tangents
    implicit none (type, external)
    type(testsuite_type), allocatable :: suites(:)
@@ -58,10 +61,14 @@ program tester
                              new_testsuite("gsl_roots", collect_gsl_roots), &
                              new_testsuite("hopf", collect_hopf), &
                              new_testsuite("hopf_curves", collect_hopf_curves), &
+                             new_testsuite("hopf_points", collect_hopf_points), &
+                             new_testsuite("linear", collect_linear), &
                              new_testsuite("measure", collect_measure), &
                              new_testsuite("model", collect_model), &
                              new_testsuite("spectral_peaks", collect_spectral_peaks), &
                              new_testsuite("spectrum", collect_spectrum), &
+                             new_testsuite("stability_changes", &
+                                           collect_stability_changes), &
                              new_testsuite("tangents", collect_tangents)])
    wanted = ""
    if (command_argument_count() > 0) call get_command_argument(1, wanted)

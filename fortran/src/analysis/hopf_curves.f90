@@ -32,6 +32,10 @@ module hopf_curves
       real(wp) :: residual = 0.0_wp
       !> +1 where a growing tau makes the pair unstable, -1 where it makes it stable
       integer :: crossing = 0
+      !> First Lyapunov coefficient, once judged: negative, supercritical
+      real(wp) :: l1 = 0.0_wp
+      !> Unstable pairs beside this one, once judged
+      integer :: unstable_pairs = 0
       !> Delay by equation (10) as printed
       real(wp) :: printed_tau = 0.0_wp
       !> Residual there

@@ -18,6 +18,8 @@ module hopf_planes
    contains
       !> Parameters at which branch k has the pair i omega
       procedure(branch_at), deferred :: at
+      !> Parameters at a place of the plane
+      procedure(parameters_at), deferred :: parameters
       !> The ordinate among the parameters
       procedure(ordinate_of), deferred, nopass :: ordinate
       !> Least omega, and highest branch, that the window can hold
@@ -36,6 +38,18 @@ module hopf_planes
          !> Branch
          integer, intent(in) :: k
       end function branch_at
+
+      !> Parameters at a place of the plane.
+      pure type(block_parameters) function parameters_at(self, epsilon, ordinate) result(value)
+         import :: block_parameters, curve_plane, wp
+         implicit none (type, external)
+         !> The plane
+         class(curve_plane), intent(in) :: self
+         !> Abscissa
+         real(wp), intent(in) :: epsilon
+         !> Ordinate
+         real(wp), intent(in) :: ordinate
+      end function parameters_at
 
       !> The ordinate among the parameters.
       pure real(wp) function ordinate_of(p) result(value)
@@ -66,6 +80,7 @@ module hopf_planes
       real(wp) :: xi = 1.0_wp
    contains
       procedure :: at => tau_branch
+      procedure :: parameters => tau_parameters
       procedure, nopass :: ordinate => tau_ordinate
       procedure :: bounds => tau_bounds
    end type tau_of_epsilon
@@ -76,6 +91,7 @@ module hopf_planes
       real(wp) :: tau = 0.0_wp
    contains
       procedure :: at => xi_branch
+      procedure :: parameters => xi_parameters
       procedure, nopass :: ordinate => xi_ordinate
       procedure :: bounds => xi_bounds
    end type xi_of_epsilon
@@ -94,6 +110,18 @@ contains
       p = block_parameters(tau=hopf_tau(omega, self%xi, self%gamma, k), xi=self%xi, &
                            epsilon=hopf_epsilon(omega, self%xi, self%gamma), gamma=self%gamma)
    end function tau_branch
+
+   !> At fixed xi.
+   pure type(block_parameters) function tau_parameters(self, epsilon, ordinate) result(p)
+      !> The plane
+      class(tau_of_epsilon), intent(in) :: self
+      !> Abscissa
+      real(wp), intent(in) :: epsilon
+      !> tau
+      real(wp), intent(in) :: ordinate
+
+      p = block_parameters(tau=ordinate, epsilon=epsilon, xi=self%xi, gamma=self%gamma)
+   end function tau_parameters
 
    !> tau.
    pure real(wp) function tau_ordinate(p) result(value)
@@ -136,6 +164,18 @@ contains
          p%epsilon = hopf_epsilon(omega, p%xi, p%gamma)
       end if
    end function xi_branch
+
+   !> At fixed tau.
+   pure type(block_parameters) function xi_parameters(self, epsilon, ordinate) result(p)
+      !> The plane
+      class(xi_of_epsilon), intent(in) :: self
+      !> Abscissa
+      real(wp), intent(in) :: epsilon
+      !> xi
+      real(wp), intent(in) :: ordinate
+
+      p = block_parameters(tau=self%tau, epsilon=epsilon, xi=ordinate, gamma=self%gamma)
+   end function xi_parameters
 
    !> xi.
    pure real(wp) function xi_ordinate(p) result(value)

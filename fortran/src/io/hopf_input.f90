@@ -3,7 +3,7 @@ module hopf_input
    use errors, only: error_type
    use hopf_planes, only: curve_plane, tau_of_epsilon, xi_of_epsilon
    use kinds, only: wp
-   use namelist_input, only: check_choice, check_number, close_namelist, not_given, &
+   use namelist_input, only: check_choice, check_count, check_number, close_namelist, not_given, &
                              open_namelist, word_length
    implicit none (type, external)
    private
@@ -24,6 +24,8 @@ module hopf_input
       real(wp) :: epsilon_window(2)
       !> Window on the ordinate
       real(wp) :: ordinate_window(2)
+      !> Cells of the map of unstable pairs along each side of the window
+      integer :: cells = 0
    end type hopf_settings
 
 contains
@@ -53,6 +55,7 @@ contains
             call check_number(error, path, "ordinate_window(1)", y(1), above=0.0_wp)
          end if
          call check_number(error, path, "ordinate_window(2)", y(2), above=y(1))
+         call check_count(error, path, "cells", settings%cells, 1)
          if (settings%ordinate == "tau") then
             plane = tau_of_epsilon(settings%gamma, x, y, settings%fixed)
          else
@@ -72,18 +75,19 @@ contains
       character(len=len(settings%ordinate)) :: ordinate
       character(len=256) :: reason
       real(wp) :: fixed, gamma, epsilon_window(2), ordinate_window(2)
-      integer :: status, unit
-      namelist /hopf_curves/ ordinate, fixed, gamma, epsilon_window, ordinate_window
+      integer :: cells, status, unit
+      namelist /hopf_curves/ ordinate, fixed, gamma, epsilon_window, ordinate_window, cells
 
       ordinate = ""
       fixed = not_given()
       gamma = fixed
       epsilon_window = fixed
       ordinate_window = fixed
+      cells = 0
       call open_namelist(path, unit, error)
       if (allocated(error)) return
       read (unit, nml=hopf_curves, iostat=status, iomsg=reason)
       call close_namelist(path, "hopf_curves", unit, status, reason, error)
-      settings = hopf_settings(ordinate, fixed, gamma, epsilon_window, ordinate_window)
+      settings = hopf_settings(ordinate, fixed, gamma, epsilon_window, ordinate_window, cells)
    end subroutine read_group
 end module hopf_input

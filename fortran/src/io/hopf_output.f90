@@ -3,26 +3,33 @@ module hopf_output
    use errors, only: error_type
    use hopf_curves, only: curve_point
    use hopf_input, only: hopf_settings
+   use hopf_points, only: hopf_point
+   use kinds, only: wp
    use netcdf_output, only: output_file
+   use stability_map, only: middles
    implicit none (type, external)
    private
    public :: write_curves
 
 contains
 
-   !> Write all points of all curves, piece by piece.
-   subroutine write_curves(path, settings, points, error)
+   !> Write all points of all curves, piece by piece, the special points and the map.
+   subroutine write_curves(path, settings, points, special, pairs, error)
       !> Path of the file
       character(len=*), intent(in) :: path
       !> The plane
       type(hopf_settings), intent(in) :: settings
       !> Points
       type(curve_point), intent(in) :: points(:)
+      !> Special points
+      type(hopf_point), intent(in) :: special(:)
+      !> Number of unstable pairs in cells of the window, epsilon first
+      integer, intent(in) :: pairs(:, :)
       !> It could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file) :: file
-      integer :: branch, crossing, epsilon, omega, piece, printed_residual, printed_tau, residual
-      integer :: rows, tau, xi
+      integer :: branch, crossing, epsilon, l1, omega, others, piece, printed_residual
+      integer :: printed_tau, residual, rows, tau, xi
 
       call file%create(path, "Hopf curves: where a pair of characteristic roots is imaginary")
       rows = file%dimension("point", size(points))
@@ -37,6 +44,8 @@ contains
       printed_tau = file%real_variable("printed_tau", rows, "delay by (10) as printed", "1")
       printed_residual = file%real_variable("printed_residual", rows, &
                                             "residual of (5) there over its largest term", "1")
+      l1 = file%real_variable("l1", rows, "first Lyapunov coefficient", "1")
+      others = file%integer_variable("unstable_pairs", rows, "unstable pairs beside this one")
       call file%attribute("ordinate", trim(settings%ordinate))
       call file%attribute("gamma", settings%gamma)
       call file%attribute(trim(merge("xi ", "tau", settings%ordinate == "tau")), settings%fixed)
@@ -50,6 +59,61 @@ contains
       call file%put(crossing, points%crossing)
       call file%put(printed_tau, points%printed_tau)
       call file%put(printed_residual, points%printed_residual)
+      call file%put(l1, points%l1)
+      call file%put(others, points%unstable_pairs)
+      call put_special(file, special)
+      call put_map(file, settings, pairs)
       call file%finish(error)
    end subroutine write_curves
+
+   !> The special points.
+   subroutine put_special(file, special)
+      !> The file
+      type(output_file), intent(inout) :: file
+      !> Special points
+      type(hopf_point), intent(in) :: special(:)
+      character(len=1), parameter :: number(2) = ["1", "2"]
+      integer :: branch, i, l1, omega, place(3), pairs, rows
+
+      rows = file%dimension("special", size(special))
+      call file%words("special_kind", rows, special%kind, "kind of the special point")
+      place(1) = file%real_variable("special_epsilon", rows, "its epsilon", "1")
+      place(2) = file%real_variable("special_tau", rows, "its tau", "1")
+      place(3) = file%real_variable("special_xi", rows, "its xi", "1")
+      pairs = file%integer_variable("special_unstable_pairs", rows, &
+                                    "unstable pairs beside those on the axis")
+      call file%put(place(1), special%parameters%epsilon)
+      call file%put(place(2), special%parameters%tau)
+      call file%put(place(3), special%parameters%xi)
+      call file%put(pairs, special%unstable_pairs)
+      do i = 1, 2
+         omega = file%real_variable("special_omega_"//number(i), rows, &
+                                    "frequency of pair "//number(i)//", 0 where there is none", "1")
+         branch = file%integer_variable("special_branch_"//number(i), rows, "its branch, or -1")
+         l1 = file%real_variable("special_l1_"//number(i), rows, &
+                                 "its first Lyapunov coefficient", "1")
+         call file%put(omega, special%omega(i))
+         call file%put(branch, special%branch(i))
+         call file%put(l1, special%l1(i))
+      end do
+   end subroutine put_special
+
+   !> The number of unstable pairs over the window.
+   subroutine put_map(file, settings, pairs)
+      !> The file
+      type(output_file), intent(inout) :: file
+      !> The plane
+      type(hopf_settings), intent(in) :: settings
+      !> Number of unstable pairs, epsilon first
+      integer, intent(in) :: pairs(:, :)
+      integer :: cells(2), x, y
+
+      cells(1) = file%dimension("map_epsilon", size(pairs, 1))
+      cells(2) = file%dimension("map_ordinate", size(pairs, 2))
+      x = file%real_variable("map_epsilon", cells(1), "epsilon in the middle of a cell", "1")
+      y = file%real_variable("map_ordinate", cells(2), "ordinate in the middle of a cell", "1")
+      call file%put(x, middles(settings%epsilon_window, size(pairs, 1)))
+      call file%put(y, middles(settings%ordinate_window, size(pairs, 2)))
+      call file%table("map_unstable_pairs", cells, real(pairs, wp), "number of unstable pairs")
+   end subroutine put_map
 end module hopf_output

@@ -9,6 +9,7 @@ module characteristic_function
    implicit none (type, external)
    private
    public :: block_parameters, delta, delta_by_s, delta_by_tau, relative_residual
+   public :: slope_bound, terms
 
    !> Parameters of the delayed block.
    type :: block_parameters
@@ -60,12 +61,26 @@ contains
    pure complex(wp) function delta_by_s(p, s) result(value)
       !> Parameters
       type(block_parameters), intent(in) :: p
-      !> Point of the complex plane, not 0
+      !> Point of the complex plane
       complex(wp), intent(in) :: s
 
       value = 3.0_wp*s**2 + 2.0_wp*s*(1.0_wp + p%gamma**2/p%xi) &
-                   + p%gamma**2*(1.0_wp + 1.0_wp/p%xi) + delayed_term(p, s)*(1.0_wp/s - p%tau)
+              + p%gamma**2*(1.0_wp + 1.0_wp/p%xi) &
+              - (1.0_wp - s*p%tau)*(1.0_wp + p%epsilon)*(p%gamma**2/p%xi)*exp(-s*p%tau)
    end function delta_by_s
+
+   !> Sum of the sizes of the terms of the derivative of Delta by s.
+   pure real(wp) function slope_bound(p, s) result(value)
+      !> Parameters
+      type(block_parameters), intent(in) :: p
+      !> Point of the complex plane
+      complex(wp), intent(in) :: s
+
+      value = 3.0_wp*abs(s)**2 + 2.0_wp*abs(s)*(1.0_wp + p%gamma**2/p%xi) &
+              + p%gamma**2*(1.0_wp + 1.0_wp/p%xi) &
+              + (1.0_wp + abs(s)*p%tau)*(1.0_wp + p%epsilon)*(p%gamma**2/p%xi) &
+              *exp(-real(s)*p%tau)
+   end function slope_bound
 
    !> Derivative of Delta by tau.
    pure complex(wp) function delta_by_tau(p, s) result(value)

@@ -10,7 +10,7 @@ module hopf_condition
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: hopf_epsilon, hopf_tau, hopf_xi, printed_tau, two_pi
+   public :: hopf_epsilon, hopf_tau, hopf_xi, partner_omega, printed_tau, two_pi
 
    !> One turn.
    real(wp), parameter :: two_pi = 2.0_wp*acos(-1.0_wp)
@@ -81,6 +81,28 @@ contains
 
       tau = (atan2(sine_part(omega, xi, gamma), cosine_part(omega, xi, gamma)) + two_pi*k)/omega
    end function hopf_tau
+
+   !> The other frequency at which (7) and (8) give the same epsilon, or omega again where epsilon
+   !> is least. In omega^2 they are a cubic whose roots have the sum 2 gamma^2 - 1 - gamma^4/xi^2
+   !> and the product -gamma^4; one root is negative.
+   elemental real(wp) function partner_omega(omega, xi, gamma) result(partner)
+      !> Frequency of a pair, > 0
+      real(wp), intent(in) :: omega
+      !> Spring constant
+      real(wp), intent(in) :: xi
+      !> Frequency of the block
+      real(wp), intent(in) :: gamma
+      real(wp) :: half_sum, product, root
+
+      half_sum = 0.5_wp*(2.0_wp*gamma**2 - 1.0_wp - gamma**4/xi**2 - omega**2)
+      product = gamma**4/omega**2
+      root = sqrt(half_sum**2 + product)
+      if (half_sum > 0.0_wp) then
+         partner = sqrt(half_sum + root)
+      else
+         partner = sqrt(product/(root - half_sum))
+      end if
+   end function partner_omega
 
    !> Equation (10) as printed: numerator without + gamma^2, plain arctangent.
    elemental real(wp) function printed_tau(omega, xi, gamma, k) result(tau)

@@ -1,0 +1,36 @@
+!> Linear stability of steady sliding at one set of parameters.
+program linear_stability
+   use block_roots, only: roots_of_block
+   use characteristic_function, only: block_parameters
+   use errors, only: error_type
+   use kinds, only: wp
+   use linear_stability_input, only: linear_stability_settings, read_linear_stability
+   use linear_stability_output, only: write_linear_stability
+   use program_arguments, only: get_paths, stop_on
+   use root_counts, only: roots_right_of
+   use stability_changes, only: changes_with_epsilon, changes_with_tau, stability_change
+   implicit none (type, external)
+   character(len=:), allocatable :: namelist_path, output_path
+   type(error_type), allocatable :: error
+   type(linear_stability_settings) :: settings
+   type(block_parameters) :: without_delay
+   complex(wp), allocatable :: roots(:)
+   type(stability_change), allocatable :: with_epsilon(:), with_tau(:)
+   integer :: pairs(2)
+
+   call get_paths(namelist_path, output_path, error)
+   call stop_on(error)
+   call read_linear_stability(namelist_path, settings, error)
+   call stop_on(error)
+   call roots_of_block(settings%parameters, settings%root_bound, roots, error)
+   call stop_on(error)
+   call changes_with_tau(settings%parameters, settings%tau_most, with_tau, error)
+   call stop_on(error)
+   call changes_with_epsilon(settings%parameters, settings%epsilon_most, with_epsilon, error)
+   call stop_on(error)
+   without_delay = settings%parameters
+   without_delay%tau = 0.0_wp
+   pairs = [roots_right_of(settings%parameters, 0.0_wp), roots_right_of(without_delay, 0.0_wp)]/2
+   call write_linear_stability(output_path, settings, roots, pairs, with_tau, with_epsilon, error)
+   call stop_on(error)
+end program linear_stability

@@ -1,0 +1,37 @@
+!> Characteristic roots of the delayed block, found and counted in two independent ways.
+module block_roots
+   use block_equation, only: block_equation_type
+   use characteristic_function, only: block_parameters
+   use characteristic_roots, only: find_roots
+   use errors, only: error_type, raise, text
+   use kinds, only: wp
+   use root_counts, only: roots_right_of
+   implicit none (type, external)
+   private
+   public :: roots_of_block
+
+contains
+
+   !> All roots of (5) with real part above `bound`, the rightmost first.
+   subroutine roots_of_block(p, bound, roots, error)
+      !> Parameters
+      type(block_parameters), intent(in) :: p
+      !> Least real part
+      real(wp), intent(in) :: bound
+      !> The roots
+      complex(wp), allocatable, intent(out) :: roots(:)
+      !> They are not settled, or not as many as the principle of the argument says
+      type(error_type), allocatable, intent(out) :: error
+      type(block_equation_type) :: equation
+
+      equation = block_equation_type(p)
+      call find_roots(equation%linear, bound, roots, error)
+      if (allocated(error)) return
+      associate (number => roots_right_of(p, bound))
+         if (size(roots) /= number) then
+            call raise(error, "roots_of_block: "//text(size(roots))//" roots above "//text(bound) &
+                       //"; "//text(number)//" expected by the principle of the argument")
+         end if
+      end associate
+   end subroutine roots_of_block
+end module block_roots

@@ -1,0 +1,235 @@
+!> What happens along Hopf curves: the first Lyapunov coefficient and the pairs that are unstable
+!> beside the one on the axis, and the points at which the kind of the bifurcation changes.
+module hopf_points
+   use block_equation, only: block_equation_type
+   use characteristic_function, only: block_parameters
+   use errors, only: error_type
+   use gsl_roots, only: find_root, scalar_function
+   use hopf_condition, only: hopf_tau, partner_omega, two_pi
+   use hopf_curves, only: curve_point
+   use hopf_planes, only: curve_plane, tau_of_epsilon
+   use kinds, only: wp
+   use normal_form, only: first_lyapunov_coefficient
+   use root_counts, only: pairs_beside
+   implicit none (type, external)
+   private
+   public :: find_hopf_points, hopf_point, judge_points, kind_length
+
+   !> Letters of a kind of point.
+   integer, parameter :: kind_length = 20
+   !> The coefficient passes through 0, not through a pole, where it is this small.
+   real(wp), parameter :: small_coefficient = 1.0e-7_wp
+
+   !> A point at which two pairs of roots are imaginary, or the coefficient is 0, or the delay is 0.
+   type :: hopf_point
+      !> 'generalised_hopf', 'double_hopf' or 'hopf_without_delay'
+      character(len=kind_length) :: kind = ""
+      !> Parameters, nondimensional
+      type(block_parameters) :: parameters
+      !> Frequency of the pair, and of the second one (0: none)
+      real(wp) :: omega(2) = 0.0_wp
+      !> Branches of equation (10) (-1: none)
+      integer :: branch(2) = -1
+      !> First Lyapunov coefficients of the pairs
+      real(wp) :: l1(2) = 0.0_wp
+      !> Unstable pairs beside these
+      integer :: unstable_pairs = 0
+   end type hopf_point
+
+   !> First Lyapunov coefficient along a branch.
+   type, extends(scalar_function) :: coefficient_function
+      !> The plane
+      class(curve_plane), allocatable :: plane
+      !> Branch
+      integer :: k = 0
+   contains
+      procedure :: value => coefficient_along
+   end type coefficient_function
+
+   !> Along a branch, number of the branch that a second frequency would be on, less a given one.
+   type, extends(scalar_function) :: meeting_function
+      !> The plane
+      class(curve_plane), allocatable :: plane
+      !> Branch, and the one to meet
+      integer :: k = 0, other = 0
+   contains
+      procedure :: value => distance_to_meeting
+   end type meeting_function
+
+   !> omega tau on branch 0, which falls from pi/2 as omega grows.
+   type, extends(scalar_function) :: delay_function
+      !> The plane
+      type(tau_of_epsilon) :: plane
+   contains
+      procedure :: value => delay_along
+   end type delay_function
+
+contains
+
+   !> First Lyapunov coefficients and numbers of unstable pairs of points on curves.
+   subroutine judge_points(points, error)
+      !> The points
+      type(curve_point), intent(inout) :: points(:)
+      !> No coefficient: another root at 2 i omega
+      type(error_type), allocatable, intent(out) :: error
+      integer :: i
+
+      do i = 1, size(points)
+         associate (point => points(i))
+            call first_lyapunov_coefficient(block_equation_type(point%parameters), point%omega, &
+                                            point%l1, error)
+            if (allocated(error)) return
+            point%unstable_pairs = pairs_beside(point%parameters, [point%omega])
+         end associate
+      end do
+   end subroutine judge_points
+
+   !> All special points on curves that have been judged.
+   subroutine find_hopf_points(plane, points, found, error)
+      !> The plane
+      class(curve_plane), intent(in) :: plane
+      !> Points of its curves
+      type(curve_point), intent(in) :: points(:)
+      !> Special points
+      type(hopf_point), allocatable, intent(out) :: found(:)
+      !> A root was not found
+      type(error_type), allocatable, intent(out) :: error
+      type(coefficient_function) :: coefficient
+      type(meeting_function) :: meeting
+      real(wp) :: omega
+      integer :: i, m
+
+      allocate (found(0))
+      allocate (coefficient%plane, meeting%plane, source=plane)
+      call find_start(plane, found, error)
+      do i = 1, size(points) - 1
+         if (allocated(error)) return
+         associate (p => points(i), q => points(i + 1))
+            if (p%piece /= q%piece) cycle
+            coefficient%k = p%branch
+            if (p%l1 < 0.0_wp .neqv. q%l1 < 0.0_wp) then
+               call find_root(coefficient, p%omega, q%omega, omega, error)
+               if (allocated(error)) return
+               if (abs(coefficient%value(omega)) <= small_coefficient) then
+                  call add(found, "generalised_hopf", plane, [omega], [p%branch], error)
+               end if
+            end if
+            ! of two frequencies at the same parameters, the lower one's pair becomes stable
+            if (p%crossing > 0 .or. q%crossing > 0) cycle
+            meeting%k = p%branch
+            meeting%other = 0
+            associate (here => meeting%value(p%omega), there => meeting%value(q%omega))
+               do m = max(0, ceiling(min(here, there))), floor(max(here, there))
+                  if (m == p%branch .or. allocated(error)) cycle
+                  meeting%other = m
+                  call find_root(meeting, p%omega, q%omega, omega, error)
+                  if (allocated(error)) return
+                  associate (b => plane%at(omega, p%branch))
+                     call add(found, "double_hopf", plane, &
+                              [omega, partner_omega(omega, b%xi, b%gamma)], [p%branch, m], error)
+                  end associate
+               end do
+            end associate
+         end associate
+      end do
+   end subroutine find_hopf_points
+
+   !> The point without delay, where the plane shows it.
+   subroutine find_start(plane, found, error)
+      !> The plane
+      class(curve_plane), intent(in) :: plane
+      !> Points so far
+      type(hopf_point), allocatable, intent(inout) :: found(:)
+      !> A root was not found
+      type(error_type), allocatable, intent(out) :: error
+      type(delay_function) :: delay
+      real(wp) :: lower, omega, upper
+
+      select type (plane)
+      type is (tau_of_epsilon)
+         if (plane%ordinate_window(1) > 0.0_wp) return
+         delay%plane = plane
+         lower = 1.0_wp
+         do while (delay%value(lower) <= 0.0_wp)
+            lower = 0.5_wp*lower
+         end do
+         upper = 2.0_wp*lower
+         do while (delay%value(upper) >= 0.0_wp)
+            upper = 2.0_wp*upper
+         end do
+         call find_root(delay, lower, upper, omega, error)
+         if (allocated(error)) return
+         associate (p => plane%at(omega, 0), window => plane%epsilon_window)
+            if (p%epsilon < window(1) .or. p%epsilon > window(2)) return
+         end associate
+         call add(found, "hopf_without_delay", plane, [omega], [0], error)
+      end select
+   end subroutine find_start
+
+   !> A further point with all that is known of it.
+   subroutine add(found, kind, plane, omega, branch, error)
+      !> Points so far
+      type(hopf_point), allocatable, intent(inout) :: found(:)
+      !> Its kind
+      character(len=*), intent(in) :: kind
+      !> The plane
+      class(curve_plane), intent(in) :: plane
+      !> Frequencies, ascending
+      real(wp), intent(in) :: omega(:)
+      !> Their branches
+      integer, intent(in) :: branch(:)
+      !> No coefficient
+      type(error_type), allocatable, intent(out) :: error
+      type(hopf_point) :: point
+      integer :: i
+
+      point%kind = kind
+      point%parameters = plane%at(omega(1), branch(1))
+      point%parameters%tau = max(point%parameters%tau, 0.0_wp)
+      point%unstable_pairs = pairs_beside(point%parameters, omega)
+      do i = 1, size(omega)
+         point%omega(i) = omega(i)
+         point%branch(i) = branch(i)
+         call first_lyapunov_coefficient(block_equation_type(point%parameters), omega(i), &
+                                         point%l1(i), error)
+         if (allocated(error)) return
+      end do
+      found = [found, point]
+   end subroutine add
+
+   !> The coefficient at a frequency; 0 where there is none, which `add` then reports.
+   real(wp) function coefficient_along(self, x) result(value)
+      !> Plane and branch
+      class(coefficient_function), intent(in) :: self
+      !> omega
+      real(wp), intent(in) :: x
+      type(error_type), allocatable :: error
+
+      call first_lyapunov_coefficient(block_equation_type(self%plane%at(x, self%k)), x, value, &
+                                      error)
+   end function coefficient_along
+
+   !> Zero where the second frequency is a root's, too.
+   real(wp) function distance_to_meeting(self, x) result(value)
+      !> Plane and branches
+      class(meeting_function), intent(in) :: self
+      !> omega
+      real(wp), intent(in) :: x
+      real(wp) :: partner
+
+      associate (p => self%plane%at(x, self%k))
+         partner = partner_omega(x, p%xi, p%gamma)
+         value = partner*(p%tau - hopf_tau(partner, p%xi, p%gamma, 0))/two_pi - self%other
+      end associate
+   end function distance_to_meeting
+
+   !> Zero where the delay is.
+   real(wp) function delay_along(self, x) result(value)
+      !> The plane
+      class(delay_function), intent(in) :: self
+      !> omega
+      real(wp), intent(in) :: x
+
+      value = x*hopf_tau(x, self%plane%xi, self%plane%gamma, 0)
+   end function delay_along
+end module hopf_points

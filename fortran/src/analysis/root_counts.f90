@@ -1,0 +1,146 @@
+!> How many characteristic roots of (5) lie to the right of a line, by the principle of the
+!> argument: along s = bound + i w, w = 0..infinity, the argument of Delta(s) grows by
+!> (3/2 - Z) pi, where Z is their number.
+module root_counts
+   use characteristic_function, only: block_parameters, delta, slope_bound, terms
+   use kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: pairs_beside, roots_right_of
+
+   !> Largest change of Delta in a step, in units of Delta.
+   real(wp), parameter :: step_share = 0.3_wp
+   !> Least step, in units of w and for w = 0, so that a root on the line does not stop the walk.
+   real(wp), parameter :: least_share = 1.0e-14_wp, least_step = 1.0e-30_wp
+   !> Radius, in units of omega, of the way around a known root i omega.
+   real(wp), parameter :: radius_share = 1.0e-5_wp
+   !> Steps of that way.
+   integer, parameter :: arc_steps = 32
+   !> Half a turn.
+   real(wp), parameter :: pi = acos(-1.0_wp)
+
+contains
+
+   !> Number of roots with real part above `bound`.
+   pure integer function roots_right_of(p, bound) result(number)
+      !> Parameters
+      type(block_parameters), intent(in) :: p
+      !> Real part of the line, on which no root lies
+      real(wp), intent(in) :: bound
+
+      number = number_of(p, line_growth(p, bound, 0.0_wp, far_end(p, bound)), bound)
+   end function roots_right_of
+
+   !> Number of pairs of roots with positive real part where some pairs i omega are on the
+   !> imaginary axis, which are left out.
+   pure integer function pairs_beside(p, omega) result(number)
+      !> Parameters
+      type(block_parameters), intent(in) :: p
+      !> Frequencies of the pairs on the axis, ascending
+      real(wp), intent(in) :: omega(:)
+      real(wp) :: from, growth, radius
+      integer :: i
+
+      from = 0.0_wp
+      growth = 0.0_wp
+      do i = 1, size(omega)
+         radius = radius_share*omega(i)
+         growth = growth + line_growth(p, 0.0_wp, from, omega(i) - radius) &
+                  + arc_growth(p, omega(i), radius)
+         from = omega(i) + radius
+      end do
+      growth = growth + line_growth(p, 0.0_wp, from, max(from, far_end(p, 0.0_wp)))
+      number = number_of(p, growth, 0.0_wp)/2
+   end function pairs_beside
+
+   !> Number of roots from the growth of the argument up to `far_end`; beyond it Delta(s) tends to
+   !> s^3.
+   pure integer function number_of(p, growth, bound) result(number)
+      !> Parameters
+      type(block_parameters), intent(in) :: p
+      !> Growth of the argument
+      real(wp), intent(in) :: growth
+      !> Real part of the line
+      real(wp), intent(in) :: bound
+      complex(wp) :: s
+
+      s = cmplx(bound, far_end(p, bound), kind=wp)
+      number = nint(1.5_wp - (growth - angle(delta(p, s)/cmplx(0.0_wp, aimag(s), kind=wp)**3))/pi)
+   end function number_of
+
+   !> A w from which on s^3 outweighs all other terms.
+   pure real(wp) function far_end(p, bound) result(w)
+      !> Parameters
+      type(block_parameters), intent(in) :: p
+      !> Real part of the line
+      real(wp), intent(in) :: bound
+      real(wp) :: term(5)
+
+      w = 1.0_wp + 4.0_wp*abs(bound)
+      do
+         term = abs(terms(p, cmplx(bound, w, kind=wp)))
+         if (term(1) > 3.0_wp*sum(term(2:))) exit
+         w = 2.0_wp*w
+      end do
+   end function far_end
+
+   !> Growth of the argument of Delta along s = bound + i w.
+   pure real(wp) function line_growth(p, bound, from, to) result(growth)
+      !> Parameters
+      type(block_parameters), intent(in) :: p
+      !> Real part
+      real(wp), intent(in) :: bound
+      !> First w
+      real(wp), intent(in) :: from
+      !> Last w
+      real(wp), intent(in) :: to
+      complex(wp) :: s, value, value_before
+      real(wp) :: step, w
+
+      growth = 0.0_wp
+      w = from
+      s = cmplx(bound, w, kind=wp)
+      value = delta(p, s)
+      do while (w < to)
+         ! the bound grows with w: a step that holds it at the end of a longer one holds it
+         step = step_share*abs(value)/slope_bound(p, s)
+         step = step_share*abs(value)/slope_bound(p, cmplx(bound, w + step, kind=wp))
+         step = max(step, least_share*w + least_step)
+         w = min(w + step, to)
+         value_before = value
+         s = cmplx(bound, w, kind=wp)
+         value = delta(p, s)
+         growth = growth + angle(value*conjg(value_before))
+      end do
+   end function line_growth
+
+   !> Growth of the argument of Delta along the half circle to the right of i omega.
+   pure real(wp) function arc_growth(p, omega, radius) result(growth)
+      !> Parameters
+      type(block_parameters), intent(in) :: p
+      !> Centre
+      real(wp), intent(in) :: omega
+      !> Radius
+      real(wp), intent(in) :: radius
+      complex(wp) :: value, value_before
+      integer :: i
+
+      growth = 0.0_wp
+      value = delta(p, cmplx(0.0_wp, omega - radius, kind=wp))
+      do i = 1, arc_steps
+         value_before = value
+         associate (phi => pi*(real(i, wp)/arc_steps - 0.5_wp))
+            value = delta(p, cmplx(radius*cos(phi), omega + radius*sin(phi), kind=wp))
+         end associate
+         growth = growth + angle(value*conjg(value_before))
+      end do
+   end function arc_growth
+
+   !> Argument of a number, -pi..pi.
+   pure real(wp) function angle(z) result(value)
+      !> The number
+      complex(wp), intent(in) :: z
+
+      value = atan2(aimag(z), real(z))
+   end function angle
+end module root_counts

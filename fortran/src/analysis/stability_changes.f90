@@ -1,0 +1,223 @@
+!> The delays and the sensitivities epsilon at which a pair of characteristic roots crosses the
+!> imaginary axis, all else kept: equations (7) and (10), solved for the frequency.
+module stability_changes
+   use characteristic_function, only: block_parameters, delta_by_s, delta_by_tau
+   use errors, only: error_type
+   use gsl_roots, only: find_root, scalar_function
+   use hopf_condition, only: hopf_epsilon, hopf_tau, partner_omega
+   use kinds, only: wp
+   use root_counts, only: pairs_beside
+   implicit none (type, external)
+   private
+   public :: changes_with_epsilon, changes_with_tau, stability_change
+
+   !> A crossing.
+   type :: stability_change
+      !> Parameters, nondimensional
+      type(block_parameters) :: parameters
+      !> Frequency of the pair
+      real(wp) :: omega = 0.0_wp
+      !> Unstable pairs before and after it
+      integer :: pairs_before = 0, pairs_after = 0
+   end type stability_change
+
+   !> Epsilon of a frequency, less a given one.
+   type, extends(scalar_function) :: epsilon_function
+      !> Parameters
+      type(block_parameters) :: p
+   contains
+      procedure :: value => epsilon_above
+   end type epsilon_function
+
+   !> The other frequency of the same epsilon, less this one: falls as omega grows.
+   type, extends(scalar_function) :: partner_function
+      !> Parameters
+      type(block_parameters) :: p
+   contains
+      procedure :: value => partner_above
+   end type partner_function
+
+   !> omega tau of a branch, less that of a given delay: falls as omega grows, and has one root.
+   type, extends(scalar_function) :: angle_function
+      !> Parameters
+      type(block_parameters) :: p
+      !> Branch
+      integer :: k = 0
+   contains
+      procedure :: value => angle_above
+   end type angle_function
+
+contains
+
+   !> All crossings at delays from above 0 up to a bound, ascending.
+   subroutine changes_with_tau(p, tau_most, changes, error)
+      !> Parameters; tau does not matter
+      type(block_parameters), intent(in) :: p
+      !> Longest delay
+      real(wp), intent(in) :: tau_most
+      !> Crossings
+      type(stability_change), allocatable, intent(out) :: changes(:)
+      !> A root was not found
+      type(error_type), allocatable, intent(out) :: error
+      type(block_parameters) :: there
+      type(epsilon_function) :: excess
+      real(wp) :: bottom, lower, omega(2), upper
+      integer :: i, k
+
+      allocate (changes(0))
+      call least_epsilon_at(p, bottom, error)
+      if (allocated(error)) return
+      excess%p = p
+      if (excess%value(bottom) >= 0.0_wp) return
+      lower = bottom
+      do while (excess%value(lower) <= 0.0_wp)
+         lower = 0.5_wp*lower
+      end do
+      upper = bottom
+      do while (excess%value(upper) <= 0.0_wp)
+         upper = 2.0_wp*upper
+      end do
+      call find_root(excess, lower, bottom, omega(1), error)
+      if (.not. allocated(error)) call find_root(excess, bottom, upper, omega(2), error)
+      if (allocated(error)) return
+      there = p
+      do i = 1, 2
+         k = 0
+         do
+            there%tau = hopf_tau(omega(i), p%xi, p%gamma, k)
+            if (there%tau > tau_most) exit
+            k = k + 1
+            if (there%tau <= 0.0_wp) cycle
+            associate (s => cmplx(0.0_wp, omega(i), kind=wp))
+               call insert(changes, change_at(there, omega(i), &
+                                              real(-delta_by_tau(there, s)/delta_by_s(there, s))), &
+                           changes%parameters%tau < there%tau)
+            end associate
+         end do
+      end do
+   end subroutine changes_with_tau
+
+   !> All crossings at epsilons from above -1 up to a bound, ascending.
+   subroutine changes_with_epsilon(p, epsilon_most, changes, error)
+      !> Parameters; epsilon does not matter
+      type(block_parameters), intent(in) :: p
+      !> Largest epsilon
+      real(wp), intent(in) :: epsilon_most
+      !> Crossings
+      type(stability_change), allocatable, intent(out) :: changes(:)
+      !> A root was not found
+      type(error_type), allocatable, intent(out) :: error
+      type(block_parameters) :: there
+      type(angle_function) :: angle
+      complex(wp) :: by_epsilon, s
+      real(wp) :: lower, omega, omega_most
+
+      allocate (changes(0))
+      angle%p = p
+      ! 1 + epsilon >= sqrt(1 + omega^2) on every Hopf curve
+      omega_most = sqrt(max((1.0_wp + epsilon_most)**2 - 1.0_wp, 0.0_wp))
+      there = p
+      do
+         if (angle%value(omega_most) >= 0.0_wp) exit
+         lower = 0.5_wp*omega_most
+         do while (angle%value(lower) <= 0.0_wp)
+            lower = 0.5_wp*lower
+         end do
+         call find_root(angle, lower, omega_most, omega, error)
+         if (allocated(error)) return
+         angle%k = angle%k + 1
+         there%epsilon = hopf_epsilon(omega, p%xi, p%gamma)
+         if (there%epsilon > epsilon_most) cycle
+         s = cmplx(0.0_wp, omega, kind=wp)
+         by_epsilon = -s*p%gamma**2/p%xi*exp(-s*p%tau)
+         call insert(changes, change_at(there, omega, real(-by_epsilon/delta_by_s(there, s))), &
+                     changes%parameters%epsilon < there%epsilon)
+      end do
+   end subroutine changes_with_epsilon
+
+   !> The frequency at which epsilon is least: where both frequencies of an epsilon are the same.
+   subroutine least_epsilon_at(p, omega, error)
+      !> Parameters
+      type(block_parameters), intent(in) :: p
+      !> The frequency
+      real(wp), intent(out) :: omega
+      !> No root found
+      type(error_type), allocatable, intent(out) :: error
+      type(partner_function) :: partner
+      real(wp) :: lower, upper
+
+      partner%p = p
+      lower = p%gamma
+      do while (partner%value(lower) <= 0.0_wp)
+         lower = 0.5_wp*lower
+      end do
+      upper = 2.0_wp*lower
+      do while (partner%value(upper) >= 0.0_wp)
+         upper = 2.0_wp*upper
+      end do
+      call find_root(partner, lower, upper, omega, error)
+   end subroutine least_epsilon_at
+
+   !> A crossing at the pair i omega.
+   pure type(stability_change) function change_at(p, omega, speed) result(change)
+      !> Parameters
+      type(block_parameters), intent(in) :: p
+      !> Frequency
+      real(wp), intent(in) :: omega
+      !> How fast the pair moves to the right
+      real(wp), intent(in) :: speed
+      integer :: beside
+
+      beside = pairs_beside(p, [omega])
+      change = stability_change(p, omega, beside, beside)
+      if (speed > 0.0_wp) then
+         change%pairs_after = beside + 1
+      else
+         change%pairs_before = beside + 1
+      end if
+   end function change_at
+
+   !> Put a crossing in its place.
+   pure subroutine insert(changes, change, earlier)
+      !> Crossings so far
+      type(stability_change), allocatable, intent(inout) :: changes(:)
+      !> The new one
+      type(stability_change), intent(in) :: change
+      !> Which of the others come first; they are ascending
+      logical, intent(in) :: earlier(:)
+      integer :: n
+
+      n = count(earlier)
+      changes = [changes(:n), change, changes(n + 1:)]
+   end subroutine insert
+
+   !> Zero where epsilon is the given one.
+   real(wp) function epsilon_above(self, x) result(value)
+      !> Parameters
+      class(epsilon_function), intent(in) :: self
+      !> omega
+      real(wp), intent(in) :: x
+
+      value = hopf_epsilon(x, self%p%xi, self%p%gamma) - self%p%epsilon
+   end function epsilon_above
+
+   !> Zero where both frequencies are the same.
+   real(wp) function partner_above(self, x) result(value)
+      !> Parameters
+      class(partner_function), intent(in) :: self
+      !> omega
+      real(wp), intent(in) :: x
+
+      value = partner_omega(x, self%p%xi, self%p%gamma) - x
+   end function partner_above
+
+   !> Zero where the delay is the given one.
+   real(wp) function angle_above(self, x) result(value)
+      !> Parameters and branch
+      class(angle_function), intent(in) :: self
+      !> omega
+      real(wp), intent(in) :: x
+
+      value = x*(hopf_tau(x, self%p%xi, self%p%gamma, self%k) - self%p%tau)
+   end function angle_above
+end module stability_changes

@@ -1,0 +1,42 @@
+!> The number of unstable pairs of characteristic roots over a plane of parameters.
+module stability_map
+   use hopf_planes, only: curve_plane
+   use kinds, only: wp
+   use root_counts, only: roots_right_of
+   implicit none (type, external)
+   private
+   public :: middles, unstable_pairs
+
+contains
+
+   !> Number of unstable pairs in the middle of each cell of the plane's window.
+   pure function unstable_pairs(plane, cells) result(pairs)
+      !> The plane
+      class(curve_plane), intent(in) :: plane
+      !> Cells along each side
+      integer, intent(in) :: cells
+      integer :: pairs(cells, cells)
+      real(wp) :: x(cells), y(cells)
+      integer :: i, j
+
+      x = middles(plane%epsilon_window, cells)
+      y = middles(plane%ordinate_window, cells)
+      do j = 1, cells
+         do i = 1, cells
+            pairs(i, j) = roots_right_of(plane%parameters(x(i), y(j)), 0.0_wp)/2
+         end do
+      end do
+   end function unstable_pairs
+
+   !> Middles of equal cells of an interval.
+   pure function middles(window, cells) result(x)
+      !> The interval
+      real(wp), intent(in) :: window(2)
+      !> Cells
+      integer, intent(in) :: cells
+      real(wp) :: x(cells)
+      integer :: i
+
+      x = [(window(1) + (window(2) - window(1))*(i - 0.5_wp)/cells, i=1, cells)]
+   end function middles
+end module stability_map

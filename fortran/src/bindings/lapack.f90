@@ -1,0 +1,108 @@
+!> Dense linear algebra by LAPACK: eigenvalues, systems of equations and null vectors.
+module lapack
+   use errors, only: error_type, raise, text
+   use kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: eigenvalues, null_vectors, solve
+
+   interface
+      subroutine dgeev(jobvl, jobvr, n, a, lda, wr, wi, vl, ldvl, vr, ldvr, work, lwork, info)
+         import :: wp
+         implicit none (type, external)
+         character(len=1), intent(in) :: jobvl, jobvr
+         integer, intent(in) :: n, lda, ldvl, ldvr, lwork
+         real(wp), intent(inout) :: a(lda, *)
+         real(wp), intent(out) :: wr(*), wi(*), vl(ldvl, *), vr(ldvr, *), work(*)
+         integer, intent(out) :: info
+      end subroutine dgeev
+
+      subroutine zgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
+         import :: wp
+         implicit none (type, external)
+         integer, intent(in) :: n, nrhs, lda, ldb
+         complex(wp), intent(inout) :: a(lda, *), b(ldb, *)
+         integer, intent(out) :: ipiv(*), info
+      end subroutine zgesv
+
+      subroutine zgesvd(jobu, jobvt, m, n, a, lda, s, u, ldu, vt, ldvt, work, lwork, rwork, info)
+         import :: wp
+         implicit none (type, external)
+         character(len=1), intent(in) :: jobu, jobvt
+         integer, intent(in) :: m, n, lda, ldu, ldvt, lwork
+         complex(wp), intent(inout) :: a(lda, *)
+         real(wp), intent(out) :: s(*), rwork(*)
+         complex(wp), intent(out) :: u(ldu, *), vt(ldvt, *), work(*)
+         integer, intent(out) :: info
+      end subroutine zgesvd
+   end interface
+
+contains
+
+   !> Eigenvalues of a real matrix.
+   subroutine eigenvalues(matrix, values, error)
+      !> The matrix, shape (n, n)
+      real(wp), intent(in) :: matrix(:, :)
+      !> Its eigenvalues, shape (n)
+      complex(wp), allocatable, intent(out) :: values(:)
+      !> No convergence
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable :: a(:, :), imaginary(:), real_part(:), work(:)
+      real(wp), dimension(1, 1) :: no_left, no_right
+      integer :: info, n
+
+      n = size(matrix, 1)
+      allocate (a, source=matrix)
+      allocate (real_part(n), imaginary(n), work(34*n))
+      call dgeev("N", "N", n, a, n, real_part, imaginary, no_left, 1, no_right, 1, &
+                 work, size(work), info)
+      if (info /= 0) call raise(error, "eigenvalues: dgeev returns "//text(info)//" for " &
+                                //text(n)//" rows; 0 expected")
+      values = cmplx(real_part, imaginary, kind=wp)
+   end subroutine eigenvalues
+
+   !> Solution of a system for several right-hand sides.
+   subroutine solve(matrix, right, solution, error)
+      !> The matrix, shape (n, n)
+      complex(wp), intent(in) :: matrix(:, :)
+      !> Right-hand sides, shape (n, m)
+      complex(wp), intent(in) :: right(:, :)
+      !> Solutions, shape (n, m)
+      complex(wp), intent(out) :: solution(:, :)
+      !> The matrix is singular
+      type(error_type), allocatable, intent(out) :: error
+      complex(wp) :: a(size(matrix, 1), size(matrix, 2))
+      integer :: info, pivot(size(matrix, 1))
+
+      a = matrix
+      solution = right
+      call zgesv(size(a, 1), size(right, 2), a, size(a, 1), pivot, solution, size(a, 1), info)
+      if (info /= 0) call raise(error, "solve: pivot "//text(info)//" of "//text(size(pivot)) &
+                                //" is 0; a regular matrix expected")
+   end subroutine solve
+
+   !> The unit vectors q and p with matrix q = 0 and p^T matrix = 0, of a matrix of rank n - 1: the
+   !> last singular vectors.
+   subroutine null_vectors(matrix, q, p, error)
+      !> The matrix, shape (n, n)
+      complex(wp), intent(in) :: matrix(:, :)
+      !> Right null vector, shape (n)
+      complex(wp), intent(out) :: q(:)
+      !> Left null vector, shape (n)
+      complex(wp), intent(out) :: p(:)
+      !> No convergence
+      type(error_type), allocatable, intent(out) :: error
+      complex(wp), dimension(size(matrix, 1), size(matrix, 1)) :: a, left, right
+      complex(wp) :: work(10*size(matrix, 1))
+      real(wp) :: real_work(5*size(matrix, 1)), singular(size(matrix, 1))
+      integer :: info, n
+
+      n = size(matrix, 1)
+      a = matrix
+      call zgesvd("A", "A", n, n, a, n, singular, left, n, right, n, work, size(work), &
+                  real_work, info)
+      if (info /= 0) call raise(error, "null_vectors: zgesvd returns "//text(info)//"; 0 expected")
+      q = conjg(right(n, :))
+      p = conjg(left(:, n))
+   end subroutine null_vectors
+end module lapack

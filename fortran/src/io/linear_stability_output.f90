@@ -1,0 +1,78 @@
+!> Files of linear stability.
+module linear_stability_output
+   use errors, only: error_type
+   use kinds, only: int64, wp
+   use linear_stability_input, only: linear_stability_settings
+   use netcdf_output, only: output_file
+   use stability_changes, only: stability_change
+   implicit none (type, external)
+   private
+   public :: write_linear_stability
+
+contains
+
+   !> Write roots and changes of stability.
+   subroutine write_linear_stability(path, settings, roots, pairs, with_tau, with_epsilon, error)
+      !> Path of the file
+      character(len=*), intent(in) :: path
+      !> What was asked for
+      type(linear_stability_settings), intent(in) :: settings
+      !> Roots, the rightmost first
+      complex(wp), intent(in) :: roots(:)
+      !> Number of unstable pairs, and the same without delay
+      integer, intent(in) :: pairs(2)
+      !> Changes as the delay grows
+      type(stability_change), intent(in) :: with_tau(:)
+      !> Changes as epsilon grows
+      type(stability_change), intent(in) :: with_epsilon(:)
+      !> It could not be written
+      type(error_type), allocatable, intent(out) :: error
+      type(output_file) :: file
+      integer :: imaginary, real_part, rows
+
+      call file%create(path, "Linear stability of steady sliding")
+      call file%attribute("tau", settings%parameters%tau)
+      call file%attribute("epsilon", settings%parameters%epsilon)
+      call file%attribute("xi", settings%parameters%xi)
+      call file%attribute("gamma", settings%parameters%gamma)
+      call file%attribute("root_bound", settings%root_bound)
+      call file%attribute("tau_most", settings%tau_most)
+      call file%attribute("epsilon_most", settings%epsilon_most)
+      call file%attribute("unstable_pairs", int(pairs(1), int64))
+      call file%attribute("unstable_pairs_without_delay", int(pairs(2), int64))
+      rows = file%dimension("root", size(roots))
+      real_part = file%real_variable("root_real", rows, "real part of a characteristic root", "1")
+      imaginary = file%real_variable("root_imag", rows, "its imaginary part", "1")
+      call file%put(real_part, real(roots))
+      call file%put(imaginary, aimag(roots))
+      call put_changes(file, "tau", with_tau%parameters%tau, with_tau)
+      call put_changes(file, "epsilon", with_epsilon%parameters%epsilon, with_epsilon)
+      call file%finish(error)
+   end subroutine write_linear_stability
+
+   !> Changes of stability with one parameter.
+   subroutine put_changes(file, parameter_name, values, changes)
+      !> The file
+      type(output_file), intent(inout) :: file
+      !> The parameter
+      character(len=*), intent(in) :: parameter_name
+      !> Its values
+      real(wp), intent(in) :: values(:)
+      !> The changes
+      type(stability_change), intent(in) :: changes(:)
+      integer :: after, before, omega, place, rows
+
+      rows = file%dimension("change_with_"//parameter_name, size(changes))
+      place = file%real_variable(parameter_name//"_of_change", rows, &
+                                 parameter_name//" at which a pair crosses the axis", "1")
+      omega = file%real_variable(parameter_name//"_change_omega", rows, "its frequency", "1")
+      before = file%integer_variable(parameter_name//"_change_pairs_before", rows, &
+                                     "unstable pairs below")
+      after = file%integer_variable(parameter_name//"_change_pairs_after", rows, &
+                                    "unstable pairs above")
+      call file%put(place, values)
+      call file%put(omega, changes%omega)
+      call file%put(before, changes%pairs_before)
+      call file%put(after, changes%pairs_after)
+   end subroutine put_changes
+end module linear_stability_output

@@ -1,0 +1,98 @@
+!> Delay equations about a stationary state: their linear part
+!>
+!>     y'(t) = sum_j A_j y(t - lag_j),
+!>
+!> and the second and third derivative forms of their right-hand side.
+module delay_equation
+   use kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: delay_equation_type, linear_system
+
+   !> A linear system with constant lags; an instantaneous term has lag 0.
+   type :: linear_system
+      !> Matrices A_j, shape (n, n, number of lags)
+      real(wp), allocatable :: a(:, :, :)
+      !> Lags, each >= 0
+      real(wp), allocatable :: lag(:)
+   contains
+      !> Delta(s) = s - sum_j A_j exp(-s lag_j)
+      procedure :: characteristic_matrix
+      !> Its derivative by s
+      procedure :: characteristic_slope
+   end type linear_system
+
+   !> A right-hand side by its derivatives at the stationary state. The arguments of the forms are
+   !> histories: column j holds their values at t - lag_j.
+   type, abstract :: delay_equation_type
+      !> First derivative
+      type(linear_system) :: linear
+   contains
+      !> B(x, y)
+      procedure(second_form), deferred :: second
+      !> C(x, y, z)
+      procedure(third_form), deferred :: third
+   end type delay_equation_type
+
+   abstract interface
+      !> Second derivative, symmetric and linear in both arguments.
+      pure function second_form(self, x, y) result(form)
+         import :: delay_equation_type, wp
+         implicit none (type, external)
+         !> The equation
+         class(delay_equation_type), intent(in) :: self
+         !> Histories at all lags, shape (n, number of lags)
+         complex(wp), intent(in) :: x(:, :), y(:, :)
+         complex(wp) :: form(size(x, 1))
+      end function second_form
+
+      !> Third derivative, symmetric and linear in all arguments.
+      pure function third_form(self, x, y, z) result(form)
+         import :: delay_equation_type, wp
+         implicit none (type, external)
+         !> The equation
+         class(delay_equation_type), intent(in) :: self
+         !> Histories at all lags, shape (n, number of lags)
+         complex(wp), intent(in) :: x(:, :), y(:, :), z(:, :)
+         complex(wp) :: form(size(x, 1))
+      end function third_form
+   end interface
+
+contains
+
+   !> Delta(s), singular at characteristic roots.
+   pure function characteristic_matrix(self, s) result(matrix)
+      !> The system
+      class(linear_system), intent(in) :: self
+      !> Point of the complex plane
+      complex(wp), intent(in) :: s
+      complex(wp) :: matrix(size(self%a, 1), size(self%a, 1))
+      integer :: i
+
+      matrix = 0.0_wp
+      do i = 1, size(matrix, 1)
+         matrix(i, i) = s
+      end do
+      do i = 1, size(self%lag)
+         matrix = matrix - self%a(:, :, i)*exp(-s*self%lag(i))
+      end do
+   end function characteristic_matrix
+
+   !> Derivative of Delta(s).
+   pure function characteristic_slope(self, s) result(matrix)
+      !> The system
+      class(linear_system), intent(in) :: self
+      !> Point of the complex plane
+      complex(wp), intent(in) :: s
+      complex(wp) :: matrix(size(self%a, 1), size(self%a, 1))
+      integer :: i
+
+      matrix = 0.0_wp
+      do i = 1, size(matrix, 1)
+         matrix(i, i) = 1.0_wp
+      end do
+      do i = 1, size(self%lag)
+         matrix = matrix + self%a(:, :, i)*(self%lag(i)*exp(-s*self%lag(i)))
+      end do
+   end function characteristic_slope
+end module delay_equation

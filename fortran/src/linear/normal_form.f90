@@ -1,0 +1,87 @@
+!> The normal form of a Hopf bifurcation of a delay equation.
+module normal_form
+   use delay_equation, only: delay_equation_type
+   use errors, only: error_type
+   use kinds, only: wp
+   use lapack, only: null_vectors, solve
+   implicit none (type, external)
+   private
+   public :: first_lyapunov_coefficient
+
+contains
+
+   !> First Lyapunov coefficient l1 of the pair i omega, with Delta(i omega) q = 0, |q| = 1,
+   !> p^T Delta(i omega) = 0, p^T Delta'(i omega) q = 1 and phi(t) = q exp(i omega t):
+   !>
+   !>     h20 = Delta(2 i omega)^-1 B(phi, phi),  h11 = Delta(0)^-1 B(phi, conj phi),
+   !>     c1  = 1/2 p^T [B(conj phi, h20) + 2 B(phi, h11) + C(phi, phi, conj phi)],
+   !>     l1  = Re(c1)/omega.
+   !>
+   !> Negative: the bifurcation is supercritical. Positive: subcritical.
+   subroutine first_lyapunov_coefficient(equation, omega, l1, error)
+      !> The equation, which has a pair of simple roots +-i omega
+      class(delay_equation_type), intent(in) :: equation
+      !> Frequency of the pair, > 0
+      real(wp), intent(in) :: omega
+      !> The coefficient
+      real(wp), intent(out) :: l1
+      !> 0 or 2 i omega is a root, too
+      type(error_type), allocatable, intent(out) :: error
+      complex(wp), dimension(size(equation%linear%a, 1)) :: p, q
+      complex(wp), dimension(size(equation%linear%a, 1), size(equation%linear%lag)) :: &
+         phi, history_11, history_20
+      complex(wp) :: s
+
+      l1 = 0.0_wp
+      s = cmplx(0.0_wp, omega, kind=wp)
+      associate (linear => equation%linear)
+         call null_vectors(linear%characteristic_matrix(s), q, p, error)
+         if (allocated(error)) return
+         p = p/sum(p*matmul(linear%characteristic_slope(s), q))
+         phi = history_of(q, s, linear%lag)
+         call respond(equation, 2.0_wp*s, equation%second(phi, phi), history_20, error)
+         if (allocated(error)) return
+         call respond(equation, (0.0_wp, 0.0_wp), equation%second(phi, conjg(phi)), history_11, &
+                      error)
+         if (allocated(error)) return
+      end associate
+      l1 = real(0.5_wp*sum(p*(equation%second(conjg(phi), history_20) &
+                              + 2.0_wp*equation%second(phi, history_11) &
+                              + equation%third(phi, phi, conjg(phi)))))/omega
+   end subroutine first_lyapunov_coefficient
+
+   !> The answer of the linear system to a forcing exp(s t), as history.
+   subroutine respond(equation, s, forcing, history, error)
+      !> The equation
+      class(delay_equation_type), intent(in) :: equation
+      !> Exponent
+      complex(wp), intent(in) :: s
+      !> Amplitude of the forcing, shape (n)
+      complex(wp), intent(in) :: forcing(:)
+      !> The answer at all lags
+      complex(wp), intent(out) :: history(:, :)
+      !> s is a root
+      type(error_type), allocatable, intent(out) :: error
+      complex(wp) :: answer(size(forcing), 1)
+
+      call solve(equation%linear%characteristic_matrix(s), reshape(forcing, shape(answer)), &
+                 answer, error)
+      history = history_of(answer(:, 1), s, equation%linear%lag)
+   end subroutine respond
+
+   !> amplitude exp(-s lag) for all lags.
+   pure function history_of(amplitude, s, lag) result(history)
+      !> Amplitude, shape (n)
+      complex(wp), intent(in) :: amplitude(:)
+      !> Exponent
+      complex(wp), intent(in) :: s
+      !> Lags
+      real(wp), intent(in) :: lag(:)
+      complex(wp) :: history(size(amplitude), size(lag))
+      integer :: i
+
+      do i = 1, size(lag)
+         history(:, i) = amplitude*exp(-s*lag(i))
+      end do
+   end function history_of
+end module normal_form

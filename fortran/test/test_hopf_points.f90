@@ -1,0 +1,168 @@
+!> Special points of Hopf curves and the number of unstable pairs in the planes of Figures 2 and 3.
+module test_hopf_points
+   use block_equation, only: block_equation_type
+   use characteristic_function, only: relative_residual
+   use characteristic_roots, only: find_roots
+   use errors, only: failure_type => error_type, text
+   use expectations, only: expect, expect_between, expect_close, expect_success
+   use hopf_condition, only: hopf_epsilon, partner_omega
+   use hopf_points, only: find_hopf_points, hopf_point, judge_points
+   use kinds, only: wp
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use pseudo_random, only: uniform
+   use stability_map, only: middles, unstable_pairs
+   use traced_planes, only: trace, traced_plane
+   implicit none (type, external)
+   private
+   public :: collect_hopf_points
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_hopf_points(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("second frequency", test_partner), &
+                   new_unittest("special points of Figure 2", test_figure_2), &
+                   new_unittest("special points of Figure 3", test_figure_3), &
+                   new_unittest("map of unstable pairs", test_map)]
+   end subroutine collect_hopf_points
+
+   !> Both frequencies have the same epsilon, each is the other's partner.
+   subroutine test_partner(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: partner, x(3)
+      integer :: i
+
+      do i = 1, 100
+         x = 10.0_wp**uniform(i, 3, -1.0_wp, 1.0_wp)
+         associate (omega => x(1), xi => x(2), gamma => x(3))
+            partner = partner_omega(omega, xi, gamma)
+            call expect_close(error, (1.0_wp + hopf_epsilon(partner, xi, gamma)) &
+                              /(1.0_wp + hopf_epsilon(omega, xi, gamma)), 1.0_wp, 1.0e-12_wp, &
+                              "1 + epsilon over 1 + epsilon")
+            call expect_close(error, partner_omega(partner, xi, gamma)/omega, 1.0_wp, 1.0e-9_wp, &
+                              "partner of the partner")
+         end associate
+      end do
+   end subroutine test_partner
+
+   !> The point without delay as by Routh and Hurwitz, nine double and six generalised points.
+   subroutine test_figure_2(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(hopf_point), allocatable :: found(:)
+
+      call check_points(1, found, error)
+      if (allocated(error)) return
+      call expect(error, count(found%kind == "double_hopf") == 9, "nine double points")
+      call expect(error, count(found%kind == "generalised_hopf") == 6, "six generalised points")
+      call expect(error, count(found%kind == "hopf_without_delay") == 1, "one without delay")
+      associate (first => found(1))
+         call expect_close(error, first%parameters%epsilon, 0.32_wp/1.14_wp, 1.0e-14_wp, &
+                           "epsilon without delay")
+         call expect_close(error, first%parameters%tau, 0.0_wp, 1.0e-14_wp, "tau")
+         call expect_between(error, first%l1(1), -1.0_wp, -0.01_wp, "l1")
+      end associate
+   end subroutine test_figure_2
+
+   !> Five double points, two generalised.
+   subroutine test_figure_3(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(hopf_point), allocatable :: found(:)
+
+      call check_points(2, found, error)
+      if (allocated(error)) return
+      call expect(error, count(found%kind == "double_hopf") == 5, "five double points")
+      call expect(error, count(found%kind == "generalised_hopf") == 2, "two generalised points")
+      call expect(error, size(found) == 7, "no others")
+   end subroutine test_figure_3
+
+   !> The special points of a plane: their frequencies are roots of (5), the coefficient vanishes
+   !> where it should, and beside a point of a curve the pairs are those of the map.
+   subroutine check_points(i, found, error)
+      !> Number of the plane
+      integer, intent(in) :: i
+      !> Special points
+      type(hopf_point), allocatable, intent(out) :: found(:)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(traced_plane) :: traced
+      integer :: j, k
+
+      call trace(i, traced, error)
+      if (allocated(error)) return
+      call judge_points(traced%points, failure)
+      call expect_success(error, failure)
+      call find_hopf_points(traced%plane, traced%points, found, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      do j = 1, size(found)
+         associate (p => found(j)%parameters, omega => found(j)%omega)
+            do k = 1, count(omega > 0.0_wp)
+               call expect_between(error, relative_residual(p, cmplx(0.0_wp, omega(k), kind=wp)), &
+                                   0.0_wp, 1.0e-12_wp, "residual of point "//text(j))
+            end do
+            select case (found(j)%kind)
+            case ("generalised_hopf")
+               call expect_close(error, found(j)%l1(1), 0.0_wp, 1.0e-13_wp, "l1")
+            case ("double_hopf")
+               call expect_between(error, omega(2) - omega(1), 0.01_wp, 10.0_wp, &
+                                   "distance of the frequencies")
+               call expect(error, found(j)%branch(2) > found(j)%branch(1), &
+                           "the higher frequency is on the higher branch")
+            case default
+               call expect_close(error, p%tau, 0.0_wp, 1.0e-14_wp, "tau")
+            end select
+         end associate
+      end do
+      call expect(error, all([(sign_is_kept(traced, j), j=1, size(traced%points) - 1)]), &
+                  "l1 changes its sign at generalised points only")
+
+   contains
+
+      !> Whether between two points l1 keeps its sign or a generalised point lies.
+      logical function sign_is_kept(traced, j) result(kept)
+         !> The plane
+         type(traced_plane), intent(in) :: traced
+         !> Number of the first point
+         integer, intent(in) :: j
+
+         associate (p => traced%points(j), q => traced%points(j + 1))
+            kept = p%piece /= q%piece .or. p%l1*q%l1 > 0.0_wp .or. &
+                   any(found%kind == "generalised_hopf" .and. found%omega(1) > p%omega &
+                       .and. found%omega(1) < q%omega .and. found%branch(1) == p%branch)
+         end associate
+      end function sign_is_kept
+   end subroutine check_points
+
+   !> Cells of a map, against the roots themselves.
+   subroutine test_map(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(traced_plane) :: traced
+      type(block_equation_type) :: equation
+      complex(wp), allocatable :: roots(:)
+      integer, parameter :: cells = 6
+      integer :: i, j, k, pairs(cells, cells)
+
+      do k = 1, 2
+         call trace(k, traced, error)
+         if (allocated(error)) return
+         pairs = unstable_pairs(traced%plane, cells)
+         associate (x => middles(traced%plane%epsilon_window, cells), &
+                    y => middles(traced%plane%ordinate_window, cells))
+            do j = 1, cells
+               do i = 1, cells
+                  equation = block_equation_type(traced%plane%parameters(x(i), y(j)))
+                  call find_roots(equation%linear, 0.0_wp, roots, failure)
+                  call expect_success(error, failure)
+                  if (allocated(error)) return
+                  call expect(error, size(roots) == 2*pairs(i, j), "unstable pairs at epsilon = " &
+                              //text(x(i))//", ordinate "//text(y(j)))
+               end do
+            end do
+         end associate
+         call expect(error, minval(pairs) == 0 .and. maxval(pairs) >= 4, "none and many")
+      end do
+   end subroutine test_map
+end module test_hopf_points

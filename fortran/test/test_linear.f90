@@ -1,0 +1,267 @@
+!> Linear stability: characteristic roots, their number, and the first Lyapunov coefficient.
+module test_linear
+   use block_equation, only: block_equation_type
+   use characteristic_function, only: block_parameters, relative_residual
+   use characteristic_roots, only: find_roots
+   use delay_equation, only: linear_system
+   use errors, only: failure_type => error_type, text
+   use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
+   use hopf_condition, only: hopf_epsilon, hopf_tau
+   use kinds, only: wp
+   use known_forms, only: block_in_v, neurons, new_block_in_v, new_neurons
+   use lapack, only: solve
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use normal_form, only: first_lyapunov_coefficient
+   use pseudo_random, only: uniform
+   use root_counts, only: pairs_beside, roots_right_of
+   implicit none (type, external)
+   private
+   public :: collect_linear
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_linear(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("branches of Lambert's W", test_lambert), &
+                   new_unittest("two lags", test_two_lags), &
+                   new_unittest("no delay", test_no_delay), &
+                   new_unittest("roots of the block", test_block_roots), &
+                   new_unittest("roots on Hopf curves", test_curve_roots), &
+                   new_unittest("number of roots at large parameters", test_extremes), &
+                   new_unittest("refusals", test_refusals), &
+                   new_unittest("two neurons", test_neurons), &
+                   new_unittest("linear part of the block", test_linear_part), &
+                   new_unittest("coordinates do not matter", test_coordinates)]
+   end subroutine collect_linear
+
+   !> x' = -x(t - 1): the roots are the branches of W(-1), s = -exp(-s).
+   subroutine test_lambert(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      complex(wp), allocatable :: roots(:)
+      complex(wp), parameter :: known(3) = [(-0.3181315052047642_wp, 1.3372357014306894_wp), &
+                                            (-2.0622777295982839_wp, 7.5886311784725127_wp), &
+                                            (-2.6531919740386973_wp, 13.949208334533215_wp)]
+      integer :: i
+
+      call find_roots(scalar_system([0.0_wp, -1.0_wp], [0.0_wp, 1.0_wp]), -2.8_wp, roots, failure)
+      call expect_success(error, failure)
+      call expect(error, size(roots) == 6, "three pairs")
+      do i = 1, min(3, size(roots)/2)
+         call expect_close(error, abs(roots(2*i - 1) - known(i)), 0.0_wp, 1.0e-13_wp, &
+                           "distance to root "//text(i))
+         call expect_close(error, abs(roots(2*i) - conjg(known(i))), 0.0_wp, 1.0e-13_wp, &
+                           "distance to its partner")
+      end do
+   end subroutine test_lambert
+
+   !> x' = x/2 - x(t - 0.3) - x(t - 1)/5: every root solves its equation, and a real one is there.
+   subroutine test_two_lags(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      complex(wp), allocatable :: roots(:)
+
+      call find_roots(scalar_system([0.5_wp, -1.0_wp, -0.2_wp], [0.0_wp, 0.3_wp, 1.0_wp]), &
+                      -4.0_wp, roots, failure)
+      call expect_success(error, failure)
+      call expect(error, size(roots) >= 2, "there are roots")
+      call expect_close(error, maxval(abs(roots - 0.5_wp + exp(-0.3_wp*roots) &
+                                          + 0.2_wp*exp(-roots))), 0.0_wp, 1.0e-12_wp, "residual")
+   end subroutine test_two_lags
+
+   !> Eigenvalues -1, 0.5 +- 2 i of a matrix split over two terms without lag.
+   subroutine test_no_delay(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(linear_system) :: system
+      complex(wp), allocatable :: roots(:)
+
+      allocate (system%a(3, 3, 2))
+      system%a(:, :, 1) = reshape([0.0_wp, 2.0_wp, 0.0_wp, -2.0_wp, 0.5_wp, 0.0_wp, 0.0_wp, &
+                                   3.0_wp, -1.0_wp], [3, 3])
+      system%a(:, :, 2) = 0.0_wp
+      system%a(1, 1, 2) = 0.5_wp
+      system%lag = [0.0_wp, 0.0_wp]
+      call find_roots(system, -2.0_wp, roots, failure)
+      call expect_success(error, failure)
+      call expect_close(error, real(roots), [0.5_wp, 0.5_wp, -1.0_wp], 1.0e-14_wp, "real parts")
+      call expect_close(error, aimag(roots), [2.0_wp, -2.0_wp, 0.0_wp], 1.0e-14_wp, &
+                        "imaginary parts")
+   end subroutine test_no_delay
+
+   !> The roots of random blocks solve (5), and there are as many as the principle of the argument
+   !> says.
+   subroutine test_block_roots(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(block_parameters) :: p
+      type(block_equation_type) :: equation
+      complex(wp), allocatable :: roots(:)
+      real(wp), parameter :: bounds(3) = [-0.15_wp, -0.05_wp, 0.0_wp]
+      real(wp) :: x(4)
+      integer :: i, j, most
+
+      most = 0
+      do i = 1, 40
+         x = uniform(i, 4, 0.0_wp, 1.0_wp)
+         p = block_parameters(tau=6.0_wp*x(1), epsilon=2.0_wp*x(2) - 0.5_wp, &
+                              xi=0.1_wp + 2.0_wp*x(3), gamma=0.2_wp + 1.5_wp*x(4))
+         if (modulo(i, 8) == 0) p%tau = 0.0_wp
+         equation = block_equation_type(p)
+         call find_roots(equation%linear, minval(bounds), roots, failure)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         do j = 1, size(roots)
+            call expect_between(error, relative_residual(p, roots(j)), 0.0_wp, 1.0e-12_wp, &
+                                "residual of root "//text(j)//" of block "//text(i))
+         end do
+         do j = 1, size(bounds)
+            call expect(error, count(real(roots) > bounds(j)) == roots_right_of(p, bounds(j)), &
+                        "number of roots of block "//text(i)//" above "//text(bounds(j)) &
+                        //" by the argument")
+         end do
+         most = max(most, size(roots))
+      end do
+      call expect(error, most > 6, "some blocks have many roots")
+   end subroutine test_block_roots
+
+   !> On every branch the pair i omega is among the roots, and the pairs beside it are counted.
+   subroutine test_curve_roots(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(block_parameters) :: p
+      type(block_equation_type) :: equation
+      complex(wp), allocatable :: roots(:)
+      real(wp) :: omega
+      integer :: counts(0:20), i, k, pairs
+
+      counts = 0
+      do i = 1, 10
+         omega = 0.2_wp + 0.1_wp*i
+         do k = merge(1, 0, omega > 0.5_wp), 2
+            p = block_parameters(tau=hopf_tau(omega, 0.5_wp, 0.8_wp, k), xi=0.5_wp, &
+                                 gamma=0.8_wp, epsilon=hopf_epsilon(omega, 0.5_wp, 0.8_wp))
+            equation = block_equation_type(p)
+            call find_roots(equation%linear, -0.01_wp, roots, failure)
+            call expect_success(error, failure)
+            if (allocated(error)) return
+            call expect_close(error, minval(abs(roots - cmplx(0.0_wp, omega, kind=wp))), 0.0_wp, &
+                              1.0e-12_wp, "distance of a root to i omega")
+            pairs = pairs_beside(p, [omega])
+            call expect(error, pairs == count(real(roots) > 1.0e-9_wp)/2, &
+                        "pairs beside omega = "//text(omega)//" on branch "//text(k))
+            counts(pairs) = counts(pairs) + 1
+         end do
+      end do
+      call expect(error, all(counts(:1) > 0), "points with and without unstable pairs")
+   end subroutine test_curve_roots
+
+   !> Without delay Routh and Hurwitz say where the pair is lost, also for gamma = 1e10.
+   subroutine test_extremes(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(block_parameters) :: p
+      real(wp) :: gamma, lost
+      integer :: i, j
+
+      do i = -2, 10
+         gamma = 10.0_wp**i
+         do j = -2, 2
+            p = block_parameters(xi=10.0_wp**j, gamma=gamma)
+            lost = gamma**2*p%xi/(p%xi + gamma**2)
+            p%epsilon = 0.9_wp*lost
+            call expect(error, roots_right_of(p, 0.0_wp) == 0, "stable at gamma = "//text(gamma) &
+                        //", xi = "//text(p%xi))
+            p%epsilon = 1.1_wp*lost
+            call expect(error, roots_right_of(p, 0.0_wp) == 2, "unstable at gamma = "//text(gamma))
+         end do
+      end do
+   end subroutine test_extremes
+
+   !> A bound under which there are too many roots, and a singular matrix.
+   subroutine test_refusals(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      complex(wp), allocatable :: roots(:)
+      complex(wp) :: right(2, 1), solution(2, 1)
+
+      call find_roots(scalar_system([0.0_wp, -1.0_wp], [0.0_wp, 1.0_wp]), -8.0_wp, roots, failure)
+      call expect_failure(error, failure, "a bound nearer to 0 expected")
+      right = 1.0_wp
+      call solve(reshape([(1.0_wp, 0.0_wp), (2.0_wp, 0.0_wp), (2.0_wp, 0.0_wp), &
+                          (4.0_wp, 0.0_wp)], [2, 2]), right, solution, failure)
+      call expect_failure(error, failure, "a regular matrix expected")
+   end subroutine test_refusals
+
+   !> DDE-BIFTOOL's demonstration: omega and l1 as published.
+   subroutine test_neurons(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(neurons) :: equation
+      complex(wp), allocatable :: roots(:)
+      real(wp) :: l1
+
+      equation = new_neurons()
+      call find_roots(equation%linear, -0.01_wp, roots, failure)
+      call expect_success(error, failure)
+      call expect_close(error, real(roots(1)), 0.0_wp, 1.0e-9_wp, "real part of the pair")
+      call expect_close(error, aimag(roots(1)), 0.7819651621_wp, 1.0e-9_wp, "omega")
+      call first_lyapunov_coefficient(equation, aimag(roots(1)), l1, failure)
+      call expect_success(error, failure)
+      call expect_close(error, l1, -0.39615712_wp, 1.0e-8_wp, "l1")
+   end subroutine test_neurons
+
+   !> From the Jacobian of the block that is integrated, and by hand.
+   subroutine test_linear_part(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(block_parameters) :: p
+      type(block_equation_type) :: equation
+      type(block_in_v) :: by_hand
+
+      p = block_parameters(tau=3.0_wp, epsilon=0.4_wp, xi=0.6_wp, gamma=1.7_wp)
+      equation = block_equation_type(p)
+      by_hand = new_block_in_v(p)
+      call expect_close(error, maxval(abs(equation%linear%a - by_hand%linear%a)), 0.0_wp, &
+                        1.0e-15_wp, "difference of the matrices")
+      call expect_close(error, equation%linear%lag, by_hand%linear%lag, 0.0_wp, "lags")
+   end subroutine test_linear_part
+
+   !> l1 is the same in v and in ln v, which differ by a change of coordinates near the identity.
+   subroutine test_coordinates(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(block_parameters) :: p
+      real(wp) :: in_ln_v, in_v, omega
+      integer :: i, k, signs(-1:1)
+
+      signs = 0
+      do i = 1, 30
+         omega = 0.05_wp*i
+         do k = 1, 3
+            p = block_parameters(tau=hopf_tau(omega, 0.5_wp, 0.8_wp, k), xi=0.5_wp, &
+                                 gamma=0.8_wp, epsilon=hopf_epsilon(omega, 0.5_wp, 0.8_wp))
+            call first_lyapunov_coefficient(block_equation_type(p), omega, in_ln_v, failure)
+            call expect_success(error, failure)
+            call first_lyapunov_coefficient(new_block_in_v(p), omega, in_v, failure)
+            call expect_success(error, failure)
+            call expect_close(error, in_v, in_ln_v, 1.0e-11_wp*(1.0_wp + abs(in_ln_v)), &
+                              "l1 in v at omega = "//text(omega)//", k = "//text(k))
+            signs(nint(sign(1.0_wp, in_v))) = signs(nint(sign(1.0_wp, in_v))) + 1
+         end do
+      end do
+      call expect(error, signs(-1) > 20 .and. signs(1) > 10, "both signs occur")
+   end subroutine test_coordinates
+
+   !> x' = sum_j a_j x(t - lag_j).
+   pure function scalar_system(a, lag) result(system)
+      !> Coefficients
+      real(wp), intent(in) :: a(:)
+      !> Lags
+      real(wp), intent(in) :: lag(:)
+      type(linear_system) :: system
+
+      allocate (system%a, source=reshape(a, [1, 1, size(a)]))
+      allocate (system%lag, source=lag)
+   end function scalar_system
+end module test_linear

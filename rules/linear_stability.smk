@@ -1,0 +1,38 @@
+# Linear stability of steady sliding, one file a scene.
+
+
+rule linear_stability_namelist:
+    output:
+        "results/namelists/linear_stability/{scene}.nml",
+    log:
+        "results/logs/namelists/linear_stability/{scene}.log",
+    params:
+        group="linear_stability",
+        values=linear_stability_values,
+    script:
+        "../scripts/write_namelist.py"
+
+
+rule linear_stability:
+    input:
+        program="build/release/bin/linear_stability",
+        namelist="results/namelists/linear_stability/{scene}.nml",
+    output:
+        "results/linear_stability/{scene}.nc",
+    log:
+        "results/logs/linear_stability/{scene}.log",
+    benchmark:
+        "results/benchmarks/linear_stability/{scene}.tsv"
+    shell:
+        "{input.program} {input.namelist} {output} 2> {log} || {{ cat {log} >&2; exit 1; }}"
+
+
+rule linear_stability_table:
+    input:
+        expand("results/linear_stability/{scene}.nc", scene=config["scenes"]),
+    output:
+        "results/tables/linear-stability.tsv",
+    log:
+        "results/logs/tables/linear-stability.log",
+    script:
+        "../scripts/linear_stability_table.py"

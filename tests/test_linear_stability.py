@@ -1,0 +1,125 @@
+"""The linear_stability program: roots and changes of stability of the scenes, and the tables."""
+
+import numpy as np
+import pytest
+from config_refusals import refusal
+from hopf_points_table import death_rows_of
+from linear_stability_table import amplitude_death, row_of
+from tables import read_table
+from test_hopf import count_by_crossings, residual
+
+SCENES = {"fixed_point": 0, "oscillation": 1, "torus": 1, "chaos": 1}
+"""Number of unstable pairs."""
+
+
+@pytest.fixture
+def stability(programs, good_inputs, smoke_config, request):
+    """Linear stability of a scene."""
+    scene = smoke_config["scenes"][request.param]
+    parameters = {key: scene[key] for key in ("tau", "epsilon", "xi", "gamma")}
+    return programs.made_by("linear_stability", good_inputs["linear_stability"] | parameters)
+
+
+every_scene = pytest.mark.parametrize("stability", SCENES, indirect=True)
+
+
+def parameters(stability, **other):
+    """epsilon, tau, xi and gamma of a file, some of them replaced."""
+    return [{**stability.attrs, **other}[key] for key in ("epsilon", "tau", "xi", "gamma")]
+
+
+@every_scene
+def test_roots_solve_the_characteristic_equation(stability):
+    """Each above the bound, the rightmost first, with its partner."""
+    roots = stability.root_real.values + 1j * stability.root_imag.values
+    assert roots.size >= 2
+    assert residual(roots, *parameters(stability)).max() < 1e-12
+    assert (roots.real > stability.attrs["root_bound"]).all()
+    assert (np.diff(roots.real) <= 0).all()
+    assert set(roots) == set(roots.conj())
+
+
+@every_scene
+def test_unstable_pairs_are_counted(stability):
+    """By the roots, and by the crossings on the way from no delay."""
+    pairs = int((stability.root_real > 0).sum()) // 2
+    assert stability.attrs["unstable_pairs"] == pairs
+    assert pairs == count_by_crossings(*parameters(stability))
+
+
+@every_scene
+def test_changes_have_a_pair_on_the_axis(stability):
+    """In tau and in epsilon."""
+    for key in ("tau", "epsilon"):
+        places, omegas = stability[f"{key}_of_change"], stability[f"{key}_change_omega"]
+        assert places.size > 0
+        for place, omega in zip(places.values, omegas.values, strict=True):
+            assert residual(1j * omega, *parameters(stability, **{key: place})) < 1e-12
+
+
+@every_scene
+def test_row_of_the_table(stability):
+    """It says what the file says."""
+    row = row_of("mine", stability)
+    assert row["unstable_pairs"] == stability.attrs["unstable_pairs"]
+    assert row["tau_of_changes"].count("->") == stability.tau_of_change.size
+    assert row["leading_roots"].startswith(f"{float(stability.root_real[0]):.10g}")
+
+
+@pytest.mark.parametrize("stability", ["torus", "chaos"], indirect=True)
+def test_amplitude_death(stability):
+    """Unstable without delay, stable between the first two crossings; by the crossings, too."""
+    ((begin, end),) = amplitude_death(stability)
+    assert (begin, end) == tuple(stability.tau_of_change.values[:2])
+    assert count_by_crossings(*parameters(stability, tau=0.9 * begin)) == 1
+    assert count_by_crossings(*parameters(stability, tau=(begin + end) / 2)) == 0
+    assert count_by_crossings(*parameters(stability, tau=1.1 * end)) == 1
+    kinds = [row["kind"] for row in death_rows_of("mine", stability)]
+    assert kinds == ["amplitude_death_begin", "amplitude_death_end"]
+
+
+@pytest.mark.parametrize("stability", ["fixed_point", "oscillation"], indirect=True)
+def test_state_stable_without_delay_does_not_die(stability):
+    """There is nothing to quench."""
+    assert amplitude_death(stability) == []
+    assert death_rows_of("mine", stability) == []
+
+
+def test_tables_of_the_workflow(smoke):
+    """Every scene has its row; both tables are there."""
+    tables = smoke.folder / "results" / "tables"
+    rows = read_table(tables / "linear-stability.tsv")
+    assert {row["scene"]: row["unstable_pairs"] for row in rows} == SCENES
+    kinds = {row["kind"] for row in read_table(tables / "hopf-points.tsv")}
+    assert kinds == {
+        "amplitude_death_begin",
+        "amplitude_death_end",
+        "double_hopf",
+        "generalised_hopf",
+        "hopf_without_delay",
+    }
+
+
+def test_bound_too_far_is_refused(programs, good_inputs):
+    """In words, with nothing left behind."""
+    run = programs.run_with("linear_stability", {**good_inputs["linear_stability"], "tau": 1000.0})
+    assert run.returncode == 1
+    assert "a bound nearer to 0 expected" in run.stderr
+    assert programs.left_behind() == []
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "words"),
+    [
+        ("root_bound", 0.1, "<= 0"),
+        ("root_bound", "low", "<= 0"),
+        ("tau_most", 0.0, "> 0"),
+        ("epsilon_most", -0.5, "> 0"),
+    ],
+)
+def test_setting_out_of_range_is_refused(config, key, value, words):
+    """The line names place, key, value and range."""
+    config["linear_stability"] = {key: value}
+    (line,) = refusal(config).splitlines()[1:]
+    assert line.startswith(f"config linear_stability: {key} = {value!r}; expected ")
+    assert words in line
