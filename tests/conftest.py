@@ -200,11 +200,16 @@ def programs(smoke, tmp_path) -> Programs:
     return Programs(smoke.folder / "build" / "release" / "bin", folder)
 
 
+def of_trajectory(config: dict, scene: str) -> dict:
+    """What the namelist of a scene's trajectory holds of the configuration."""
+    return {key: value for key, value in config["scenes"][scene].items() if key != "exponents"}
+
+
 @pytest.fixture
 def good_inputs(config, smoke) -> dict[str, dict]:
     """Namelist values that each program accepts, to change."""
     config = checked(config)
-    scene = {"name": "torus", **config["scenes"]["torus"], "t_end": 30.0, "t_transient": 5.0}
+    scene = {"name": "torus", **of_trajectory(config, "torus"), "t_end": 30.0, "t_transient": 5.0}
     trajectory = str(smoke.folder / "results" / "trajectories" / "torus.nc")
     return {
         "trajectory": {**scene, "sample_interval": 0.25, "variables": ["theta", "u", "v"]},

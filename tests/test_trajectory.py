@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from check_config import checked
-from conftest import ROOT
+from conftest import ROOT, of_trajectory
 from scipy.integrate import solve_ivp
 
 VARIABLES = ["theta", "u", "v"]
@@ -77,7 +77,7 @@ def values_of(trajectory: xr.Dataset) -> np.ndarray:
 @pytest.mark.parametrize("tolerance", [1e-6, 1e-9])
 def test_without_delay_agrees_with_scipy(programs, scene, config, tolerance):
     """The fixed-point scene, to 100 x tolerance."""
-    scene |= {**checked(config)["scenes"]["fixed_point"], "variables": VARIABLES}
+    scene |= {**of_trajectory(checked(config), "fixed_point"), "variables": VARIABLES}
     scene |= {"t_end": 100.0, "t_transient": 0.0, "tolerance": tolerance}
     trajectory = programs.made_by("trajectory", scene)
     expected = without_delay(scene, trajectory.time.values)
@@ -88,7 +88,7 @@ def test_without_delay_agrees_with_scipy(programs, scene, config, tolerance):
 @pytest.mark.parametrize("name", DELAYED)
 def test_with_delay_agrees_with_scipy(programs, scene, config, name, tolerance):
     """The paper's delayed scenes over five delays, to 100 x tolerance."""
-    scene |= {**checked(config)["scenes"][name], "variables": VARIABLES}
+    scene |= {**of_trajectory(checked(config), name), "variables": VARIABLES}
     scene |= {"t_end": 5 * scene["tau"], "t_transient": 0.0, "tolerance": tolerance}
     assert scene["history"] == {"theta": 0.0, "u": 0.0, "v": 1.1}
     trajectory = programs.made_by("trajectory", scene)
@@ -226,7 +226,9 @@ def test_tighter_tolerance_takes_more_steps(programs, scene):
 def test_four_scenes_take_a_second(programs, config):
     """In full length at their tolerance of 1e-9; processor time, free of other jobs."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    for name, scene in checked(config)["scenes"].items():
+    config = checked(config)
+    for name in config["scenes"]:
+        scene = of_trajectory(config, name)
         assert scene["tolerance"] == 1e-9
         assert programs.run_with("trajectory", {"name": name, **scene}).returncode == 0
     after = resource.getrusage(resource.RUSAGE_CHILDREN)

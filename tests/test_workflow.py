@@ -162,7 +162,7 @@ def test_namelists_hold_the_config(smoke, smoke_config):
         **{f"hopf/{k}": {"hopf_curves": v} for k, v in smoke_config["hopf_curves"].items()},
         "velocity_step": {"velocity_step": smoke_config["velocity_step"]},
     }
-    for name, scene in scenes:
+    for name, scene in scenes.items():
         parameters = {key: scene[key] for key in ("tau", "epsilon", "xi", "gamma")}
         asked = {"linear_stability": parameters | smoke_config["linear_stability"]}
         expected[f"linear_stability/{name}"] = asked
