@@ -2,7 +2,7 @@
 !> component escapes: a solution that is one, and a polynomial that serves between the ends.
 module dde_implicit_checks
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use dde_norm, only: scaled_norm
+   use dde_norm, only: hopeless, scaled_norm
    use dde_problem, only: dde_problem_type
    use dde_radau_tableau, only: radau_tableau
    use dde_stage_iteration, only: stage_iteration
@@ -78,9 +78,10 @@ contains
 
       associate (s => method%stages)
          ! the filter lets the errors of components that are not stiff pass as they are
-         passed = method%real_eigenvalue/h*abs(filtered)/max(abs(unfiltered), tiny(1.0_wp))
-         hidden = max(0.0_wp, 1.0_wp - 2.0_wp*passed)*method%bulge*differences(s, :)
-         error = scaled_norm(size(scale), hidden, scale)
+         passed = method%real_eigenvalue/h*abs(filtered)
+         hidden = max(0.0_wp, abs(unfiltered) - 2.0_wp*passed)/max(abs(unfiltered), tiny(1.0_wp))
+         hidden = hidden*method%bulge*differences(s, :)
+         error = min(scaled_norm(size(scale), hidden, scale), hopeless)
          error = (error*asked/tolerance**(real(s, wp)/(s + 1)))**((s + 1.0_wp)/s)
       end associate
    end function error_inside

@@ -4,7 +4,7 @@ module dde_norm
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: scaled_norm
+   public :: hopeless, scaled_norm
 
    !> Elements above this are so far off that their squares need not be taken.
    real(wp), parameter :: hopeless = 1.0e100_wp
