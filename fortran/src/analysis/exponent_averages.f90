@@ -5,7 +5,7 @@ module exponent_averages
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: average_growth, dimension_of, exponent_type, running_averages, without_sign
+   public :: average_growth, dimension_of, error_bars, exponent_type, running_averages, without_sign
 
    !> An exponent this many error bars from zero, or closer, has no sign.
    real(wp), parameter :: error_bars = 3.0_wp

@@ -14,6 +14,8 @@ module lyapunov_spectrum
 
    !> A part smaller than so many tolerances of the vector it is taken from is noise.
    real(wp), parameter :: noise = 10.0_wp
+   !> How often an interval in which a vector is lost to noise is halved, before that is an error.
+   integer, parameter :: most_halvings = 10
 
    !> What growth is measured over.
    type :: growth_settings
@@ -32,6 +34,9 @@ module lyapunov_spectrum
       !> Norm of the vectors after orthonormalisation: what of the solver's absolute tolerance they
       !> may claim
       real(wp) :: vector_size = 1.0_wp
+      !> Whether a vector lost to noise gives a bound: what is left of it, noise and all, is its
+      !> growth, and it goes on from there. Otherwise that is an error.
+      logical :: bounds = .false.
    end type growth_settings
 
    !> What was measured.
@@ -44,6 +49,8 @@ module lyapunov_spectrum
       real(wp), allocatable :: growth(:, :)
       !> Least share of a vector that was orthogonal to those before it
       real(wp) :: least_share = 1.0_wp
+      !> Whether growth of the last vectors is only bounded from above
+      logical :: bounds = .false.
       !> Right-hand sides evaluated, with their variational equations
       integer(int64) :: evaluations = 0
       !> Steps accepted, and how many of them were implicit
@@ -52,8 +59,9 @@ module lyapunov_spectrum
 
 contains
 
-   !> Growth of tangent vectors along a solution that begins at t = 0.
-   subroutine measure_growth(problem, settings, options, measured, error)
+   !> Growth of tangent vectors along a solution that begins at t = 0, or goes on from where an
+   !> earlier run ended: then the vectors begin there and turn before measuring begins.
+   subroutine measure_growth(problem, settings, options, measured, error, undisturbed)
       !> The problem, with derivatives of its own
       class(dde_problem_type), intent(in) :: problem
       !> How many exponents, and when
@@ -64,36 +72,45 @@ contains
       type(growth_type), intent(out) :: measured
       !> It cannot be measured
       type(error_type), allocatable, intent(out) :: error
-      type(continuation_type) :: continuation, undisturbed
+      !> Where an earlier run of the problem ended
+      type(continuation_type), intent(in), optional :: undisturbed
+      type(continuation_type) :: approach, continuation
       type(integration_result) :: outcome
       type(tangent_problem_type) :: tangent
-      real(wp), allocatable :: norm(:)
-      real(wp) :: start
+      real(wp), allocatable :: growth(:), norm(:)
+      real(wp) :: share, start
       integer :: i, intervals, turning
 
       call check(problem, settings, error)
       if (allocated(error)) return
-      start = max(settings%interval, settings%t_begin - settings%t_turning)
-      if (size(problem%lag) > 0) start = max(start, maxval(problem%lag))
-      measured%t_begin = max(start, settings%t_begin)
+      if (present(undisturbed)) then
+         approach = undisturbed
+         start = approach%time(1)
+         measured%t_begin = start + settings%t_turning
+      else
+         start = max(settings%interval, settings%t_begin - settings%t_turning)
+         if (size(problem%lag) > 0) start = max(start, maxval(problem%lag))
+         measured%t_begin = max(start, settings%t_begin)
+      end if
       if (.not. measured%t_begin < settings%t_end) then
          call raise(error, "exponents: t_end = "//text(settings%t_end)//"; expected > " &
                     //text(measured%t_begin)//", where the vectors begin")
          return
       end if
 
-      call integrate(problem, 0.0_wp, start, options, outcome, error, continuation=undisturbed)
-      if (allocated(error)) return
+      if (.not. present(undisturbed)) then
+         call integrate(problem, 0.0_wp, start, options, outcome, error, continuation=approach)
+         if (allocated(error)) return
+      end if
       tangent = tangent_problem_type(problem, settings%exponents)
-      allocate (norm(settings%exponents))
-      call start_vectors(tangent, undisturbed, continuation)
-      call straighten(error)
-      if (allocated(error)) return
+      allocate (norm(settings%exponents), growth(settings%exponents))
+      call start_vectors(tangent, approach, continuation)
+      call orthonormalise(tangent, settings%vector_size, continuation, norm, share)
       ! no solution of the variational equations yet: a kink
-      continuation%rate = [undisturbed%rate, (0.0_wp, i=1, problem%n*settings%exponents)]
+      continuation%rate = [approach%rate, (0.0_wp, i=1, problem%n*settings%exponents)]
       turning = ceiling((measured%t_begin - start)/settings%interval)
       do i = 1, turning
-         call pass(start + (measured%t_begin - start)*i/turning)
+         call pass(start + (measured%t_begin - start)*i/turning, most_halvings)
          if (allocated(error)) return
       end do
       associate (span => settings%t_end - measured%t_begin, blocks => settings%blocks)
@@ -101,42 +118,49 @@ contains
          measured%interval = span/intervals
          allocate (measured%growth(settings%exponents, intervals))
          do i = 1, intervals
-            call pass(measured%t_begin + span*i/intervals)
+            growth = 0.0_wp
+            call pass(measured%t_begin + span*i/intervals, most_halvings)
             if (allocated(error)) return
-            measured%growth(:, i) = log(norm/settings%vector_size)
+            measured%growth(:, i) = growth
          end do
       end associate
 
    contains
 
-      !> One interval, up to `time`.
-      subroutine pass(time)
-         !> Its end
+      !> Go on up to `time`, adding to `growth`: in one interval, or in two halves where a vector
+      !> becomes a combination of the others on the way.
+      recursive subroutine pass(time, halvings)
+         !> Where to
          real(wp), intent(in) :: time
+         !> How often the interval may be halved
+         integer, intent(in) :: halvings
+         type(continuation_type) :: before
 
+         before = continuation
          call integrate(tangent, continuation%time(1), time, options, outcome, error, &
                         continuation=continuation)
          if (allocated(error)) return
          measured%evaluations = measured%evaluations + outcome%evaluations
          measured%steps = measured%steps + outcome%accepted
          measured%implicit_steps = measured%implicit_steps + outcome%implicit_steps
-         call straighten(error)
-      end subroutine pass
-
-      !> Orthonormal vectors, unless one has become a combination of the others.
-      subroutine straighten(error)
-         !> Directions are lost
-         type(error_type), allocatable, intent(out) :: error
-         real(wp) :: share
-
          call orthonormalise(tangent, settings%vector_size, continuation, norm, share)
-         measured%least_share = min(measured%least_share, share)
-         if (share > noise*max(options%relative, epsilon(1.0_wp))) return
-         call raise(error, "exponents: at t = "//text(continuation%time(1))//" a share of " &
-                    //text(share)//" is left of a vector without those before it; expected > " &
-                    //text(noise*options%relative)//" (ask for fewer exponents, shorter " &
-                    //"intervals or a smaller tolerance)")
-      end subroutine straighten
+         if (share > noise*max(options%relative, epsilon(1.0_wp))) then
+            measured%least_share = min(measured%least_share, share)
+            growth = growth + log(norm/settings%vector_size)
+         else if (halvings == 0 .and. settings%bounds) then
+            measured%bounds = .true.
+            growth = growth + log(norm/settings%vector_size)
+         else if (halvings == 0) then
+            call raise(error, "exponents: at t = "//text(continuation%time(1))//" a share of " &
+                       //text(share)//" is left of a vector without those before it; expected > " &
+                       //text(noise*options%relative)//" (ask for fewer exponents or a smaller " &
+                       //"tolerance)")
+         else
+            continuation = before
+            call pass(0.5_wp*(before%time(1) + time), halvings - 1)
+            if (.not. allocated(error)) call pass(time, halvings - 1)
+         end if
+      end subroutine pass
    end subroutine measure_growth
 
    !> Refuse what cannot be measured.

@@ -1,7 +1,7 @@
 !> How exponents of a scene are measured, from the namelist group &exponents.
 module exponents_input
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use errors, only: error_type, raise, text
+   use errors, only: error_type, text
    use kinds, only: wp
    use namelist_input, only: check_count, check_number, close_namelist, not_given, open_namelist
    use scene_input, only: scene_type
@@ -47,15 +47,8 @@ contains
       integer :: i
 
       call read_group(path, settings, error)
-      call check_count(error, path, "count", settings%exponents, at_least=1)
-      call check_count(error, path, "blocks", settings%blocks, at_least=2)
-      if (.not. allocated(error) .and. settings%exponents > most_exponents) then
-         call raise(error, path//": count = "//text(settings%exponents) &
-                    //"; expected a whole number <= "//text(most_exponents))
-      else if (.not. allocated(error) .and. settings%blocks > most_blocks) then
-         call raise(error, path//": blocks = "//text(settings%blocks) &
-                    //"; expected a whole number <= "//text(most_blocks))
-      end if
+      call check_count(error, path, "count", settings%exponents, at_least=1, at_most=most_exponents)
+      call check_count(error, path, "blocks", settings%blocks, at_least=2, at_most=most_blocks)
       call check_number(error, path, "t_end", settings%t_end, above=scene%t_transient)
       call check_number(error, path, "t_turning", settings%t_turning, at_least=0.0_wp)
       call check_number(error, path, "interval", settings%interval, above=0.0_wp)

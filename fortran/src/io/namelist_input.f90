@@ -106,8 +106,8 @@ contains
       call raise(error, place//": "//key//" = "//text(value)//"; expected "//range)
    end subroutine check_number
 
-   !> Refuse a count below its least value; keep an earlier error.
-   pure subroutine check_count(error, place, key, value, at_least)
+   !> Refuse a count out of range; keep an earlier error.
+   pure subroutine check_count(error, place, key, value, at_least, at_most)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
       !> File and what it describes
@@ -118,10 +118,17 @@ contains
       integer, intent(in) :: value
       !> Least value allowed
       integer, intent(in) :: at_least
+      !> Largest value allowed
+      integer, intent(in), optional :: at_most
 
-      if (allocated(error) .or. value >= at_least) return
-      call raise(error, place//": "//key//" = "//text(value)//"; expected a whole number >= " &
-                 //text(at_least))
+      if (allocated(error)) return
+      if (value < at_least) then
+         call raise(error, place//": "//key//" = "//text(value)//"; expected a whole number >= " &
+                    //text(at_least))
+      else if (present(at_most)) then
+         if (value > at_most) call raise(error, place//": "//key//" = "//text(value) &
+                                         //"; expected a whole number <= "//text(at_most))
+      end if
    end subroutine check_count
 
    !> Refuse a word that is not among the choices; keep an earlier error.

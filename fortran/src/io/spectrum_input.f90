@@ -6,7 +6,7 @@ module spectrum_input
                              not_given, open_namelist, word_length
    implicit none (type, external)
    private
-   public :: read_spectrum_settings, spectrum_settings
+   public :: read_spectrum_settings, spectrum_settings, windows
 
    !> Windows to choose from.
    character(len=6), parameter :: windows(2) = ["hann  ", "boxcar"]

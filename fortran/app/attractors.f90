@@ -1,0 +1,29 @@
+!> Attractors of the delayed block over a rectangle of the (epsilon, tau) plane, from one history or
+!> several, with their classes.
+program attractors_program
+   use attractor_points, only: find_attractors, finding_type
+   use attractors, only: attractor_settings
+   use attractors_output, only: write_attractors
+   use dde, only: integration_options
+   use errors, only: error_type
+   use observation_input, only: read_observation
+   use points_input, only: points_settings, read_points
+   use program_arguments, only: get_paths, stop_on
+   implicit none (type, external)
+   character(len=:), allocatable :: namelist_path, output_path
+   type(attractor_settings) :: settings
+   type(error_type), allocatable :: error
+   type(finding_type), allocatable :: findings(:)
+   type(integration_options) :: options
+   type(points_settings) :: asked
+
+   call get_paths(namelist_path, output_path, error)
+   call stop_on(error)
+   call read_observation(namelist_path, settings, options, error)
+   call stop_on(error)
+   call read_points(namelist_path, asked, error)
+   call stop_on(error)
+   call find_attractors(asked%points, settings, options, findings)
+   call write_attractors(output_path, asked, settings, options, findings, error)
+   call stop_on(error)
+end program attractors_program

@@ -1,0 +1,262 @@
+!> The attractor that the delayed block comes to from one history, and its class: by Lyapunov
+!> exponents, confirmed by a Poincare section and by the spectrum of v.
+!>
+!> The section is v = 1, v rising (where u is least), its points are (theta, u).
+module attractors
+   use base_frequencies, only: bases_type, label_peaks
+   use block_roots, only: roots_of_block
+   use characteristic_function, only: block_parameters
+   use dde, only: continuation_type, event_table, integrate, integration_options, &
+                  integration_result, table_sampler
+   use errors, only: error_type
+   use exponent_averages, only: average_growth, exponent_type
+   use kinds, only: wp
+   use lyapunov_spectrum, only: growth_settings, growth_type, measure_growth
+   use motion_classes, only: agreed, chaos, class_by_exponents, cycle_motion, fixed_point, torus, undecided
+   use section_motion, only: judge_section, section_verdict
+   use spectral_peaks, only: find_peaks, peak_type
+   use spectrum, only: power_spectrum
+   use spectrum_verdict, only: continuum, line_share, one_base, spectrum_kind, two_bases
+   use spring_block, only: index_of_ln_v, index_of_theta, index_of_u, spring_block_type
+   implicit none (type, external)
+   private
+   public :: attractor_settings, attractor_type, find_attractor
+
+   !> Largest deviation from steady sliding, in ln v, of a block that comes to rest there.
+   real(wp), parameter :: at_rest = 1.0e-3_wp
+   !> First bound above which roots of (5) are sought, and the last.
+   real(wp), parameter :: first_bound = -0.25_wp, last_bound = -8.0_wp
+
+   !> Numbers of the two event functions.
+   enum, bind(c)
+      enumerator :: section = 1, maximum
+   end enum
+
+   !> How an attractor is found and judged.
+   type :: attractor_settings
+      !> Time of the approach, left out
+      real(wp) :: t_transient = 0.0_wp
+      !> Time in which it is observed, and exponents are measured
+      real(wp) :: t_observed = 0.0_wp
+      !> Time in which tangent vectors turn before
+      real(wp) :: t_turning = 0.0_wp
+      !> Longest time between orthonormalisations
+      real(wp) :: interval = 0.0_wp
+      !> Number of blocks of exponents
+      integer :: blocks = 0
+      !> Number of exponents
+      integer :: exponents = 0
+      !> An exponent this close to zero has no sign
+      real(wp) :: zero_level = 0.0_wp
+      !> Longest error bar that still tells a zero
+      real(wp) :: longest_bar = 0.0_wp
+      !> Time between the samples of the spectrum
+      real(wp) :: sample_interval = 0.0_wp
+      !> Window of the spectrum, of `window_of`
+      character(len=8) :: window = "hann"
+      !> Number of its segments, and the share of one that the next repeats
+      integer :: segments = 1
+      real(wp) :: overlap = 0.0_wp
+      !> Least height of its peaks over the highest, and over the valleys beside them
+      real(wp) :: peak_floor = 0.0_wp, peak_prominence = 1.0_wp
+   end type attractor_settings
+
+   !> What was found.
+   type :: attractor_type
+      !> Classes, of `motion_classes`
+      integer :: class = undecided, by_exponents = undecided, by_section = undecided
+      integer :: by_spectrum = undecided
+      !> Leading exponents, descending
+      type(exponent_type), allocatable :: exponents(:)
+      !> Points after which a cycle repeats in the section, 0 where none
+      integer :: period = 0
+      !> Turns from point to point on the section's closed curve, 0 where none
+      real(wp) :: rotation = 0.0_wp
+      !> Base frequencies of v, 0 where none
+      real(wp) :: bases(2) = 0.0_wp
+      !> Share of the power of v in the lines of these
+      real(wp) :: line_share = 0.0_wp
+      !> Maxima of v
+      real(wp), allocatable :: maxima(:)
+      !> Points (theta, u) of the section, shape (2, points)
+      real(wp), allocatable :: section(:, :)
+   end type attractor_type
+
+contains
+
+   !> Find the attractor of the block's own history.
+   subroutine find_attractor(block_model, settings, options, attractor, error)
+      !> The block and its history
+      type(spring_block_type), intent(in) :: block_model
+      !> How
+      type(attractor_settings), intent(in) :: settings
+      !> Method and tolerances
+      type(integration_options), intent(in) :: options
+      !> What was found
+      type(attractor_type), intent(out) :: attractor
+      !> The run ended before its time, or exponents cannot be measured
+      type(error_type), allocatable, intent(out) :: error
+      type(continuation_type) :: arrived, onward
+      type(event_table) :: events
+      type(integration_result) :: outcome
+      type(table_sampler) :: samples
+      integer :: i
+
+      call integrate(block_model, 0.0_wp, settings%t_transient, options, outcome, error, &
+                     continuation=arrived)
+      if (allocated(error)) return
+      events = event_table([index_of_ln_v, index_of_ln_v], level=[0.0_wp, 0.0_wp], &
+                           direction=[1, -1], of_slope=[.false., .true.])
+      samples = table_sampler([index_of_theta, index_of_u, index_of_ln_v], &
+                              [(settings%t_transient + i*settings%sample_interval, &
+                                i=0, int(settings%t_observed/settings%sample_interval))])
+      onward = arrived
+      call integrate(block_model, settings%t_transient, &
+                     settings%t_transient + settings%t_observed, options, outcome, error, &
+                     sampler=samples, watcher=events, continuation=onward)
+      if (allocated(error)) return
+      call keep_events(events, attractor)
+
+      associate (w => samples%values(3, :), half => size(samples%time)/2)
+         if (maxval(abs(w(half:))) <= min(at_rest, maxval(abs(w(:half))))) then
+            call judge_rest(block_model, settings%exponents, attractor, error)
+         else
+            call judge_motion(block_model, settings, options, arrived, samples, attractor, error)
+         end if
+      end associate
+      if (allocated(error)) return
+      attractor%class = agreed(attractor%by_exponents, attractor%by_section, attractor%by_spectrum)
+   end subroutine find_attractor
+
+   !> Maxima of v and points of the section.
+   pure subroutine keep_events(events, attractor)
+      !> Events met
+      type(event_table), intent(in) :: events
+      !> The attractor
+      type(attractor_type), intent(inout) :: attractor
+      integer :: i
+
+      if (events%received == 0) then
+         allocate (attractor%maxima(0), attractor%section(2, 0))
+         return
+      end if
+      associate (met => events%which(:events%received))
+         attractor%maxima = exp(events%y(index_of_ln_v, pack([(i, i=1, size(met))], met == maximum)))
+         attractor%section = events%y([index_of_theta, index_of_u], &
+                                      pack([(i, i=1, size(met))], met == section))
+      end associate
+   end subroutine keep_events
+
+   !> A block that comes to rest has the roots of (5) for exponents.
+   subroutine judge_rest(block_model, exponents, attractor, error)
+      !> The block
+      type(spring_block_type), intent(in) :: block_model
+      !> Number of exponents
+      integer, intent(in) :: exponents
+      !> The attractor
+      type(attractor_type), intent(inout) :: attractor
+      !> The roots cannot be found
+      type(error_type), allocatable, intent(out) :: error
+      complex(wp), allocatable :: roots(:)
+      real(wp) :: bound
+      integer :: i
+
+      bound = first_bound
+      do
+         associate (b => block_model)
+            call roots_of_block(block_parameters(sum(b%lag), b%epsilon, b%xi, b%gamma), bound, &
+                                roots, error)
+         end associate
+         if (allocated(error)) return
+         if (size(roots) >= exponents .or. bound <= last_bound) exit
+         bound = 2.0_wp*bound
+      end do
+      attractor%exponents = [(exponent_type(value=real(roots(i))), &
+                              i=1, min(exponents, size(roots)))]
+      if (all(attractor%exponents%value < 0.0_wp)) attractor%by_exponents = fixed_point
+      attractor%by_section = fixed_point
+      attractor%by_spectrum = fixed_point
+   end subroutine judge_rest
+
+   !> A block in motion: three witnesses.
+   subroutine judge_motion(block_model, settings, options, arrived, samples, attractor, error)
+      !> The block
+      type(spring_block_type), intent(in) :: block_model
+      !> How
+      type(attractor_settings), intent(in) :: settings
+      !> Method and tolerances
+      type(integration_options), intent(in) :: options
+      !> Where the approach ended
+      type(continuation_type), intent(in) :: arrived
+      !> theta, u and ln v
+      type(table_sampler), intent(in) :: samples
+      !> The attractor
+      type(attractor_type), intent(inout) :: attractor
+      !> Exponents cannot be measured
+      type(error_type), allocatable, intent(out) :: error
+      type(growth_type) :: measured
+      type(section_verdict) :: in_section
+      integer :: i
+
+      call measure_growth(block_model, &
+                          growth_settings(exponents=settings%exponents, &
+                                          t_end=settings%t_transient + settings%t_turning &
+                                                + settings%t_observed, &
+                                          t_turning=settings%t_turning, &
+                                          interval=settings%interval, blocks=settings%blocks, &
+                                          bounds=.true.), &
+                          options, measured, error, arrived)
+      if (allocated(error)) return
+      attractor%exponents = average_growth(measured%growth, measured%interval, settings%blocks)
+      attractor%by_exponents = class_by_exponents(attractor%exponents, settings%zero_level, &
+                                                  settings%longest_bar)
+
+      call judge_section(attractor%section, [(spread_of(samples%values(i, :)), i=1, 2)], in_section)
+      attractor%by_section = in_section%class
+      attractor%period = in_section%period
+      attractor%rotation = in_section%rotation
+
+      call judge_spectrum(exp(samples%values(3, :)), settings, attractor, error)
+   end subroutine judge_motion
+
+   !> What the lines in the spectrum of v tell.
+   subroutine judge_spectrum(v, settings, attractor, error)
+      !> Samples of v
+      real(wp), intent(in) :: v(:)
+      !> How
+      type(attractor_settings), intent(in) :: settings
+      !> The attractor
+      type(attractor_type), intent(inout) :: attractor
+      !> Too few samples
+      type(error_type), allocatable, intent(out) :: error
+      type(bases_type) :: bases
+      type(peak_type), allocatable :: peaks(:)
+      real(wp), allocatable :: frequency(:), power(:)
+
+      call power_spectrum(v, settings%sample_interval, trim(settings%window), settings%segments, &
+                          settings%overlap, frequency, power, error)
+      if (allocated(error)) return
+      peaks = find_peaks(frequency, power, settings%peak_floor, settings%peak_prominence)
+      call label_peaks(peaks, frequency(2), bases)
+      attractor%bases = bases%frequency
+      attractor%line_share = line_share(power, peaks)
+      select case (spectrum_kind(power, peaks, bases))
+      case (one_base)
+         attractor%by_spectrum = cycle_motion
+      case (two_bases)
+         attractor%by_spectrum = torus
+      case (continuum)
+         attractor%by_spectrum = chaos
+      end select
+   end subroutine judge_spectrum
+
+   !> Standard deviation.
+   pure real(wp) function spread_of(values) result(spread)
+      !> Values
+      real(wp), intent(in) :: values(:)
+
+      associate (n => size(values))
+         spread = max(norm2(values - sum(values)/n)/sqrt(real(n, wp)), tiny(1.0_wp))
+      end associate
+   end function spread_of
+end module attractors

@@ -1,0 +1,69 @@
+!> The classes of motion, and the one that exponents tell.
+module motion_classes
+   use exponent_averages, only: error_bars, exponent_type, without_sign
+   use kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: agreed, chaos, class_by_exponents, class_names, cycle_motion, fixed_point, torus
+   public :: undecided
+
+   !> Classes of motion.
+   enum, bind(c)
+      enumerator :: undecided, fixed_point, cycle_motion, torus, chaos
+   end enum
+
+   !> Their names, from `undecided` on.
+   character(len=11), parameter :: class_names(0:4) = ["undecided  ", "fixed point", &
+                                                       "cycle      ", "torus      ", "chaos      "]
+
+contains
+
+   !> The class that leading exponents tell: all negative, a fixed point; one zero, the others
+   !> negative, a cycle; two zero, a torus; positive ones and a zero, chaos. Undecided where the
+   !> last exponent measured is not negative, or none is positive and one without sign has too long
+   !> an error bar.
+   pure integer function class_by_exponents(exponents, zero_level, longest_bar) result(class)
+      !> Exponents, descending
+      type(exponent_type), intent(in) :: exponents(:)
+      !> What is as good as zero, whatever the error bar
+      real(wp), intent(in) :: zero_level
+      !> Longest error bar (of three standard errors) that still tells a zero
+      real(wp), intent(in) :: longest_bar
+      logical :: zero(size(exponents))
+      integer :: positive, zeros
+
+      zero = without_sign(exponents, zero_level)
+      positive = count(exponents%value > 0.0_wp .and. .not. zero)
+      zeros = count(zero)
+      class = undecided
+      if (positive + zeros == size(exponents)) return
+      if (positive > 0) then
+         if (zeros > 0) class = chaos
+      else if (.not. any(zero .and. error_bars*exponents%error > longest_bar)) then
+         select case (zeros)
+         case (0)
+            class = fixed_point
+         case (1)
+            class = cycle_motion
+         case (2)
+            class = torus
+         end select
+      end if
+   end function class_by_exponents
+
+   !> The verdict: that of the exponents where one of the others confirms it and none contradicts.
+   pure integer function agreed(by_exponents, by_section, by_spectrum) result(class)
+      !> Class by exponents
+      integer, intent(in) :: by_exponents
+      !> Class by the section; `undecided` abstains
+      integer, intent(in) :: by_section
+      !> Class by the spectrum; `undecided` abstains
+      integer, intent(in) :: by_spectrum
+
+      associate (others => [by_section, by_spectrum])
+         class = by_exponents
+         if (any(others /= undecided .and. others /= class)) class = undecided
+         if (all(others == undecided)) class = undecided
+      end associate
+   end function agreed
+end module motion_classes

@@ -1,0 +1,242 @@
+!> Files of attractors.
+module attractors_output
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use attractor_points, only: finding_type
+   use attractors, only: attractor_settings
+   use dde, only: integration_options
+   use errors, only: error_type
+   use kinds, only: int64, wp
+   use motion_classes, only: class_names
+   use netcdf_output, only: output_file
+   use points_input, only: points_settings
+   implicit none (type, external)
+   private
+   public :: write_attractors
+
+contains
+
+   !> Write what was found at each point.
+   subroutine write_attractors(path, asked, settings, options, findings, error)
+      !> Path of the file
+      character(len=*), intent(in) :: path
+      !> Points, and what is kept of each
+      type(points_settings), intent(in) :: asked
+      !> How attractors were judged
+      type(attractor_settings), intent(in) :: settings
+      !> Method and tolerances
+      type(integration_options), intent(in) :: options
+      !> What was found
+      type(finding_type), intent(in) :: findings(:)
+      !> It could not be written
+      type(error_type), allocatable, intent(out) :: error
+      type(output_file) :: file
+      real(wp), dimension(size(findings)) :: least, most
+      integer :: i, rows
+
+      call file%create(path, "Attractors of the spring block with delayed friction")
+      call file%attribute("name", trim(asked%name))
+      call file%attribute("xi", asked%points(1)%parameters%xi)
+      call file%attribute("gamma", asked%points(1)%parameters%gamma)
+      call put_settings(file, settings, options)
+      rows = file%dimension("point", size(findings))
+      associate (points => asked%points, found => findings%attractor)
+         call put("epsilon", points%parameters%epsilon, "sensitivity of the velocity relaxation")
+         call put("tau", points%parameters%tau, "delay")
+         call put("history_theta", points%history(1), "theta for t <= 0")
+         call put("history_u", points%history(2), "u for t <= 0")
+         call put("history_v", points%history(3), "v for t <= 0")
+         call put_class("class", found%class, "class of the motion")
+         call put_class("by_exponents", found%by_exponents, "class by Lyapunov exponents")
+         call put_class("by_section", found%by_section, "class by the section v = 1, v rising")
+         call put_class("by_spectrum", found%by_spectrum, "class by the spectrum of v")
+         call put_exponents()
+         call put_integers("period", found%period, "points of a cycle in the section, 0: none")
+         call put("rotation", found%rotation, "turns from point to point on a closed curve")
+         call put("base_1", found%bases(1), "first base frequency of v, 0: none")
+         call put("base_2", found%bases(2), "second base frequency of v, 0: none")
+         call put("line_share", found%line_share, "share of the power of v in their lines")
+         do i = 1, size(findings)
+            call reach(findings(i), least(i), most(i))
+         end do
+         call put("smallest_maximum", least, "smallest maximum of v")
+         call put("largest_maximum", most, "largest maximum of v")
+      end associate
+      call put_kept(file, asked%kept, findings, rows)
+      call put_problems(file, findings, rows)
+      call file%finish(error)
+
+   contains
+
+      !> A real number at each point.
+      subroutine put(name, values, long_name)
+         !> Its name
+         character(len=*), intent(in) :: name
+         !> Its values
+         real(wp), intent(in) :: values(:)
+         !> What it is
+         character(len=*), intent(in) :: long_name
+
+         call file%put(file%real_variable(name, rows, long_name, "1"), values)
+      end subroutine put
+
+      !> An integer at each point.
+      subroutine put_integers(name, values, long_name)
+         !> Its name
+         character(len=*), intent(in) :: name
+         !> Its values
+         integer, intent(in) :: values(:)
+         !> What it is
+         character(len=*), intent(in) :: long_name
+
+         call file%put(file%integer_variable(name, rows, long_name), values)
+      end subroutine put_integers
+
+      !> A class at each point.
+      subroutine put_class(name, values, long_name)
+         !> Its name
+         character(len=*), intent(in) :: name
+         !> Its values
+         integer, intent(in) :: values(:)
+         !> What it is
+         character(len=*), intent(in) :: long_name
+         integer :: id
+
+         id = file%integer_variable(name, rows, long_name)
+         call file%attribute("flag_meanings", meanings(), id)
+         call file%put(id, values)
+      end subroutine put_class
+
+      !> Exponents and their errors.
+      subroutine put_exponents()
+         real(wp), dimension(settings%exponents, size(findings)) :: bars, values
+         integer :: dimensions(2), k, n
+
+         values = ieee_value(1.0_wp, ieee_quiet_nan)
+         bars = values
+         do k = 1, size(findings)
+            if (.not. allocated(findings(k)%attractor%exponents)) cycle
+            n = size(findings(k)%attractor%exponents)
+            values(:n, k) = findings(k)%attractor%exponents%value
+            bars(:n, k) = findings(k)%attractor%exponents%error
+         end do
+         dimensions = [file%dimension("exponent", settings%exponents), rows]
+         call file%table("lyapunov_exponent", dimensions, values, "Lyapunov exponents, descending")
+         call file%table("lyapunov_error", dimensions, bars, "standard errors of the exponents")
+      end subroutine put_exponents
+   end subroutine write_attractors
+
+   !> The classes in words, joined, in the order of their numbers from 0.
+   pure function meanings() result(words)
+      character(len=:), allocatable :: words
+      character(len=len(class_names)) :: name
+      integer :: i, j
+
+      words = ""
+      do i = 0, ubound(class_names, 1)
+         name = class_names(i)
+         do j = 1, len_trim(name)
+            if (name(j:j) == " ") name(j:j) = "_"
+         end do
+         words = words//" "//trim(name)
+      end do
+      words = words(2:)
+   end function meanings
+
+   !> How attractors were found.
+   subroutine put_settings(file, settings, options)
+      !> The file
+      type(output_file), intent(inout) :: file
+      !> How they were judged
+      type(attractor_settings), intent(in) :: settings
+      !> Method and tolerances
+      type(integration_options), intent(in) :: options
+
+      call file%attribute("method", trim(options%method))
+      call file%attribute("tolerance", options%relative)
+      call file%attribute("t_transient", settings%t_transient)
+      call file%attribute("t_observed", settings%t_observed)
+      call file%attribute("t_turning", settings%t_turning)
+      call file%attribute("interval", settings%interval)
+      call file%attribute("blocks", int(settings%blocks, int64))
+      call file%attribute("zero_level", settings%zero_level)
+      call file%attribute("longest_bar", settings%longest_bar)
+      call file%attribute("sample_interval", settings%sample_interval)
+   end subroutine put_settings
+
+   !> Smallest and largest maximum of v; NaN where there is none.
+   pure subroutine reach(finding, least, most)
+      !> What was found
+      type(finding_type), intent(in) :: finding
+      !> Smallest
+      real(wp), intent(out) :: least
+      !> Largest
+      real(wp), intent(out) :: most
+
+      least = ieee_value(1.0_wp, ieee_quiet_nan)
+      most = least
+      if (.not. allocated(finding%attractor%maxima)) return
+      associate (maxima => finding%attractor%maxima)
+         if (size(maxima) == 0) return
+         least = minval(maxima)
+         most = maxval(maxima)
+      end associate
+   end subroutine reach
+
+   !> The last maxima and points of the section, if any are wanted; NaN where there are fewer.
+   subroutine put_kept(file, kept, findings, rows)
+      !> The file
+      type(output_file), intent(inout) :: file
+      !> Most that are kept
+      integer, intent(in) :: kept
+      !> What was found
+      type(finding_type), intent(in) :: findings(:)
+      !> Dimension of the points
+      integer, intent(in) :: rows
+      real(wp), dimension(kept, size(findings)) :: maxima, theta, u
+      integer :: dimensions(2), first, i, n
+
+      if (kept == 0) return
+      maxima = ieee_value(1.0_wp, ieee_quiet_nan)
+      theta = maxima
+      u = maxima
+      do i = 1, size(findings)
+         associate (found => findings(i)%attractor)
+            if (.not. allocated(found%maxima)) cycle
+            n = min(kept, size(found%maxima))
+            first = size(found%maxima) - n + 1
+            maxima(:n, i) = found%maxima(first:)
+            n = min(kept, size(found%section, 2))
+            first = size(found%section, 2) - n + 1
+            theta(:n, i) = found%section(1, first:)
+            u(:n, i) = found%section(2, first:)
+         end associate
+      end do
+      dimensions = [file%dimension("kept", kept), rows]
+      call file%table("maximum", dimensions, maxima, "maxima of v, in order of time")
+      call file%table("section_theta", dimensions, theta, "theta in the section v = 1, v rising")
+      call file%table("section_u", dimensions, u, "u in the section v = 1, v rising")
+   end subroutine put_kept
+
+   !> Why no attractor was found, blank where one was.
+   subroutine put_problems(file, findings, rows)
+      !> The file
+      type(output_file), intent(inout) :: file
+      !> What was found
+      type(finding_type), intent(in) :: findings(:)
+      !> Dimension of the points
+      integer, intent(in) :: rows
+      character(len=:), allocatable :: words(:)
+      integer :: i, letters
+
+      letters = 1
+      do i = 1, size(findings)
+         if (allocated(findings(i)%problem)) letters = max(letters, len(findings(i)%problem%message))
+      end do
+      allocate (character(len=letters) :: words(size(findings)))
+      words = ""
+      do i = 1, size(findings)
+         if (allocated(findings(i)%problem)) words(i) = findings(i)%problem%message
+      end do
+      call file%words("problem", rows, words, "why no attractor was found")
+   end subroutine put_problems
+end module attractors_output

@@ -1,0 +1,156 @@
+!> Points at which attractors are looked for: a rectangle of a grid in (epsilon, tau) and a list of
+!> histories, from the namelist group &points.
+module points_input
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use attractor_points, only: point_type
+   use characteristic_function, only: block_parameters
+   use errors, only: error_type, raise, text
+   use kinds, only: wp
+   use namelist_input, only: check_count, check_number, close_namelist, not_given, open_namelist
+   implicit none (type, external)
+   private
+   public :: points_settings, read_points
+
+   !> Most histories.
+   integer, parameter :: most_histories = 1000
+   !> Most points along a side of the grid.
+   integer, parameter :: most_places = 100000
+
+   !> Evenly spaced values of one parameter, and which of them are wanted.
+   type :: axis_type
+      !> First and last value
+      real(wp) :: window(2) = 0.0_wp
+      !> Number of values; the first alone when 1
+      integer :: places = 0
+      !> First and last that are wanted, from 1
+      integer :: wanted(2) = 0
+   end type axis_type
+
+   !> What is looked for, and what is kept of it.
+   type :: points_settings
+      !> Name of what the points belong to
+      character(len=64) :: name = ""
+      !> Points: epsilon runs fastest, histories slowest
+      type(point_type), allocatable :: points(:)
+      !> Most maxima and points of the section kept of each
+      integer :: kept = 0
+   end type points_settings
+
+contains
+
+   !> Read and check the points.
+   subroutine read_points(path, settings, error)
+      !> Path of the namelist file
+      character(len=*), intent(in) :: path
+      !> The points
+      type(points_settings), intent(out) :: settings
+      !> They cannot be read, or a value is out of range
+      type(error_type), allocatable, intent(out) :: error
+      type(axis_type) :: epsilon_axis, tau_axis
+      real(wp) :: gamma, theta(most_histories), u(most_histories), v(most_histories), xi
+      integer :: histories, i, j, k
+
+      call read_group(path, settings, xi, gamma, epsilon_axis, tau_axis, theta, u, v, error)
+      call check_number(error, path, "xi", xi, above=0.0_wp)
+      call check_number(error, path, "gamma", gamma, above=0.0_wp)
+      call check_count(error, path, "kept", settings%kept, at_least=0)
+      call check_axis(error, path, "epsilon", epsilon_axis)
+      call check_axis(error, path, "tau", tau_axis)
+      do i = 1, 2
+         call check_number(error, path, "epsilon_window", epsilon_axis%window(i), above=-1.0_wp)
+         call check_number(error, path, "tau_window", tau_axis%window(i), at_least=0.0_wp)
+      end do
+      histories = count(.not. ieee_is_nan(v))
+      call check_count(error, path, "number of histories", histories, at_least=1)
+      do i = 1, histories
+         call check_number(error, path, "theta("//text(i)//")", theta(i))
+         call check_number(error, path, "u("//text(i)//")", u(i))
+         call check_number(error, path, "v("//text(i)//")", v(i), above=0.0_wp)
+      end do
+      if (allocated(error)) return
+      associate (columns => epsilon_axis%wanted, rows => tau_axis%wanted)
+         settings%points = [(((point_type(block_parameters(value_at(tau_axis, j), &
+                                                           value_at(epsilon_axis, i), xi, gamma), &
+                                          [theta(k), u(k), v(k)]), &
+                               i=columns(1), columns(2)), j=rows(1), rows(2)), k=1, histories)]
+      end associate
+   end subroutine read_points
+
+   !> A value on an axis.
+   pure real(wp) function value_at(axis, i) result(value)
+      !> The axis
+      type(axis_type), intent(in) :: axis
+      !> Which, from 1
+      integer, intent(in) :: i
+
+      associate (share => real(i - 1, wp)/max(1, axis%places - 1))
+         value = (1.0_wp - share)*axis%window(1) + share*axis%window(2)
+      end associate
+   end function value_at
+
+   !> Refuse a part of the grid that is not in it.
+   pure subroutine check_axis(error, path, name, axis)
+      !> First error met
+      type(error_type), allocatable, intent(inout) :: error
+      !> Path of the namelist file
+      character(len=*), intent(in) :: path
+      !> Name of the parameter
+      character(len=*), intent(in) :: name
+      !> The axis
+      type(axis_type), intent(in) :: axis
+
+      call check_count(error, path, name//"_count", axis%places, at_least=1, at_most=most_places)
+      if (allocated(error)) return
+      if (1 <= axis%wanted(1) .and. axis%wanted(1) <= axis%wanted(2) &
+          .and. axis%wanted(2) <= axis%places) return
+      call raise(error, path//": "//name//"_part = "//text(axis%wanted(1))//", " &
+                 //text(axis%wanted(2))//"; expected first and last, 1 <= first <= last <= " &
+                 //text(axis%places))
+   end subroutine check_axis
+
+   !> Read the group &points.
+   subroutine read_group(path, settings, xi, gamma, epsilon_axis, tau_axis, theta, u, v, error)
+      !> Path of the namelist file
+      character(len=*), intent(in) :: path
+      !> Name and what is kept
+      type(points_settings), intent(out) :: settings
+      !> Spring constant
+      real(wp), intent(out) :: xi
+      !> Frequency
+      real(wp), intent(out) :: gamma
+      !> Values of epsilon and tau
+      type(axis_type), intent(out) :: epsilon_axis, tau_axis
+      !> Histories, NaN beyond the last
+      real(wp), intent(out) :: theta(:), u(:), v(:)
+      !> They cannot be read
+      type(error_type), allocatable, intent(out) :: error
+      character(len=len(settings%name)) :: name
+      real(wp) :: epsilon_window(2), tau_window(2)
+      integer :: epsilon_count, epsilon_part(2), kept, status, tau_count, tau_part(2), unit
+      character(len=256) :: reason
+      namelist /points/ name, xi, gamma, epsilon_window, epsilon_count, epsilon_part, tau_window, &
+         tau_count, tau_part, theta, u, v, kept
+
+      name = ""
+      xi = not_given()
+      gamma = xi
+      epsilon_window = xi
+      tau_window = xi
+      theta = xi
+      u = xi
+      v = xi
+      epsilon_count = 0
+      tau_count = 0
+      epsilon_part = 0
+      tau_part = 0
+      kept = -1
+      call open_namelist(path, unit, error)
+      if (allocated(error)) return
+      read (unit, nml=points, iostat=status, iomsg=reason)
+      call close_namelist(path, "points", unit, status, reason, error)
+      settings%name = name
+      settings%kept = kept
+      epsilon_axis = axis_type(epsilon_window, epsilon_count, epsilon_part)
+      tau_axis = axis_type(tau_window, tau_count, tau_part)
+   end subroutine read_group
+end module points_input
