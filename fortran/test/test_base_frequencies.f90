@@ -99,7 +99,7 @@ contains
    !> f + 2 s, f + s and f + 3 s: with f + 2 s, the higher, as second base f + s would be nothing.
    subroutine test_choice_of_bases(error)
       type(error_type), allocatable, intent(out) :: error
-      real(wp), parameter :: s = 0.1_wp*golden
+      real(wp), parameter :: s = 0.25_wp*golden
 
       call expect_labels(error, [1.0_wp, 0.2_wp, 0.3_wp, 0.1_wp], &
                          [1.0_wp, 1.0_wp + s, 1.0_wp + 2*s, 1.0_wp + 3*s], &
@@ -117,7 +117,7 @@ contains
                          [0, 1, 0, 1], [1, 0, 0, 1], [1.0_wp, golden])
    end subroutine test_three_bases
 
-   !> 3/4 is a fraction; 0.2 of a bin beside it is none, and is told apart; 7/11 might be chance.
+   !> 3/4 is a fraction; 0.05 of a bin beside it is none, and is told apart; 13/23 might be chance.
    subroutine test_fractions(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp), allocatable :: frequency(:), power(:)
@@ -126,18 +126,18 @@ contains
 
       call analyse(error, [0.5_wp, 1.0_wp], f*[0.75_wp, 1.0_wp], 0.0_wp, 1, frequency, &
                    power, peaks, bases)
-      call expect_close(error, bases%frequency, f*[0.25_wp, 0.0_wp], 0.02_wp*width, "bases of 3/4")
-      call analyse(error, [0.5_wp, 1.0_wp], [0.75_wp*f + 0.2_wp*width, f], 0.0_wp, 1, frequency, &
+      call expect_close(error, bases%frequency, f*[0.25_wp, 0.0_wp], 0.005_wp*width, "bases of 3/4")
+      call analyse(error, [0.5_wp, 1.0_wp], [0.75_wp*f + 0.05_wp*width, f], 0.0_wp, 1, frequency, &
                    power, peaks, bases)
-      call expect_close(error, bases%frequency, [f, 0.75_wp*f + 0.2_wp*width], 0.02_wp*width, &
+      call expect_close(error, bases%frequency, [f, 0.75_wp*f + 0.05_wp*width], 0.005_wp*width, &
                         "bases beside 3/4")
       call expect(error, bases%told_apart, "told apart from 3/4")
-      call analyse(error, [0.5_wp, 1.0_wp], f*[7.0_wp/11, 1.0_wp], 0.0_wp, 1, frequency, power, &
+      call analyse(error, [0.5_wp, 1.0_wp], f*[13.0_wp/23, 1.0_wp], 0.0_wp, 1, frequency, power, &
                    peaks, bases)
-      call expect_close(error, bases%frequency, f*[1.0_wp, 7.0_wp/11], 0.02_wp*width, &
-                        "bases of 7/11")
-      call expect(error, .not. bases%told_apart, "not told apart from 7/11")
-      call expect(error, all(bases%ratio == [7, 11]), "ratio "//text(bases%ratio(1))//"/" &
+      call expect_close(error, bases%frequency, f*[1.0_wp, 13.0_wp/23], 0.005_wp*width, &
+                        "bases of 13/23")
+      call expect(error, .not. bases%told_apart, "not told apart from 13/23")
+      call expect(error, all(bases%ratio == [13, 23]), "ratio "//text(bases%ratio(1))//"/" &
                   //text(bases%ratio(2)))
    end subroutine test_fractions
 
@@ -159,20 +159,20 @@ contains
                   "two bins off is a second base")
    end subroutine test_too_near
 
-   !> 0.1 of a bin off 3 f is no multiple unless the background makes it uncertain.
+   !> 0.05 of a bin off 3 f is no multiple unless the background makes it uncertain.
    subroutine test_accuracy(error)
       type(error_type), allocatable, intent(out) :: error
       type(peak_type) :: peaks(2)
       type(bases_type) :: bases
 
-      peaks%frequency = [0.5_wp, 1.501_wp]
+      peaks%frequency = [0.5_wp, 1.5005_wp]
       peaks%power = [9.0_wp, 1.0_wp]
       call label_peaks(peaks, 0.01_wp, bases)
-      call expect(error, peaks(2)%kind == second_base_peak, "0.1 of a bin off 3 f is no multiple")
-      peaks(2)%background = 0.01_wp
+      call expect(error, peaks(2)%kind == second_base_peak, "0.05 of a bin off 3 f is no multiple")
+      peaks(2)%background = 0.0025_wp
       call label_peaks(peaks, 0.01_wp, bases)
       call expect(error, peaks(2)%kind == harmonic_peak .and. peaks(2)%multiple(1) == 3, &
-                  "with a tenth of its amplitude beside it, it is")
+                  "with a twentieth of its amplitude beside it, it is")
    end subroutine test_accuracy
 
    !> Of pairs of frequencies drawn at random beside a base, as few as stated have a common base
@@ -243,6 +243,6 @@ contains
                         "multiples")
       call expect_close(error, real(peaks%multiple(2), wp), real(second_multiples, wp), 0.0_wp, &
                         "multiples of the second base")
-      call expect_close(error, bases%frequency/f, known, 0.03_wp*width/f, "bases over f")
+      call expect_close(error, bases%frequency/f, known, 0.005_wp*width/f, "bases over f")
    end subroutine expect_labels
 end module test_base_frequencies

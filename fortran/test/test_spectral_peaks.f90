@@ -24,9 +24,8 @@ contains
                    new_unittest("plateau and edges", test_plateau)]
    end subroutine collect_spectral_peaks
 
-   !> Wherever a line lies between two bins, its frequency is found to 0.02 of a bin and its height,
-   !> A^2/2 times 2/3 of the length, to 8 in a hundred (a parabola through the logarithms of a Hann
-   !> window's lobe at -3/2, -1/2 and 1/2 overshoots by 7.7).
+   !> Wherever a line lies between two bins, its frequency is found to 1e-5 of a bin and its height,
+   !> A^2/2 times 2/3 of the length, to 1e-5 (the line at minus the frequency is what is left).
    subroutine test_interpolation(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp), parameter :: amplitude = 0.7_wp
@@ -42,16 +41,15 @@ contains
                       bases)
          call expect(error, size(peaks) == 1, "one peak for one line, but "//text(size(peaks)))
          if (allocated(error)) return
-         call expect_close(error, (peaks(1)%frequency - known)/width, 0.0_wp, 0.02_wp, &
+         call expect_close(error, (peaks(1)%frequency - known)/width, 0.0_wp, 1.0e-5_wp, &
                            "misfit of the frequency in bins")
          call expect_close(error, peaks(1)%power/(amplitude**2/3.0_wp*length*interval), 1.0_wp, &
-                           0.08_wp, "height over the known one")
+                           1.0e-5_wp, "height over the known one")
          call expect_close(error, frequency(peaks(1)%bin)/width, known/width, 0.5001_wp, "bin")
       end do
    end subroutine test_interpolation
 
-   !> The lowest of bins 3 to 8 away, on the side where that is higher; 0.02 of a bin off and more
-   !> where a line stands in noise.
+   !> The lowest of bins 3 to 8 away, on the side where that is higher.
    subroutine test_background(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp), allocatable :: frequency(:), power(:)

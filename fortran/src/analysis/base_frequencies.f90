@@ -11,9 +11,9 @@ module base_frequencies
    private
    public :: bases_type, label_peaks
 
-   !> Bins by which the interpolation of a line through a Hann window is off at most; a background
-   !> adds as many bins as its amplitude over the line's.
-   real(wp), parameter :: bins_of_interpolation = 0.02_wp
+   !> Bins by which a line may be off even where nothing is seen beside it; a background adds as
+   !> many bins as its amplitude over the line's.
+   real(wp), parameter :: bins_of_interpolation = 0.005_wp
    !> Bins that part two lines at least if both are to be seen.
    real(wp), parameter :: bins_apart = 1.0_wp
    !> Chance that a random frequency is a fraction of the base: up to the first the two have one

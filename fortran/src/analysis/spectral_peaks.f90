@@ -78,8 +78,9 @@ contains
       end do
    end function valley_beside
 
-   !> Vertex of the parabola through the logarithms of three bins, which is where a line through a
-   !> Hann window peaks to about a hundredth of a bin (Gasior and Gonzalez 2004).
+   !> Frequency and height of a line through a Hann window, exactly, from the amplitudes in three
+   !> bins: x bins beside the middle one they are as (1 - x)(2 - x), 4 - x**2 and (1 + x)(2 + x),
+   !> the middle one being sin(pi x)/(pi x (1 - x**2)) of the height's.
    pure type(peak_type) function interpolated_peak(frequency, power, i) result(peak)
       !> Frequencies
       real(wp), intent(in) :: frequency(:)
@@ -87,15 +88,17 @@ contains
       real(wp), intent(in) :: power(:)
       !> Bin of the maximum
       integer, intent(in) :: i
-      real(wp) :: bins(3), bend, shift
+      real(wp), parameter :: pi = acos(-1.0_wp)
+      real(wp) :: amplitudes(3), lobe, shift
 
+      amplitudes = sqrt(power(i - 1:i + 1))
+      shift = 2.0_wp*(amplitudes(3) - amplitudes(1)) &
+              /(amplitudes(1) + 2.0_wp*amplitudes(2) + amplitudes(3))
+      lobe = 1.0_wp/(1.0_wp - shift**2)
+      if (abs(shift) > sqrt(epsilon(shift))) lobe = lobe*sin(pi*shift)/(pi*shift)
       peak%bin = i
-      bins = log(max(power(i - 1:i + 1), tiny(1.0_wp)))
-      bend = bins(1) - 2.0_wp*bins(2) + bins(3)
-      shift = 0.0_wp
-      if (bend < 0.0_wp) shift = 0.5_wp*(bins(1) - bins(3))/bend
       peak%frequency = frequency(i) + shift*(frequency(2) - frequency(1))
-      peak%power = exp(bins(2) - 0.25_wp*(bins(1) - bins(3))*shift)
+      peak%power = power(i)/lobe**2
       peak%background = background_beside(power, i)/peak%power
    end function interpolated_peak
 

@@ -19,18 +19,19 @@ module spectrum_verdict
    real(wp), parameter :: bins_of_a_line = 1.5_wp
 
    !> Least share of the power in the lines that the bases explain.
-   real(wp), parameter :: least_in_lines = 0.99_wp
-   !> Share of the power up to which lines do not count: what a transient may leave.
-   real(wp), parameter :: negligible = 1.0e-5_wp
+   real(wp), parameter :: least_in_lines = 0.999_wp
+   !> Shares of the power up to which lines of a second base and unexplained lines do not count:
+   !> what a transient may leave, and combinations of high order.
+   real(wp), parameter :: negligible_second = 1.0e-5_wp, negligible_others = 1.0e-4_wp
    !> Least share of the power off all lines in a continuum.
-   real(wp), parameter :: least_in_continuum = 0.1_wp
+   real(wp), parameter :: least_in_continuum = 0.02_wp
 
 contains
 
-   !> One base: at least 99 % of the power in the lines of f1 and its harmonics, at most 1e-5 in
-   !> others. Two bases: the same with the lines of f2 and the combinations, of which there is more
-   !> than 1e-5, if f2 is told apart from fractions of f1. Continuum: at least 10 % off all lines.
-   !> Without power no_spectrum, else undecided_spectrum.
+   !> One base: the lines that the bases explain hold at least 99.9 % of the power and all others at
+   !> most 1e-4; those of the second base at most 1e-5. Two bases: the same with more than that, if
+   !> f2 is told apart from fractions of f1. Continuum: at least 2 % off all lines. Without power
+   !> no_spectrum, else undecided_spectrum.
    pure integer function spectrum_kind(power, peaks, bases) result(kind)
       !> Power spectral density
       real(wp), intent(in) :: power(:)
@@ -48,8 +49,8 @@ contains
          kind = no_spectrum
       else if (continuum_share(power, peaks) >= least_in_continuum) then
          kind = continuum
-      else if (others <= negligible .and. first + second >= least_in_lines) then
-         if (second <= negligible) then
+      else if (others <= negligible_others .and. first + second >= least_in_lines) then
+         if (second <= negligible_second) then
             kind = one_base
          else if (bases%told_apart) then
             kind = two_bases
