@@ -1,15 +1,17 @@
 !> Power spectrum of v over a trajectory after its transient, with its peaks labelled.
 program spectrum_program
+   use base_frequencies, only: bases_type, label_peaks
    use errors, only: error_type
    use kinds, only: wp
    use program_arguments, only: get_paths, stop_on
-   use spectral_peaks, only: find_peaks, label_peaks, line_share, peak_type
+   use spectral_peaks, only: find_peaks, peak_type
    use spectrum, only: power_spectrum
    use spectrum_input, only: read_spectrum_settings, spectrum_settings
    use spectrum_output, only: write_spectrum
    use trajectory_input, only: read_trajectory, trajectory_type
    implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
+   type(bases_type) :: bases
    type(error_type), allocatable :: error
    type(peak_type), allocatable :: peaks(:)
    type(spectrum_settings) :: settings
@@ -32,9 +34,9 @@ program spectrum_program
       if (allocated(error)) error%message = trim(settings%trajectory)//": "//error%message
       call stop_on(error)
       peaks = find_peaks(frequency, power, settings%peak_floor, settings%peak_prominence)
-      call label_peaks(peaks, frequency(2))
+      call label_peaks(peaks, frequency(2), bases)
       call write_spectrum(output_path, trim(trajectory%scene), settings, frequency, power, &
-                          variance(v), peaks, line_share(power, peaks), error)
+                          variance(v), peaks, bases, error)
       call stop_on(error)
    end associate
 

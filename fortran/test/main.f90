@@ -2,6 +2,7 @@
 program tester
    use, intrinsic :: iso_fortran_env, only: error_unit
    use mctc_env_testing, only: new_testsuite, run_testsuite, testsuite_type
+   use test_base_frequencies, only: collect_base_frequencies
    use test_dde_behaviour, only: collect_dde_behaviour
    use test_dde_continuation, only: collect_dde_continuation
    use test_dde_controller, only: collect_dde_controller
@@ -31,6 +32,7 @@ program tester
    use test_model, only: collect_model
    use test_spectral_peaks, only: collect_spectral_peaks
    use test_spectrum, only: collect_spectrum
+   use test_spectrum_verdict, only: collect_spectrum_verdict
    use test_stability_changes, only: collect_stability_changes
    use test_tangents, only: collect_tangents
    implicit none (type, external)
@@ -38,7 +40,8 @@ program tester
    character(len=32) :: wanted
    integer :: failed, i, run
 
-   allocate (suites, source=[new_testsuite("dde_behaviour", collect_dde_behaviour), &
+   allocate (suites, source=[new_testsuite("base_frequencies", collect_base_frequencies), &
+                             new_testsuite("dde_behaviour", collect_dde_behaviour), &
                              new_testsuite("dde_continuation", collect_dde_continuation), &
                              new_testsuite("dde_controller", collect_dde_controller), &
                              new_testsuite("dde_convergence", collect_dde_convergence), &
@@ -67,6 +70,7 @@ program tester
                              new_testsuite("model", collect_model), &
                              new_testsuite("spectral_peaks", collect_spectral_peaks), &
                              new_testsuite("spectrum", collect_spectrum), &
+                             new_testsuite("spectrum_verdict", collect_spectrum_verdict), &
                              new_testsuite("stability_changes", &
                                            collect_stability_changes), &
                              new_testsuite("tangents", collect_tangents)])

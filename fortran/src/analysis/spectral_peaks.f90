@@ -1,24 +1,19 @@
-!> Peaks of a power spectrum and what each is: the base frequency, a harmonic of it, or another.
+!> Peaks of a power spectrum: where they are and how high.
 module spectral_peaks
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: base_peak, find_peaks, harmonic_peak, is_periodic, label_peaks, line_share, other_peak
-   public :: peak_type
+   public :: base_peak, combination_peak, find_peaks, harmonic_peak, other_peak, peak_type
+   public :: second_base_peak
 
-   !> What a peak is.
+   !> What a peak is: f1, m f1, f2, m f1 + n f2 with n /= 0, or none of these.
    enum, bind(c)
-      enumerator :: base_peak, harmonic_peak, other_peak
+      enumerator :: base_peak, harmonic_peak, second_base_peak, combination_peak, other_peak
    end enum
 
-   !> A peak is the m-th multiple of the base frequency within this many bins, and as many more per
-   !> m as interpolation may have misplaced the base.
-   real(wp), parameter :: bins_of_a_multiple = 0.5_wp, bins_of_the_base = 0.02_wp
-   !> Half width, in bins, of a line through a Hann window.
-   integer, parameter :: line_half_width = 4
-
-   !> Share of the power that the lines of a periodic signal hold at least.
-   real(wp), parameter :: periodic_share = 0.99_wp
+   !> Bins on either side of a peak that tell what else there is: beyond the main lobe of a line
+   !> through a Hann window.
+   integer, parameter :: nearest_beside = 3, farthest_beside = 8
 
    !> One peak.
    type :: peak_type
@@ -28,10 +23,12 @@ module spectral_peaks
       real(wp) :: frequency = 0.0_wp
       !> Interpolated height
       real(wp) :: power = 0.0_wp
-      !> base_peak, harmonic_peak or other_peak
+      !> Power of what lies beside it, over its height
+      real(wp) :: background = 0.0_wp
+      !> base_peak, harmonic_peak, second_base_peak, combination_peak or other_peak
       integer :: kind = other_peak
-      !> Multiple of the base frequency; 0 for other peaks
-      integer :: multiple = 0
+      !> m and n in m f1 + n f2; 0 and 0 for other peaks
+      integer :: multiple(2) = 0
    end type peak_type
 
 contains
@@ -81,8 +78,9 @@ contains
       end do
    end function valley_beside
 
-   !> Vertex of the parabola through the logarithms of three bins, which is where a line through a
-   !> Hann window peaks to about a hundredth of a bin (Gasior and Gonzalez 2004).
+   !> Frequency and height of a line through a Hann window, exactly, from the amplitudes in three
+   !> bins: x bins beside the middle one they are as (1 - x)(2 - x), 4 - x**2 and (1 + x)(2 + x),
+   !> the middle one being sin(pi x)/(pi x (1 - x**2)) of the height's.
    pure type(peak_type) function interpolated_peak(frequency, power, i) result(peak)
       !> Frequencies
       real(wp), intent(in) :: frequency(:)
@@ -90,78 +88,32 @@ contains
       real(wp), intent(in) :: power(:)
       !> Bin of the maximum
       integer, intent(in) :: i
-      real(wp) :: bins(3), bend, shift
+      real(wp), parameter :: pi = acos(-1.0_wp)
+      real(wp) :: amplitudes(3), lobe, shift
 
+      amplitudes = sqrt(power(i - 1:i + 1))
+      shift = 2.0_wp*(amplitudes(3) - amplitudes(1)) &
+              /(amplitudes(1) + 2.0_wp*amplitudes(2) + amplitudes(3))
+      lobe = 1.0_wp/(1.0_wp - shift**2)
+      if (abs(shift) > sqrt(epsilon(shift))) lobe = lobe*sin(pi*shift)/(pi*shift)
       peak%bin = i
-      bins = log(max(power(i - 1:i + 1), tiny(1.0_wp)))
-      bend = bins(1) - 2.0_wp*bins(2) + bins(3)
-      shift = 0.0_wp
-      if (bend < 0.0_wp) shift = 0.5_wp*(bins(1) - bins(3))/bend
       peak%frequency = frequency(i) + shift*(frequency(2) - frequency(1))
-      peak%power = exp(bins(2) - 0.25_wp*(bins(1) - bins(3))*shift)
+      peak%power = power(i)/lobe**2
+      peak%background = background_beside(power, i)/peak%power
    end function interpolated_peak
 
-   !> Label all peaks. The base is the highest peak, or the lowest peak of which that one is a
-   !> multiple.
-   pure subroutine label_peaks(peaks, resolution)
-      !> Peaks, frequency ascending
-      type(peak_type), intent(inout) :: peaks(:)
-      !> Width of a bin
-      real(wp), intent(in) :: resolution
-      integer :: base, highest, i
-
-      if (size(peaks) == 0) return
-      highest = maxloc(peaks%power, dim=1)
-      do base = 1, highest
-         if (multiple_of(peaks(highest)%frequency, peaks(base)%frequency, resolution) > 0) exit
-      end do
-      do i = 1, size(peaks)
-         peaks(i)%multiple = multiple_of(peaks(i)%frequency, peaks(base)%frequency, resolution)
-         peaks(i)%kind = merge(harmonic_peak, other_peak, peaks(i)%multiple > 0)
-      end do
-      peaks(base)%kind = base_peak
-   end subroutine label_peaks
-
-   !> m when frequency = m base within the resolution, otherwise 0.
-   pure integer function multiple_of(frequency, base, resolution) result(m)
-      !> Frequency in question
-      real(wp), intent(in) :: frequency
-      !> Base frequency
-      real(wp), intent(in) :: base
-      !> Width of a bin
-      real(wp), intent(in) :: resolution
-
-      m = nint(frequency/base)
-      if (abs(frequency - m*base) > (bins_of_a_multiple + bins_of_the_base*m)*resolution) m = 0
-   end function multiple_of
-
-   !> Share of the power that lies in the lines at the base frequency and its multiples.
-   pure real(wp) function line_share(power, peaks) result(share)
+   !> Lowest power on the side of a peak where that is higher.
+   pure real(wp) function background_beside(power, i) result(background)
       !> Power spectral density
       real(wp), intent(in) :: power(:)
-      !> Labelled peaks
-      type(peak_type), intent(in) :: peaks(:)
-      logical :: in_line(size(power))
-      integer :: i
+      !> Bin of the peak
+      integer, intent(in) :: i
+      real(wp) :: above, below
 
-      in_line = .false.
-      do i = 1, size(peaks)
-         if (peaks(i)%kind == other_peak) cycle
-         in_line(max(1, peaks(i)%bin - line_half_width): &
-                 min(size(power), peaks(i)%bin + line_half_width)) = .true.
-      end do
-      share = 0.0_wp
-      if (sum(power) > 0.0_wp) share = sum(power, mask=in_line)/sum(power)
-   end function line_share
-
-   !> Whether the spectrum is one of a periodic signal: a base frequency, harmonics, nothing else.
-   pure logical function is_periodic(peaks, share) result(value)
-      !> Labelled peaks
-      type(peak_type), intent(in) :: peaks(:)
-      !> Share of the power in their lines
-      real(wp), intent(in) :: share
-
-      value = any(peaks%kind == base_peak) .and. .not. any(peaks%kind == other_peak) &
-                    .and. share >= periodic_share
-   end function is_periodic
+      associate (last => size(power))
+         above = minval(power(min(last, i + nearest_beside):min(last, i + farthest_beside)))
+      end associate
+      below = minval(power(max(2, i - farthest_beside):max(2, i - nearest_beside)))
+      background = min(power(i), max(above, below))
+   end function background_beside
 end module spectral_peaks

@@ -62,7 +62,10 @@ contains
          return
       end if
       allocate (windowed(length), transform(length/2 + 1), power(length/2 + 1))
+      ! only the execution of plans is safe among threads
+      !$omp critical (fftw_planning)
       plan = fftw_plan_dft_r2c_1d(length, windowed, transform, fftw_estimate)
+      !$omp end critical (fftw_planning)
       window = window_of(window_name, length)
       mean = sum(signal)/size(signal)
       power = 0.0_wp
@@ -73,7 +76,9 @@ contains
          call fftw_execute_dft_r2c(plan, windowed, transform)
          power = power + real(transform)**2 + aimag(transform)**2
       end do
+      !$omp critical (fftw_planning)
       call fftw_destroy_plan(plan)
+      !$omp end critical (fftw_planning)
       power = power*interval/(sum(window**2)*segments)
       ! one side holds both, but for zero and the Nyquist frequency
       power(2:(length + 1)/2) = 2.0_wp*power(2:(length + 1)/2)

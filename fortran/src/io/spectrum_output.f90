@@ -1,18 +1,21 @@
 !> Spectrum files.
 module spectrum_output
-   use errors, only: error_type
+   use base_frequencies, only: bases_type
+   use errors, only: error_type, text
    use kinds, only: int64, wp
    use netcdf_output, only: output_file
-   use spectral_peaks, only: base_peak, harmonic_peak, is_periodic, other_peak, peak_type
+   use spectral_peaks, only: base_peak, combination_peak, harmonic_peak, other_peak, peak_type, &
+                             second_base_peak
    use spectrum_input, only: spectrum_settings
+   use spectrum_verdict, only: continuum_share, line_share, spectrum_kind, spectrum_kind_name
    implicit none (type, external)
    private
    public :: write_spectrum
 
 contains
 
-   !> Write a spectrum with its labelled peaks.
-   subroutine write_spectrum(path, scene, settings, frequency, power, variance, peaks, share, error)
+   !> Write a spectrum with its labelled peaks and what it is.
+   subroutine write_spectrum(path, scene, settings, frequency, power, variance, peaks, bases, error)
       !> Path of the file
       character(len=*), intent(in) :: path
       !> Name of the scene
@@ -27,12 +30,12 @@ contains
       real(wp), intent(in) :: variance
       !> Labelled peaks
       type(peak_type), intent(in) :: peaks(:)
-      !> Share of the power in the base frequency and its harmonics
-      real(wp), intent(in) :: share
+      !> Their base frequencies
+      type(bases_type), intent(in) :: bases
       !> It could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file) :: file
-      integer :: bins, f, k, m, p, pf, pp, rows
+      integer :: b, bins, f, k, m(2), p, pf, pp, rows
 
       call file%create(path, "Power spectrum of the velocity v")
       bins = file%dimension("frequency", size(frequency))
@@ -43,9 +46,13 @@ contains
       pp = file%real_variable("peak_power", rows, "interpolated height of the peak", "1")
       k = file%integer_variable("peak_kind", rows, "what the peak is")
       call file%attribute("flag_values", flag_text(), k)
-      call file%attribute("flag_meanings", "base harmonic other", k)
-      m = file%integer_variable("peak_multiple", rows, &
-                                "multiple of the base frequency, 0 for others")
+      call file%attribute("flag_meanings", "base harmonic second_base combination other", k)
+      m(1) = file%integer_variable("peak_multiple", rows, "multiple of the first base frequency")
+      m(2) = file%integer_variable("peak_second_multiple", rows, &
+                                   "multiple of the second base frequency, added to the first's")
+      b = file%real_variable("base_frequency", &
+                             file%dimension("base", count(bases%frequency > 0.0_wp)), &
+                             "base frequencies of the peaks", "1")
       call file%attribute("scene", scene)
       call file%attribute("window", trim(settings%window))
       call file%attribute("segments", int(settings%segments, int64))
@@ -53,22 +60,30 @@ contains
       call file%attribute("peak_floor", settings%peak_floor)
       call file%attribute("peak_prominence", settings%peak_prominence)
       call file%attribute("variance", variance)
-      call file%attribute("line_share", share)
-      call file%attribute("signal", trim(merge("periodic    ", "not periodic", &
-                                               is_periodic(peaks, share))))
+      call file%attribute("line_share", line_share(power, peaks))
+      call file%attribute("continuum_share", continuum_share(power, peaks))
+      if (bases%frequency(2) > 0.0_wp) then
+         call file%attribute("combination_order", int(bases%order, int64))
+         call file%attribute("ratio_of_bases", text(bases%ratio(1))//"/"//text(bases%ratio(2)))
+         call file%attribute("bases_told_apart", trim(merge("yes", "no ", bases%told_apart)))
+      end if
+      call file%attribute("spectrum_kind", spectrum_kind_name(spectrum_kind(power, peaks, bases)))
       call file%put(f, frequency)
       call file%put(p, power)
       call file%put(pf, peaks%frequency)
       call file%put(pp, peaks%power)
       call file%put(k, peaks%kind)
-      call file%put(m, peaks%multiple)
+      call file%put(m(1), peaks%multiple(1))
+      call file%put(m(2), peaks%multiple(2))
+      call file%put(b, pack(bases%frequency, bases%frequency > 0.0_wp))
       call file%finish(error)
    end subroutine write_spectrum
 
    !> The kinds as numbers in words, in the order of their meanings.
    pure function flag_text() result(flags)
-      character(len=8) :: flags
+      character(len=9) :: flags
 
-      write (flags, "(i0,1x,i0,1x,i0)") base_peak, harmonic_peak, other_peak
+      write (flags, "(*(i0,:,1x))") base_peak, harmonic_peak, second_base_peak, combination_peak, &
+         other_peak
    end function flag_text
 end module spectrum_output
