@@ -6,6 +6,7 @@ module lyapunov_spectrum
                   integration_result
    use errors, only: error_type, raise, text
    use kinds, only: int64, wp
+   use progress_receivers, only: progress_receiver
    use tangent_problem, only: tangent_problem_type
    use tangent_vectors, only: orthonormalise, start_vectors
    implicit none (type, external)
@@ -53,7 +54,7 @@ module lyapunov_spectrum
 contains
 
    !> Growth of tangent vectors along a solution that begins at t = 0.
-   subroutine measure_growth(problem, settings, options, measured, error)
+   subroutine measure_growth(problem, settings, options, measured, error, progress)
       !> The problem, with derivatives of its own
       class(dde_problem_type), intent(in) :: problem
       !> How many exponents, and when
@@ -64,6 +65,8 @@ contains
       type(growth_type), intent(out) :: measured
       !> It cannot be measured
       type(error_type), allocatable, intent(out) :: error
+      !> Receiver of the number of intervals done
+      class(progress_receiver), intent(inout), optional :: progress
       type(continuation_type) :: continuation, undisturbed
       type(integration_result) :: outcome
       type(tangent_problem_type) :: tangent
@@ -92,18 +95,20 @@ contains
       ! no solution of the variational equations yet: a kink
       continuation%rate = [undisturbed%rate, (0.0_wp, i=1, problem%n*settings%exponents)]
       turning = ceiling((measured%t_begin - start)/settings%interval)
-      do i = 1, turning
-         call pass(start + (measured%t_begin - start)*i/turning)
-         if (allocated(error)) return
-      end do
       associate (span => settings%t_end - measured%t_begin, blocks => settings%blocks)
          intervals = blocks*max(1, ceiling(span/(blocks*settings%interval)*(1.0_wp - 1.0e-12_wp)))
          measured%interval = span/intervals
          allocate (measured%growth(settings%exponents, intervals))
+         do i = 1, turning
+            call pass(start + (measured%t_begin - start)*i/turning)
+            if (allocated(error)) return
+            if (present(progress)) call progress%advance(i, turning + intervals)
+         end do
          do i = 1, intervals
             call pass(measured%t_begin + span*i/intervals)
             if (allocated(error)) return
             measured%growth(:, i) = log(norm/settings%vector_size)
+            if (present(progress)) call progress%advance(turning + i, turning + intervals)
          end do
       end associate
 

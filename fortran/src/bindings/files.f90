@@ -1,11 +1,11 @@
 !> Writing, renaming and removing files, by the C library: gfortran's own formatted output does not
-!> tell of a full disk.
+!> tell of a full disk. And whether standard error is a terminal.
 module files
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, c_ptr, c_size_t
    use errors, only: error_type, raise
    implicit none (type, external)
    private
-   public :: remove_file, rename_file, write_file
+   public :: remove_file, rename_file, standard_error_is_terminal, write_file
 
    interface
       integer(c_int) function c_rename(from, to) result(value) bind(c, name="rename")
@@ -40,6 +40,12 @@ module files
          implicit none (type, external)
          character(kind=c_char), intent(in) :: path(*)
       end function c_remove
+
+      integer(c_int) function c_isatty(descriptor) result(value) bind(c, name="isatty")
+         import :: c_int
+         implicit none (type, external)
+         integer(c_int), value :: descriptor
+      end function c_isatty
    end interface
 
 contains
@@ -91,4 +97,10 @@ contains
 
       status = c_remove(path//c_null_char)
    end subroutine remove_file
+
+   !> Whether standard error is a terminal, not a file or a pipe.
+   logical function standard_error_is_terminal() result(value)
+
+      value = c_isatty(2_c_int) == 1
+   end function standard_error_is_terminal
 end module files
