@@ -1,11 +1,13 @@
 !> Writing, renaming and removing files, by the C library: gfortran's own formatted output does not
-!> tell of a full disk. And whether standard error is a terminal.
+!> tell of a full disk.
 module files
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_long_long, c_null_char, &
+                                          c_ptr, c_size_t
    use errors, only: error_type, raise
+   use kinds, only: int64
    implicit none (type, external)
    private
-   public :: remove_file, rename_file, standard_error_is_terminal, write_file
+   public :: number_of_file, remove_file, rename_file, write_file
 
    interface
       integer(c_int) function c_rename(from, to) result(value) bind(c, name="rename")
@@ -41,11 +43,11 @@ module files
          character(kind=c_char), intent(in) :: path(*)
       end function c_remove
 
-      integer(c_int) function c_isatty(descriptor) result(value) bind(c, name="isatty")
-         import :: c_int
+      integer(c_long_long) function c_number(path) result(value) bind(c, name="number_of_file")
+         import :: c_char, c_long_long
          implicit none (type, external)
-         integer(c_int), value :: descriptor
-      end function c_isatty
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_number
    end interface
 
 contains
@@ -98,9 +100,11 @@ contains
       status = c_remove(path//c_null_char)
    end subroutine remove_file
 
-   !> Whether standard error is a terminal, not a file or a pipe.
-   logical function standard_error_is_terminal() result(value)
+   !> The number that tells a file from all others of its file system; 0 where there is none.
+   integer(int64) function number_of_file(path) result(value)
+      !> Its path
+      character(len=*), intent(in) :: path
 
-      value = c_isatty(2_c_int) == 1
-   end function standard_error_is_terminal
+      value = c_number(path//c_null_char)
+   end function number_of_file
 end module files

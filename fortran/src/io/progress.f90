@@ -3,16 +3,17 @@
 module progress
    use, intrinsic :: iso_fortran_env, only: error_unit
    use errors, only: text
-   use files, only: standard_error_is_terminal
    use kinds, only: int64, wp
+   use process, only: standard_error_is_terminal
    use progress_receivers, only: progress_receiver
    implicit none (type, external)
    private
    public :: progress_type
 
-   !> Seconds before the first line, and between two on a terminal.
+   !> Seconds before the first line.
    integer, parameter :: patience = 2
-   integer(int64), parameter :: looks_a_second = 5
+   !> Lines a second on a terminal.
+   integer(int64), parameter :: lines_a_second = 5
    !> Per cent between two lines elsewhere.
    integer, parameter :: step = 5
    !> Looks at the clock in one part of the work.
@@ -97,7 +98,7 @@ contains
       call system_clock(now)
       if (now - self%begun < patience*self%ticks) return
       if (self%rewritten) then
-         if ((now - self%told)*looks_a_second >= self%ticks) call self%tell(done, total, now)
+         if ((now - self%told)*lines_a_second >= self%ticks) call self%tell(done, total, now)
       else if (self%percent_of(done, total)/step > self%percent/step) then
          call self%tell(done, total, now)
       end if
