@@ -8,6 +8,7 @@ program attractors_program
    use errors, only: error_type
    use observation_input, only: read_observation
    use points_input, only: points_settings, read_points
+   use progress, only: progress_type
    use program_arguments, only: get_paths, stop_on
    implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
@@ -16,6 +17,7 @@ program attractors_program
    type(finding_type), allocatable :: findings(:)
    type(integration_options) :: options
    type(points_settings) :: asked
+   type(progress_type) :: report
 
    call get_paths(namelist_path, output_path, error)
    call stop_on(error)
@@ -23,7 +25,9 @@ program attractors_program
    call stop_on(error)
    call read_points(namelist_path, asked, error)
    call stop_on(error)
-   call find_attractors(asked%points, settings, options, findings)
+   report = progress_type("attractors of "//trim(asked%name))
+   call find_attractors(asked%points, settings, options, findings, report)
+   call report%finish()
    call write_attractors(output_path, asked, settings, options, findings, error)
    call stop_on(error)
 end program attractors_program

@@ -7,6 +7,7 @@ program exponents
    use kinds, only: wp
    use lyapunov_spectrum, only: growth_settings, growth_type, measure_growth
    use program_arguments, only: get_paths, stop_on
+   use progress, only: progress_type
    use scene_input, only: read_scene, scene_type
    use spring_block, only: spring_block_type
    implicit none (type, external)
@@ -14,6 +15,7 @@ program exponents
    type(error_type), allocatable :: error
    type(exponents_settings) :: settings
    type(growth_type), allocatable :: measured(:)
+   type(progress_type) :: report
    type(scene_type) :: scene
    type(spring_block_type) :: block_model
    real(wp), allocatable :: tolerances(:)
@@ -30,14 +32,19 @@ program exponents
                                    scene%history%theta, scene%history%u, scene%history%v)
    tolerances = [scene%tolerance, settings%check_tolerances]
    allocate (measured(size(tolerances)))
+   report = progress_type("exponents of "//trim(scene%name), parts=size(tolerances))
    do i = 1, size(tolerances)
+      call report%begin_part(i)
       call measure_growth(block_model, &
                           growth_settings(settings%exponents, scene%t_transient, settings%t_end, &
                                           settings%t_turning, settings%interval, settings%blocks), &
                           integration_options(method=trim(scene%method), relative=tolerances(i), &
-                                              absolute=tolerances(i)), measured(i), error)
-      call stop_on(error)
+                                              absolute=tolerances(i)), measured(i), error, &
+                          progress=report)
+      if (allocated(error)) exit
    end do
+   call report%finish()
+   call stop_on(error)
    call write_exponents(output_path, scene, settings, tolerances, measured, error)
    call stop_on(error)
 end program exponents

@@ -10,12 +10,14 @@ program measure
    use measured_run, only: measure_run, time_runs
    use namelist_input, only: not_given
    use program_arguments, only: get_paths, stop_on
+   use progress, only: progress_type
    implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
    type(case_type), allocatable :: cases(:)
    type(error_type), allocatable :: error
    type(measure_settings) :: settings
    type(measured_runs), allocatable :: measured(:)
+   type(progress_type) :: report
    integer :: i, j
 
    call get_paths(namelist_path, output_path, error)
@@ -25,15 +27,20 @@ program measure
    call read_measure(namelist_path, settings, error)
    call stop_on(error)
    allocate (measured(size(cases)))
+   report = progress_type("measured runs", parts=2*size(cases))
    do i = 1, size(cases)
+      call report%begin_part(2*i - 1)
       measured(i)%case = cases(i)
       measured(i)%runs = settings%runs
       do j = 1, size(settings%runs)
          call measure_run(cases(i), 0.0_wp, settings%most_steps, measured(i)%runs(j))
+         call report%advance(j, size(settings%runs))
       end do
+      call report%begin_part(2*i)
       call time_runs(cases(i), settings%most_steps, settings%repeats, settings%least_seconds, &
-                     measured(i)%runs)
+                     measured(i)%runs, report)
    end do
+   call report%finish()
    call write_measured_runs(output_path, measured, not_given(), error)
    call stop_on(error)
 end program measure

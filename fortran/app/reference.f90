@@ -7,12 +7,14 @@ program reference
    use measured_case, only: case_type
    use measured_run, only: measure_run, run_type
    use program_arguments, only: get_paths, stop_on
+   use progress, only: progress_type
    use reference_input, only: read_reference, reference_settings
    use reference_output, only: reference_file
    implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
    type(case_type), allocatable :: cases(:)
    type(error_type), allocatable :: error
+   type(progress_type) :: report
    type(reference_file) :: file
    type(reference_settings) :: settings
    type(run_type) :: best, checking, disturbed
@@ -30,13 +32,18 @@ program reference
       best = run_type(options%method, options%tolerance)
       disturbed = best
       checking = run_type(options%method, options%check_tolerance)
+      report = progress_type("references", parts=3*size(cases))
       do i = 1, size(cases)
-         call measure_run(cases(i), 0.0_wp, options%most_steps, best)
-         call measure_run(cases(i), 0.0_wp, options%most_steps, checking)
-         call measure_run(cases(i), options%disturbance, options%most_steps, disturbed)
+         call report%begin_part(3*i - 2)
+         call measure_run(cases(i), 0.0_wp, options%most_steps, best, report)
+         call report%begin_part(3*i - 1)
+         call measure_run(cases(i), 0.0_wp, options%most_steps, checking, report)
+         call report%begin_part(3*i)
+         call measure_run(cases(i), options%disturbance, options%most_steps, disturbed, report)
          call file%put(cases(i), options%disturbance, best, checking, disturbed)
       end do
    end associate
+   call report%finish()
    call file%finish(error)
    call stop_on(error)
 end program reference

@@ -28,7 +28,7 @@ program trajectory
    writer = trajectory_writer(output_path, scene)
    call stop_on(writer%file%error)
    call integrate(block_model, 0.0_wp, scene%t_end, options, outcome, error, writer)
-   if (allocated(error)) call writer%file%discard()
+   if (allocated(error)) call writer%discard()
    call stop_on(error)
    call writer%finish(outcome, error)
    call stop_on(error)

@@ -30,6 +30,7 @@ program tester
    use test_linear, only: collect_linear
    use test_measure, only: collect_measure
    use test_model, only: collect_model
+   use test_progress, only: collect_progress
    use test_spectral_peaks, only: collect_spectral_peaks
    use test_spectrum, only: collect_spectrum
    use test_spectrum_verdict, only: collect_spectrum_verdict
@@ -68,6 +69,7 @@ program tester
                              new_testsuite("linear", collect_linear), &
                              new_testsuite("measure", collect_measure), &
                              new_testsuite("model", collect_model), &
+                             new_testsuite("progress", collect_progress), &
                              new_testsuite("spectral_peaks", collect_spectral_peaks), &
                              new_testsuite("spectrum", collect_spectrum), &
                              new_testsuite("spectrum_verdict", collect_spectrum_verdict), &

@@ -5,6 +5,7 @@ module attractor_points
    use dde, only: integration_options
    use errors, only: error_type
    use kinds, only: wp
+   use progress_receivers, only: progress_receiver
    use spring_block, only: spring_block_type
    implicit none (type, external)
    private
@@ -30,7 +31,7 @@ contains
 
    !> Find the attractor of each point. Each is found by itself: the same whatever the number of
    !> threads.
-   subroutine find_attractors(points, settings, options, findings)
+   subroutine find_attractors(points, settings, options, findings, progress)
       !> Points
       type(point_type), intent(in) :: points(:)
       !> How
@@ -39,9 +40,12 @@ contains
       type(integration_options), intent(in) :: options
       !> What was found, one each
       type(finding_type), allocatable, intent(out) :: findings(:)
-      integer :: i
+      !> Receiver of the number of points done
+      class(progress_receiver), intent(inout), optional :: progress
+      integer :: done, i
 
       allocate (findings(size(points)))
+      done = 0
       !$omp parallel do schedule(dynamic)
       do i = 1, size(points)
          associate (p => points(i)%parameters, past => points(i)%history)
@@ -49,6 +53,10 @@ contains
                                                   past(2), past(3)), settings, options, &
                                 findings(i)%attractor, findings(i)%problem)
          end associate
+         !$omp critical (points_done)
+         done = done + 1
+         if (present(progress)) call progress%advance(done, size(points))
+         !$omp end critical (points_done)
       end do
       !$omp end parallel do
    end subroutine find_attractors

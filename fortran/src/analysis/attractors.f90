@@ -11,7 +11,7 @@ module attractors
    use errors, only: error_type
    use exponent_averages, only: average_growth, exponent_type
    use kinds, only: wp
-   use lyapunov_spectrum, only: growth_settings, growth_type, measure_growth
+   use lyapunov_spectrum, only: extend_growth, growth_settings, growth_type, measure_growth
    use motion_classes, only: agreed, chaos, class_by_exponents, cycle_motion, fixed_point, torus, undecided
    use section_motion, only: judge_section, section_verdict
    use spectral_peaks, only: find_peaks, peak_type
@@ -22,10 +22,12 @@ module attractors
    private
    public :: attractor_settings, attractor_type, find_attractor
 
-   !> Largest deviation from steady sliding, in ln v, of a block that comes to rest there.
-   real(wp), parameter :: at_rest = 1.0e-3_wp
+   !> A block comes to rest when ln v stays within the first of these in the second half of its
+   !> observation, or within the second and within this share of what it was in the first half;
+   !> and steady sliding must be stable.
+   real(wp), parameter :: at_rest = 1.0e-3_wp, near_rest = 0.2_wp, shrunk = 0.8_wp
    !> First bound above which roots of (5) are sought, and the last.
-   real(wp), parameter :: first_bound = -0.25_wp, last_bound = -8.0_wp
+   real(wp), parameter :: first_bound = -1.0_wp/64.0_wp, last_bound = -8.0_wp
 
    !> Numbers of the two event functions.
    enum, bind(c)
@@ -50,6 +52,8 @@ module attractors
       real(wp) :: zero_level = 0.0_wp
       !> Longest error bar that still tells a zero
       real(wp) :: longest_bar = 0.0_wp
+      !> How often the time of measuring exponents is doubled where they tell no class
+      integer :: doublings = 0
       !> Time between the samples of the spectrum
       real(wp) :: sample_interval = 0.0_wp
       !> Window of the spectrum, of `window_of`
@@ -117,16 +121,26 @@ contains
       if (allocated(error)) return
       call keep_events(events, attractor)
 
-      associate (w => samples%values(3, :), half => size(samples%time)/2)
-         if (maxval(abs(w(half:))) <= min(at_rest, maxval(abs(w(:half))))) then
-            call judge_rest(block_model, settings%exponents, attractor, error)
-         else
-            call judge_motion(block_model, settings, options, arrived, samples, attractor, error)
-         end if
-      end associate
+      if (rests(samples%values(3, :))) call judge_rest(block_model, settings%exponents, attractor, error)
       if (allocated(error)) return
+      if (attractor%by_exponents /= fixed_point) then
+         call judge_motion(block_model, settings, options, arrived, samples, attractor, error)
+         if (allocated(error)) return
+      end if
       attractor%class = agreed(attractor%by_exponents, attractor%by_section, attractor%by_spectrum)
    end subroutine find_attractor
+
+   !> Whether ln v stays close to 0, or closes in.
+   pure logical function rests(w)
+      !> Samples of ln v
+      real(wp), intent(in) :: w(:)
+
+      associate (half => size(w)/2)
+         associate (first => maxval(abs(w(:half))), second => maxval(abs(w(half + 1:))))
+            rests = second <= at_rest .or. (second <= near_rest .and. second <= shrunk*first)
+         end associate
+      end associate
+   end function rests
 
    !> Maxima of v and points of the section.
    pure subroutine keep_events(events, attractor)
@@ -173,7 +187,8 @@ contains
       end do
       attractor%exponents = [(exponent_type(value=real(roots(i))), &
                               i=1, min(exponents, size(roots)))]
-      if (all(attractor%exponents%value < 0.0_wp)) attractor%by_exponents = fixed_point
+      if (any(attractor%exponents%value >= 0.0_wp)) return
+      attractor%by_exponents = fixed_point
       attractor%by_section = fixed_point
       attractor%by_spectrum = fixed_point
    end subroutine judge_rest
@@ -194,22 +209,25 @@ contains
       type(attractor_type), intent(inout) :: attractor
       !> Exponents cannot be measured
       type(error_type), allocatable, intent(out) :: error
+      type(growth_settings) :: wanted
       type(growth_type) :: measured
       type(section_verdict) :: in_section
       integer :: i
 
-      call measure_growth(block_model, &
-                          growth_settings(exponents=settings%exponents, &
-                                          t_end=settings%t_transient + settings%t_turning &
-                                                + settings%t_observed, &
-                                          t_turning=settings%t_turning, &
-                                          interval=settings%interval, blocks=settings%blocks, &
-                                          bounds=.true.), &
-                          options, measured, error, arrived)
-      if (allocated(error)) return
-      attractor%exponents = average_growth(measured%growth, measured%interval, settings%blocks)
-      attractor%by_exponents = class_by_exponents(attractor%exponents, settings%zero_level, &
-                                                  settings%longest_bar)
+      wanted = growth_settings(exponents=settings%exponents, t_turning=settings%t_turning, &
+                               t_end=settings%t_transient + settings%t_turning &
+                                     + settings%t_observed, &
+                               interval=settings%interval, blocks=settings%blocks, bounds=.true.)
+      call measure_growth(block_model, wanted, options, measured, error, arrived)
+      do i = 0, settings%doublings
+         if (allocated(error)) return
+         attractor%exponents = average_growth(measured%growth, measured%interval, settings%blocks)
+         attractor%by_exponents = class_by_exponents(attractor%exponents, settings%zero_level, &
+                                                     settings%longest_bar)
+         if (attractor%by_exponents /= undecided .or. i == settings%doublings) exit
+         wanted%t_end = wanted%t_end + settings%t_observed*2**i
+         call extend_growth(block_model, wanted, options, wanted%t_end, measured, error)
+      end do
 
       call judge_section(attractor%section, [(spread_of(samples%values(i, :)), i=1, 2)], in_section)
       attractor%by_section = in_section%class

@@ -6,11 +6,12 @@ module lyapunov_spectrum
                   integration_result
    use errors, only: error_type, raise, text
    use kinds, only: int64, wp
+   use progress_receivers, only: progress_receiver
    use tangent_problem, only: tangent_problem_type
    use tangent_vectors, only: orthonormalise, start_vectors
    implicit none (type, external)
    private
-   public :: growth_settings, growth_type, measure_growth
+   public :: extend_growth, growth_settings, growth_type, measure_growth
 
    !> A part smaller than so many tolerances of the vector it is taken from is noise.
    real(wp), parameter :: noise = 10.0_wp
@@ -55,13 +56,15 @@ module lyapunov_spectrum
       integer(int64) :: evaluations = 0
       !> Steps accepted, and how many of them were implicit
       integer(int64) :: steps = 0, implicit_steps = 0
+      !> Where solution and vectors are
+      type(continuation_type) :: continuation
    end type growth_type
 
 contains
 
    !> Growth of tangent vectors along a solution that begins at t = 0, or goes on from where an
    !> earlier run ended: then the vectors begin there and turn before measuring begins.
-   subroutine measure_growth(problem, settings, options, measured, error, undisturbed)
+   subroutine measure_growth(problem, settings, options, measured, error, undisturbed, progress)
       !> The problem, with derivatives of its own
       class(dde_problem_type), intent(in) :: problem
       !> How many exponents, and when
@@ -74,11 +77,12 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Where an earlier run of the problem ended
       type(continuation_type), intent(in), optional :: undisturbed
-      type(continuation_type) :: approach, continuation
+      !> Receiver of the number of intervals done
+      class(progress_receiver), intent(inout), optional :: progress
+      type(continuation_type) :: approach
       type(integration_result) :: outcome
       type(tangent_problem_type) :: tangent
-      real(wp), allocatable :: growth(:), norm(:)
-      real(wp) :: share, start
+      real(wp) :: growth(settings%exponents), norm(settings%exponents), share, start
       integer :: i, intervals, turning
 
       call check(problem, settings, error)
@@ -103,65 +107,142 @@ contains
          if (allocated(error)) return
       end if
       tangent = tangent_problem_type(problem, settings%exponents)
-      allocate (norm(settings%exponents), growth(settings%exponents))
-      call start_vectors(tangent, approach, continuation)
-      call orthonormalise(tangent, settings%vector_size, continuation, norm, share)
+      call start_vectors(tangent, approach, measured%continuation)
+      call orthonormalise(tangent, settings%vector_size, measured%continuation, norm, share)
       ! no solution of the variational equations yet: a kink
-      continuation%rate = [approach%rate, (0.0_wp, i=1, problem%n*settings%exponents)]
+      measured%continuation%rate = [approach%rate, (0.0_wp, i=1, tangent%n - problem%n)]
+      intervals = intervals_in(settings%t_end - measured%t_begin, settings)
       turning = ceiling((measured%t_begin - start)/settings%interval)
       do i = 1, turning
-         call pass(start + (measured%t_begin - start)*i/turning, most_halvings)
+         call pass(tangent, settings, options, start + (measured%t_begin - start)*i/turning, &
+                   most_halvings, measured, growth, error)
          if (allocated(error)) return
+         if (present(progress)) call progress%advance(i, turning + intervals)
       end do
-      associate (span => settings%t_end - measured%t_begin, blocks => settings%blocks)
-         intervals = blocks*max(1, ceiling(span/(blocks*settings%interval)*(1.0_wp - 1.0e-12_wp)))
-         measured%interval = span/intervals
-         allocate (measured%growth(settings%exponents, intervals))
-         do i = 1, intervals
-            growth = 0.0_wp
-            call pass(measured%t_begin + span*i/intervals, most_halvings)
-            if (allocated(error)) return
-            measured%growth(:, i) = growth
-         end do
-      end associate
-
-   contains
-
-      !> Go on up to `time`, adding to `growth`: in one interval, or in two halves where a vector
-      !> becomes a combination of the others on the way.
-      recursive subroutine pass(time, halvings)
-         !> Where to
-         real(wp), intent(in) :: time
-         !> How often the interval may be halved
-         integer, intent(in) :: halvings
-         type(continuation_type) :: before
-
-         before = continuation
-         call integrate(tangent, continuation%time(1), time, options, outcome, error, &
-                        continuation=continuation)
-         if (allocated(error)) return
-         measured%evaluations = measured%evaluations + outcome%evaluations
-         measured%steps = measured%steps + outcome%accepted
-         measured%implicit_steps = measured%implicit_steps + outcome%implicit_steps
-         call orthonormalise(tangent, settings%vector_size, continuation, norm, share)
-         if (share > noise*max(options%relative, epsilon(1.0_wp))) then
-            measured%least_share = min(measured%least_share, share)
-            growth = growth + log(norm/settings%vector_size)
-         else if (halvings == 0 .and. settings%bounds) then
-            measured%bounds = .true.
-            growth = growth + log(norm/settings%vector_size)
-         else if (halvings == 0) then
-            call raise(error, "exponents: at t = "//text(continuation%time(1))//" a share of " &
-                       //text(share)//" is left of a vector without those before it; expected > " &
-                       //text(noise*options%relative)//" (ask for fewer exponents or a smaller " &
-                       //"tolerance)")
-         else
-            continuation = before
-            call pass(0.5_wp*(before%time(1) + time), halvings - 1)
-            if (.not. allocated(error)) call pass(time, halvings - 1)
-         end if
-      end subroutine pass
+      allocate (measured%growth(settings%exponents, 0))
+      call go_on(tangent, settings, options, settings%t_end, turning, measured, error, progress)
    end subroutine measure_growth
+
+   !> Go on measuring from where it ended, up to `t_end`: best for a time that has as many
+   !> intervals again in each block.
+   subroutine extend_growth(problem, settings, options, t_end, measured, error)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> How many exponents, and the length of an interval
+      type(growth_settings), intent(in) :: settings
+      !> Method and tolerances
+      type(integration_options), intent(in) :: options
+      !> Where to end
+      real(wp), intent(in) :: t_end
+      !> The growth
+      type(growth_type), intent(inout) :: measured
+      !> It cannot be measured
+      type(error_type), allocatable, intent(out) :: error
+
+      call go_on(tangent_problem_type(problem, settings%exponents), settings, options, t_end, 0, &
+                 measured, error)
+   end subroutine extend_growth
+
+   !> Measure interval by interval.
+   subroutine go_on(tangent, settings, options, t_end, done, measured, error, progress)
+      !> The problem with its tangent vectors
+      type(tangent_problem_type), intent(in) :: tangent
+      !> How many exponents, and the length of an interval
+      type(growth_settings), intent(in) :: settings
+      !> Method and tolerances
+      type(integration_options), intent(in) :: options
+      !> Where to end
+      real(wp), intent(in) :: t_end
+      !> Intervals done before
+      integer, intent(in) :: done
+      !> The growth
+      type(growth_type), intent(inout) :: measured
+      !> It cannot be measured
+      type(error_type), allocatable, intent(out) :: error
+      !> Receiver of the number of intervals done
+      class(progress_receiver), intent(inout), optional :: progress
+      real(wp), allocatable :: growth(:, :)
+      integer :: i, intervals
+
+      associate (start => measured%continuation%time(1))
+         intervals = intervals_in(t_end - start, settings)
+         measured%interval = (t_end - start)/intervals
+      end associate
+      allocate (growth(settings%exponents, intervals))
+      do i = 1, intervals
+         call pass(tangent, settings, options, t_end - (intervals - i)*measured%interval, &
+                   most_halvings, measured, growth(:, i), error)
+         if (allocated(error)) return
+         if (present(progress)) call progress%advance(done + i, done + intervals)
+      end do
+      measured%growth = reshape([measured%growth, growth], &
+                                [settings%exponents, size(measured%growth, 2) + intervals])
+   end subroutine go_on
+
+   !> Number of intervals in so long a time, the same in each block.
+   pure integer function intervals_in(time, settings) result(intervals)
+      !> The time
+      real(wp), intent(in) :: time
+      !> Blocks, and the length of an interval
+      type(growth_settings), intent(in) :: settings
+
+      associate (blocks => settings%blocks)
+         intervals = blocks*max(1, ceiling(time/(blocks*settings%interval)*(1.0_wp - 1.0e-12_wp)))
+      end associate
+   end function intervals_in
+
+   !> Go on up to `time`: in one interval, or in two halves where a vector becomes a combination of
+   !> the others on the way.
+   recursive subroutine pass(tangent, settings, options, time, halvings, measured, growth, error)
+      !> The problem with its tangent vectors
+      type(tangent_problem_type), intent(in) :: tangent
+      !> Size of the vectors, and what to do where one is lost
+      type(growth_settings), intent(in) :: settings
+      !> Method and tolerances
+      type(integration_options), intent(in) :: options
+      !> Where to
+      real(wp), intent(in) :: time
+      !> How often the interval may be halved
+      integer, intent(in) :: halvings
+      !> Where the vectors are, and what it took
+      type(growth_type), intent(inout) :: measured
+      !> Logarithm of the growth of each vector
+      real(wp), intent(out) :: growth(:)
+      !> It cannot be measured
+      type(error_type), allocatable, intent(out) :: error
+      type(continuation_type) :: before
+      type(integration_result) :: outcome
+      real(wp) :: first_half(size(growth)), norm(size(growth)), share
+
+      growth = 0.0_wp
+      before = measured%continuation
+      call integrate(tangent, before%time(1), time, options, outcome, error, &
+                     continuation=measured%continuation)
+      if (allocated(error)) return
+      measured%evaluations = measured%evaluations + outcome%evaluations
+      measured%steps = measured%steps + outcome%accepted
+      measured%implicit_steps = measured%implicit_steps + outcome%implicit_steps
+      call orthonormalise(tangent, settings%vector_size, measured%continuation, norm, share)
+      if (share > noise*max(options%relative, epsilon(1.0_wp))) then
+         measured%least_share = min(measured%least_share, share)
+         growth = log(norm/settings%vector_size)
+      else if (halvings == 0 .and. settings%bounds) then
+         measured%bounds = .true.
+         growth = log(max(norm, tiny(1.0_wp))/settings%vector_size)
+      else if (halvings == 0) then
+         call raise(error, "exponents: at t = "//text(time)//" a share of "//text(share) &
+                    //" is left of a vector without those before it; expected > " &
+                    //text(noise*options%relative)//" (ask for fewer exponents or a smaller " &
+                    //"tolerance)")
+      else
+         measured%continuation = before
+         call pass(tangent, settings, options, 0.5_wp*(before%time(1) + time), halvings - 1, &
+                   measured, first_half, error)
+         if (allocated(error)) return
+         call pass(tangent, settings, options, time, halvings - 1, measured, growth, error)
+         growth = first_half + growth
+      end if
+   end subroutine pass
 
    !> Refuse what cannot be measured.
    pure subroutine check(problem, settings, error)

@@ -19,9 +19,8 @@ module motion_classes
 contains
 
    !> The class that leading exponents tell: all negative, a fixed point; one zero, the others
-   !> negative, a cycle; two zero, a torus; positive ones and a zero, chaos. Undecided where the
-   !> last exponent measured is not negative, or none is positive and one without sign has too long
-   !> an error bar.
+   !> negative, a cycle; two zero, a torus; positive ones, chaos. Undecided where a zero is missed
+   !> among them, or one that counts as zero has too long an error bar.
    pure integer function class_by_exponents(exponents, zero_level, longest_bar) result(class)
       !> Exponents, descending
       type(exponent_type), intent(in) :: exponents(:)
@@ -36,10 +35,10 @@ contains
       positive = count(exponents%value > 0.0_wp .and. .not. zero)
       zeros = count(zero)
       class = undecided
-      if (positive + zeros == size(exponents)) return
       if (positive > 0) then
-         if (zeros > 0) class = chaos
-      else if (.not. any(zero .and. error_bars*exponents%error > longest_bar)) then
+         if (zeros > 0 .or. positive == size(exponents)) class = chaos
+      else if (zeros < size(exponents) &
+               .and. .not. any(zero .and. error_bars*exponents%error > longest_bar)) then
          select case (zeros)
          case (0)
             class = fixed_point

@@ -1,11 +1,13 @@
 !> Writing, renaming and removing files, by the C library: gfortran's own formatted output does not
 !> tell of a full disk.
 module files
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_long_long, c_null_char, &
+                                          c_ptr, c_size_t
    use errors, only: error_type, raise
+   use kinds, only: int64
    implicit none (type, external)
    private
-   public :: remove_file, rename_file, write_file
+   public :: number_of_file, remove_file, rename_file, write_file
 
    interface
       integer(c_int) function c_rename(from, to) result(value) bind(c, name="rename")
@@ -40,6 +42,12 @@ module files
          implicit none (type, external)
          character(kind=c_char), intent(in) :: path(*)
       end function c_remove
+
+      integer(c_long_long) function c_number(path) result(value) bind(c, name="number_of_file")
+         import :: c_char, c_long_long
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_number
    end interface
 
 contains
@@ -91,4 +99,12 @@ contains
 
       status = c_remove(path//c_null_char)
    end subroutine remove_file
+
+   !> The number that tells a file from all others of its file system; 0 where there is none.
+   integer(int64) function number_of_file(path) result(value)
+      !> Its path
+      character(len=*), intent(in) :: path
+
+      value = c_number(path//c_null_char)
+   end function number_of_file
 end module files

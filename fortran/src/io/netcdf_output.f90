@@ -1,25 +1,22 @@
-!> NetCDF-4 files that are whole or absent: written under another name, renamed when complete.
+!> NetCDF-4 files that are whole or absent.
 module netcdf_output
    use, intrinsic :: iso_fortran_env, only: compiler_version
    use errors, only: error_type, raise
-   use files, only: remove_file, rename_file
    use kinds, only: int64, wp
    use netcdf, only: nf90_char, nf90_clobber, nf90_close, nf90_create, nf90_def_dim, &
                      nf90_def_var, nf90_double, nf90_global, nf90_int, nf90_netcdf4, nf90_noerr, &
                      nf90_put_att, nf90_put_var, nf90_strerror
+   use unfinished_file, only: remedy, unfinished_type
    use version, only: project_version
    implicit none (type, external)
    private
    public :: output_file
 
-   !> Ending of a file that is not complete.
-   character(len=*), parameter :: unfinished = ".part"
-
    !> A file in the making; after the first error all further calls do nothing.
    type :: output_file
       private
-      !> Path of the complete file
-      character(len=:), allocatable :: path
+      !> Where it stands
+      type(unfinished_type) :: place
       !> NetCDF id
       integer :: id = -1
       !> First error met
@@ -55,9 +52,12 @@ contains
       character(len=*), intent(in) :: path
       !> What it holds
       character(len=*), intent(in) :: title
+      integer :: status
 
-      self%path = path
-      call self%note(nf90_create(path//unfinished, ior(nf90_netcdf4, nf90_clobber), self%id))
+      self%place = unfinished_type(path)
+      status = nf90_create(self%place%other_path(), ior(nf90_netcdf4, nf90_clobber), self%id)
+      call self%place%created()
+      call self%note(status)
       call self%attribute("title", title)
       call self%attribute("program_version", project_version)
       call self%attribute("compiler", compiler_version())
@@ -71,7 +71,8 @@ contains
       integer, intent(in) :: status
 
       if (status == nf90_noerr .or. allocated(self%error)) return
-      call raise(self%error, self%path//": cannot write: "//trim(nf90_strerror(status)))
+      call raise(self%error, self%place%path//": cannot write: "//trim(nf90_strerror(status)) &
+                 //remedy)
       call self%discard()
    end subroutine note
 
@@ -269,8 +270,7 @@ contains
 
       if (.not. allocated(self%error)) call self%note(nf90_close(self%id))
       if (.not. allocated(self%error)) then
-         call rename_file(self%path//unfinished, self%path, self%error)
-         if (allocated(self%error)) call remove_file(self%path//unfinished)
+         call self%place%publish(self%error)
       end if
       if (allocated(self%error)) allocate (error, source=self%error)
    end subroutine finish
@@ -282,6 +282,6 @@ contains
       integer :: status
 
       status = nf90_close(self%id)
-      call remove_file(self%path//unfinished)
+      call self%place%discard()
    end subroutine discard
 end module netcdf_output

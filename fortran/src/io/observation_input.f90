@@ -13,6 +13,8 @@ module observation_input
 
    !> Most exponents and blocks.
    integer, parameter :: most_exponents = 64, most_blocks = 1000
+   !> Most doublings of the time that exponents take.
+   integer, parameter :: most_doublings = 10
    !> Most samples at a point.
    real(wp), parameter :: most_samples = 1.0e8_wp
 
@@ -40,6 +42,8 @@ contains
                        at_most=most_exponents)
       call check_number(error, path, "zero_level", settings%zero_level, at_least=0.0_wp)
       call check_number(error, path, "longest_bar", settings%longest_bar, above=0.0_wp)
+      call check_count(error, path, "doublings", settings%doublings, at_least=0, &
+                       at_most=most_doublings)
       call check_number(error, path, "sample_interval", settings%sample_interval, above=0.0_wp, &
                         at_most=settings%t_observed)
       call check_choice(error, path, "window", window, windows)
@@ -76,11 +80,11 @@ contains
       real(wp) :: interval, longest_bar, overlap, peak_floor, peak_prominence, sample_interval
       real(wp) :: t_observed, t_transient, t_turning, tolerance, zero_level
       character(len=256) :: reason
-      integer :: blocks, exponents, segments, status, unit
+      integer :: blocks, doublings, exponents, segments, status, unit
       integer(int64) :: most_steps
       namelist /observation/ t_transient, t_observed, t_turning, interval, blocks, exponents, &
-         zero_level, longest_bar, sample_interval, window, segments, overlap, peak_floor, &
-         peak_prominence, tolerance, method, most_steps
+         zero_level, longest_bar, doublings, sample_interval, window, segments, overlap, &
+         peak_floor, peak_prominence, tolerance, method, most_steps
 
       t_transient = not_given()
       t_observed = t_transient
@@ -94,6 +98,7 @@ contains
       peak_prominence = t_transient
       tolerance = t_transient
       blocks = 0
+      doublings = -1
       exponents = 0
       segments = 0
       most_steps = 0
@@ -104,8 +109,8 @@ contains
       read (unit, nml=observation, iostat=status, iomsg=reason)
       call close_namelist(path, "observation", unit, status, reason, error)
       settings = attractor_settings(t_transient, t_observed, t_turning, interval, blocks, &
-                                    exponents, zero_level, longest_bar, sample_interval, &
-                                    "", segments, overlap, peak_floor, peak_prominence)
+                                    exponents, zero_level, longest_bar, doublings, &
+                                    sample_interval, "", segments, overlap, peak_floor, peak_prominence)
       options = integration_options(relative=tolerance, absolute=tolerance, most_steps=most_steps)
    end subroutine read_group
 end module observation_input

@@ -2,6 +2,7 @@
 module program_arguments
    use, intrinsic :: iso_fortran_env, only: error_unit
    use errors, only: error_type, raise
+   use process, only: end_at_once
    implicit none (type, external)
    private
    public :: get_paths, stop_on
@@ -36,13 +37,16 @@ contains
       call get_command_argument(i, value=word)
    end function argument
 
-   !> End the program with a message and status 1 if there is an error.
+   !> End the program with a message and status 1 if there is an error; with status 2 where not even
+   !> the message can be written.
    subroutine stop_on(error)
       !> What went wrong, if anything
       type(error_type), allocatable, intent(in) :: error
+      integer :: status
 
       if (.not. allocated(error)) return
-      write (error_unit, "(2a)") "error: ", error%message
-      stop 1, quiet=.true.
+      write (error_unit, "(2a)", iostat=status) "error: ", error%message
+      if (status == 0) flush (error_unit, iostat=status)
+      call end_at_once(merge(1, 2, status == 0))
    end subroutine stop_on
 end module program_arguments

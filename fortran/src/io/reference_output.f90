@@ -1,17 +1,16 @@
 !> Reference files: tables of text with 20 digits, more than a number in double precision holds.
-!> Whole or absent: written under another name, renamed when complete.
+!> They are whole or absent.
 module reference_output
    use errors, only: error_type, raise
-   use files, only: remove_file, rename_file, write_file
+   use files, only: write_file
    use kinds, only: wp
    use measured_case, only: case_type
    use measured_run, only: run_type
+   use unfinished_file, only: remedy, unfinished_type
    implicit none (type, external)
    private
    public :: reference_file
 
-   !> Ending of a file that is not complete.
-   character(len=*), parameter :: unfinished = ".part"
    !> Between columns, and between rows.
    character(len=*), parameter :: tab = achar(9), line_end = new_line("a")
    !> Letters that hold any row.
@@ -20,8 +19,8 @@ module reference_output
    !> A table in the making.
    type :: reference_file
       private
-      !> Path of the complete file
-      character(len=:), allocatable :: path
+      !> Where it stands
+      type(unfinished_type) :: place
       !> Rows so far
       character(len=:), allocatable :: content
    contains
@@ -45,7 +44,7 @@ contains
       !> It cannot be written
       type(error_type), allocatable, intent(out) :: error
 
-      self%path = path
+      self%place = unfinished_type(path)
       self%content = "case"//tab//"status"//tab//"time"//tab//"theta"//tab//"u"//tab//"ln_v" &
                      //tab//"uncertainty"//tab//"amplification"//line_end
       call self%save(error)
@@ -104,9 +103,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       call self%save(error)
-      if (allocated(error)) return
-      call rename_file(self%path//unfinished, self%path, error)
-      if (allocated(error)) call remove_file(self%path//unfinished)
+      if (.not. allocated(error)) call self%place%publish(error)
    end subroutine finish
 
    !> Write what there is under the other name.
@@ -117,9 +114,10 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: failure
 
-      call write_file(self%path//unfinished, self%content, failure)
+      call write_file(self%place%other_path(), self%content, failure)
+      call self%place%created()
       if (.not. allocated(failure)) return
-      call remove_file(self%path//unfinished)
-      call raise(error, self%path//": cannot write")
+      call self%place%discard()
+      call raise(error, self%place%path//": cannot write"//remedy)
    end subroutine save_unfinished
 end module reference_output

@@ -5,6 +5,7 @@ module trajectory_output
    use errors, only: error_type
    use kinds, only: int64, wp
    use netcdf_output, only: output_file
+   use progress, only: progress_type
    use scene_input, only: scene_type
    use spring_block, only: index_of_ln_v, index_of_theta, index_of_u
    implicit none (type, external)
@@ -19,6 +20,8 @@ module trajectory_output
       private
       !> The file
       type(output_file), public :: file
+      !> Samples received, told to the user
+      type(progress_type) :: progress
       !> The scene
       type(scene_type) :: scene
       !> Ids of time and of the variables, in the order of `wanted`
@@ -33,6 +36,8 @@ module trajectory_output
       procedure :: take
       !> Complete the file with what the integration did
       procedure :: finish
+      !> Give the file up
+      procedure :: discard
       procedure, private :: flush => flush_block
    end type trajectory_writer
 
@@ -74,6 +79,7 @@ contains
          end select
       end do
       writer%next = 0.0_wp
+      writer%progress = progress_type("trajectory of "//trim(scene%name))
    end function new_writer
 
    !> Take one sample.
@@ -91,6 +97,7 @@ contains
       taken = self%written + self%held
       self%next = huge(1.0_wp)
       if (taken < self%samples) self%next = min(taken*self%scene%sample_interval, self%scene%t_end)
+      call self%progress%advance(taken, self%samples)
    end subroutine take
 
    !> Write the block.
@@ -115,6 +122,7 @@ contains
       !> It could not be written
       type(error_type), allocatable, intent(out) :: error
 
+      call self%progress%finish()
       call self%flush()
       associate (file => self%file, scene => self%scene)
          call file%attribute("scene", trim(scene%name))
@@ -138,4 +146,13 @@ contains
          call file%finish(error)
       end associate
    end subroutine finish
+
+   !> Leave nothing behind.
+   subroutine discard(self)
+      !> The writer
+      class(trajectory_writer), intent(inout) :: self
+
+      call self%progress%finish()
+      call self%file%discard()
+   end subroutine discard
 end module trajectory_output

@@ -9,6 +9,7 @@ module measured_run
    use fixed_step_rk4, only: integrate_rk4
    use kinds, only: int64, wp
    use measured_case, only: case_type
+   use progress_receivers, only: progress_receiver
    use spring_block, only: spring_block_type
    use watching_sampler, only: watcher
    implicit none (type, external)
@@ -44,7 +45,7 @@ module measured_run
 contains
 
    !> Run a case once, with samples.
-   subroutine measure_run(case, disturbance, most_steps, run)
+   subroutine measure_run(case, disturbance, most_steps, run, progress)
       !> The case
       type(case_type), intent(in) :: case
       !> Change of theta and u and relative change of v for t <= 0
@@ -53,6 +54,8 @@ contains
       integer(int64), intent(in) :: most_steps
       !> Method and setting; filled with the rest
       type(run_type), intent(inout) :: run
+      !> Receiver of the number of samples
+      class(progress_receiver), intent(inout), target, optional :: progress
       type(error_type), allocatable :: error
       type(spring_block_type) :: block_model
       type(watcher) :: sampler
@@ -61,6 +64,7 @@ contains
       no_number = ieee_value(1.0_wp, ieee_quiet_nan)
       block_model = case%problem(disturbance)
       sampler = watcher(block_model%n, case%sample_times(), no_number)
+      if (present(progress)) sampler%progress => progress
       call cpu_time(start)
       call solve(block_model, as_double(case%t_end), most_steps, run, error, sampler)
       call cpu_time(now)
@@ -76,7 +80,7 @@ contains
    !> CPU seconds of the runs of a case without samples, each the median of its repeats. The runs
    !> take turns, so that a machine that is busy for a while hits all alike. A long run, and one
    !> that did not reach the end, keeps the time of its first.
-   subroutine time_runs(case, most_steps, repeats, least_seconds, runs)
+   subroutine time_runs(case, most_steps, repeats, least_seconds, runs, progress)
       !> The case
       type(case_type), intent(in) :: case
       !> Most steps of the solver
@@ -87,6 +91,8 @@ contains
       real(wp), intent(in) :: least_seconds
       !> The runs, each run once; their seconds are replaced
       type(run_type), intent(inout) :: runs(:)
+      !> Receiver of the number of turns
+      class(progress_receiver), intent(inout), optional :: progress
       logical :: timed(size(runs))
       real(wp) :: measured(repeats, size(runs))
       integer :: i, j
@@ -97,6 +103,7 @@ contains
          do j = 1, size(runs)
             if (timed(j)) measured(i, j) = time_taken(case, most_steps, least_seconds, runs(j))
          end do
+         if (present(progress)) call progress%advance(i, repeats)
       end do
       do j = 1, size(runs)
          if (timed(j)) runs(j)%seconds = median(measured(:, j))

@@ -2,6 +2,7 @@
 module watching_sampler
    use dde, only: sampler_type
    use kinds, only: wp
+   use progress_receivers, only: progress_receiver
    use spring_block, only: index_of_ln_v
    implicit none (type, external)
    private
@@ -20,6 +21,8 @@ module watching_sampler
       integer :: received = 0
       !> Smallest and largest ln v
       real(wp) :: least = huge(1.0_wp), most = -huge(1.0_wp)
+      !> Receiver of the number of samples received, if any
+      class(progress_receiver), pointer :: progress => null()
       !> Looks since the last sample
       integer, private :: looked = 0
    contains
@@ -61,6 +64,9 @@ contains
       if (self%looked == 0) then
          self%received = self%received + 1
          self%values(:, self%received) = y
+         if (associated(self%progress)) then
+            call self%progress%advance(self%received, size(self%time))
+         end if
       end if
       self%looked = modulo(self%looked + 1, looks)
       associate (last => self%received)

@@ -1,0 +1,38 @@
+!> The program as a process: who reads what it says, and its end.
+module process
+   use, intrinsic :: iso_c_binding, only: c_int
+   implicit none (type, external)
+   private
+   public :: end_at_once, standard_error_is_terminal
+
+   interface
+      integer(c_int) function c_isatty(descriptor) result(value) bind(c, name="isatty")
+         import :: c_int
+         implicit none (type, external)
+         integer(c_int), value :: descriptor
+      end function c_isatty
+
+      subroutine c_exit(status) bind(c, name="_Exit")
+         import :: c_int
+         implicit none (type, external)
+         integer(c_int), value :: status
+      end subroutine c_exit
+   end interface
+
+contains
+
+   !> Whether standard error is a terminal, not a file or a pipe.
+   logical function standard_error_is_terminal() result(value)
+
+      value = c_isatty(2_c_int) == 1
+   end function standard_error_is_terminal
+
+   !> End the program without what libraries do at its end: after a write that failed HDF5 tries to
+   !> write once more there, and crashes.
+   subroutine end_at_once(status)
+      !> Exit status
+      integer, intent(in) :: status
+
+      call c_exit(int(status, c_int))
+   end subroutine end_at_once
+end module process

@@ -1,0 +1,216 @@
+!> Progress of a long program on standard error: on a terminal one line that is rewritten, elsewhere
+!> a line every 5 %. Short programs say nothing.
+module progress
+   use, intrinsic :: iso_fortran_env, only: error_unit
+   use errors, only: text
+   use kinds, only: int64, wp
+   use process, only: standard_error_is_terminal
+   use progress_receivers, only: progress_receiver
+   implicit none (type, external)
+   private
+   public :: progress_type
+
+   !> Seconds before the first line.
+   integer, parameter :: patience = 2
+   !> Lines a second on a terminal.
+   integer(int64), parameter :: lines_a_second = 5
+   !> Per cent between two lines elsewhere.
+   integer, parameter :: step = 5
+   !> Looks at the clock in one part of the work.
+   integer, parameter :: looks = 1000
+   !> Letters of a line that fit on a terminal.
+   integer, parameter :: width = 79
+   !> For a terminal: go to the beginning of the line; clear what follows.
+   character(len=*), parameter :: line_start = achar(13), clear_rest = achar(27)//"[K"
+
+   !> Progress of work in one part, or in several of about the same length. Programs with several
+   !> threads call it from one at a time, in a critical region.
+   type, extends(progress_receiver) :: progress_type
+      private
+      !> What is being done
+      character(len=:), allocatable :: label
+      !> Number of parts, and the one being worked on
+      integer :: parts = 1, part = 1
+      !> Whether lines are rewritten, and whether there is one now
+      logical :: rewritten = .false., shown = .false.
+      !> Whether standard error takes nothing
+      logical :: silent = .false.
+      !> When the work began, and when the last line was written, in ticks of the clock
+      integer(int64) :: begun = 0, told = 0
+      !> Ticks in a second
+      integer(int64) :: ticks = 1
+      !> Pieces done when the clock is looked at next
+      integer :: next = 0
+      !> Per cent told last
+      integer :: percent = 0
+   contains
+      procedure :: advance
+      !> Begin another part
+      procedure :: begin_part
+      !> Nothing more will come: leave an empty line on a terminal
+      procedure :: finish
+      procedure, private :: tell, put, pieces_done, percent_of, time_left
+   end type progress_type
+
+   interface progress_type
+      module procedure :: new_progress
+   end interface progress_type
+
+contains
+
+   !> Progress of work that begins now.
+   function new_progress(label, parts) result(report)
+      !> What is being done
+      character(len=*), intent(in) :: label
+      !> Number of parts; one if it is left out
+      integer, intent(in), optional :: parts
+      type(progress_type) :: report
+
+      report%label = label
+      if (present(parts)) report%parts = parts
+      report%rewritten = standard_error_is_terminal()
+      call system_clock(report%begun, report%ticks)
+   end function new_progress
+
+   !> Begin another part.
+   subroutine begin_part(self, part)
+      !> The progress
+      class(progress_type), intent(inout) :: self
+      !> Its number, from 1
+      integer, intent(in) :: part
+
+      self%part = part
+      self%next = 0
+   end subroutine begin_part
+
+   !> Tell how much of a part is done, if it is time to.
+   subroutine advance(self, done, total)
+      !> The progress
+      class(progress_type), intent(inout) :: self
+      !> Number of pieces done, 0..total
+      integer, intent(in) :: done
+      !> Number of pieces in all, at least 1
+      integer, intent(in) :: total
+      integer(int64) :: now
+
+      if (done < self%next .and. done < total) return
+      self%next = done + max(1, total/looks)
+      call system_clock(now)
+      if (now - self%begun < patience*self%ticks) return
+      if (self%rewritten) then
+         if ((now - self%told)*lines_a_second >= self%ticks) call self%tell(done, total, now)
+      else if (self%percent_of(done, total)/step > self%percent/step) then
+         call self%tell(done, total, now)
+      end if
+   end subroutine advance
+
+   !> Write a line.
+   subroutine tell(self, done, total, now)
+      !> The progress
+      class(progress_type), intent(inout) :: self
+      !> Number of pieces done
+      integer, intent(in) :: done
+      !> Number of pieces in all
+      integer, intent(in) :: total
+      !> Ticks of the clock
+      integer(int64), intent(in) :: now
+      character(len=:), allocatable :: line
+
+      self%told = now
+      self%percent = self%percent_of(done, total)
+      line = self%label//": "//text(self%percent)//" %, "
+      if (self%parts > 1) line = line//"part "//text(self%part)//" of "//text(self%parts)//", "
+      line = line//text(done)//" of "//text(total)//", "//self%time_left(done, total)
+      if (self%rewritten) line = line_start//line(:min(len(line), width))//clear_rest
+      call self%put(line)
+      self%shown = self%rewritten
+   end subroutine tell
+
+   !> Leave an empty line on a terminal.
+   subroutine finish(self)
+      !> The progress
+      class(progress_type), intent(inout) :: self
+
+      if (self%shown) call self%put(line_start//clear_rest)
+      self%shown = .false.
+   end subroutine finish
+
+   !> Write to standard error. Where it takes nothing the work goes on in silence.
+   subroutine put(self, line)
+      !> The progress
+      class(progress_type), intent(inout) :: self
+      !> What to write, on a terminal with its control characters
+      character(len=*), intent(in) :: line
+      integer :: status
+
+      if (self%silent) return
+      write (error_unit, "(a)", advance=trim(merge("no ", "yes", self%rewritten)), &
+             iostat=status) line
+      if (status == 0) flush (error_unit, iostat=status)
+      self%silent = status /= 0
+   end subroutine put
+
+   !> Pieces done of the whole, if all parts had as many as this one.
+   pure integer(int64) function pieces_done(self, done, total) result(pieces)
+      !> The progress
+      class(progress_type), intent(in) :: self
+      !> Pieces of this part done
+      integer, intent(in) :: done
+      !> Pieces of this part
+      integer, intent(in) :: total
+
+      pieces = (self%part - 1)*int(total, int64) + done
+   end function pieces_done
+
+   !> Per cent of the whole done, not rounded up.
+   pure integer function percent_of(self, done, total) result(percent)
+      !> The progress
+      class(progress_type), intent(in) :: self
+      !> Pieces of this part done
+      integer, intent(in) :: done
+      !> Pieces of this part
+      integer, intent(in) :: total
+
+      percent = int(100*self%pieces_done(done, total)/(self%parts*int(total, int64)))
+   end function percent_of
+
+   !> Time left, or of finished work all the time that it took, in words.
+   pure function time_left(self, done, total) result(words)
+      !> The progress
+      class(progress_type), intent(in) :: self
+      !> Pieces of this part done
+      integer, intent(in) :: done
+      !> Pieces of this part
+      integer, intent(in) :: total
+      character(len=:), allocatable :: words
+      integer(int64) :: pieces
+      real(wp) :: taken
+
+      taken = real(self%told - self%begun, wp)/self%ticks
+      pieces = self%pieces_done(done, total)
+      if (pieces == 0) then
+         words = "just begun"
+      else if (pieces == self%parts*int(total, int64)) then
+         words = duration(taken)//" in all"
+      else
+         words = duration(taken/pieces*(self%parts*int(total, int64) - pieces))//" left"
+      end if
+   end function time_left
+
+   !> A time in its two largest units.
+   pure function duration(time) result(words)
+      !> Seconds
+      real(wp), intent(in) :: time
+      character(len=:), allocatable :: words
+      integer(int64) :: seconds
+
+      seconds = nint(time, int64)
+      if (seconds < 60) then
+         words = text(seconds)//" s"
+      else if (seconds < 3600) then
+         words = text(seconds/60)//" min "//text(modulo(seconds, 60_int64))//" s"
+      else
+         words = text(seconds/3600)//" h "//text(modulo(seconds, 3600_int64)/60)//" min"
+      end if
+   end function duration
+end module progress

@@ -1,0 +1,87 @@
+"""Progress: nothing when short, lines in a log, on a terminal one line that is rewritten."""
+
+import os
+import pty
+import re
+import subprocess
+
+import pytest
+from conftest import GROUPS, Programs
+from write_namelist import write_namelist
+
+TOLD = re.compile(r"trajectory of torus: (\d+) %, (\d+) of (\d+), (?:\d+ min )?\d+ s (left|in all)")
+"""A line of progress: per cent, samples done, samples in all."""
+CLEARED = "\r\x1b[K"
+"""The end of what a terminal receives: an empty line."""
+
+
+@pytest.fixture
+def long_run(programs, good_inputs) -> Programs:
+    """Programs beside the namelist of a trajectory of several seconds."""
+    long = {**good_inputs["trajectory"], "t_end": 1e6, "sample_interval": 0.5, "variables": ["v"]}
+    write_namelist(programs.folder / "input.nml", GROUPS["trajectory"], long)
+    return programs
+
+
+def on_a_terminal(programs: Programs, program: str) -> tuple[int, str]:
+    """Exit status of a program whose standard error is a terminal, and all that it receives."""
+    ours, theirs = pty.openpty()
+    command = [programs.binaries / program, "input.nml", "output.nc"]
+    run = subprocess.Popen(command, cwd=programs.folder, stderr=theirs)
+    os.close(theirs)
+    received = b""
+    try:
+        while some := os.read(ours, 1024):
+            received += some
+    except OSError:
+        pass  # the other end was closed
+    os.close(ours)
+    return run.wait(timeout=60), received.decode()
+
+
+def numbers_in(lines: list[str]) -> list[tuple[int, int, int]]:
+    """Per cent, done and total of lines, all of which tell of progress."""
+    found = [TOLD.fullmatch(line) for line in lines]
+    assert all(found), lines
+    return [tuple(map(int, match.groups()[:3])) for match in found]
+
+
+def test_log_gets_a_line_every_five_per_cent(long_run):
+    """Done and total make the per cent; the last line says how long it took."""
+    run = long_run.run("trajectory", "input.nml", "output.nc")
+    assert (run.returncode, run.stdout) == (0, "")
+    lines = run.stderr.splitlines()
+    told = numbers_in(lines)
+    assert len(told) >= 2
+    assert [percent // 5 for percent, *_ in told] == list(range(21 - len(told), 21))
+    assert all(percent == 100 * done // total for percent, done, total in told)
+    assert {total for *_, total in told} == {2000001}
+    assert [line.endswith(" in all") for line in lines] == [False] * (len(lines) - 1) + [True]
+
+
+def test_terminal_gets_one_line_that_is_cleared(long_run):
+    """Each text overwrites the one before and fits; at the end none is left."""
+    status, received = on_a_terminal(long_run, "trajectory")
+    assert status == 0
+    assert received.endswith(CLEARED)
+    assert "\n" not in received
+    lines = [text.removesuffix("\x1b[K") for text in received.removesuffix(CLEARED).split("\r")[1:]]
+    told = numbers_in(lines)
+    assert told == sorted(told)
+    assert len(told) >= 2
+    assert max(map(len, lines)) <= 79
+
+
+def test_short_program_says_nothing(programs, good_inputs):
+    """On a terminal either."""
+    programs.made_by("trajectory", good_inputs["trajectory"])
+    assert on_a_terminal(programs, "trajectory") == (0, "")
+
+
+def test_standard_error_that_takes_nothing_does_not_stop_the_work(long_run):
+    """A log on a full disk: the result is whole."""
+    command = [long_run.binaries / "trajectory", "input.nml", "output.nc"]
+    with open("/dev/full", "w") as full:
+        run = subprocess.run(command, cwd=long_run.folder, stderr=full, timeout=60)
+    assert run.returncode == 0
+    assert long_run.left_behind() == ["output.nc"]
