@@ -74,8 +74,8 @@ module attractors
       type(exponent_type), allocatable :: exponents(:)
       !> Points after which a cycle repeats in the section, 0 where none
       integer :: period = 0
-      !> Turns from point to point on the section's closed curve, 0 where none
-      real(wp) :: rotation = 0.0_wp
+      !> Roughness of the section as a function of two phases, see `section_verdict`
+      real(wp) :: roughness = 1.0_wp
       !> Base frequencies of v, 0 where none
       real(wp) :: bases(2) = 0.0_wp
       !> Share of the power of v in the lines of these
@@ -84,6 +84,8 @@ module attractors
       real(wp), allocatable :: maxima(:)
       !> Points (theta, u) of the section, shape (2, points)
       real(wp), allocatable :: section(:, :)
+      !> When it was at each, shape (points)
+      real(wp), allocatable :: section_time(:)
    end type attractor_type
 
 contains
@@ -121,7 +123,9 @@ contains
       if (allocated(error)) return
       call keep_events(events, attractor)
 
-      if (rests(samples%values(3, :))) call judge_rest(block_model, settings%exponents, attractor, error)
+      if (rests(samples%values(3, :))) then
+         call judge_rest(block_model, settings%exponents, attractor, error)
+      end if
       if (allocated(error)) return
       if (attractor%by_exponents /= fixed_point) then
          call judge_motion(block_model, settings, options, arrived, samples, attractor, error)
@@ -151,13 +155,15 @@ contains
       integer :: i
 
       if (events%received == 0) then
-         allocate (attractor%maxima(0), attractor%section(2, 0))
+         allocate (attractor%maxima(0), attractor%section(2, 0), attractor%section_time(0))
          return
       end if
-      associate (met => events%which(:events%received))
-         attractor%maxima = exp(events%y(index_of_ln_v, pack([(i, i=1, size(met))], met == maximum)))
-         attractor%section = events%y([index_of_theta, index_of_u], &
-                                      pack([(i, i=1, size(met))], met == section))
+      associate (met => events%which(:events%received), rows => [(i, i=1, events%received)])
+         attractor%maxima = exp(events%y(index_of_ln_v, pack(rows, met == maximum)))
+         associate (passages => pack(rows, met == section))
+            attractor%section = events%y([index_of_theta, index_of_u], passages)
+            attractor%section_time = events%time(passages)%hi
+         end associate
       end associate
    end subroutine keep_events
 
@@ -229,12 +235,13 @@ contains
          call extend_growth(block_model, wanted, options, wanted%t_end, measured, error)
       end do
 
-      call judge_section(attractor%section, [(spread_of(samples%values(i, :)), i=1, 2)], in_section)
+      call judge_spectrum(exp(samples%values(3, :)), settings, attractor, error)
+      if (allocated(error)) return
+      call judge_section(attractor%section, attractor%section_time, &
+                         [(spread_of(samples%values(i, :)), i=1, 2)], attractor%bases, in_section)
       attractor%by_section = in_section%class
       attractor%period = in_section%period
-      attractor%rotation = in_section%rotation
-
-      call judge_spectrum(exp(samples%values(3, :)), settings, attractor, error)
+      attractor%roughness = in_section%roughness
    end subroutine judge_motion
 
    !> What the lines in the spectrum of v tell.

@@ -51,7 +51,8 @@ contains
          call put_class("by_spectrum", found%by_spectrum, "class by the spectrum of v")
          call put_exponents()
          call put_integers("period", found%period, "points of a cycle in the section, 0: none")
-         call put("rotation", found%rotation, "turns from point to point on a closed curve")
+         call put("roughness", found%roughness, &
+                  "of the section as a function of two phases, 0: smooth, 1: random")
          call put("base_1", found%bases(1), "first base frequency of v, 0: none")
          call put("base_2", found%bases(2), "second base frequency of v, 0: none")
          call put("line_share", found%line_share, "share of the power of v in their lines")
