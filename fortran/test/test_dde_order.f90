@@ -11,7 +11,7 @@ module test_dde_order
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use rooted_trees, only: grow_trees, tree_counts, tree_system
    use single_step, only: interpolated, take_step
-   use test_problems, only: quadrature, without_delays
+   use test_problems, only: decay, quadrature, without_delays
    implicit none (type, external)
    private
    public :: collect_dde_order
@@ -33,6 +33,7 @@ contains
                    new_unittest("85 conditions of the interpolant", test_interpolant_conditions), &
                    new_unittest("conditions of the estimates", test_estimate_conditions), &
                    new_unittest("estimate of the error", test_estimate), &
+                   new_unittest("estimate of far too long steps", test_long_steps), &
                    new_unittest("powers of t", test_powers)]
    end subroutine collect_dde_order
 
@@ -128,7 +129,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(explicit_step_type) :: step
       type(tree_system) :: trees
-      real(wp), parameter :: absolute = 1.0e-3_wp, relative = 1.0e-2_wp
+      real(wp), parameter :: absolute = 1.0e1_wp, relative = 1.0e2_wp
       real(wp) :: estimate, of_order_3, of_order_5, unit(sum(tree_counts(:6)))
 
       trees = grow_trees(6)
@@ -140,6 +141,32 @@ contains
       call expect_close(error, estimate/(of_order_5**2/hypot(of_order_5, 0.1_wp*of_order_3)), &
                         1.0_wp, 1.0e-12_wp, "estimate over its formula")
    end subroutine test_estimate
+
+   !> y' = -rate y, rates up to 40 in a step of length 1: no step passes whose error is above the
+   !> tolerance, not even near 5.66, where e5 changes its sign and e3 is large.
+   subroutine test_long_steps(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(decay) :: problem
+      type(explicit_step_type) :: step
+      real(wp) :: estimate, tolerance, worst
+      integer :: digits, i
+
+      problem = decay(n=1, past=[1.0_wp], first=[1.0_wp])
+      call without_delays(problem)
+      do digits = 3, 12
+         tolerance = 10.0_wp**(-digits)
+         worst = 0.0_wp
+         do i = 1, 4000
+            problem%rate = 0.01_wp*i
+            step = explicit_step_type(problem)
+            call take_step(problem, 0.0_wp, 1.0_wp, step, estimate, absolute=tolerance)
+            if (estimate > 1.0_wp) cycle
+            worst = max(worst, abs(step%y_new(1) - exp(-problem%rate))/tolerance)
+         end do
+         call expect_between(error, worst, 1.0e-3_wp, 1.0_wp, &
+                             "largest error of a step that passes at tolerance "//text(tolerance))
+      end do
+   end subroutine test_long_steps
 
    !> y' = (p + 1) t**p: the step is exact up to p = 7, the interpolant up to p = 6.
    subroutine test_powers(error)

@@ -6,7 +6,7 @@ module test_problems
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: blow_up, enzyme, falls_out, infection, linear, mackey_glass, oscillator, quadrature
+   public :: blow_up, decay, enzyme, falls_out, infection, linear, mackey_glass, oscillator, quadrature
    public :: sine, swing, wille_baker, without_delays
 
    !> The start of every problem here that has one: constant history and first state.
@@ -59,6 +59,14 @@ module test_problems
    contains
       procedure :: rhs => quadrature_rhs
    end type quadrature
+
+   !> y' = -rate y.
+   type, extends(constant_past) :: decay
+      !> Rate
+      real(wp) :: rate = 1.0_wp
+   contains
+      procedure :: rhs => decay_rhs
+   end type decay
 
    !> y1' = rate y2, y2' = -rate y1.
    type, extends(constant_past) :: oscillator
@@ -184,6 +192,17 @@ contains
 
       dydt = 0.2_wp*z/(1.0_wp + z**10) - 0.1_wp*y
    end subroutine mackey_glass_rhs
+
+   !> -rate y.
+   pure subroutine decay_rhs(self, t, y, z, dydt)
+      class(decay), intent(in) :: self
+      real(wp), intent(in) :: t
+      real(wp), intent(in) :: y(self%n)
+      real(wp), intent(in) :: z(size(self%lag))
+      real(wp), intent(out) :: dydt(self%n)
+
+      dydt = -self%rate*y
+   end subroutine decay_rhs
 
    !> y' = (power + 1) t^power.
    pure subroutine quadrature_rhs(self, t, y, z, dydt)

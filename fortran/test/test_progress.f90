@@ -81,7 +81,8 @@ contains
       settings = growth_settings(exponents=2, t_begin=6.0_wp, t_end=26.0_wp, t_turning=5.0_wp, &
                                  interval=0.5_wp, blocks=4)
       receiver = new_recorder()
-      call measure_growth(problem, settings, integration_options(), watched, failure, receiver)
+      call measure_growth(problem, settings, integration_options(), watched, failure, &
+                          progress=receiver)
       call expect_success(error, failure)
       if (allocated(error)) return
       call expect_counted(error, receiver, 50)

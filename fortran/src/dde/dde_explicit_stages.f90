@@ -19,6 +19,10 @@ module dde_explicit_stages
    integer, parameter :: slope_count = 16
    !> Places of stages 2 to 12 in the step, ascending, so that the past is read in one direction.
    real(wp), parameter :: places(11) = [c2, c3, c4, c7, c5, c8, c6, c10, c9, c11, 1.0_wp]
+   !> What the embedded errors of orders 3 and 5 may be where the step is short enough for the
+   !> estimate to mean something, over tolerance**(1/2) and tolerance**(3/4): a few times what
+   !> good steps show.
+   real(wp), parameter :: largest_e3 = 10.0_wp, largest_e5 = 2.0_wp
    !> Places of stages 14 to 16, those of the dense output.
    real(wp), parameter :: dense_places(3) = [c14, c15, c16]
 
@@ -181,8 +185,10 @@ contains
    end subroutine evaluate
 
    !> The estimate |e5|^2 / sqrt(|e5|^2 + 0.01 |e3|^2), each in the root mean square norm over the
-   !> tolerance (Hairer, Norsett and Wanner 1993, eq. (II.10.17)).
-   pure function error_853(n, k, h, scale) result(error)
+   !> tolerance (Hairer, Norsett and Wanner 1993, eq. (II.10.17)). It supposes that e3 is of size
+   !> h^4 and e5 of size h^6; a step far too long for that can have a large e3 and by chance a small
+   !> e5, and a small estimate with them, so each is also asked for by itself.
+   pure function error_853(n, k, h, scale, tolerance) result(error)
       !> Number of equations
       integer, intent(in) :: n
       !> Slopes
@@ -191,6 +197,8 @@ contains
       real(wp), intent(in) :: h
       !> Tolerance of each component, shape (n)
       real(wp), intent(in) :: scale(n)
+      !> Relative or absolute tolerance, the larger
+      real(wp), intent(in) :: tolerance
       real(wp) :: error
       real(wp), dimension(lanes, (n + lanes - 1)/lanes) :: e3, e5
       real(wp) :: norm3, norm5
@@ -206,6 +214,9 @@ contains
          error = huge(1.0_wp)
       else if (norm5 > 0.0_wp) then
          error = norm5*(norm5/hypot(norm5, 0.1_wp*norm3))
+         associate (root => sqrt(tolerance))
+            error = max(error, norm3*root/largest_e3, norm5*sqrt(root)/largest_e5)
+         end associate
       else
          error = 0.0_wp
       end if

@@ -95,7 +95,8 @@ contains
       error = ieee_value(1.0_wp, ieee_quiet_nan)
       if (.not. (self%finite .and. all(ieee_is_finite(self%y_new)))) return
       error = error_853(problem%n, self%k, h, &
-                        absolute + relative*max(abs(self%y), abs(self%y_new)))
+                        absolute + relative*max(abs(self%y), abs(self%y_new)), &
+                        max(relative, absolute))
    end subroutine attempt
 
    !> Copy n numbers; either side may be stored in lanes.
