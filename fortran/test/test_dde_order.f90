@@ -129,7 +129,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(explicit_step_type) :: step
       type(tree_system) :: trees
-      real(wp), parameter :: absolute = 1.0e1_wp, relative = 1.0e2_wp
+      real(wp), parameter :: absolute = 1.0e-9_wp, relative = 1.0e-8_wp
       real(wp) :: estimate, of_order_3, of_order_5, unit(sum(tree_counts(:6)))
 
       trees = grow_trees(6)
