@@ -96,7 +96,7 @@ def seen(spectrum: xr.Dataset, paper: str) -> str:
     if kind == "one base":
         words = f"one base frequency, {bases[0]}, and its harmonics"
     elif kind == "two bases":
-        words = f"two base frequencies, {' and '.join(bases)}, and their combinations"
+        words = f"two base frequencies, {' and '.join(bases)}"
     elif kind == "continuum":
         off = 100 * spectrum.attrs["continuum_share"]
         words = f"continuum: {off:.0f} % of the power off the lines"

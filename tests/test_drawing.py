@@ -156,11 +156,12 @@ def test_peaks_beside_a_higher_one_get_a_dot_only():
 
 def test_labels_of_peaks_do_not_touch():
     """Long and short names, closer and closer."""
-    peaks = [(0.02 * i**0.7, 9.0 - 0.1 * i, 3, 10 + i, -12) for i in range(1, 60)]
-    figure = spectrum_rows.draw({"a": a_spectrum("two bases", BASE, *peaks)}, {"a": "word"}, 0.5)
+    peaks = [(0.02 * i**0.7, 0.05 * 0.95**i, 3, 10 + i, -12 * (i % 2)) for i in range(1, 60)]
+    figure = spectrum_rows.draw({"a": a_spectrum("two bases", *peaks)}, {"a": "word"}, 0.5)
     figure.draw_without_rendering()
     boxes = [text.get_window_extent() for text in figure.axes[0].texts]
     assert len(boxes) > 3
+    assert all(box.width > 10 for box in boxes)
     boxes.sort(key=lambda box: box.x0)
     assert all(left.x1 < right.x0 for left, right in pairwise(boxes))
 
