@@ -2,6 +2,7 @@
 
 import xarray as xr
 from drawing import logged, save
+from spectrum_rows import IN_WORDS
 from trajectory_rows import draw
 
 if __name__ == "__main__":
@@ -9,11 +10,10 @@ if __name__ == "__main__":
         settings = snakemake.params.settings
         trajectories = map(xr.load_dataset, snakemake.input.trajectories)
         rows = dict(zip(settings["rows"], trajectories, strict=True))
+        spectra = map(xr.load_dataset, snakemake.input.spectra)
         titles = {
-            label: f"the paper: “{row['paper']}”; seen: {xr.load_dataset(path).attrs['signal']}"
-            for (label, row), path in zip(
-                settings["rows"].items(), snakemake.input.spectra, strict=True
-            )
+            label: f"the paper: “{row['paper']}”; seen: {IN_WORDS[spectrum.attrs['spectrum_kind']]}"
+            for (label, row), spectrum in zip(settings["rows"].items(), spectra, strict=True)
         }
         figure = draw(rows, titles, settings)
         save(figure, snakemake.output.pdf, snakemake.output.png)

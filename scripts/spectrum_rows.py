@@ -5,11 +5,20 @@ from drawing import INK
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 
-BASE, HARMONIC, OTHER = range(3)
+BASE, HARMONIC, SECOND_BASE, COMBINATION, OTHER = range(5)
 """Values of peak_kind."""
-LEAST_DISTANCE = 0.05
-"""Peaks closer to a higher one than this share of the axis get a dot and no label."""
+WIDTH_OF_A_CHARACTER = 0.0125
+"""Of a label, as a share of the axis."""
+IN_WORDS = {
+    "one base": "one base frequency",
+    "two bases": "two base frequencies",
+    "continuum": "a continuous spectrum",
+    "undecided": "a spectrum of undecided kind",
+    "none": "no motion",
+}
+"""What the kinds of spectra say of a motion."""
 
 
 def draw(rows: dict[str, xr.Dataset], paper: dict[str, str], frequency_shown: float) -> Figure:
@@ -32,48 +41,79 @@ def draw(rows: dict[str, xr.Dataset], paper: dict[str, str], frequency_shown: fl
 
 
 def label_peaks(axes: Axes, spectrum: xr.Dataset, frequency_shown: float) -> None:
-    """A dot on each peak; its name and frequency where no higher one is near."""
-    peaks = spectrum.drop_dims("frequency")
+    """A dot on each peak; its name and frequency where no higher one's are in the way."""
+    peaks = spectrum.drop_dims(["frequency", "base"])
     peaks = peaks.isel(peak=peaks.peak_frequency.values <= frequency_shown)
     peaks = peaks.isel(peak=(-peaks.peak_power.values).argsort())
-    labelled: list[float] = []
+    named = spectrum.attrs["spectrum_kind"] != "continuum"
+    taken: list[tuple[float, float]] = []
     for i in range(peaks.sizes["peak"]):
         peak = peaks.isel(peak=i)
-        place, kind = (
-            (float(peak.peak_frequency), float(peak.peak_power)),
-            int(peak.peak_kind),
-        )
-        colour = "C1" if kind == OTHER else INK
+        place = (float(peak.peak_frequency), float(peak.peak_power))
+        colour = "C1" if named and int(peak.peak_kind) == OTHER else INK
         axes.plot(*place, "o", color=colour, ms=2)
-        if any(abs(place[0] - other) < LEAST_DISTANCE * frequency_shown for other in labelled):
+        lines = [name_of(peak)] if named else []
+        lines.append(f"{place[0]:.4f}")
+        half = 0.5 * WIDTH_OF_A_CHARACTER * frequency_shown * max(map(characters, lines))
+        if any(abs(place[0] - other) < half + its_half for other, its_half in taken):
             continue
-        labelled.append(place[0])
-        name = {
-            BASE: "base $f_1$\n",
-            HARMONIC: f"${int(peak.peak_multiple)}\\,f_1$\n",
-            OTHER: "other\n",
-        }[kind]
+        taken.append((place[0], half))
         axes.annotate(
-            f"{name}{place[0]:.4f}",
+            "\n".join(lines),
             place,
             xytext=(0, 4),
             textcoords="offset points",
             ha="center",
             fontsize=6.5,
             color=colour,
+            path_effects=[withStroke(linewidth=1.5, foreground="white")],
         )
+
+
+def name_of(peak: xr.Dataset) -> str:
+    """What a peak is, in terms of the base frequencies."""
+    kind = int(peak.peak_kind)
+    if kind == OTHER:
+        return "other"
+    multiples = {"f_1": int(peak.peak_multiple), "f_2": int(peak.peak_second_multiple)}
+    terms = [(m, base) for base, m in multiples.items() if m]
+    terms.sort(key=lambda term: term[0] < 0)
+    words = " ".join(
+        f"{'-' if m < 0 else '+'} {abs(m) if abs(m) > 1 else ''}{base}" for m, base in terms
+    )
+    return ("base " if kind in (BASE, SECOND_BASE) else "") + f"${words.removeprefix('+ ')}$"
+
+
+def characters(label: str) -> int:
+    """How many characters of a label are seen."""
+    return len(label.replace("$", "").replace("_", ""))
 
 
 def seen(spectrum: xr.Dataset, paper: str) -> str:
     """What the spectrum shows beside what the paper says, in a line."""
-    share = spectrum.attrs["line_share"]
-    base = spectrum.peak_frequency.values[spectrum.peak_kind.values == BASE]
-    others = int((spectrum.peak_kind == OTHER).sum())
-    if spectrum.attrs["signal"] == "periodic":
-        words = f"one base frequency, $f_1$ = {base[0]:.4f}, and its harmonics"
+    kind = spectrum.attrs["spectrum_kind"]
+    bases = [f"$f_{i}$ = {f:.4f}" for i, f in enumerate(spectrum.base_frequency.values, start=1)]
+    if kind == "one base":
+        words = f"one base frequency, {bases[0]}, and its harmonics"
+    elif kind == "two bases":
+        words = f"two base frequencies, {' and '.join(bases)}"
+    elif kind == "continuum":
+        off = 100 * spectrum.attrs["continuum_share"]
+        words = f"continuum: {off:.0f} % of the power off the lines"
+    elif kind == "undecided":
+        words = f"undecided: {reason(spectrum)}"
     else:
-        words = (
-            f"{others} further peaks, {100 * (1 - share):.0f} % of the power off"
-            " the base frequency and its harmonics"
-        )
+        words = "no power"
     return f"{words}\n(the paper: “{paper}”)"
+
+
+def reason(spectrum: xr.Dataset) -> str:
+    """Why neither one base nor two nor a continuum is seen."""
+    off = 100 * (1 - spectrum.attrs["line_share"])
+    reasons = [f"{off:.2g} % of the power off the lines explained"]
+    others = int((spectrum.peak_kind == OTHER).sum())
+    if others:
+        reasons.append(f"{others} other peak{'s' if others > 1 else ''}")
+    if spectrum.attrs.get("bases_told_apart") == "no":
+        reasons.append(f"$f_2/f_1$ not told from {spectrum.attrs['ratio_of_bases']}")
+    return ", ".join(reasons)

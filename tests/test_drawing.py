@@ -1,5 +1,7 @@
 """Drawing from made-up data: data in, axes out."""
 
+from itertools import pairwise
+
 import hopf_plane
 import numpy as np
 import pytest
@@ -76,68 +78,123 @@ def test_titles_hold_parameters_and_words(spiral_and_circle):
     assert title.endswith("second")
 
 
-def a_spectrum(signal: str, *peaks: tuple[float, float, int, int]) -> xr.Dataset:
-    """A made-up spectrum with peaks of frequency, power, kind and multiple."""
+def a_spectrum(kind: str, *peaks: tuple[float, float, int, int, int], **attributes) -> xr.Dataset:
+    """A made-up spectrum with peaks of frequency, power, kind and multiples of both bases."""
     frequency = np.linspace(0, 5, 501)
-    columns = np.reshape(peaks, (-1, 4)).T
-    names = ["peak_frequency", "peak_power", "peak_kind", "peak_multiple"]
+    columns = np.reshape(peaks, (-1, 5)).T
+    names = ["peak_frequency", "peak_power", "peak_kind", "peak_multiple", "peak_second_multiple"]
+    bases = [f for f, _, its_kind, *_ in peaks if its_kind in (0, 2)]
     return xr.Dataset(
         {
             "power": ("frequency", 1e-3 + 0 * frequency),
+            "base_frequency": ("base", bases),
             **{name: ("peak", column) for name, column in zip(names, columns, strict=True)},
         },
         {"frequency": frequency},
-        {"scene": "made_up", "line_share": 0.75, "signal": signal},
+        {
+            "scene": "made_up",
+            "line_share": 0.75,
+            "continuum_share": 0.2,
+            "spectrum_kind": kind,
+            **attributes,
+        },
     )
 
 
-BASE, HARMONIC, OTHER = (0.1, 9.0, 0, 1), (0.2, 5.0, 1, 2), (0.27, 1.0, 2, 0)
+BASE, HARMONIC, OTHER = (0.1, 9.0, 0, 1, 0), (0.2, 5.0, 1, 2, 0), (0.27, 1.0, 4, 0, 0)
+SECOND = (0.35, 4.0, 2, 0, 1)
 
 
 def test_peaks_are_named_by_kind():
     """Base, harmonic with its multiple, other in another colour, each with its frequency."""
-    rows = {"a": a_spectrum("not periodic", BASE, HARMONIC, OTHER)}
-    figure = spectrum_rows.draw(rows, {"a": "word"}, 0.5)
+    peaks = [BASE, HARMONIC, SECOND, OTHER]
+    figure = spectrum_rows.draw({"a": a_spectrum("undecided", *peaks)}, {"a": "word"}, 0.5)
     labels = {text.get_text(): text.get_color() for text in figure.axes[0].texts}
-    base, harmonic, other = labels
-    assert base.startswith("base $f_1$")
-    assert base.endswith("0.1000")
-    assert harmonic.startswith(r"$2\,f_1$")
-    assert harmonic.endswith("0.2000")
-    assert other.startswith("other")
-    assert other.endswith("0.2700")
-    assert labels[base] == labels[harmonic] != labels[other]
-    assert {(x, y) for x, y, _ in points_in(figure.axes[0])} == {
-        p[:2] for p in (BASE, HARMONIC, OTHER)
-    }
+    assert list(labels) == [
+        "base $f_1$\n0.1000",
+        "$2f_1$\n0.2000",
+        "base $f_2$\n0.3500",
+        "other\n0.2700",
+    ]
+    *explained, other = labels.values()
+    assert len(set(explained)) == 1
+    assert other not in explained
+    assert {(x, y) for x, y, _ in points_in(figure.axes[0])} == {p[:2] for p in peaks}
+
+
+@pytest.mark.parametrize(
+    ("m", "n", "name"),
+    [
+        (1, 1, "$f_1 + f_2$"),
+        (-1, 1, "$f_2 - f_1$"),
+        (3, -2, "$3f_1 - 2f_2$"),
+        (0, 2, "$2f_2$"),
+    ],
+)
+def test_combinations_are_named(m, n, name):
+    """By their terms, a positive one first."""
+    peak = a_spectrum("two bases", (0.1, 1.0, 3, m, n)).isel(peak=0)
+    assert spectrum_rows.name_of(peak) == name
+
+
+def test_peaks_of_a_continuum_have_no_names():
+    """They are no lines; their frequencies are told."""
+    figure = spectrum_rows.draw({"a": a_spectrum("continuum", BASE, OTHER)}, {"a": "word"}, 0.5)
+    texts = figure.axes[0].texts
+    assert [text.get_text() for text in texts] == ["0.1000", "0.2700"]
+    assert len({text.get_color() for text in texts}) == 1
 
 
 def test_peaks_beside_a_higher_one_get_a_dot_only():
     """Labels would lie on each other; peaks beyond the axis get nothing."""
-    beside, beyond = (0.101, 2.0, 2, 0), (0.6, 3.0, 1, 6)
-    rows = {"a": a_spectrum("not periodic", BASE, beside, beyond)}
+    beside, beyond = (0.12, 2.0, 3, -3, 2), (0.6, 3.0, 1, 6, 0)
+    rows = {"a": a_spectrum("undecided", BASE, beside, beyond)}
     figure = spectrum_rows.draw(rows, {"a": "word"}, 0.5)
     assert len(figure.axes[0].texts) == 1
-    assert {x for x, *_ in points_in(figure.axes[0])} == {0.1, 0.101}
+    assert {x for x, *_ in points_in(figure.axes[0])} == {0.1, 0.12}
+
+
+def test_labels_of_peaks_do_not_touch():
+    """Long and short names, closer and closer."""
+    peaks = [(0.02 * i**0.7, 0.05 * 0.95**i, 3, 10 + i, -12 * (i % 2)) for i in range(1, 60)]
+    figure = spectrum_rows.draw({"a": a_spectrum("two bases", *peaks)}, {"a": "word"}, 0.5)
+    figure.draw_without_rendering()
+    boxes = [text.get_window_extent() for text in figure.axes[0].texts]
+    assert len(boxes) > 3
+    assert all(box.width > 10 for box in boxes)
+    boxes.sort(key=lambda box: box.x0)
+    assert all(left.x1 < right.x0 for left, right in pairwise(boxes))
 
 
 def test_spectrum_without_peaks_is_drawn():
     """Nothing to name, nothing to fall over."""
-    figure = spectrum_rows.draw({"a": a_spectrum("not periodic")}, {"a": "word"}, 0.5)
+    figure = spectrum_rows.draw({"a": a_spectrum("none")}, {"a": "word"}, 0.5)
     assert len(figure.axes[0].texts) == 0
+    assert "no power" in title_of(figure.axes[0])
     assert "word" in title_of(figure.axes[0])
 
 
 def test_what_a_spectrum_shows_is_said_beside_the_paper():
-    """A limit cycle by its frequency, anything else by the power off its lines."""
-    cycle = spectrum_rows.seen(a_spectrum("periodic", BASE, HARMONIC), "two peaks")
-    assert "0.1000" in cycle
-    assert "harmonics" in cycle
+    """One or two frequencies by their values, a continuum by the power off all lines."""
+    cycle = spectrum_rows.seen(a_spectrum("one base", BASE, HARMONIC), "two peaks")
+    assert cycle.startswith("one base frequency, $f_1$ = 0.1000, and its harmonics")
     assert "“two peaks”" in cycle
-    other = spectrum_rows.seen(a_spectrum("not periodic", BASE, HARMONIC, OTHER), "noise")
-    assert "1 further peak" in other
-    assert "25 %" in other
-    assert "“noise”" in other
+    torus = spectrum_rows.seen(a_spectrum("two bases", BASE, SECOND), "torus")
+    assert torus.startswith("two base frequencies, $f_1$ = 0.1000 and $f_2$ = 0.3500")
+    chaos = spectrum_rows.seen(a_spectrum("continuum", BASE, SECOND, OTHER), "noise")
+    assert chaos.startswith("continuum: 20 % of the power off the lines")
+    assert "“noise”" in chaos
+
+
+def test_why_a_spectrum_is_undecided_is_said():
+    """Power off the lines, peaks not explained, and a ratio that may be chance."""
+    spectrum = a_spectrum("undecided", BASE, SECOND, bases_told_apart="yes", ratio_of_bases="7/2")
+    assert spectrum_rows.seen(spectrum, "").startswith(
+        "undecided: 25 % of the power off the lines explained\n"
+    )
+    spectrum = a_spectrum("undecided", OTHER, bases_told_apart="no", ratio_of_bases="7/2")
+    words = spectrum_rows.seen(spectrum, "")
+    assert "explained, 1 other peak, $f_2/f_1$ not told from 7/2\n" in words
 
 
 def a_plane(ordinate: str, fixed: str) -> xr.Dataset:

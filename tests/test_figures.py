@@ -12,6 +12,7 @@ from figure_contents import points_in, title_of, words_in
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from matplotlib.text import Text
+from spectrum_rows import IN_WORDS
 
 NUMBERS = range(1, 9)
 SCENES = ["fixed_point", "oscillation", "torus", "chaos"]
@@ -198,8 +199,8 @@ def test_titles_quote_the_paper(figure, row, paper):
 def test_figure_5_says_what_is_seen(figure, smoke):
     """By the spectra."""
     for axes, scene in zip(figure.axes[::3], ("torus", "chaos"), strict=True):
-        signal = xr.load_dataset(smoke.folder / "results/spectra" / f"{scene}.nc").attrs["signal"]
-        assert f"seen: {signal}" in title_of(axes)
+        spectrum = xr.load_dataset(smoke.folder / "results/spectra" / f"{scene}.nc")
+        assert f"seen: {IN_WORDS[spectrum.attrs['spectrum_kind']]}" in title_of(axes)
 
 
 @pytest.mark.parametrize(("figure", "rows"), [(6, 2), (7, 1)], indirect=["figure"])

@@ -6,7 +6,7 @@ import xarray as xr
 from scipy.signal import welch
 
 INTERVAL = 0.1
-BASE, HARMONIC, OTHER = range(3)
+BASE, HARMONIC, SECOND_BASE, COMBINATION, OTHER = range(5)
 
 
 @pytest.fixture
@@ -112,43 +112,79 @@ def test_peak_between_bins_is_interpolated(spectrum_of, shift):
 
 
 def test_peaks_are_labelled(spectrum_of):
-    """Base, its multiples, and one that is none."""
-    spectrum = spectrum_of(sines(4000, (1, 0.3), (0.2, 0.6), (0.1, 0.9), (0.5, 0.75)), segments=1)
-    np.testing.assert_allclose(spectrum.peak_frequency, [0.3, 0.6, 0.75, 0.9], rtol=1e-6)
-    assert list(spectrum.peak_kind) == [BASE, HARMONIC, OTHER, HARMONIC]
-    assert list(spectrum.peak_multiple) == [1, 2, 0, 3]
+    """Base, its multiples, a second base, their sum, and one that is none of these."""
+    second, third = 0.3 * 2**0.5, 0.3 * np.pi
+    parts = (1, 0.3), (0.2, 0.6), (0.1, 0.9), (0.5, second), (0.1, 0.3 + second), (0.2, third)
+    spectrum = spectrum_of(sines(8000, *parts), segments=1)
+    known = {
+        0.3: (BASE, 1, 0),
+        second: (SECOND_BASE, 0, 1),
+        0.6: (HARMONIC, 2, 0),
+        0.3 + second: (COMBINATION, 1, 1),
+        0.9: (HARMONIC, 3, 0),
+        third: (OTHER, 0, 0),
+    }
+    np.testing.assert_allclose(spectrum.peak_frequency, list(known), rtol=1e-5)
+    labels = zip(
+        spectrum.peak_kind.values,
+        spectrum.peak_multiple.values,
+        spectrum.peak_second_multiple.values,
+        strict=True,
+    )
+    assert [tuple(label) for label in labels] == [known[f] for f in sorted(known)]
+    np.testing.assert_allclose(spectrum.base_frequency, [0.3, second], rtol=1e-5)
     kinds = spectrum.peak_kind.attrs
     words = dict(zip(kinds["flag_meanings"].split(), kinds["flag_values"].split(), strict=True))
-    assert words == {"base": "0", "harmonic": "1", "other": "2"}
+    assert words == {
+        "base": "0",
+        "harmonic": "1",
+        "second_base": "2",
+        "combination": "3",
+        "other": "4",
+    }
 
 
 def test_base_may_be_lower_than_its_harmonic(spectrum_of):
     """The highest peak is a multiple of the base."""
     spectrum = spectrum_of(sines(4000, (0.1, 0.3), (1.0, 0.6)), segments=1)
     assert list(spectrum.peak_kind) == [BASE, HARMONIC]
+    np.testing.assert_allclose(spectrum.base_frequency, [0.3], rtol=1e-6)
 
 
 @pytest.mark.parametrize(
-    ("parts", "signal", "share"),
+    ("parts", "kind", "share"),
     [
-        ([(1, 0.3)], "periodic", 1.0),
-        ([(1, 0.3), (0.2, 0.6)], "periodic", 1.0),
-        ([(1, 0.3), (0.2, 0.3 * 2**0.5)], "not periodic", 1 / 1.04),
-        ([(1, 0.3), (1, 0.47)], "not periodic", 0.5),
+        ([(1, 0.3)], "one base", 1.0),
+        ([(1, 0.3), (0.2, 0.6)], "one base", 1.0),
+        ([(1, 0.3), (0.2, 0.3 * 2**0.5)], "two bases", 1.0),
+        ([(1, 0.3), (1, 0.3 * 2**0.5), (1, 0.3 * np.pi)], "undecided", 2 / 3),
     ],
 )
-def test_signal_is_called_periodic_where_it_is(spectrum_of, parts, signal, share):
-    """One base frequency with its harmonics; line_share is their part of the power."""
+def test_kind_of_spectrum_is_told(spectrum_of, parts, kind, share):
+    """By the base frequencies it takes; line_share is the part of the power they explain."""
     attributes = spectrum_of(sines(8000, *parts), segments=1).attrs
-    assert attributes["signal"] == signal
+    assert attributes["spectrum_kind"] == kind
     assert attributes["line_share"] == pytest.approx(share, abs=1e-3)
+    assert attributes["continuum_share"] == pytest.approx(0, abs=1e-3)
 
 
-def test_noise_is_not_called_periodic(spectrum_of):
+def test_noise_is_a_continuum(spectrum_of):
     """Whatever its highest peak is."""
     attributes = spectrum_of(noise(4096)).attrs
-    assert attributes["signal"] == "not periodic"
-    assert attributes["line_share"] < 0.9
+    assert attributes["spectrum_kind"] == "continuum"
+    assert attributes["continuum_share"] > 0.5
+
+
+def test_two_bases_are_told_apart_or_not(spectrum_of):
+    """The simplest ratio within the accuracy, and whether it may be chance."""
+    attributes = spectrum_of(sines(4000, (1, 0.3), (0.5, 0.3 * 2**0.5)), segments=1).attrs
+    assert attributes["bases_told_apart"] == "yes"
+    p, q = map(int, attributes["ratio_of_bases"].split("/"))
+    assert p / q == pytest.approx(2**0.5, abs=2e-4)
+    attributes = spectrum_of(sines(4000, (1, 0.3), (0.5, 0.3 * 25 / 31)), segments=1).attrs
+    assert attributes["ratio_of_bases"] == "25/31"
+    assert attributes["bases_told_apart"] == "no"
+    assert attributes["spectrum_kind"] == "undecided"
 
 
 def test_low_peaks_are_left_out(spectrum_of):
@@ -170,7 +206,9 @@ def test_signal_without_variation_has_no_peaks(spectrum_of):
     spectrum = spectrum_of(np.ones(400))
     assert (spectrum.power == 0).all()
     assert spectrum.sizes["peak"] == 0
-    assert np.isfinite(spectrum.attrs["line_share"])
+    assert spectrum.sizes["base"] == 0
+    assert spectrum.attrs["line_share"] == 0
+    assert spectrum.attrs["spectrum_kind"] == "none"
 
 
 def test_attributes_tell_how_it_was_made(spectrum_of):

@@ -23,8 +23,8 @@ module base_frequencies
    real(wp), parameter :: chance_of_combination = 0.03_wp
    !> Orders and denominators beyond any use.
    integer, parameter :: highest_order = 40, highest_denominator = 1000
-   !> Peaks tried as second base, highest first.
-   integer, parameter :: most_tried = 8
+   !> Peaks tried as second base, and peaks that a lower one must explain beyond a higher one's.
+   integer, parameter :: most_tried = 8, least_gain = 2
    real(wp), parameter :: pi = acos(-1.0_wp)
 
    !> What the labels rest on.
@@ -51,9 +51,9 @@ module base_frequencies
 contains
 
    !> Label all peaks. f1 is the highest peak, or the common base of it and of the next ones, from
-   !> the highest down, that are simple fractions of it (no peak need be there). f2 is, of the
-   !> highest peaks that are no multiple of f1, the one with which the most peaks are explained,
-   !> the highest if several are: a peak such as f1 + 2 f2 would leave out f1 + f2.
+   !> the highest down, that are simple fractions of it (no peak need be there). f2 is the highest
+   !> peak that is no multiple of f1, or a lower one with which at least two more peaks are
+   !> explained (one more may be chance): a peak such as f1 + 2 f2 would leave out f1 + f2.
    pure subroutine label_peaks(peaks, resolution, bases)
       !> Peaks, frequency ascending
       type(peak_type), intent(inout) :: peaks(:)
@@ -128,7 +128,7 @@ contains
       type(bases_type), intent(inout) :: bases
       integer :: explained, i, most_explained, order, q, tried
 
-      most_explained = 0
+      most_explained = -least_gain
       tried = 0
       do i = 1, size(lines)
          if (multiple_of(lines(i), first) > 0) cycle
@@ -136,12 +136,12 @@ contains
          if (tried > most_tried) exit
          order = most_order(lines, first, lines(i))
          explained = count_explained(lines, first, lines(i), order)
-         if (explained <= most_explained) cycle
+         if (explained < most_explained + least_gain) cycle
          most_explained = explained
          second = lines(i)
          bases%order = order
       end do
-      if (most_explained == 0) return
+      if (tried == 0) return
       bases%frequency(2) = second%frequency
       q = denominator(second, first, highest_denominator)
       if (q > 0) bases%ratio = [nint(q*second%frequency/first%frequency), q]
