@@ -1,16 +1,16 @@
 """Figure 5: velocity and phase portrait, rows a (the paper's torus) and b (chaos)."""
 
-import xarray as xr
 from drawing import logged, save
+from inputs import read
 from trajectory_rows import draw
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         settings = snakemake.params.settings
-        trajectories = map(xr.load_dataset, snakemake.input.trajectories)
+        trajectories = map(read, snakemake.input.trajectories)
         rows = dict(zip(settings["rows"], trajectories, strict=True))
         titles = {
-            label: f"the paper: “{row['paper']}”; seen: {xr.load_dataset(path).attrs['signal']}"
+            label: f"the paper: “{row['paper']}”; seen: {read(path).attrs['signal']}"
             for (label, row), path in zip(
                 settings["rows"].items(), snakemake.input.spectra, strict=True
             )
