@@ -5,12 +5,15 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 
 sys.path.insert(0, f"{workflow.basedir}/scripts")
+import before_run
 import check_config
 import study_cases
 
 try:
+    before_run.refuse_unwritable(Path.cwd())
+    before_run.free_folder(Path.cwd())
     config = check_config.checked(config)
-except check_config.ConfigError as problems:
+except (before_run.FolderError, check_config.ConfigError) as problems:
     raise WorkflowError(problems) from None
 
 

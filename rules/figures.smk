@@ -1,5 +1,5 @@
 # The paper's figures, each with its caption for the report.
-DRAWING = ["scripts/drawing.py", "scripts/paper.mplstyle"]
+DRAWING = ["scripts/drawing.py", "scripts/outputs.py", "scripts/paper.mplstyle"]
 
 
 rule figure_1:

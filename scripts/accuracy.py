@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import xarray as xr
+from inputs import read
 from tables import read_table
 
 STATE = ["theta", "u", "ln_v"]
@@ -41,7 +41,7 @@ def read_references(path: str | Path) -> dict[str, Reference]:
 
 def read_runs(path: str | Path) -> list[dict]:
     """Runs of a file: words, numbers, and samples as `time` and `state`."""
-    data = xr.load_dataset(path)
+    data = read(path)
     runs = []
     for i in range(data.sizes["run"]):
         row = data.isel(run=i)

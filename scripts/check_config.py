@@ -1,6 +1,7 @@
 """Check a configuration against its schema, in words, and fill in the defaults."""
 
 import math
+from difflib import get_close_matches
 from pathlib import Path
 
 import jsonschema
@@ -113,7 +114,9 @@ def _in_words(error: jsonschema.ValidationError) -> str:
     if error.validator == "additionalProperties" and isinstance(error.instance, dict):
         known = list(error.schema.get("properties", {}))
         unknown = sorted(set(error.instance) - set(known), key=str)
-        return f"{_place(path)}: unknown key {unknown}; allowed: {', '.join(known)}"
+        meant = {near for key in unknown for near in get_close_matches(str(key), known, n=1)}
+        hint = f" (is it meant to be {' and '.join(map(repr, sorted(meant)))}?)" if meant else ""
+        return f"{_place(path)}: unknown key {unknown}; allowed: {', '.join(known)}{hint}"
     if error.validator == "required":
         missing = [key for key in error.validator_value if key not in error.instance]
         return f"{_place(path)}: key {missing} is missing"

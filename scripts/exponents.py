@@ -3,6 +3,7 @@
 import numpy as np
 import xarray as xr
 from drawing import FAINT, logged, save
+from inputs import read
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -90,6 +91,6 @@ def scale(axes: Axes) -> None:
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        runs = [xr.load_dataset(path) for path in snakemake.input.runs]
+        runs = [read(path) for path in snakemake.input.runs]
         figure = draw(runs, read_table(snakemake.input.table))
         save(figure, snakemake.output.pdf, snakemake.output.png)

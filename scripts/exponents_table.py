@@ -2,6 +2,7 @@
 
 import xarray as xr
 from drawing import logged
+from inputs import read
 from tables import write_table
 
 ERROR_BARS = 3.0
@@ -36,5 +37,5 @@ def sign(value: float, error: float, zero_level: float) -> str:
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        table = [row for path in snakemake.input.runs for row in rows_of(xr.load_dataset(path))]
+        table = [row for path in snakemake.input.runs for row in rows_of(read(path))]
         write_table(snakemake.output[0], table)

@@ -1,10 +1,10 @@
 """Figure 2: Hopf curves tau(epsilon) at fixed xi and gamma."""
 
-import xarray as xr
 from drawing import logged, save
 from hopf_plane import draw
+from inputs import read
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        figure = draw(xr.load_dataset(snakemake.input.curves), snakemake.params.scenes)
+        figure = draw(read(snakemake.input.curves), snakemake.params.scenes)
         save(figure, snakemake.output.pdf, snakemake.output.png)

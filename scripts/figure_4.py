@@ -1,13 +1,13 @@
 """Figure 4: velocity and phase portrait, rows a (fixed point) and b (oscillations)."""
 
-import xarray as xr
 from drawing import logged, save
+from inputs import read
 from trajectory_rows import draw
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         settings = snakemake.params.settings
-        trajectories = map(xr.load_dataset, snakemake.input.trajectories)
+        trajectories = map(read, snakemake.input.trajectories)
         rows = dict(zip(settings["rows"], trajectories, strict=True))
         titles = {label: f"the paper: “{row['paper']}”" for label, row in settings["rows"].items()}
         figure = draw(rows, titles, settings)

@@ -1,16 +1,16 @@
 """Figure 5: velocity and phase portrait, rows a (the paper's torus) and b (chaos)."""
 
-import xarray as xr
 from drawing import logged, save
+from inputs import read
 from spectrum_rows import IN_WORDS
 from trajectory_rows import draw
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         settings = snakemake.params.settings
-        trajectories = map(xr.load_dataset, snakemake.input.trajectories)
+        trajectories = map(read, snakemake.input.trajectories)
         rows = dict(zip(settings["rows"], trajectories, strict=True))
-        spectra = map(xr.load_dataset, snakemake.input.spectra)
+        spectra = map(read, snakemake.input.spectra)
         titles = {
             label: f"the paper: “{row['paper']}”; seen: {IN_WORDS[spectrum.attrs['spectrum_kind']]}"
             for (label, row), spectrum in zip(settings["rows"].items(), spectra, strict=True)

@@ -1,13 +1,13 @@
 """Figure 7: power spectrum of the chaotic scene."""
 
-import xarray as xr
 from drawing import logged, save
+from inputs import read
 from spectrum_rows import draw
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         settings = snakemake.params.settings
-        spectra = map(xr.load_dataset, snakemake.input.spectra)
+        spectra = map(read, snakemake.input.spectra)
         rows = dict(zip(settings["rows"], spectra, strict=True))
         paper = {label: row["paper"] for label, row in settings["rows"].items()}
         figure = draw(rows, paper, settings["frequency_shown"])

@@ -3,6 +3,7 @@
 import numpy as np
 import xarray as xr
 from drawing import FAINT, INK, logged, save
+from inputs import read
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -97,5 +98,5 @@ def mark_dc(axes: Axes, slip: np.ndarray, mu: np.ndarray, steps: np.ndarray) -> 
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        figure = draw(xr.load_dataset(snakemake.input.response))
+        figure = draw(read(snakemake.input.response))
         save(figure, snakemake.output.pdf, snakemake.output.png)

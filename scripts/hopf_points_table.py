@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 from drawing import logged
+from inputs import read
 from linear_stability_table import amplitude_death
 from tables import write_table
 
@@ -74,7 +75,7 @@ if __name__ == "__main__":
     with logged(snakemake.log[0]):
         rows = []
         for path in snakemake.input.curves:
-            rows += rows_of(Path(path).stem, xr.load_dataset(path))
+            rows += rows_of(Path(path).stem, read(path))
         for path in snakemake.input.scenes:
-            rows += death_rows_of(Path(path).stem, xr.load_dataset(path))
+            rows += death_rows_of(Path(path).stem, read(path))
         write_table(snakemake.output[0], rows, COLUMNS)

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import xarray as xr
 from drawing import logged
+from inputs import read
 from tables import write_table
 
 ROOTS_SHOWN = 3
@@ -70,5 +71,5 @@ if __name__ == "__main__":
     with logged(snakemake.log[0]):
         write_table(
             snakemake.output[0],
-            [row_of(Path(path).stem, xr.load_dataset(path)) for path in snakemake.input],
+            [row_of(Path(path).stem, read(path)) for path in snakemake.input],
         )

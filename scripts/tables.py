@@ -2,19 +2,18 @@
 
 import csv
 import math
-import os
 from pathlib import Path
+
+from outputs import written
 
 
 def write_table(path: str | Path, rows: list[dict], columns: list[str] | None = None) -> None:
     """Write rows that all have the same keys; the file is whole or absent."""
-    unfinished = f"{path}.part"
-    with open(unfinished, "w", newline="") as file:
+    with written(path) as unfinished, open(unfinished, "w", newline="") as file:
         writer = csv.DictWriter(file, columns or list(rows[0]), delimiter="\t", lineterminator="\n")
         writer.writeheader()
         for row in rows:
             writer.writerow({key: as_text(value) for key, value in row.items()})
-    os.replace(unfinished, path)
 
 
 def as_text(value) -> str:

@@ -1,9 +1,9 @@
 """Write namelist groups for a Fortran program."""
 
-import os
 from pathlib import Path
 
 import f90nml
+from outputs import logged, written
 
 
 def write_namelist(path: Path, group: str, values: dict) -> None:
@@ -13,10 +13,11 @@ def write_namelist(path: Path, group: str, values: dict) -> None:
 
 def write_groups(path: Path, groups: dict[str, dict]) -> None:
     """Write several groups into one file, which is whole or absent."""
-    unfinished = Path(f"{path}.part")
-    f90nml.Namelist(groups).write(unfinished, force=True)
-    os.replace(unfinished, path)
+    with written(path) as unfinished:
+        f90nml.Namelist(groups).write(unfinished, force=True)
 
 
 if __name__ == "__main__":
-    write_namelist(Path(snakemake.output[0]), snakemake.params.group, dict(snakemake.params.values))
+    with logged(snakemake.log[0]):
+        group, values = snakemake.params.group, dict(snakemake.params.values)
+        write_namelist(Path(snakemake.output[0]), group, values)

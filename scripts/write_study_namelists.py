@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from outputs import logged
 from write_namelist import write_groups
 
 
@@ -12,4 +13,5 @@ def write_all(paths: dict[str, str], groups: dict[str, dict]) -> None:
 
 
 if __name__ == "__main__":
-    write_all(dict(snakemake.output.items()), snakemake.params.groups)
+    with logged(snakemake.log[0]):
+        write_all(dict(snakemake.output.items()), snakemake.params.groups)

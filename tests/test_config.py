@@ -216,6 +216,22 @@ def test_unknown_key_of_a_scene_is_refused(config, key):
     assert f"scene 'torus': unknown key [{key!r}]; allowed: tau, epsilon, xi, gamma, " in words
 
 
+@pytest.mark.parametrize(
+    ("key", "near"),
+    [("taus", "tau"), ("epsilom", "epsilon"), ("sample_intervall", "sample_interval")],
+)
+def test_nearest_key_is_named(config, key, near):
+    """Most unknown keys are misspelt."""
+    config["scenes"]["torus"][key] = 1.0
+    assert f" (is it meant to be '{near}'?)" in refusal(config)
+
+
+def test_no_key_is_named_where_none_is_near(config):
+    """Rather than one that is not meant."""
+    config["scenes"]["torus"]["colour"] = 1.0
+    assert "meant" not in refusal(config)
+
+
 def test_unknown_key_of_a_history_is_refused(config):
     """The line names scene and key, and lists what is known."""
     config["scenes"]["torus"]["history"]["w"] = 1.0

@@ -36,7 +36,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       integer :: dimension, file, id, length, status
 
-      call check(nf90_open(path, nf90_nowrite, file), "cannot be opened")
+      call check(nf90_open(path, nf90_nowrite, file), &
+                 "cannot be opened (remove it to have it made anew)")
       if (allocated(error)) return
       call check(nf90_inq_varid(file, variable, id), "holds no variable '"//variable &
                  //"' (add it to the variables of its scene)")
@@ -49,7 +50,8 @@ contains
       if (.not. allocated(error)) then
          call check(nf90_inquire_dimension(file, dimension, len=length), "dimension 'time'")
          allocate (trajectory%samples(length))
-         call check(nf90_get_var(file, id, trajectory%samples), "variable '"//variable//"'")
+         call check(nf90_get_var(file, id, trajectory%samples), "variable '"//variable &
+                    //"' cannot be read (remove the file to have it made anew)")
       end if
       if (.not. allocated(error)) then
          if (.not. all(ieee_is_finite(trajectory%samples))) then

@@ -1,0 +1,47 @@
+"""What scripts write is whole or absent; what goes wrong is said in one line with what to do."""
+
+import contextlib
+import os
+import traceback
+from collections.abc import Iterator
+from pathlib import Path
+
+REMEDY = "see that its folder is there, can be written and has room, then run again"
+
+
+class FileError(Exception):
+    """A file that cannot be read or written: which, why, and what to do."""
+
+
+@contextlib.contextmanager
+def written(path: str | Path) -> Iterator[Path]:
+    """The path to write to: what is there at the end becomes `path`, of a failure nothing stays."""
+    unfinished = Path(f"{path}.part")
+    try:
+        yield unfinished
+        os.replace(unfinished, path)
+    except OSError as problem:
+        raise FileError(f"{path}: cannot write: {problem.strerror}; {REMEDY}") from problem
+    finally:
+        with contextlib.suppress(OSError):
+            unfinished.unlink(missing_ok=True)
+
+
+@contextlib.contextmanager
+def logged(path: str | Path) -> Iterator[None]:
+    """Write warnings and the reason of a failure to a log file.
+
+    Problems with files end the script in one line on standard error; their details are in the log.
+    """
+    try:
+        with open(path, "w") as log, contextlib.redirect_stderr(log):
+            try:
+                yield
+            except Exception:
+                traceback.print_exc()
+                raise
+    except FileError as problem:
+        raise SystemExit(f"error: {problem}") from None
+    except OSError as problem:
+        place = problem.filename or path
+        raise SystemExit(f"error: {place}: {problem.strerror}; {REMEDY}") from None

@@ -1,0 +1,69 @@
+"""Full and read-only disks: one message that says what to do, and nothing half-written."""
+
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+from conftest import GROUPS, SMOKE
+from disks import FULL, READ_ONLY, on_disk
+from test_measure import CASES, GROUP_OF
+from write_namelist import write_groups
+
+REMEDY = "; see that its folder is there, can be written and has room, then run again\n"
+SNAKEMAKE = Path(sys.executable).parent / "snakemake"
+
+
+def groups_of(program: str, good_inputs: dict) -> dict[str, dict]:
+    """Namelist groups that a program accepts."""
+    if program in GROUPS:
+        return {GROUPS[program]: good_inputs[program]}
+    if program == "exponents":
+        wanted = {"count": 2, "t_end": 20.0, "t_turning": 5.0, "interval": 1.0, "blocks": 2}
+        settings = {**wanted, "zero_level": 1e-3, "check_tolerances": [1e-7]}
+        return {"scene": good_inputs["trajectory"], "exponents": settings}
+    group, values = GROUP_OF[program]
+    return {"cases_list": CASES, group: values}
+
+
+@pytest.mark.parametrize("disk", [FULL, READ_ONLY])
+@pytest.mark.parametrize("program", [*GROUPS, "exponents", "measure", "reference"])
+def test_program_on_such_a_disk(programs, good_inputs, program, disk):
+    """It says so in one line and ends with status 1; the disk is empty."""
+    write_groups(programs.folder / "input.nml", groups_of(program, good_inputs))
+    if program == "reference":
+        # a long table: a small one has room
+        disk = disk.replace("size=4k", "size=4k,nr_inodes=1")
+    binary = programs.binaries / program
+    run = on_disk(disk, "disk", programs.folder, binary, "input.nml", "disk/output")
+    assert run.returncode == 1
+    assert run.stderr.startswith("error: disk/output: cannot write")
+    assert run.stderr.endswith(REMEDY)
+    assert run.stderr.count("\n") == 1
+    assert run.stdout == ""
+
+
+@pytest.mark.parametrize("target", ["results/figures/figure_1.png", "results/tables/exponents.tsv"])
+def test_script_on_a_full_disk(scratch, target):
+    """The same from the workflow, without a traceback of the script."""
+    place = target.rpartition("/")[0]
+    shutil.rmtree(scratch.folder / place)
+    disk = FULL.replace("size=4k", "nr_inodes=1")
+    run = on_disk(disk, place, scratch.folder, SNAKEMAKE, "--cores", "2", target, *SMOKE)
+    assert run.returncode != 0
+    assert f"error: {place}/" in run.stderr
+    assert "cannot write: No space left on device" + REMEDY in run.stderr
+    assert "outputs.py" not in run.stderr
+    assert run.stdout == ""
+
+
+@pytest.mark.parametrize("place", ["results", "results/logs"])
+def test_results_that_cannot_be_written(smoke, place):
+    """The workflow says so before it begins anything."""
+    before = smoke.outputs()
+    command = [SNAKEMAKE, "--cores", "2", "--forceall", "figure_1", *SMOKE]
+    run = on_disk(READ_ONLY, place, smoke.folder, *command)
+    assert run.returncode != 0
+    assert f"nothing can be written in {smoke.folder / place}; see that" in run.stderr
+    assert "Traceback" not in run.stderr
+    assert smoke.outputs() == before
