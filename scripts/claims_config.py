@@ -25,7 +25,7 @@ def checked(said: dict, config: dict, shown: set[str]) -> dict:
     problems = [in_words(error) for error in validator.iter_errors(said)]
     if not problems:
         for name, claim in said["claims"].items():
-            problems += [f"config claims {name}: {line}" for line in _wrong(claim, config, shown)]
+            problems += [f"config claims {name}{line}" for line in _wrong(claim, config, shown)]
     if problems:
         raise ConfigError("\n".join(["the list of claims is refused:", *sorted(set(problems))]))
     return said["claims"]
@@ -41,35 +41,35 @@ def _wrong(claim: dict, config: dict, shown: set[str]):
     """Problems of one claim that involve more than one key."""
     given = [key for key in ("test", "not_testable") if key in claim]
     if len(given) != 1:
-        yield f"{' and '.join(given) or 'neither'} given; expected either test or not_testable"
-    if ("look_at" in claim) != ("test" in claim):
-        yield "look_at expected beside test, and only there"
-    if claim.get("look_at", next(iter(shown))) not in shown:
-        yield f"look_at = {claim['look_at']!r}; expected one of: {', '.join(sorted(shown))}"
-    if "test" in claim:
+        yield f": {' and '.join(given) or 'neither'} given; expected either test or not_testable"
+    elif ("look_at" in claim) != ("test" in claim):
+        yield ": look_at expected beside test, and only there"
+    elif "test" in claim:
+        if claim["look_at"] not in shown:
+            yield f": look_at = {claim['look_at']!r}; expected one of: {', '.join(sorted(shown))}"
         test, parameters = named_test(claim)
-        yield from _unknown_names(test, parameters, config)
-        yield from _contradictions(test, parameters)
+        for line in (*_unknown_names(parameters, config), *_contradictions(test, parameters)):
+            yield f" test {test}: {line}"
 
 
-def _unknown_names(test: str, parameters: dict, config: dict):
+def _unknown_names(parameters: dict, config: dict):
     """Scenes and planes that the configuration does not have."""
     for key, known in (("scene", config["scenes"]), ("plane", config["hopf_curves"])):
         named = parameters.get(f"{key}s", [parameters[key]] if key in parameters else [])
         for name in named:
             if name not in known:
-                yield f"test {test}: {key} {name!r}; expected one of: {', '.join(known)}"
+                yield f"{key} {name!r}; expected one of: {', '.join(known)}"
 
 
 def _contradictions(test: str, parameters: dict):
     """Parameters that do not go together."""
     if test == "sequence_of_scenes" and len(parameters["scenes"]) != len(parameters["expected"]):
         yield (
-            f"test {test}: {len(parameters['expected'])} classes expected of"
-            f" {len(parameters['scenes'])} scenes; expected one each"
+            f"{len(parameters['expected'])} classes for {len(parameters['scenes'])} scenes;"
+            " expected one each"
         )
     if test == "out_of_reach" and parameters["least"] > parameters["most"]:
         yield (
-            f"test {test}: least = {parameters['least']}; expected a finite number <= most ="
+            f"least = {parameters['least']}; expected a finite number <= most ="
             f" {parameters['most']}"
         )
