@@ -7,6 +7,7 @@ from snakemake.exceptions import WorkflowError
 sys.path.insert(0, f"{workflow.basedir}/scripts")
 import before_run
 import check_config
+import claims_config
 import study_cases
 
 try:
@@ -28,6 +29,13 @@ SCENES_WITH_EXPONENTS = [
 ]
 FAMILIES = list(config["stability"]["families"])
 WORK_SCENES = list(config["work_precision"]["scenes"])
+LEDGER_TABLES = {
+    "hopf_points": "results/tables/hopf-points.tsv",
+    "linear_stability": "results/tables/linear-stability.tsv",
+    "stability": "results/tables/stability.tsv",
+    "attractors": "results/tables/attractors.tsv",
+    "route": "results/tables/route-to-chaos.tsv",
+}
 
 
 wildcard_constraints:
@@ -140,3 +148,12 @@ def tables_of_others(wildcards):
     """The table of other solvers, measured by a command of its own, where there is one."""
     table = Path("results/tables/benchmarks.tsv")
     return [table] if table.exists() else []
+
+
+def claims_listed():
+    """The paper's claims with their tests, checked."""
+    shown = {*FIGURES, *(Path(table).name for table in LEDGER_TABLES.values())}
+    try:
+        return claims_config.checked(claims_config.listed(), config, shown)
+    except check_config.ConfigError as problems:
+        raise WorkflowError(problems) from None

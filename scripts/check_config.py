@@ -37,8 +37,8 @@ def checked(config: dict) -> dict:
     """Return `config` with its defaults; raise ConfigError naming place, key, value and range."""
     problems = list(_names_that_are_no_text(config))
     if not problems:
-        validator = _validator_with_defaults(yaml.safe_load(SCHEMA.read_text()))
-        problems = [_in_words(error) for error in validator.iter_errors(config)]
+        validator = validator_with_defaults(yaml.safe_load(SCHEMA.read_text()))
+        problems = [in_words(error) for error in validator.iter_errors(config)]
     if not problems:
         _fill_in_variables(config)
         _fill_in_ends_of_exponents(config)
@@ -57,7 +57,7 @@ def variables_used(config: dict, scene: str) -> set[str]:
     return used
 
 
-def _validator_with_defaults(schema: dict):
+def validator_with_defaults(schema: dict):
     """A validator for which NaN and infinity are no numbers and which sets missing keys."""
     base = jsonschema.Draft202012Validator
 
@@ -108,7 +108,7 @@ def _names_that_are_no_text(config: dict):
                 yield f"{_place(path)}: name {name!r}; expected text (quote it)"
 
 
-def _in_words(error: jsonschema.ValidationError) -> str:
+def in_words(error: jsonschema.ValidationError) -> str:
     """One problem as a line: place, key, value met, what is allowed."""
     path = [str(part) for part in error.absolute_path]
     if error.validator == "additionalProperties" and isinstance(error.instance, dict):

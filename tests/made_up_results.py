@@ -1,0 +1,114 @@
+"""Results made up for tests of the ledger: Hopf curves in closed form, and rows of tables."""
+
+import math
+
+import numpy as np
+import xarray as xr
+from claims_results import Results
+
+CLASSES = ["fixed point", "cycle", "torus", "chaos", "undecided"]
+
+
+def hopf_curve(gamma: float = 0.8, xi: float = 0.5, k: int = 1, ordinate: str = "tau"):
+    """A curve by its closed form, independent of (7) to (10), as in results/hopf/."""
+    omega = np.linspace(0.31, 1.43, 12)
+    b = xi * (gamma**2 - omega**2) / (gamma**2 * omega)
+    values = {
+        "epsilon": np.sqrt((1 + omega**2) * (1 + b**2)) - 1,
+        "tau": (np.arctan(b) - np.arctan(omega) + 2 * np.pi * k) / omega,
+        "xi": np.full(omega.size, xi),
+        "omega": omega,
+        "branch": np.full(omega.size, k),
+        "crossing": np.ones(omega.size, dtype=int),
+        "residual": np.full(omega.size, 1e-15),
+        "printed_tau": np.ones(omega.size),
+        "printed_residual": np.full(omega.size, 0.5),
+        "l1": np.full(omega.size, -0.1),
+        "unstable_pairs": np.zeros(omega.size, dtype=int),
+    }
+    data = {name: ("point", value) for name, value in values.items()}
+    return xr.Dataset(data, attrs={"ordinate": ordinate, "gamma": gamma, "xi": xi})
+
+
+def changed(curves: xr.Dataset, **values) -> xr.Dataset:
+    """The same curve with other values of some variables."""
+    size = curves.sizes["point"]
+    new = {name: ("point", np.broadcast_to(value, size).copy()) for name, value in values.items()}
+    return curves.assign(new)
+
+
+def results(**given) -> Results:
+    """Results of which a test uses some."""
+    empty = {"curves": {}, "friction": xr.Dataset(), "hopf_points": [], "linear_stability": []}
+    return Results(**{**empty, "stability": [], "attractors": [], "route": [], **given})
+
+
+def on_plane(curves: xr.Dataset) -> Results:
+    """Results with one plane of Hopf curves."""
+    return results(curves={"plane": curves})
+
+
+def stability_row(scene: str = "mine", **given) -> dict:
+    """A row of linear-stability.tsv: stable without delay, lost at 2, regained at 5, lost at 8."""
+    return {
+        "scene": scene,
+        "tau": 3.0,
+        "epsilon": 0.4,
+        "xi": 0.8,
+        "gamma": 0.8,
+        "unstable_pairs": 1.0,
+        "tau_of_changes": "2 (0 -> 1); 5 (1 -> 0); 8 (0 -> 1)",
+        "epsilon_of_changes": "0.3 (0 -> 1); 0.9 (1 -> 2)",
+        **given,
+    }
+
+
+def attractor_row(met: str, scene: str = "mine", history: int = 1, **given) -> dict:
+    """A row of attractors.tsv."""
+    return {
+        "scene": scene,
+        "history": float(history),
+        "class": met,
+        "period": 1.0 if met == "cycle" else math.nan,
+        "by_exponents": met,
+        "by_section": met,
+        "by_spectrum": met,
+        **{f"exponent_{i}": -0.01 * i for i in (1, 2, 3)},
+        **{f"error_{i}": 0.001 for i in (1, 2, 3)},
+        "f1": 0.1,
+        "f2": 0.17 if met == "torus" else math.nan,
+        **given,
+    }
+
+
+def route_rows(*classes: str) -> list[dict]:
+    """Rows of route-to-chaos.tsv: these classes at growing epsilon, last first."""
+    rows = [
+        {
+            "epsilon": 0.1 * (i + 1),
+            "tau": 10.0,
+            "xi": 0.8,
+            "gamma": 0.8,
+            "class": met.split("/")[0],
+            "period": float(met.split("/")[1]) if "/" in met else math.nan,
+        }
+        for i, met in enumerate(classes)
+    ]
+    return rows[::-1]
+
+
+def run_row(**given) -> dict:
+    """A row of stability.tsv."""
+    return {
+        "case": "a case",
+        "xi": 0.5,
+        "gamma": 1e6,
+        "method": "auto",
+        "status": "ok",
+        "least_ln_v": -10.0,
+        "most_ln_v": 3.0,
+        "error": 1e-9,
+        "reference": "same source in quadruple precision",
+        "error_expected": 1e-8,
+        **given,
+    }

@@ -1,0 +1,147 @@
+"""The ledger: rows, files, and verdicts that follow the configuration."""
+
+import csv
+import json
+
+import claims
+import pytest
+from claims_results import NOT_REPRODUCED, NOT_TESTABLE, REPRODUCED, VERDICTS, read_results
+from conftest import ROOT, SMOKE
+from made_up_results import attractor_row, hopf_curve, results, stability_row
+from tables import write_table
+
+CLAIMS = {
+    "moves": {
+        "place": "Figure 4b",
+        "claim": "The block oscillates.",
+        "test": {"attractor_class": {"scene": "mine", "expected": "cycle"}},
+        "look_at": "figure_4",
+    },
+    "exact": {
+        "place": "section 5",
+        "claim": "The formulas are exact.",
+        "test": {"hopf_curves": {"planes": ["plane"], "limit": 1e-10}},
+        "look_at": "hopf-points.tsv",
+    },
+    "real": {"place": "section 5", "claim": "Faults do so.", "not_testable": "No data."},
+}
+MOVED = """
+scenes:
+  oscillation:
+    epsilon: {epsilon}
+    t_transient: 7000.0
+    t_end: 10000.0
+    exponents: {{ count: 6, t_end: 12000.0 }}
+"""
+"""The oscillation as in the full reproduction, at an epsilon."""
+needs_attractors = pytest.mark.skipif(
+    not any(
+        "results/tables/attractors.tsv" in path.read_text()
+        for path in (ROOT / "rules").glob("*.smk")
+        if path.name != "common.smk"
+    ),
+    reason="no rule makes attractors.tsv yet",
+)
+
+
+def ledger_of(met: str) -> list[dict]:
+    """The rows where the scene ends so."""
+    made = results(
+        curves={"plane": hopf_curve(gamma=1.0, ordinate="xi")},
+        attractors=[attractor_row(met)],
+        linear_stability=[stability_row()],
+    )
+    return claims.rows_of(CLAIMS, made)
+
+
+def test_a_row_for_every_claim():
+    """In order, with what the list says and what the test finds."""
+    rows = ledger_of("cycle")
+    assert [row["id"] for row in rows] == list(CLAIMS)
+    assert [row["verdict"] for row in rows] == [REPRODUCED, REPRODUCED, NOT_TESTABLE]
+    assert [row["look_at"] for row in rows] == [
+        "results/figures/figure_4.png",
+        "results/tables/hopf-points.tsv",
+        "",
+    ]
+    assert rows[2]["evidence"] == "No data."
+    for row in rows:
+        assert {key: row[key] for key in ("place", "claim")}.items() <= CLAIMS[row["id"]].items()
+
+
+def test_another_result_is_another_verdict():
+    """Of that claim alone."""
+    before, after = ledger_of("cycle"), ledger_of("fixed point")
+    assert after[0]["verdict"] == NOT_REPRODUCED
+    assert before[1:] == after[1:]
+
+
+def test_files_are_read_by_name(tmp_path):
+    """Planes by the names of their files, tables by the names of results."""
+    hopf_curve().to_netcdf(tmp_path / "a_plane.nc")
+    hopf_curve(k=2).to_netcdf(tmp_path / "friction.nc")
+    names = ["hopf_points", "linear_stability", "stability", "attractors", "route"]
+    for name in names:
+        write_table(tmp_path / name, [{"scene": name}])
+    found = read_results(
+        [str(tmp_path / "a_plane.nc")],
+        str(tmp_path / "friction.nc"),
+        {name: str(tmp_path / name) for name in names},
+    )
+    assert list(found.curves) == ["a_plane"]
+    assert (found.friction.branch == 2).all()
+    for name in names:
+        assert getattr(found, name) == [{"scene": name}]
+
+
+def test_json_is_whole_or_absent(tmp_path):
+    """And holds the rows."""
+    rows = ledger_of("cycle")
+    claims.write_json(tmp_path / "claims.json", rows)
+    assert json.loads((tmp_path / "claims.json").read_text()) == rows
+    assert [path.name for path in tmp_path.iterdir()] == ["claims.json"]
+
+
+def read_ledger(folder) -> dict[str, dict]:
+    """Rows of claims.tsv by id."""
+    with open(folder / "results" / "tables" / "claims.tsv", newline="") as file:
+        return {row["id"]: row for row in csv.DictReader(file, delimiter="\t")}
+
+
+@needs_attractors
+def test_ledger_of_the_workflow(smoke):
+    """Every claim has a verdict with evidence, the same in both files; what it shows is there."""
+    rows = read_ledger(smoke.folder)
+    assert list(rows) == list(claims.claims_config.listed()["claims"])
+    tables = smoke.folder / "results" / "tables"
+    assert json.loads((tables / "claims.json").read_text()) == list(rows.values())
+    for row in rows.values():
+        assert row["verdict"] in VERDICTS
+        assert row["evidence"].endswith(".")
+        assert "nan" not in row["evidence"].split()
+        assert row["verdict"] == NOT_TESTABLE or (smoke.folder / row["look_at"]).is_file()
+
+
+@needs_attractors
+@pytest.mark.parametrize(("epsilon", "verdict"), [(0.35, REPRODUCED), (0.2, NOT_REPRODUCED)])
+def test_scene_below_the_hopf_curve_oscillates_no_more(scratch, epsilon, verdict):
+    """From the configuration to the verdict, through the whole workflow."""
+    (scratch.folder / "mine.yaml").write_text(MOVED.format(epsilon=epsilon))
+    run = scratch.snakemake("claims", *SMOKE, "mine.yaml")
+    assert run.returncode == 0, run.stdout
+    row = read_ledger(scratch.folder)["figure_4b"]
+    assert row["verdict"] == verdict, row["evidence"]
+    assert f"epsilon = {epsilon}" in row["evidence"]
+
+
+@needs_attractors
+def test_bad_list_of_claims_is_refused_in_words(scratch):
+    """Before anything runs, without a traceback of Python."""
+    path = scratch.folder / "config" / "claims.yaml"
+    path.write_text(path.read_text().replace("expected: torus }", "expected: ring }", 1))
+    before = scratch.outputs()
+    run = scratch.snakemake(*SMOKE)
+    assert run.returncode != 0
+    assert "expected = 'ring'; expected class of an attractor, one of: fixed point" in run.stdout
+    assert "Traceback" not in run.stdout
+    assert scratch.outputs() == before

@@ -1,0 +1,209 @@
+"""The list of claims: what it must hold, and how it is refused."""
+
+import copy
+import inspect
+
+import claims
+import claims_config
+import pytest
+import yaml
+from check_config import ConfigError, checked
+
+SHOWN = {"figure_2", "hopf-points.tsv"}
+TESTED = {"place": "Figure 2", "claim": "Something is so.", "look_at": "figure_2"}
+UNTESTED = {"place": "section 5", "claim": "Something is so.", "not_testable": "No data."}
+GOOD = {
+    "equation_10": {"plane": "tau_of_epsilon"},
+    "hopf_curves": {"planes": ["tau_of_epsilon", "xi_of_epsilon"], "limit": 1e-9},
+    "kinds_of_hopf": {"planes": ["tau_of_epsilon"], "expected": ["supercritical"]},
+    "unstable_pairs": {"scene": "torus", "least": 2},
+    "roots_decide": {"scenes": ["torus", "chaos"]},
+    "independent_of_spring": {"plane": "xi_of_epsilon", "limit": 1e-3},
+    "attractor_class": {"scene": "torus", "expected": "torus"},
+    "sequence_of_scenes": {"scenes": ["torus", "chaos"], "expected": ["torus", "chaos"]},
+    "route": {"expected": ["cycle", "torus"]},
+    "out_of_reach": {"method": "auto", "least": 1e4, "most": 1e12},
+    "relaxation": {"method": "auto", "ratio": 10.0},
+    "stationary_state": {"within": 1e-6},
+    "velocity_step": {},
+}
+"""Tests with parameters that are accepted."""
+
+
+def one(claim: dict) -> dict:
+    """A list of one claim."""
+    return {"claims": {"mine": copy.deepcopy(claim)}}
+
+
+def with_test(test: str, **values) -> dict:
+    """A list of one claim with this test, some of its parameters changed; None takes one out."""
+    parameters = {**GOOD[test], **values}
+    kept = {key: value for key, value in parameters.items() if value is not None}
+    return one({**TESTED, "test": {test: kept}})
+
+
+@pytest.fixture
+def accept(default_config):
+    """Check a list against the default configuration."""
+    config = checked(copy.deepcopy(default_config))
+    return lambda said, shown=SHOWN: claims_config.checked(said, config, shown)
+
+
+def refusal(accept, said) -> str:
+    """The one line with which a list is refused."""
+    with pytest.raises(ConfigError) as caught:
+        accept(said)
+    head, line = str(caught.value).splitlines()
+    assert head == "the list of claims is refused:"
+    return line
+
+
+def schema() -> dict:
+    """The schema as it stands in the file."""
+    return yaml.safe_load(claims_config.SCHEMA.read_text())
+
+
+def parameters_in_schema() -> dict:
+    """Parameters of each test in the schema, references followed."""
+    rules = schema()
+    claim = rules["properties"]["claims"]["additionalProperties"]["properties"]
+    tests = claim["test"]["properties"]
+    return {
+        name: rules["$defs"][test["$ref"].split("/")[-1]] if "$ref" in test else test
+        for name, test in tests.items()
+    }
+
+
+def test_schema_and_functions_are_the_same_tests():
+    """With the same parameters by name."""
+    parameters = {
+        name: list(inspect.signature(test).parameters)[1:] for name, test in claims.TESTS.items()
+    }
+    assert {
+        name: list(test["properties"]) for name, test in parameters_in_schema().items()
+    } == parameters
+
+
+def test_every_test_is_used_and_every_claim_stands_somewhere():
+    """The list in the file."""
+    listed = claims_config.listed()["claims"]
+    used = {name for claim in listed.values() for name in claim.get("test", {})}
+    assert used == set(claims.TESTS)
+    assert len(listed) >= 20
+    assert len({claim["claim"] for claim in listed.values()}) == len(listed)
+
+
+def test_no_verdict_is_written_in_the_list():
+    """Nor in the schema: but for what cannot be tested."""
+    claim = schema()["properties"]["claims"]["additionalProperties"]["properties"]
+    assert set(claim) == {"place", "claim", "look_at", "not_testable", "test"}
+
+
+@pytest.mark.parametrize("test", GOOD)
+def test_good_parameters_are_accepted(accept, test):
+    """Unchanged, but for defaults."""
+    accepted = accept(with_test(test))["mine"]
+    name, parameters = claims_config.named_test(accepted)
+    assert name == test
+    assert parameters.items() >= GOOD[test].items()
+
+
+def test_limit_has_a_default(accept):
+    """Of equations, not of the spread of epsilon."""
+    (_, parameters) = claims_config.named_test(accept(with_test("equation_10"))["mine"])
+    assert parameters == {"plane": "tau_of_epsilon", "limit": 1e-10}
+    line = refusal(accept, with_test("independent_of_spring", limit=None))
+    assert line == "config claims mine test independent_of_spring: key ['limit'] is missing"
+
+
+def test_untested_claim_is_accepted(accept):
+    """With a reason."""
+    assert accept(one(UNTESTED)) == {"mine": UNTESTED}
+
+
+@pytest.mark.parametrize(
+    ("said", "words"),
+    [
+        (None, "value = None; expected"),
+        ({}, "config: key ['claims'] is missing"),
+        ({"claims": {}}, "config: claims = {}; expected claims of the paper by name"),
+        ({"claims": {"mine": None}}, "mine = None; expected a claim: place, claim"),
+        ({"claims": {"Mine": UNTESTED}}, "name 'Mine'; expected small letters"),
+        (one({**UNTESTED, "verdict": "reproduced"}), "unknown key ['verdict']; allowed: place"),
+        (one({"claim": "x", "not_testable": "y"}), "key ['place'] is missing"),
+        (one({**UNTESTED, "place": ""}), "place = ''; expected where in the paper"),
+        (one({**UNTESTED, "claim": 5}), "claim = 5; expected what the paper says"),
+        (one({**UNTESTED, "not_testable": ""}), "not_testable = ''; expected why"),
+        (one({**TESTED, "test": {}}), "test = {}; expected the name of one test"),
+        (one({**TESTED, "test": "route"}), "test = 'route'; expected the name of one test"),
+        (one({**TESTED, "test": {"magic": {}}}), "unknown key ['magic']; allowed: equation_3"),
+        (
+            one({**TESTED, "test": {"velocity_step": {}, "stationary_state": {"within": 1.0}}}),
+            "expected the name of one test",
+        ),
+        (one({**TESTED, "test": {"route": None}}), "route = None; expected parameters"),
+        (one(TESTED), "neither given; expected either test or not_testable"),
+        (
+            one({**TESTED, "test": {"velocity_step": {}}, "not_testable": "x"}),
+            "test and not_testable given",
+        ),
+        (one({**UNTESTED, "look_at": "figure_2"}), "look_at expected beside test"),
+        (
+            one({**TESTED, "look_at": "figure_9", "test": {"velocity_step": {}}}),
+            "look_at = 'figure_9'; expected one of: figure_2, hopf-points.tsv",
+        ),
+        (
+            one({"place": "a", "claim": "b", "test": {"velocity_step": {}}}),
+            "look_at expected beside test",
+        ),
+    ],
+)
+def test_bad_claim_is_refused(accept, said, words):
+    """In one line that names the place."""
+    assert words in refusal(accept, said)
+
+
+@pytest.mark.parametrize(
+    ("test", "values", "words"),
+    [
+        ("equation_10", {"plane": None}, "key ['plane'] is missing"),
+        ("equation_10", {"scene": "torus"}, "unknown key ['scene']; allowed: plane, limit"),
+        ("equation_10", {"plane": "nowhere"}, "plane 'nowhere'; expected one of: tau_of_epsilon"),
+        ("equation_10", {"limit": 0.0}, "limit = 0.0; expected residual"),
+        ("equation_10", {"limit": 0.1}, "limit = 0.1; expected residual"),
+        ("equation_10", {"limit": "1e-9"}, "write 1.0e-09, with a dot"),
+        ("hopf_curves", {"planes": []}, "planes = []; expected names of planes"),
+        ("hopf_curves", {"planes": ["nowhere"]}, "plane 'nowhere'; expected one of"),
+        ("kinds_of_hopf", {"expected": ["critical"]}, "expected one of: supercritical"),
+        ("kinds_of_hopf", {"expected": []}, "expected = []; expected kinds of Hopf"),
+        ("unstable_pairs", {"least": 0}, "least = 0; expected least number"),
+        ("unstable_pairs", {"least": 1.5}, "least = 1.5; expected least number"),
+        ("unstable_pairs", {"scene": "nobody"}, "scene 'nobody'; expected one of: fixed_point"),
+        ("roots_decide", {"scenes": ["nobody"]}, "scene 'nobody'; expected one of: fixed_point"),
+        ("roots_decide", {"scenes": []}, "scenes = []; expected names of scenes"),
+        ("independent_of_spring", {"limit": -1.0}, "limit = -1.0; expected spread"),
+        ("attractor_class", {"expected": "ring"}, "expected = 'ring'; expected class"),
+        ("attractor_class", {"expected": "undecided"}, "expected = 'undecided'; expected class"),
+        ("sequence_of_scenes", {"expected": ["torus"]}, "1 classes for 2 scenes"),
+        ("route", {"expected": []}, "expected = []; expected classes"),
+        ("out_of_reach", {"method": "rk4"}, "method = 'rk4'; expected method of a run"),
+        ("out_of_reach", {"least": 1e13}, "least = 10000000000000.0; expected a finite number <="),
+        ("out_of_reach", {"most": -1.0}, "most = -1.0; expected largest gamma"),
+        ("relaxation", {"ratio": 1.0}, "ratio = 1.0; expected largest velocity"),
+        ("stationary_state", {"within": 0.0}, "within = 0.0; expected distance"),
+        ("velocity_step", {"plane": "tau_of_epsilon"}, "unknown key ['plane']"),
+    ],
+)
+def test_bad_parameter_is_refused(accept, test, values, words):
+    """The line names claim, test, key, value and what is allowed."""
+    line = refusal(accept, with_test(test, **values))
+    assert line.startswith(f"config claims mine test {test}")
+    assert words in line
+
+
+def test_all_that_is_wrong_is_told(accept):
+    """A line each."""
+    said = {"claims": {"one": {**UNTESTED, "place": ""}, "two": {**UNTESTED, "claim": ""}}}
+    with pytest.raises(ConfigError) as caught:
+        accept(said)
+    assert len(str(caught.value).splitlines()) == 3

@@ -1,0 +1,149 @@
+"""Verdicts on where runs end, on made-up tables of attractors and of a route."""
+
+import math
+
+import pytest
+from claims_of_attractors import TESTS
+from claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED
+from made_up_results import CLASSES, attractor_row, results, route_rows, stability_row
+from tables import read_table
+
+ATTRACTORS = """\
+scene,history,theta,u,v,attractor,class,period,by_exponents,by_section,by_spectrum,exponent_1,\
+error_1,exponent_2,error_2,exponent_3,error_3,f1,f2,smallest_maximum,largest_maximum
+mine,2,0,0.1,1.5,1,cycle,2,cycle,cycle,undecided,1e-8,2e-8,-0.01,1e-6,-0.04,1e-6,0.0969,,2.1,2.3
+mine,1,0,0,1.1,2,fixed point,,fixed point,fixed point,fixed point,,,,,,,,,1,1
+"""
+
+
+def of_classes(*classes: str):
+    """Results of a scene whose histories end so, its own first."""
+    rows = [attractor_row(met, history=i + 1) for i, met in enumerate(classes)]
+    return results(attractors=rows[::-1], linear_stability=[stability_row()])
+
+
+@pytest.mark.parametrize(
+    ("classes", "verdict"),
+    [
+        (["cycle"], REPRODUCED),
+        (["cycle", "torus", "chaos"], REPRODUCED),
+        (["fixed point", "cycle"], CORRECTED),
+        (["fixed point", "fixed point"], NOT_REPRODUCED),
+        (["undecided"], NOT_REPRODUCED),
+    ],
+)
+def test_attractor_class(classes, verdict):
+    """From the scene's own history, only from another, or from none."""
+    found = TESTS["attractor_class"](of_classes(*classes), scene="mine", expected="cycle")
+    assert found.verdict == verdict
+    assert f"own history: {classes[0]} (exponents -0.01 +- 0.001, " in found.evidence
+    assert f"Other histories ({len(classes) - 1}): " in found.evidence
+
+
+def test_moved_scene_oscillates_no_more():
+    """The same claim on two tables: above the Hopf curve and below it."""
+    claim = {"scene": "mine", "expected": "cycle"}
+    assert TESTS["attractor_class"](of_classes("cycle"), **claim).verdict == REPRODUCED
+    assert TESTS["attractor_class"](of_classes("fixed point"), **claim).verdict == NOT_REPRODUCED
+
+
+def test_table_as_it_is_written(tmp_path):
+    """Empty cells, histories in any order, a period."""
+    path = tmp_path / "attractors.tsv"
+    path.write_text(ATTRACTORS.replace(",", "\t"))
+    made = results(attractors=read_table(path), linear_stability=[stability_row()])
+    found = TESTS["attractor_class"](made, scene="mine", expected="cycle")
+    assert found.verdict == CORRECTED
+    assert "1 cycle of period 2" in found.evidence
+    assert "nan" not in found.evidence
+
+
+@pytest.mark.parametrize("met", CLASSES)
+def test_spectrum_class(met):
+    """The word of the spectrum alone counts."""
+    row = attractor_row("cycle", by_spectrum=met, f1=0.1, f2=math.nan)
+    made = results(attractors=[row])
+    found = TESTS["spectrum_class"](made, scene="mine", expected="torus")
+    assert found.verdict == (REPRODUCED if met == "torus" else NOT_REPRODUCED)
+    assert f"mine: {met}; base frequencies of its peaks: 0.1." in found.evidence
+
+
+@pytest.mark.parametrize(
+    ("met", "delays", "verdict"),
+    [
+        (["fixed point", "cycle"], [0.0, 7.0], REPRODUCED),
+        (["fixed point", "cycle"], [7.0, 7.0], NOT_REPRODUCED),
+        (["fixed point", "torus"], [0.0, 7.0], NOT_REPRODUCED),
+    ],
+)
+def test_sequence_of_scenes(met, delays, verdict):
+    """Classes in turn, and each delay longer than the one before."""
+    made = results(
+        attractors=[attractor_row(a, scene) for a, scene in zip(met, "ab", strict=True)],
+        linear_stability=[
+            stability_row(scene, tau=t) for scene, t in zip("ab", delays, strict=True)
+        ],
+    )
+    found = TESTS["sequence_of_scenes"](made, scenes=["a", "b"], expected=["fixed point", "cycle"])
+    assert found.verdict == verdict
+
+
+@pytest.mark.parametrize(
+    ("met", "changes", "verdict"),
+    [
+        ("chaos", "1 (1 -> 0); 2 (0 -> 1)", REPRODUCED),
+        ("cycle", "1 (1 -> 0); 2 (0 -> 1)", NOT_REPRODUCED),
+        ("chaos", "1 (1 -> 2); 5 (2 -> 0)", NOT_REPRODUCED),
+    ],
+)
+def test_delay_alone_makes(met, changes, verdict):
+    """The class is met, and steady sliding is stable at a shorter delay."""
+    made = results(
+        attractors=[attractor_row(met)],
+        linear_stability=[stability_row(tau_of_changes=changes)],
+    )
+    found = TESTS["delay_alone_makes"](made, scene="mine", expected="chaos")
+    assert found.verdict == verdict
+
+
+@pytest.mark.parametrize(
+    ("classes", "verdict"),
+    [
+        (["fixed point", "cycle", "cycle", "torus", "chaos"], REPRODUCED),
+        (["cycle", "undecided", "torus", "undecided", "chaos", "cycle"], REPRODUCED),
+        (["cycle", "chaos", "cycle", "torus", "chaos"], NOT_REPRODUCED),
+        (["cycle/1", "cycle/2", "cycle/4", "chaos"], NOT_REPRODUCED),
+        (["cycle", "torus", "cycle", "chaos"], NOT_REPRODUCED),
+        (["torus", "chaos"], NOT_REPRODUCED),
+        (["cycle", "torus"], NOT_REPRODUCED),
+        (["undecided"], NOT_REPRODUCED),
+        ([], NOT_REPRODUCED),
+    ],
+)
+def test_route(classes, verdict):
+    """The first chaos must come out of a torus that came out of a cycle."""
+    made = results(route=route_rows(*classes))
+    assert TESTS["route"](made, expected=["cycle", "torus", "chaos"]).verdict == verdict
+
+
+def test_route_in_words():
+    """Stretches with their periods, in the order of epsilon, the undecided counted."""
+    made = results(route=route_rows("cycle/1", "cycle/1", "undecided", "cycle/2", "chaos"))
+    found = TESTS["route"](made, expected=["cycle", "chaos"])
+    assert found.verdict == REPRODUCED
+    assert "cycle 0.1 to 0.2, cycle of period 2 0.4, chaos 0.5; 1 of 5" in found.evidence
+
+
+def test_long_route_is_cut():
+    """A sentence stays a sentence."""
+    made = results(route=route_rows(*["cycle", "chaos"] * 10))
+    found = TESTS["route"](made, expected=["cycle", "chaos"])
+    assert ", and 8 stretches more; 0 of 20 points undecided." in found.evidence
+
+
+@pytest.mark.parametrize("test", ["attractor_class", "spectrum_class", "delay_alone_makes"])
+def test_scene_without_a_row_is_an_error(test):
+    """It names table and scene."""
+    made = results(attractors=[attractor_row("cycle", "other")])
+    with pytest.raises(ValueError, match=r"attractors.tsv: no row of scene 'mine'.*: other"):
+        TESTS[test](made, scene="mine", expected="chaos")
