@@ -5,6 +5,7 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 
 sys.path.insert(0, f"{workflow.basedir}/scripts")
+import attractor_surveys
 import before_run
 import check_config
 import claims_config
@@ -27,6 +28,9 @@ FIGURES = [
 SCENES_WITH_EXPONENTS = [
     name for name, scene in config["scenes"].items() if "exponents" in scene
 ]
+SCENES_WITH_ATTRACTORS = [
+    name for name, scene in config["scenes"].items() if "attractors" in scene
+]
 FAMILIES = list(config["stability"]["families"])
 WORK_SCENES = list(config["work_precision"]["scenes"])
 LEDGER_TABLES = {
@@ -44,6 +48,9 @@ wildcard_constraints:
     family="|".join([*FAMILIES, *WORK_SCENES]),
     work_scene="|".join(WORK_SCENES),
     study="stability|trust",
+    survey=f"scenes|route|atlas/(coarse|fine)/({'|'.join(config['atlas']['planes'])})",
+    part=r"\w+",
+    grid="coarse|fine",
 
 
 def scenes_of(figure):
@@ -88,7 +95,7 @@ def scene_values(wildcards):
     scene = {
         key: value
         for key, value in config["scenes"][wildcards.scene].items()
-        if key != "exponents"
+        if key not in ("exponents", "attractors")
     }
     return {"name": wildcards.scene, **scene}
 
@@ -102,6 +109,40 @@ def exponents_groups(wildcards):
             "exponents": {**wanted, **config["exponents"]},
         }
     }
+
+
+def survey_groups(wildcards):
+    """How attractors of a part of a survey are looked for, as namelist groups."""
+    if wildcards.survey == "scenes":
+        groups = attractor_surveys.scene_groups(config, wildcards.part)
+    elif wildcards.survey == "route":
+        groups = attractor_surveys.route_groups(config, int(wildcards.part))
+    else:
+        _, grid, plane = wildcards.survey.split("/")
+        groups = attractor_surveys.atlas_groups(config, plane, grid, int(wildcards.part))
+    return {"runs": groups}
+
+
+def numbered(parts):
+    """Names of so many parts, in order."""
+    return [f"{part:04}" for part in range(1, parts + 1)]
+
+
+def parts_of_route():
+    """Files of the route."""
+    return expand(
+        "results/attractors/route/{part}.nc", part=numbered(config["route"]["parts"])
+    )
+
+
+def parts_of_atlas(wildcards):
+    """Files of all planes of the atlas on one grid."""
+    return expand(
+        "results/attractors/atlas/{grid}/{plane}/{part}.nc",
+        grid=wildcards.grid,
+        plane=config["atlas"]["planes"],
+        part=numbered(config["atlas"]["grids"][wildcards.grid]["parts"]),
+    )
 
 
 def linear_stability_values(wildcards):

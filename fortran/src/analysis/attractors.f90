@@ -4,15 +4,15 @@
 !> The section is v = 1, v rising (where u is least), its points are (theta, u).
 module attractors
    use base_frequencies, only: bases_type, label_peaks
-   use block_roots, only: roots_of_block
-   use characteristic_function, only: block_parameters
    use dde, only: continuation_type, event_table, integrate, integration_options, &
                   integration_result, table_sampler
    use errors, only: error_type
    use exponent_averages, only: average_growth, exponent_type
    use kinds, only: wp
    use lyapunov_spectrum, only: extend_growth, growth_settings, growth_type, measure_growth
-   use motion_classes, only: agreed, chaos, class_by_exponents, cycle_motion, fixed_point, torus, undecided
+   use motion_classes, only: agreed, chaos, class_by_exponents, cycle_motion, fixed_point, torus, &
+                             undecided
+   use rest, only: comes_to_rest, exponents_at_rest
    use section_motion, only: judge_section, section_verdict
    use spectral_peaks, only: find_peaks, peak_type
    use spectrum, only: power_spectrum
@@ -21,13 +21,6 @@ module attractors
    implicit none (type, external)
    private
    public :: attractor_settings, attractor_type, find_attractor
-
-   !> A block comes to rest when ln v stays within the first of these in the second half of its
-   !> observation, or within the second and within this share of what it was in the first half;
-   !> and steady sliding must be stable.
-   real(wp), parameter :: at_rest = 1.0e-3_wp, near_rest = 0.2_wp, shrunk = 0.8_wp
-   !> First bound above which roots of (5) are sought, and the last.
-   real(wp), parameter :: first_bound = -1.0_wp/64.0_wp, last_bound = -8.0_wp
 
    !> Numbers of the two event functions.
    enum, bind(c)
@@ -46,7 +39,7 @@ module attractors
       real(wp) :: interval = 0.0_wp
       !> Number of blocks of exponents
       integer :: blocks = 0
-      !> Number of exponents
+      !> Number of exponents; without delay no more are measured than equations
       integer :: exponents = 0
       !> An exponent this close to zero has no sign
       real(wp) :: zero_level = 0.0_wp
@@ -123,28 +116,33 @@ contains
       if (allocated(error)) return
       call keep_events(events, attractor)
 
-      if (rests(samples%values(3, :))) then
-         call judge_rest(block_model, settings%exponents, attractor, error)
-      end if
-      if (allocated(error)) return
-      if (attractor%by_exponents /= fixed_point) then
-         call judge_motion(block_model, settings, options, arrived, samples, attractor, error)
+      if (comes_to_rest(samples%values(3, :))) then
+         call exponents_at_rest(block_model, exponents_of(block_model, settings), &
+                                attractor%exponents, error)
          if (allocated(error)) return
+         if (all(attractor%exponents%value < 0.0_wp)) then
+            attractor%class = fixed_point
+            attractor%by_exponents = fixed_point
+            attractor%by_section = fixed_point
+            attractor%by_spectrum = fixed_point
+            return
+         end if
       end if
+      call judge_motion(block_model, settings, options, arrived, samples, attractor, error)
+      if (allocated(error)) return
       attractor%class = agreed(attractor%by_exponents, attractor%by_section, attractor%by_spectrum)
    end subroutine find_attractor
 
-   !> Whether ln v stays close to 0, or closes in.
-   pure logical function rests(w)
-      !> Samples of ln v
-      real(wp), intent(in) :: w(:)
+   !> Number of exponents: without delay there are no more than equations.
+   pure integer function exponents_of(block_model, settings) result(exponents)
+      !> The block
+      type(spring_block_type), intent(in) :: block_model
+      !> How many are wanted
+      type(attractor_settings), intent(in) :: settings
 
-      associate (half => size(w)/2)
-         associate (first => maxval(abs(w(:half))), second => maxval(abs(w(half + 1:))))
-            rests = second <= at_rest .or. (second <= near_rest .and. second <= shrunk*first)
-         end associate
-      end associate
-   end function rests
+      exponents = settings%exponents
+      if (size(block_model%lag) == 0) exponents = min(exponents, block_model%n)
+   end function exponents_of
 
    !> Maxima of v and points of the section.
    pure subroutine keep_events(events, attractor)
@@ -167,38 +165,6 @@ contains
       end associate
    end subroutine keep_events
 
-   !> A block that comes to rest has the roots of (5) for exponents.
-   subroutine judge_rest(block_model, exponents, attractor, error)
-      !> The block
-      type(spring_block_type), intent(in) :: block_model
-      !> Number of exponents
-      integer, intent(in) :: exponents
-      !> The attractor
-      type(attractor_type), intent(inout) :: attractor
-      !> The roots cannot be found
-      type(error_type), allocatable, intent(out) :: error
-      complex(wp), allocatable :: roots(:)
-      real(wp) :: bound
-      integer :: i
-
-      bound = first_bound
-      do
-         associate (b => block_model)
-            call roots_of_block(block_parameters(sum(b%lag), b%epsilon, b%xi, b%gamma), bound, &
-                                roots, error)
-         end associate
-         if (allocated(error)) return
-         if (size(roots) >= exponents .or. bound <= last_bound) exit
-         bound = 2.0_wp*bound
-      end do
-      attractor%exponents = [(exponent_type(value=real(roots(i))), &
-                              i=1, min(exponents, size(roots)))]
-      if (any(attractor%exponents%value >= 0.0_wp)) return
-      attractor%by_exponents = fixed_point
-      attractor%by_section = fixed_point
-      attractor%by_spectrum = fixed_point
-   end subroutine judge_rest
-
    !> A block in motion: three witnesses.
    subroutine judge_motion(block_model, settings, options, arrived, samples, attractor, error)
       !> The block
@@ -220,7 +186,8 @@ contains
       type(section_verdict) :: in_section
       integer :: i
 
-      wanted = growth_settings(exponents=settings%exponents, t_turning=settings%t_turning, &
+      wanted = growth_settings(exponents=exponents_of(block_model, settings), &
+                               t_turning=settings%t_turning, &
                                t_end=settings%t_transient + settings%t_turning &
                                      + settings%t_observed, &
                                interval=settings%interval, blocks=settings%blocks, bounds=.true.)

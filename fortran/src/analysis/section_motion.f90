@@ -69,7 +69,8 @@ contains
 
       associate (n => size(points, 2))
          do period = 1, min(longest_period, n/fewest_turns)
-            distance = norm2(points(:, 1 + period:) - points(:, :n - period))/sqrt(real(n - period, wp))
+            distance = norm2(points(:, 1 + period:) - points(:, :n - period)) &
+                       /sqrt(real(n - period, wp))
             if (distance <= same_point) return
          end do
       end associate

@@ -231,7 +231,8 @@ contains
 
       letters = 1
       do i = 1, size(findings)
-         if (allocated(findings(i)%problem)) letters = max(letters, len(findings(i)%problem%message))
+         if (.not. allocated(findings(i)%problem)) cycle
+         letters = max(letters, len(findings(i)%problem%message))
       end do
       allocate (character(len=letters) :: words(size(findings)))
       words = ""

@@ -110,7 +110,8 @@ contains
       call close_namelist(path, "observation", unit, status, reason, error)
       settings = attractor_settings(t_transient, t_observed, t_turning, interval, blocks, &
                                     exponents, zero_level, longest_bar, doublings, &
-                                    sample_interval, "", segments, overlap, peak_floor, peak_prominence)
+                                    sample_interval, "", segments, overlap, peak_floor, &
+                                    peak_prominence)
       options = integration_options(relative=tolerance, absolute=tolerance, most_steps=most_steps)
    end subroutine read_group
 end module observation_input

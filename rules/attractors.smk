@@ -1,0 +1,68 @@
+# Attractors and their classes: of scenes from several histories, over the plane of epsilon and tau
+# (the atlas), and along the route to chaos. A survey is cut into parts, each a job of its own.
+
+
+rule attractors_namelist:
+    output:
+        runs="results/namelists/attractors/{survey}/{part}.nml",
+    log:
+        "results/logs/namelists/attractors/{survey}/{part}.log",
+    params:
+        groups=survey_groups,
+    script:
+        "../scripts/write_study_namelists.py"
+
+
+rule attractors_runs:
+    input:
+        program="build/release/bin/attractors",
+        namelist="results/namelists/attractors/{survey}/{part}.nml",
+    output:
+        "results/attractors/{survey}/{part}.nc",
+    log:
+        "results/logs/attractors/{survey}/{part}.log",
+    benchmark:
+        "results/benchmarks/attractors/{survey}/{part}.tsv"
+    threads: 2
+    shell:
+        "OMP_NUM_THREADS={threads} {input.program} {input.namelist} {output}"
+        " 2> {log} || {{ cat {log} >&2; exit 1; }}"
+
+
+rule attractors_table:
+    input:
+        runs=expand("results/attractors/scenes/{scene}.nc", scene=SCENES_WITH_ATTRACTORS),
+    output:
+        "results/tables/attractors.tsv",
+    log:
+        "results/logs/tables/attractors.log",
+    params:
+        by_scene=True,
+    script:
+        "../scripts/attractor_tables.py"
+
+
+rule route_table:
+    input:
+        runs=parts_of_route(),
+    output:
+        "results/tables/route-to-chaos.tsv",
+    log:
+        "results/logs/tables/route-to-chaos.log",
+    params:
+        by_scene=False,
+    script:
+        "../scripts/attractor_tables.py"
+
+
+rule atlas_table:
+    input:
+        runs=parts_of_atlas,
+    output:
+        "results/tables/atlas-{grid}.tsv",
+    log:
+        "results/logs/tables/atlas-{grid}.log",
+    params:
+        by_scene=False,
+    script:
+        "../scripts/attractor_tables.py"
