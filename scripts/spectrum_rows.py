@@ -56,6 +56,7 @@ def label_peaks(axes: Axes, spectrum: xr.Dataset, frequency_shown: float) -> Non
         lines.append(f"{place[0]:.4f}")
         half = 0.5 * WIDTH_OF_A_CHARACTER * frequency_shown * max(map(characters, lines))
         if any(abs(place[0] - other) < half + its_half for other, its_half in taken):
+            taken.append((place[0], 0.0))
             continue
         taken.append((place[0], half))
         axes.annotate(

@@ -146,17 +146,19 @@ def test_peaks_of_a_continuum_have_no_names():
 
 
 def test_peaks_beside_a_higher_one_get_a_dot_only():
-    """Labels would lie on each other; peaks beyond the axis get nothing."""
-    beside, beyond = (0.12, 2.0, 3, -3, 2), (0.6, 3.0, 1, 6, 0)
-    rows = {"a": a_spectrum("undecided", BASE, beside, beyond)}
+    """Labels would lie on each other or on a dot; peaks beyond the axis get nothing."""
+    beside, beyond = (0.13, 2.0, 3, -3, 2), (0.6, 3.0, 1, 6, 0)
+    beside_a_dot = (0.155, 1.0, 3, -2, 2)
+    rows = {"a": a_spectrum("undecided", BASE, beside, beside_a_dot, beyond)}
     figure = spectrum_rows.draw(rows, {"a": "word"}, 0.5)
-    assert len(figure.axes[0].texts) == 1
-    assert {x for x, *_ in points_in(figure.axes[0])} == {0.1, 0.12}
+    assert [text.get_text() for text in figure.axes[0].texts] == ["base $f_1$\n0.1000"]
+    assert {x for x, *_ in points_in(figure.axes[0])} == {0.1, 0.13, 0.155}
 
 
 def test_labels_of_peaks_do_not_touch():
-    """Long and short names, closer and closer."""
-    peaks = [(0.02 * i**0.7, 0.05 * 0.95**i, 3, 10 + i, -12 * (i % 2)) for i in range(1, 60)]
+    """Long and short names, heights in no order."""
+    order = np.random.default_rng(2).permutation(25)
+    peaks = [(0.02 * i, 0.05 * 0.9 ** order[i], 3, 10 + i, -12 * (i % 2)) for i in range(1, 25)]
     figure = spectrum_rows.draw({"a": a_spectrum("two bases", *peaks)}, {"a": "word"}, 0.5)
     figure.draw_without_rendering()
     boxes = [text.get_window_extent() for text in figure.axes[0].texts]
