@@ -75,13 +75,12 @@ def delay_alone_makes(results: Results, *, scene: str, expected: str) -> Finding
 
 
 def route(results: Results, *, expected: list[str]) -> Finding:
-    """Whether the last of these classes is first met, with growing epsilon, after the others."""
+    """Whether these classes, with growing epsilon, are first met in this order and one by one."""
     rows = sorted(results.route, key=lambda row: row["epsilon"])
     if not rows:
         return decided(False, "route-to-chaos.tsv has no row.")
     sure = [row for row in rows if row["class"] != "undecided"]
-    stretches = stretches_of(sure, lambda row: row["class"])
-    classes = [stretch[0]["class"] for stretch in stretches]
+    classes = list(dict.fromkeys(row["class"] for row in sure))
     end = classes.index(expected[-1]) + 1 if expected[-1] in classes else 0
     before = classes[max(0, end - len(expected)) : end]
     finer = stretches_of(sure, in_words)
