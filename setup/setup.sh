@@ -2,7 +2,8 @@
 # Sets up what is missing: the Debian packages of setup/apt-packages.txt, then
 # the Python packages of requirements.lock in .venv. When all is there it does
 # nothing and needs no network. An interrupted run is repaired by the next one.
-# `setup/setup.sh FOLDER` does the same for FOLDER's own lists, with FOLDER/.venv.
+# `setup/setup.sh FOLDER` does the same for FOLDER's own lists, with FOLDER/.venv where it has a
+# requirements.lock.
 set -euo pipefail
 cd -P "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 
@@ -63,7 +64,7 @@ venv_source() {
 }
 
 venv_is_ready() {
-    [[ -x $venv/bin/python && $(cat "$venv/made-from" 2>/dev/null) == "$(venv_source)" ]]
+    [[ ! -e $lock ]] || [[ -x $venv/bin/python && $(cat "$venv/made-from" 2>/dev/null) == "$(venv_source)" ]]
 }
 
 make_venv() {

@@ -111,6 +111,13 @@ def test_test_runs_one_part(recording, part, tools):
     assert {call.split()[0] for call in calls} == tools
 
 
+def test_other_compilers_are_refused_where_packages_are_missing(recording):
+    """The set-up's own words and status, and nothing is built."""
+    write_script(recording / "setup" / "setup.sh", "[[ ${1-} != compilers ]] || exit 7")
+    status, calls = calls_of(recording / "test", "compilers")
+    assert (status, calls) == (7, [])
+
+
 def test_test_hands_arguments_to_pytest(recording):
     """And keeps their words apart."""
     status, calls = calls_of(recording / "test", "python", "-k", "a or b")
@@ -140,10 +147,12 @@ def bare() -> Iterator[Path]:
         yield folder
 
 
-def set_up_in(folder: Path, *before: str) -> subprocess.CompletedProcess[str]:
-    """Run the set-up with the tools that pretend, in the folder."""
+def set_up_in(
+    folder: Path, *before: str, part: tuple[str, ...] = ()
+) -> subprocess.CompletedProcess[str]:
+    """Run the set-up with the tools that pretend, in the folder, for all or for a part."""
     return subprocess.run(
-        [*before, folder / "setup" / "setup.sh"],
+        [*before, folder / "setup" / "setup.sh", *part],
         env={**os.environ, "PATH": f"{folder}/bin:/usr/bin:/bin", "PIP_NO_INDEX": "1"},
         stdin=subprocess.DEVNULL,
         capture_output=True,
@@ -151,9 +160,9 @@ def set_up_in(folder: Path, *before: str) -> subprocess.CompletedProcess[str]:
     )
 
 
-def debian_packages() -> list[str]:
+def debian_packages(folder: str = "setup") -> list[str]:
     """Packages that the set-up wants, sorted."""
-    text = (ROOT / "setup" / "apt-packages.txt").read_text()
+    text = (ROOT / folder / "apt-packages.txt").read_text()
     return sorted({line for line in text.split("\n") if line and not line.startswith("#")})
 
 
@@ -172,6 +181,22 @@ def test_missing_packages_without_root_are_asked_for(bare):
     assert run.returncode == 1
     assert "sudo apt-get install -y --no-install-recommends cmake gfortran\n" in run.stderr
     assert not (bare / ".venv").exists()
+
+
+def test_packages_of_other_compilers_are_asked_for(bare):
+    """One line to copy; once they are there the part needs no Python packages of its own."""
+    shutil.copytree(ROOT / "compilers", bare / "compilers")
+    wanted = debian_packages("compilers")
+    assert {"flang-19", "gfortran-11"} <= set(wanted)
+    pretend_installed(bare, [name for name in wanted if name not in ("flang-19", "gfortran-11")])
+    write_script(bare / "bin" / "apt-get", "exit 1")
+    run = set_up_in(bare, part=("compilers",))
+    assert run.returncode == 1
+    assert "--no-install-recommends flang-19 gfortran-11\n" in run.stderr
+    pretend_installed(bare, wanted)
+    run = set_up_in(bare, part=("compilers",))
+    assert (run.returncode, run.stderr) == (0, "")
+    assert not (bare / "compilers" / ".venv").exists()
 
 
 def test_only_missing_packages_are_installed(bare):

@@ -6,7 +6,7 @@ import subprocess
 import pytest
 from conftest import ROOT, project_files
 
-SCRIPTS = ["reproduce", "test", "setup/setup.sh", ".ci/run", "benchmarks/run"]
+SCRIPTS = ["reproduce", "test", "setup/setup.sh", ".ci/run", "benchmarks/run", "compilers/run"]
 LOCKS = [".", "benchmarks"]
 """Folders with a lock of Python packages."""
 

@@ -86,6 +86,8 @@ program tester
       call run_testsuite(suites(i)%collect, error_unit, failed)
       run = run + 1
    end do
+   ! the variables of a program live on after its end, where a leak checker would count them
+   deallocate (suites)
    if (run == 0) error stop "no suite of that name"
    if (failed > 0) error stop "some tests failed"
 end program tester

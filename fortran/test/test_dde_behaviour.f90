@@ -7,7 +7,8 @@ module test_dde_behaviour
    use kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use solving, only: at_tolerance, solve
-   use test_problems, only: linear, mackey_glass, oscillator, swing, wille_baker
+   use test_problems, only: linear, mackey_glass, wille_baker
+   use undelayed_problems, only: oscillator, swing
    implicit none (type, external)
    private
    public :: collect_dde_behaviour

@@ -8,7 +8,8 @@ module test_dde_continuation
    use kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use solving, only: at_tolerance
-   use test_problems, only: infection, linear, sine, swing
+   use test_problems, only: infection, linear, sine
+   use undelayed_problems, only: swing
    implicit none (type, external)
    private
    public :: collect_dde_continuation

@@ -9,7 +9,8 @@ module test_dde_convergence
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use single_step, only: interpolated, take_step
    use solving, only: at_tolerance, solve
-   use test_problems, only: blow_up, infection, oscillator, sine, without_delays
+   use test_problems, only: infection, sine
+   use undelayed_problems, only: blow_up, oscillator, without_delays
    implicit none (type, external)
    private
    public :: collect_dde_convergence

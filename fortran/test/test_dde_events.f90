@@ -8,7 +8,8 @@ module test_dde_events
    use kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use solving, only: at_tolerance
-   use test_problems, only: quadrature, sine, swing, without_delays
+   use test_problems, only: sine
+   use undelayed_problems, only: quadrature, swing, without_delays
    implicit none (type, external)
    private
    public :: collect_dde_events

@@ -9,7 +9,8 @@ module test_dde_extremes
    use solving, only: at_tolerance
    use spring_block, only: index_of_ln_v, spring_block_type
    use stiff_problems, only: prothero_robinson
-   use test_problems, only: linear, swing
+   use test_problems, only: linear
+   use undelayed_problems, only: swing
    implicit none (type, external)
    private
    public :: collect_dde_extremes

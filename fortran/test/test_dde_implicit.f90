@@ -9,8 +9,8 @@ module test_dde_implicit
    use solving, only: at_tolerance, solve
    use spring_block, only: spring_block_type
    use stiff_problems, only: exponential_decay
-   use test_problems, only: blow_up, enzyme, falls_out, infection, linear, mackey_glass, &
-                            wille_baker, without_delays
+   use test_problems, only: enzyme, infection, linear, mackey_glass, wille_baker
+   use undelayed_problems, only: blow_up, falls_out, without_delays
    implicit none (type, external)
    private
    public :: collect_dde_implicit

@@ -10,7 +10,7 @@ module test_dde_implicit_order
    use kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use single_step, only: interpolated, take_step
-   use test_problems, only: oscillator, quadrature, without_delays
+   use undelayed_problems, only: oscillator, quadrature, without_delays
    implicit none (type, external)
    private
    public :: collect_dde_implicit_order

@@ -11,7 +11,7 @@ module test_dde_order
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use rooted_trees, only: grow_trees, tree_counts, tree_system
    use single_step, only: interpolated, take_step
-   use test_problems, only: decay, quadrature, without_delays
+   use undelayed_problems, only: decay, quadrature, without_delays
    implicit none (type, external)
    private
    public :: collect_dde_order

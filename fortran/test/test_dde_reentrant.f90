@@ -8,8 +8,8 @@ module test_dde_reentrant
    use omp_lib, only: omp_get_num_threads
    use solving, only: at_tolerance
    use spring_block, only: spring_block_type
-   use test_problems, only: enzyme, infection, linear, mackey_glass, oscillator, sine, &
-                            wille_baker, without_delays
+   use test_problems, only: enzyme, infection, linear, mackey_glass, sine, wille_baker
+   use undelayed_problems, only: oscillator, without_delays
    implicit none (type, external)
    private
    public :: collect_dde_reentrant

@@ -7,7 +7,7 @@ module test_dde_stops
    use kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use solving, only: at_tolerance
-   use test_problems, only: blow_up, falls_out, swing, without_delays
+   use undelayed_problems, only: blow_up, falls_out, swing, without_delays
    implicit none (type, external)
    private
    public :: collect_dde_stops

@@ -7,7 +7,8 @@ module test_dde_time
    use kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use solving, only: at_tolerance
-   use test_problems, only: linear, oscillator, without_delays
+   use test_problems, only: linear
+   use undelayed_problems, only: oscillator, without_delays
    implicit none (type, external)
    private
    public :: collect_dde_time

@@ -132,6 +132,7 @@ contains
    subroutine test_two_delays(error)
       type(error_type), allocatable, intent(out) :: error
       type(exponent_type), allocatable :: exponents(:)
+      type(smooth_wille_baker) :: problem
       real(wp) :: roots(3)
       integer :: iteration
 
@@ -141,9 +142,10 @@ contains
             s = s - (s - exp(-lag*s))/(1.0_wp + lag*exp(-lag*s))
          end associate
       end do
-      call solve(smooth_wille_baker(n=3, lag=[1.0_wp, 0.2_wp], component=[1, 2], &
-                                    past=[1.0_wp, 1.0_wp, 1.0_wp], &
-                                    first=[1.0_wp, 1.0_wp, 1.0_wp]), &
+      problem%wille_baker = wille_baker(n=3, lag=[1.0_wp, 0.2_wp], component=[1, 2], &
+                                        past=[1.0_wp, 1.0_wp, 1.0_wp], &
+                                        first=[1.0_wp, 1.0_wp, 1.0_wp])
+      call solve(problem, &
                  growth_settings(exponents=3, t_begin=80.0_wp, t_end=100.0_wp, &
                                  t_turning=70.0_wp, interval=0.5_wp, blocks=2), &
                  at_tolerance(1.0e-9_wp), exponents, error)
@@ -203,9 +205,11 @@ contains
       real(wp), intent(in) :: tau
       type(exponent_type), allocatable, intent(out) :: exponents(:)
       type(error_type), allocatable, intent(inout) :: error
+      type(smooth_mackey_glass) :: problem
 
-      call solve(smooth_mackey_glass(n=1, lag=[tau], component=[1], past=[1.2_wp], &
-                                     first=[1.2_wp]), &
+      problem%mackey_glass = mackey_glass(n=1, lag=[tau], component=[1], past=[1.2_wp], &
+                                          first=[1.2_wp])
+      call solve(problem, &
                  growth_settings(exponents=4, t_begin=1000.0_wp, t_end=13000.0_wp, &
                                  t_turning=700.0_wp, interval=20.0_wp, blocks=4), &
                  at_tolerance(1.0e-5_wp), exponents, error)

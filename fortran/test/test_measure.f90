@@ -10,7 +10,8 @@ module test_measure
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use measured_case, only: case_type
    use measured_run, only: measure_run, run_type, time_runs
-   use test_problems, only: falls_out, linear, oscillator, sine, without_delays
+   use test_problems, only: linear, sine
+   use undelayed_problems, only: falls_out, oscillator, without_delays
    implicit none (type, external)
    private
    public :: collect_measure
@@ -176,7 +177,8 @@ contains
 
       case = case_type("decay", 10.0_wp, 0.2_wp, 0.8_wp, 0.8_wp, 0.0_wp, 0.0_wp, 1.1_wp, 50.0_wp, &
                        0.5_wp)
-      runs = [run_type("auto", 1.0e-10_wp), run_type("rk4_cubic", 0.01_wp)]
+      runs%method = ["auto     ", "rk4_cubic"]
+      runs%setting = [1.0e-10_wp, 0.01_wp]
       do i = 1, 2
          call measure_run(case, 0.0_wp, 100000_int64, runs(i))
          runs(i)%seconds = 0.0_wp
@@ -200,7 +202,8 @@ contains
 
       case = case_type("stiff", 1.0_wp, 0.7_wp, 0.5_wp, 1.0e2_wp, 0.0_wp, 0.0_wp, 1.1_wp, 50.0_wp, &
                        0.05_wp)
-      run = [run_type("explicit", 1.0e-8_wp)]
+      run%method = "explicit"
+      run%setting = 1.0e-8_wp
       call measure_run(case, 0.0_wp, 500_int64, run(1))
       call expect(error, run(1)%status == "too_many_steps", "too many steps")
       call expect(error, index(run(1)%reason, "500 steps (most_steps) were used up") > 0, &

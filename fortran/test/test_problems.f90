@@ -1,13 +1,11 @@
 !> Delay equations with published or exact solutions (Wille and Baker 1992; Hairer, Norsett and
 !> Wanner 1993, sec. II.17; Guglielmi and Hairer 2001; Mackey and Glass 1977).
 module test_problems
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde, only: dde_problem_type
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: blow_up, decay, enzyme, falls_out, infection, linear, mackey_glass, oscillator, quadrature
-   public :: sine, swing, wille_baker, without_delays
+   public :: constant_past, enzyme, fill, infection, linear, mackey_glass, sine, wille_baker
 
    !> The start of every problem here that has one: constant history and first state.
    type, extends(dde_problem_type), abstract :: constant_past
@@ -28,11 +26,19 @@ module test_problems
       procedure :: rhs => linear_rhs
    end type linear
 
+   interface linear
+      module procedure :: new_linear
+   end interface linear
+
    !> Two delays: y1' = y1(t-1), y2' = y1(t-1) + y2(t-0.2), y3' = y2.
    type, extends(constant_past) :: wille_baker
    contains
       procedure :: rhs => wille_baker_rhs
    end type wille_baker
+
+   interface wille_baker
+      module procedure :: new_wille_baker
+   end interface wille_baker
 
    !> An infection: delays 1 and 10.
    type, extends(constant_past) :: infection
@@ -40,11 +46,19 @@ module test_problems
       procedure :: rhs => infection_rhs
    end type infection
 
+   interface infection
+      module procedure :: new_infection
+   end interface infection
+
    !> Enzyme kinetics with inhibition.
    type, extends(constant_past) :: enzyme
    contains
       procedure :: rhs => enzyme_rhs
    end type enzyme
+
+   interface enzyme
+      module procedure :: new_enzyme
+   end interface enzyme
 
    !> y' = 0.2 y(t-17)/(1 + y(t-17)^10) - 0.1 y.
    type, extends(constant_past) :: mackey_glass
@@ -52,29 +66,9 @@ module test_problems
       procedure :: rhs => mackey_glass_rhs
    end type mackey_glass
 
-   !> y' = (power + 1) t^power.
-   type, extends(constant_past) :: quadrature
-      !> Power of t
-      integer :: power = 0
-   contains
-      procedure :: rhs => quadrature_rhs
-   end type quadrature
-
-   !> y' = -rate y.
-   type, extends(constant_past) :: decay
-      !> Rate
-      real(wp) :: rate = 1.0_wp
-   contains
-      procedure :: rhs => decay_rhs
-   end type decay
-
-   !> y1' = rate y2, y2' = -rate y1.
-   type, extends(constant_past) :: oscillator
-      !> Rate
-      real(wp) :: rate = 1.0_wp
-   contains
-      procedure :: rhs => oscillator_rhs
-   end type oscillator
+   interface mackey_glass
+      module procedure :: new_mackey_glass
+   end interface mackey_glass
 
    !> y' = -y(t - pi/2) with the history sin t: y = sin t.
    type, extends(dde_problem_type) :: sine
@@ -88,35 +82,65 @@ module test_problems
       module procedure :: new_sine
    end interface sine
 
-   !> y' = y^2: infinite at t = 1/y(0).
-   type, extends(constant_past) :: blow_up
-   contains
-      procedure :: rhs => blow_up_rhs
-   end type blow_up
-
-   !> y' = 1 where t < 1, no number after.
-   type, extends(constant_past) :: falls_out
-   contains
-      procedure :: rhs => falls_out_rhs
-   end type falls_out
-
 contains
 
-   !> No delays and no delayed components.
-   pure subroutine without_delays(problem)
-      class(dde_problem_type), intent(inout) :: problem
+   !> Fill what every problem has. (flang 19 crashes on structure constructors with components of a
+   !> parent type, llvm-project issue 118270; so each type has a function of its name.)
+   pure subroutine fill(problem, n, past, first, lag, component)
+      class(constant_past), intent(inout) :: problem
+      integer, intent(in) :: n
+      real(wp), intent(in) :: past(:), first(:)
+      real(wp), intent(in), optional :: lag(:)
+      integer, intent(in), optional :: component(:)
 
-      allocate (problem%lag(0), problem%component(0))
-   end subroutine without_delays
+      problem%n = n
+      problem%past = past
+      problem%first = first
+      if (present(lag)) problem%lag = lag
+      if (present(component)) problem%component = component
+   end subroutine fill
 
-   !> An oscillator with y1 = cos(rate t), y2 = -sin(rate t); rate 1 if not given.
-   pure type(oscillator) function swing(rate) result(problem)
+   !> The problem with its components.
+   pure type(linear) function new_linear(n, lag, component, past, first, rate) result(problem)
+      integer, intent(in) :: n, component(:)
+      real(wp), intent(in) :: lag(:), past(:), first(:)
       real(wp), intent(in), optional :: rate
 
-      problem = oscillator(n=2, past=[1.0_wp, 0.0_wp], first=[1.0_wp, 0.0_wp])
-      call without_delays(problem)
+      call fill(problem, n, past, first, lag, component)
       if (present(rate)) problem%rate = rate
-   end function swing
+   end function new_linear
+
+   !> The problem with its components.
+   pure type(wille_baker) function new_wille_baker(n, lag, component, past, first) result(problem)
+      integer, intent(in) :: n, component(:)
+      real(wp), intent(in) :: lag(:), past(:), first(:)
+
+      call fill(problem, n, past, first, lag, component)
+   end function new_wille_baker
+
+   !> The problem with its components.
+   pure type(infection) function new_infection(n, lag, component, past, first) result(problem)
+      integer, intent(in) :: n, component(:)
+      real(wp), intent(in) :: lag(:), past(:), first(:)
+
+      call fill(problem, n, past, first, lag, component)
+   end function new_infection
+
+   !> The problem with its components.
+   pure type(enzyme) function new_enzyme(n, lag, component, past, first) result(problem)
+      integer, intent(in) :: n, component(:)
+      real(wp), intent(in) :: lag(:), past(:), first(:)
+
+      call fill(problem, n, past, first, lag, component)
+   end function new_enzyme
+
+   !> The problem with its components.
+   pure type(mackey_glass) function new_mackey_glass(n, lag, component, past, first) result(problem)
+      integer, intent(in) :: n, component(:)
+      real(wp), intent(in) :: lag(:), past(:), first(:)
+
+      call fill(problem, n, past, first, lag, component)
+   end function new_mackey_glass
 
    !> The first state.
    pure subroutine first_state(self, y)
@@ -193,39 +217,6 @@ contains
       dydt = 0.2_wp*z/(1.0_wp + z**10) - 0.1_wp*y
    end subroutine mackey_glass_rhs
 
-   !> -rate y.
-   pure subroutine decay_rhs(self, t, y, z, dydt)
-      class(decay), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
-      real(wp), intent(out) :: dydt(self%n)
-
-      dydt = -self%rate*y
-   end subroutine decay_rhs
-
-   !> y' = (power + 1) t^power.
-   pure subroutine quadrature_rhs(self, t, y, z, dydt)
-      class(quadrature), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
-      real(wp), intent(out) :: dydt(self%n)
-
-      dydt = (self%power + 1)*t**self%power
-   end subroutine quadrature_rhs
-
-   !> y1' = rate y2, y2' = -rate y1.
-   pure subroutine oscillator_rhs(self, t, y, z, dydt)
-      class(oscillator), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
-      real(wp), intent(out) :: dydt(self%n)
-
-      dydt = self%rate*[y(2), -y(1)]
-   end subroutine oscillator_rhs
-
    !> The problem with its delay.
    pure type(sine) function new_sine() result(problem)
       problem%n = 1
@@ -261,27 +252,4 @@ contains
 
       dydt = -z
    end subroutine sine_rhs
-
-   !> y' = y^2.
-   pure subroutine blow_up_rhs(self, t, y, z, dydt)
-      class(blow_up), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
-      real(wp), intent(out) :: dydt(self%n)
-
-      dydt = y**2
-   end subroutine blow_up_rhs
-
-   !> No number from t = 1 on.
-   pure subroutine falls_out_rhs(self, t, y, z, dydt)
-      class(falls_out), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
-      real(wp), intent(out) :: dydt(self%n)
-
-      dydt = 1.0_wp
-      if (t >= 1.0_wp) dydt = ieee_value(t, ieee_quiet_nan)
-   end subroutine falls_out_rhs
 end module test_problems

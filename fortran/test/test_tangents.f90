@@ -13,7 +13,8 @@ module test_tangents
    use spring_block, only: spring_block_type
    use tangent_problem, only: tangent_problem_type
    use tangent_vectors, only: orthonormalise, start_vectors
-   use test_problems, only: linear, swing
+   use test_problems, only: linear
+   use undelayed_problems, only: swing
    implicit none (type, external)
    private
    public :: collect_tangents

@@ -170,6 +170,7 @@ contains
       real(c_double) :: value
       type(callback_data), pointer :: context
 
+      ! params comes from c_loc (Fortran 2018, 18.2.3.3, case ii); flang 19 warns all the same
       call c_f_pointer(params, context)
       value = context%f%value(x)
    end function callback

@@ -3,7 +3,7 @@ module dde_collocation
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: combined, divide_differences, lagrange_weights, shape_bump
+   public :: combined, divide_differences, lagrange_weights, shape_bump, weighted_sum
 
 contains
 
@@ -57,6 +57,22 @@ contains
          end do
       end do
    end function combined
+
+   !> Sum over j of weight(j) times vector j, in this order and without the fused multiply-adds that
+   !> gfortran's library for `matmul` takes where the processor has them.
+   pure function weighted_sum(weights, vectors) result(total)
+      !> Weights
+      real(wp), intent(in) :: weights(:)
+      !> One vector a weight
+      real(wp), intent(in) :: vectors(:, :)
+      real(wp) :: total(size(vectors, 1))
+      integer :: j
+
+      total = weights(1)*vectors(:, 1)
+      do j = 2, size(weights)
+         total = total + weights(j)*vectors(:, j)
+      end do
+   end function weighted_sum
 
    !> Replace values at x by their divided differences.
    pure subroutine divide_differences(x, values)

@@ -3,7 +3,7 @@
 !> the history.
 module dde_implicit_step
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
-   use dde_collocation, only: divide_differences, shape_bump
+   use dde_collocation, only: divide_differences, shape_bump, weighted_sum
    use dde_history, only: history_type
    use dde_implicit_checks, only: confirmed, error_inside
    use dde_norm, only: scaled_norm
@@ -206,7 +206,7 @@ contains
       real(wp), intent(out) :: error
       real(wp), dimension(size(scale)) :: raw, slope
 
-      raw = matmul(self%stages%increments, self%method%e)/self%h
+      raw = weighted_sum(self%method%e, self%stages%increments)/self%h
       self%error_vector = self%slope + raw
       self%unfiltered = self%error_vector
       call self%stages%systems%filter(self%error_vector)

@@ -2,7 +2,7 @@
 !> Wanner 1996, sec. IV.8).
 module dde_stage_iteration
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use dde_collocation, only: combined, lagrange_weights
+   use dde_collocation, only: combined, lagrange_weights, weighted_sum
    use dde_history, only: history_type
    use dde_interpolant, only: newton_value
    use dde_norm, only: scaled_norm
@@ -214,7 +214,7 @@ contains
       real(wp), intent(in) :: h
       real(wp) :: slope(size(self%increments, 1))
 
-      slope = matmul(self%increments, self%systems%a_inverse(size(self%increments, 2), :))/h
+      slope = weighted_sum(self%systems%a_inverse(size(self%increments, 2), :), self%increments)/h
    end function slope_at_end
 
    !> Slopes of all stages.

@@ -78,7 +78,9 @@ contains
             blocks(i:i + 1, i + 1) = [-beta, alpha]
          end associate
       end do
-      a_inverse = matmul(method%t, matmul(blocks, method%t_inverse))
+      a_inverse = transpose(combined(method%stages, method%stages, method%t, &
+                                     combined(method%stages, method%stages, blocks, &
+                                              transpose(method%t_inverse))))
    end function inverse_of_a
 
    !> Factorise the systems of a step of length `h`.

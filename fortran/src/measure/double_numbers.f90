@@ -1,14 +1,13 @@
 !> Numbers that double precision holds. A program compiled in quadruple precision rounds its inputs
 !> to them, so that it solves the very problem that the program in double precision solves.
 module double_numbers
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_rint
    use kinds, only: wp
    implicit none (type, external)
    private
    public :: as_double, evenly_spaced
 
-   !> Binary digits of double precision.
-   integer, parameter :: double_digits = 53
+   !> Double precision, also where `wp` is another.
+   integer, parameter :: double = selected_real_kind(15, 307)
 
 contains
 
@@ -18,10 +17,7 @@ contains
       real(wp), intent(in) :: number
       real(wp) :: rounded
 
-      rounded = number
-      if (.not. ieee_is_finite(number)) return
-      rounded = scale(ieee_rint(scale(fraction(number), double_digits)), &
-                      exponent(number) - double_digits)
+      rounded = real(real(number, double), wp)
    end function as_double
 
    !> Times 0, interval, 2 interval, ... up to `last`.
