@@ -23,6 +23,7 @@ rule all:
         "results/tables/tolerance-proportionality.tsv",
         "results/tables/hopf-points.tsv",
         "results/tables/linear-stability.tsv",
+        "results/tables/claims.tsv",
 
 
 include: "rules/build.smk"

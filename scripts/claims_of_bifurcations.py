@@ -72,7 +72,8 @@ def delay_destabilises(results: Results, *, scenes: list[str]) -> Finding:
     for scene in scenes:
         row = results.stability_of(scene)
         lost = [place for place, before, _ in changes(row["tau_of_changes"]) if before == 0]
-        told.append(f"{scene} at tau = {listed([short(place, 6) for place in lost])}")
+        where = f"at tau = {listed([short(place, 6) for place in lost])}" if lost else "at no tau"
+        told.append(f"{scene} {where}")
         holds = holds and bool(lost)
     return decided(holds, f"Steady sliding loses its stability: {'; '.join(told)}.")
 
@@ -111,8 +112,8 @@ def unstable_pairs(results: Results, *, scene: str, least: int) -> Finding:
     where = f"from epsilon = {short(later[0])}" if later else "at no epsilon that was tried"
     return decided(
         row["unstable_pairs"] >= least,
-        f"Scene {scene} (tau = {short(row['tau'])}, epsilon = {short(row['epsilon'])}): steady"
-        f" sliding has {row['unstable_pairs']:.0f} unstable pairs; it has {least} {where}.",
+        f"Scene {scene} (tau = {short(row['tau'])}, epsilon = {short(row['epsilon'])}): unstable"
+        f" pairs of steady sliding: {row['unstable_pairs']:.0f}; {least} {where}.",
     )
 
 

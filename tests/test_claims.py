@@ -5,6 +5,7 @@ import json
 
 import claims
 import pytest
+from claims_config import listed
 from claims_results import NOT_REPRODUCED, NOT_TESTABLE, REPRODUCED, VERDICTS, read_results
 from conftest import ROOT, SMOKE
 from made_up_results import attractor_row, hopf_curve, results, stability_row
@@ -112,7 +113,7 @@ def read_ledger(folder) -> dict[str, dict]:
 def test_ledger_of_the_workflow(smoke):
     """Every claim has a verdict with evidence, the same in both files; what it shows is there."""
     rows = read_ledger(smoke.folder)
-    assert list(rows) == list(claims.claims_config.listed()["claims"])
+    assert list(rows) == list(listed()["claims"])
     tables = smoke.folder / "results" / "tables"
     assert json.loads((tables / "claims.json").read_text()) == list(rows.values())
     for row in rows.values():

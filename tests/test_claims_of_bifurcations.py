@@ -100,7 +100,9 @@ def test_kinds_count_where_stability_changes():
 def test_delay_destabilises(cell, verdict):
     """Each scene must have such a delay."""
     made = with_scenes(good={}, mine={"tau_of_changes": cell})
-    assert TESTS["delay_destabilises"](made, scenes=["good", "mine"]).verdict == verdict
+    found = TESTS["delay_destabilises"](made, scenes=["good", "mine"])
+    assert found.verdict == verdict
+    assert ("mine at no tau" in found.evidence) == (verdict == NOT_REPRODUCED)
 
 
 @pytest.mark.parametrize(

@@ -247,7 +247,7 @@ def test_everything_from_one_command(project):
     """Without a target: all figures and no computation that none of them needs."""
     run = project.snakemake("--dry-run")
     tables = {"hopf_points", "linear_stability_namelist", "linear_stability"}
-    tables |= {"linear_stability_table"}
+    tables |= {"linear_stability_table", "claims"}
     everything = set.union({"all", *tables, *FIGURES}, *RULES_OF.values())
     assert rules_in(run.stdout) == everything
 
@@ -259,14 +259,15 @@ def test_changed_scene_reruns_only_what_depends_on_it(scratch):
     run = scratch.snakemake(*SMOKE, "mine.yaml")
     assert run.returncode == 0, run.stdout
     expected = {"all", "scene_namelist", "trajectory", "spectrum", "figure_5", "figure_6"}
-    expected |= {"exponents_namelist", "exponents_runs", "exponents_table", "exponents"}
+    expected |= {"exponents_namelist", "exponents_runs", "exponents_table", "exponents", "claims"}
     assert rules_in(run.stdout) == expected
     after = scratch.outputs()
     assert set(after) == set(before)
     changed = {name for name in after if after[name] != before[name]}
     assert {"trajectories/torus.nc", "namelists/trajectories/torus.nml"} <= changed
     assert all(
-        "torus" in name or name.startswith(("figures/figure_5", "figures/exp", "tables/exp"))
+        "torus" in name
+        or name.startswith(("figures/figure_5", "figures/exp", "tables/exp", "tables/claims"))
         for name in changed - {"figures/figure_6.pdf", "figures/figure_6.png"}
     )
 
@@ -277,7 +278,7 @@ def test_changed_family_computes_no_other(smoke, tmp_path):
     (tmp_path / "mine.yaml").write_text(text)
     run = smoke.snakemake("--dry-run", *SMOKE, str(tmp_path / "mine.yaml"))
     expected = {"all", "stability_namelists", "reference", "measurement"}
-    assert rules_in(run.stdout) == expected | {"stability_table", "stability"}
+    assert rules_in(run.stdout) == expected | {"stability_table", "stability", "claims"}
     assert outputs_in(run.stdout) == {"stability/spring.nc"}
 
 
