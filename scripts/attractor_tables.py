@@ -1,4 +1,4 @@
-"""Tables of attractors, one row a run: of scenes and their histories, of the atlas, of the route."""
+"""Tables of attractors, a row for each run: of scenes and histories, of the atlas, of the route."""
 
 from pathlib import Path
 
