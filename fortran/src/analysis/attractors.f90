@@ -239,6 +239,8 @@ contains
          attractor%by_spectrum = torus
       case (continuum)
          attractor%by_spectrum = chaos
+      case default
+         attractor%by_spectrum = undecided
       end select
    end subroutine judge_spectrum
 
