@@ -24,6 +24,9 @@ FIGURES = [
     "exponents",
     "stability",
     "work_precision",
+    "atlas_coarse",
+    "true_torus",
+    "route_to_chaos",
 ]
 SCENES_WITH_EXPONENTS = [
     name for name, scene in config["scenes"].items() if "exponents" in scene
@@ -68,10 +71,18 @@ def spectra_of(figure):
     return expand("results/spectra/{scene}.nc", scene=scenes_of(figure))
 
 
+def attractors_of(figure):
+    """Attractor files that a figure shows."""
+    return expand("results/attractors/scenes/{scene}.nc", scene=scenes_of(figure))
+
+
 def places_of_scenes():
     """Parameters of the scenes that figures show, as marked beside the Hopf curves."""
     shown = dict.fromkeys(
-        scene for figure in config["figures"] for scene in scenes_of(figure)
+        scene
+        for figure in config["figures"]
+        if figure.startswith("figure_")
+        for scene in scenes_of(figure)
     )
     keys = ["tau", "epsilon", "xi", "gamma"]
     return {
@@ -145,6 +156,28 @@ def parts_of_atlas(wildcards):
         plane=config["atlas"]["planes"],
         part=numbered(config["atlas"]["grids"][wildcards.grid]["parts"]),
     )
+
+
+def curves_of_atlas():
+    """Files of Hopf curves that lie in planes of the atlas."""
+    stiffnesses = [plane["xi"] for plane in config["atlas"]["planes"].values()]
+    planes = [
+        name
+        for name, plane in config["hopf_curves"].items()
+        if plane["ordinate"] == "tau"
+        and plane["gamma"] == config["atlas"]["gamma"]
+        and plane["fixed"] in stiffnesses
+    ]
+    return expand("results/hopf/{plane}.nc", plane=planes)
+
+
+def places_in_atlas():
+    """Parameters of the scenes that the atlas marks: those whose attractors are looked for."""
+    return {
+        name: {key: config["scenes"][name][key] for key in ["tau", "epsilon", "xi"]}
+        for name in SCENES_WITH_ATTRACTORS
+        if config["scenes"][name]["gamma"] == config["atlas"]["gamma"]
+    }
 
 
 def linear_stability_values(wildcards):

@@ -12,6 +12,7 @@ rule claims:
             "scripts/claims_of_formulas.py",
             "scripts/claims_of_runs.py",
             "scripts/claims_results.py",
+            "scripts/motion_rows.py",
             "scripts/printed_formulas.py",
         ],
     output:

@@ -15,6 +15,7 @@ FIGURE_VARIABLES = {
     "figure_5": {"u", "v"},
     "figure_6": {"v"},
     "figure_7": {"v"},
+    "true_torus": {"v"},
 }
 """Variables of a trajectory that each figure uses."""
 

@@ -15,6 +15,7 @@ from claims_results import (
     short,
     stable_delays,
 )
+from motion_rows import first_met
 
 STRETCHES_TOLD = 12
 """Stretches of a route that its sentence names."""
@@ -80,7 +81,7 @@ def route(results: Results, *, expected: list[str]) -> Finding:
     if not rows:
         return decided(False, "route-to-chaos.tsv has no row.")
     sure = [row for row in rows if row["class"] != "undecided"]
-    classes = list(dict.fromkeys(row["class"] for row in sure))
+    classes = list(first_met(rows))
     end = classes.index(expected[-1]) + 1 if expected[-1] in classes else 0
     before = classes[max(0, end - len(expected)) : end]
     finer = stretches_of(sure, in_words)

@@ -10,7 +10,7 @@ from matplotlib.patheffects import withStroke
 BASE, HARMONIC, SECOND_BASE, COMBINATION, OTHER = range(5)
 """Values of peak_kind."""
 WIDTH_OF_A_CHARACTER = 0.0125
-"""Of a label, as a share of the axis."""
+"""Of a label, as a share of an axis as wide as a page."""
 IN_WORDS = {
     "one base": "one base frequency",
     "two bases": "two base frequencies",
@@ -40,8 +40,13 @@ def draw(rows: dict[str, xr.Dataset], paper: dict[str, str], frequency_shown: fl
     return figure
 
 
-def label_peaks(axes: Axes, spectrum: xr.Dataset, frequency_shown: float) -> None:
-    """A dot on each peak; its name and frequency where no higher one's are in the way."""
+def label_peaks(
+    axes: Axes, spectrum: xr.Dataset, frequency_shown: float, letter: float = WIDTH_OF_A_CHARACTER
+) -> None:
+    """A dot on each peak; its name and frequency where no higher one's are in the way.
+
+    A letter is as wide as this share of the axis.
+    """
     peaks = spectrum.drop_dims(["frequency", "base"])
     peaks = peaks.isel(peak=peaks.peak_frequency.values <= frequency_shown)
     peaks = peaks.isel(peak=(-peaks.peak_power.values).argsort())
@@ -54,7 +59,7 @@ def label_peaks(axes: Axes, spectrum: xr.Dataset, frequency_shown: float) -> Non
         axes.plot(*place, "o", color=colour, ms=2)
         lines = [name_of(peak)] if named else []
         lines.append(f"{place[0]:.4f}")
-        half = 0.5 * WIDTH_OF_A_CHARACTER * frequency_shown * max(map(characters, lines))
+        half = 0.5 * letter * frequency_shown * max(map(characters, lines))
         if any(abs(place[0] - other) < half + its_half for other, its_half in taken):
             taken.append((place[0], 0.0))
             continue
@@ -91,7 +96,12 @@ def characters(label: str) -> int:
 
 
 def seen(spectrum: xr.Dataset, paper: str) -> str:
-    """What the spectrum shows beside what the paper says, in a line."""
+    """What the spectrum shows above what the paper says."""
+    return f"{lines_in_words(spectrum)}\n(the paper: “{paper}”)"
+
+
+def lines_in_words(spectrum: xr.Dataset) -> str:
+    """What the spectrum shows, in a line."""
     kind = spectrum.attrs["spectrum_kind"]
     bases = [f"$f_{i}$ = {f:.4f}" for i, f in enumerate(spectrum.base_frequency.values, start=1)]
     if kind == "one base":
@@ -105,7 +115,7 @@ def seen(spectrum: xr.Dataset, paper: str) -> str:
         words = f"undecided: {reason(spectrum)}"
     else:
         words = "no power"
-    return f"{words}\n(the paper: “{paper}”)"
+    return words
 
 
 def reason(spectrum: xr.Dataset) -> str:

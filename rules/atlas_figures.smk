@@ -1,0 +1,83 @@
+# Figures of attractors: the atlas on its coarse and on its fine grid, the true torus, the route.
+CLASS_DRAWING = ["scripts/class_map.py", "scripts/motion_rows.py", *DRAWING]
+
+
+rule atlas_coarse:
+    input:
+        table="results/tables/atlas-coarse.tsv",
+        curves=curves_of_atlas(),
+        code=["scripts/hopf_plane.py", *CLASS_DRAWING],
+    output:
+        pdf="results/figures/atlas_coarse.pdf",
+        png=report(
+            "results/figures/atlas_coarse.png",
+            caption="../scripts/atlas_coarse.rst",
+            category="Atlas",
+        ),
+    log:
+        "results/logs/figures/atlas_coarse.log",
+    params:
+        scenes=places_in_atlas(),
+    script:
+        "../scripts/atlas.py"
+
+
+use rule atlas_coarse as atlas with:
+    input:
+        table="results/tables/atlas-fine.tsv",
+        curves=curves_of_atlas(),
+        code=["scripts/hopf_plane.py", *CLASS_DRAWING],
+    output:
+        pdf="results/figures/atlas.pdf",
+        png=report(
+            "results/figures/atlas.png",
+            caption="../scripts/atlas.rst",
+            category="Atlas",
+        ),
+    log:
+        "results/logs/figures/atlas.log",
+
+
+rule true_torus:
+    input:
+        table="results/tables/attractors.tsv",
+        trajectories=trajectories_of("true_torus"),
+        attractors=attractors_of("true_torus"),
+        spectra=spectra_of("true_torus"),
+        code=[
+            "scripts/exponents_table.py",
+            "scripts/spectrum_rows.py",
+            "scripts/trajectory_rows.py",
+            *DRAWING,
+        ],
+    output:
+        pdf="results/figures/true_torus.pdf",
+        png=report(
+            "results/figures/true_torus.png",
+            caption="../scripts/true_torus.rst",
+            category="Atlas",
+        ),
+    log:
+        "results/logs/figures/true_torus.log",
+    params:
+        settings=config["figures"]["true_torus"],
+    script:
+        "../scripts/true_torus.py"
+
+
+rule route_to_chaos:
+    input:
+        table="results/tables/route-to-chaos.tsv",
+        runs=parts_of_route(),
+        code=CLASS_DRAWING,
+    output:
+        pdf="results/figures/route_to_chaos.pdf",
+        png=report(
+            "results/figures/route_to_chaos.png",
+            caption="../scripts/route_to_chaos.rst",
+            category="Atlas",
+        ),
+    log:
+        "results/logs/figures/route_to_chaos.log",
+    script:
+        "../scripts/route_to_chaos.py"

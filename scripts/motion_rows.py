@@ -1,0 +1,31 @@
+"""What rows of attractors, of the atlas and of the route say."""
+
+UNDECIDED = "undecided"
+
+
+def has_problem(row: dict) -> bool:
+    """Whether the run of a row failed; an empty cell is no text."""
+    return isinstance(row["problem"], str)
+
+
+def kind_of(row: dict) -> str:
+    """The class, cycles parted by their period in the section."""
+    several = row["class"] == "cycle" and row["period"] > 1
+    return "cycle of period > 1" if several else row["class"]
+
+
+def first_met(rows: list[dict]) -> dict[str, float]:
+    """Classes other than undecided, each with the epsilon from which on it is met, in order."""
+    first: dict[str, float] = {}
+    for row in sorted(rows, key=lambda row: row["epsilon"]):
+        if row["class"] != UNDECIDED:
+            first.setdefault(row["class"], row["epsilon"])
+    return first
+
+
+def count_in_words(rows: list[dict]) -> str:
+    """How many points there are, and of how many the class is not known."""
+    unsure = sum(row["class"] == UNDECIDED and not has_problem(row) for row in rows)
+    failed = sum(map(has_problem, rows))
+    told = [f"{len(rows)} points", f"{unsure} undecided", f"{failed} failed"]
+    return ", ".join(told if failed else told[:2])
