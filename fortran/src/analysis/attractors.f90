@@ -198,8 +198,7 @@ contains
          attractor%by_exponents = class_by_exponents(attractor%exponents, settings%zero_level, &
                                                      settings%longest_bar)
          if (attractor%by_exponents /= undecided .or. i == settings%doublings) exit
-         wanted%t_end = wanted%t_end + settings%t_observed*2**i
-         call extend_growth(block_model, wanted, options, wanted%t_end, measured, error)
+         call extend_growth(block_model, wanted, options, measured, error)
       end do
 
       call judge_spectrum(exp(samples%values(3, :)), settings, attractor, error)
