@@ -26,12 +26,14 @@ rule attractors_runs:
     threads: 2
     shell:
         "OMP_NUM_THREADS={threads} {input.program} {input.namelist} {output}"
-        " 2> {log} || {{ cat {log} >&2; exit 1; }}"
+        " 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
 
 
 rule attractors_table:
     input:
-        runs=expand("results/attractors/scenes/{scene}.nc", scene=SCENES_WITH_ATTRACTORS),
+        runs=expand(
+            "results/attractors/scenes/{scene}.nc", scene=SCENES_WITH_ATTRACTORS
+        ),
     output:
         "results/tables/attractors.tsv",
     log:

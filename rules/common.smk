@@ -130,7 +130,9 @@ def survey_groups(wildcards):
         groups = attractor_surveys.route_groups(config, int(wildcards.part))
     else:
         _, grid, plane = wildcards.survey.split("/")
-        groups = attractor_surveys.atlas_groups(config, plane, grid, int(wildcards.part))
+        groups = attractor_surveys.atlas_groups(
+            config, plane, grid, int(wildcards.part)
+        )
     return {"runs": groups}
 
 

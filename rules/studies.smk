@@ -37,7 +37,7 @@ rule reference:
     benchmark:
         "results/benchmarks/references/{study}/{family}.tsv"
     shell:
-        "{input.program} {input.namelist} {output} 2> {log} || {{ cat {log} >&2; exit 1; }}"
+        "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
 
 
 rule measurement:
@@ -51,7 +51,7 @@ rule measurement:
     benchmark:
         "results/benchmarks/measurements/{study}/{family}.tsv"
     shell:
-        "{input.program} {input.namelist} {output} 2> {log} || {{ cat {log} >&2; exit 1; }}"
+        "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
 
 
 rule stability_table:
@@ -130,7 +130,7 @@ rule work_precision_runs:
         "results/benchmarks/measurements/work_precision/{work_scene}.tsv"
     threads: 2
     shell:
-        "{input.program} {input.namelist} {output} 2> {log} || {{ cat {log} >&2; exit 1; }}"
+        "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
 
 
 rule work_precision_table:

@@ -1,4 +1,4 @@
-"""Tables of attractors, a row for each run: of scenes and histories, of the atlas, of the route."""
+"""Tables of attractors, one row a run: scenes with their histories, the atlas, the route."""
 
 from pathlib import Path
 
@@ -12,7 +12,6 @@ SAME_MAXIMUM = 0.01
 """Maxima of v on one and the same cycle or torus differ by no more than this share."""
 ERROR_BARS = 3.0
 """Exponents of one and the same chaotic attractor differ by no more error bars than this."""
-NUMBERS = ["epsilon", "tau", "history_theta", "history_u", "history_v"]
 
 
 def rows_of(run: xr.Dataset) -> list[dict]:

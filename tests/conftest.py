@@ -202,11 +202,8 @@ def programs(smoke, tmp_path) -> Programs:
 
 def of_trajectory(config: dict, scene: str) -> dict:
     """What the namelist of a scene's trajectory holds of the configuration."""
-    return {
-        key: value
-        for key, value in config["scenes"][scene].items()
-        if key not in ("exponents", "attractors")
-    }
+    studies = ("exponents", "attractors")
+    return {key: value for key, value in config["scenes"][scene].items() if key not in studies}
 
 
 @pytest.fixture

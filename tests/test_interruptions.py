@@ -1,19 +1,21 @@
 """Runs that are interrupted or killed: no half-written file, and the next run completes."""
 
+import contextlib
 import os
 import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from conftest import GROUPS, SMOKE, Programs
+from conftest import GROUPS, SMOKE, Programs, Project
 from write_namelist import write_namelist
 
 SNAKEMAKE = Path(sys.executable).parent / "snakemake"
-LONG = "results/references/trust/torus.tsv"
-"""A result that takes some seconds."""
+LONG = "results/references/stability/grid_fault.tsv"
+"""A result that takes about a second."""
 
 
 def wait_for(path: Path) -> None:
@@ -26,8 +28,8 @@ def wait_for(path: Path) -> None:
 
 @pytest.fixture
 def half_long(programs, good_inputs) -> Programs:
-    """Programs beside the namelist of a trajectory of about a second."""
-    values = {**good_inputs["trajectory"], "t_end": 2e5}
+    """Programs beside the namelist of a trajectory of less than a second."""
+    values = {**good_inputs["trajectory"], "t_end": 1e5}
     write_namelist(programs.folder / "input.nml", GROUPS["trajectory"], values)
     return programs
 
@@ -48,19 +50,20 @@ def test_program_that_is_killed_at_any_moment(half_long, how):
     """There is no output, or the whole older one; the next run makes the same bytes."""
     assert half_long.run("trajectory", "input.nml", "output.nc").returncode == 0
     whole = half_long.output.read_bytes()
-    for older in (False, True):
-        for seconds in (0.0, 0.05, 0.3):
-            if not older:
-                half_long.output.unlink(missing_ok=True)
-            run = begun(half_long)
-            time.sleep(seconds)
-            run.send_signal(how)
-            assert run.wait() == -how
-            assert half_long.output.exists() is older
-            assert not older or half_long.output.read_bytes() == whole
-        assert half_long.run("trajectory", "input.nml", "output.nc").returncode == 0
+    for seconds in (0.0, 0.03, 0.1):
+        run = begun(half_long)
+        time.sleep(seconds)
+        run.send_signal(how)
+        assert run.wait() == -how
         assert half_long.output.read_bytes() == whole
-        assert half_long.left_behind() == ["output.nc"]
+    half_long.output.unlink()
+    run = begun(half_long)
+    run.send_signal(how)
+    assert run.wait() == -how
+    assert not half_long.output.exists()
+    assert half_long.run("trajectory", "input.nml", "output.nc").returncode == 0
+    assert half_long.output.read_bytes() == whole
+    assert half_long.left_behind() == ["output.nc"]
 
 
 def test_last_of_two_runs_wins(half_long):
@@ -85,49 +88,66 @@ def test_last_of_two_runs_wins(half_long):
     assert half_long.output.read_bytes() == whole
 
 
-def interrupt(run: subprocess.Popen[bytes]) -> None:
-    """Ctrl-C: all processes of a terminal get the signal."""
-    os.killpg(run.pid, signal.SIGINT)
-
-
-def kill_program(run: subprocess.Popen[bytes]) -> None:
-    """As the kernel does where memory is short."""
-    listed = subprocess.run(["ps", "-o", "pid=,comm=", "-g", str(run.pid)], capture_output=True)
-    (program,) = [
-        int(line.split()[0]) for line in listed.stdout.splitlines() if line.endswith(b"reference")
-    ]
-    os.kill(program, signal.SIGKILL)
-
-
-def kill_snakemake(run: subprocess.Popen[bytes]) -> None:
-    """Its programs live on, and it leaves its lock."""
-    os.kill(run.pid, signal.SIGKILL)
-
-
-@pytest.mark.parametrize("end", [interrupt, kill_program, kill_snakemake])
-def test_workflow_resumes(scratch, end):
-    """No other result has changed, and the same command completes with the same bytes."""
-    before = scratch.outputs()
+@pytest.fixture
+def workflow(scratch) -> Iterator[subprocess.Popen[bytes]]:
+    """A run of the workflow that has begun to make the long result, its program stopped."""
     (scratch.folder / LONG).unlink()
-    command = ["--cores", "2", LONG, *SMOKE]
     run = subprocess.Popen(
-        [SNAKEMAKE, *command],
+        [SNAKEMAKE, "--cores", "2", LONG, *SMOKE],
         cwd=scratch.folder,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
         start_new_session=True,
     )
     wait_for(scratch.folder / f"{LONG}.part")
-    if end is kill_snakemake:
-        refused = scratch.snakemake(LONG, *SMOKE)
-        assert refused.returncode != 0
-        assert "LockException" in refused.stdout
-    end(run)
-    assert run.wait(timeout=60) != 0
-    present = scratch.outputs()
-    present.pop(LONG.removeprefix("results/") + ".part", None)
-    assert present == {name: before[name] for name in present}
-    assert LONG.removeprefix("results/") not in present
-    again = scratch.snakemake(LONG, *SMOKE)
+    os.kill(program_of(run), signal.SIGSTOP)
+    yield run
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(run.pid, signal.SIGKILL)
+    run.wait()
+
+
+def program_of(run: subprocess.Popen[bytes]) -> int:
+    """The process that makes the long result."""
+    listed = subprocess.run(["ps", "-o", "pid=,comm=", "-g", str(run.pid)], capture_output=True)
+    processes = [line.split() for line in listed.stdout.decode().splitlines()]
+    (program,) = [int(number) for number, name in processes if name == "reference"]
+    return program
+
+
+def assert_resumes(project: Project, before: dict[str, bytes]) -> None:
+    """No other result has changed, and the same command completes with the same bytes."""
+    present = project.outputs()
+    present.pop(f"{LONG}.part".removeprefix("results/"), None)
+    assert present == {name: before[name] for name in before if not LONG.endswith(name)}
+    again = project.snakemake(LONG, *SMOKE)
     assert again.returncode == 0, again.stdout
-    assert scratch.outputs() == before
+    assert project.outputs() == before
+
+
+@pytest.mark.parametrize("end", ["Ctrl-C", "program killed"])
+def test_workflow_resumes(smoke, scratch, workflow, end):
+    """Ctrl-C reaches all processes of a terminal; the kernel kills one where memory is short."""
+    if end == "Ctrl-C":
+        os.killpg(workflow.pid, signal.SIGINT)
+        os.killpg(workflow.pid, signal.SIGCONT)
+    else:
+        os.kill(program_of(workflow), signal.SIGKILL)
+    assert workflow.wait(timeout=60) != 0
+    assert_resumes(scratch, smoke.outputs())
+
+
+def test_workflow_resumes_where_snakemake_itself_was_killed(smoke, scratch, workflow):
+    """Its lock held while it was alive, and no longer; its program lives on and does no harm."""
+    program = program_of(workflow)
+    refused = scratch.snakemake(LONG, *SMOKE)
+    assert refused.returncode != 0
+    assert "LockException" in refused.stdout
+    os.kill(workflow.pid, signal.SIGKILL)
+    workflow.wait()
+    assert_resumes(scratch, smoke.outputs())
+    os.kill(program, signal.SIGCONT)
+    end = time.monotonic() + 60
+    while Path(f"/proc/{program}").exists() and time.monotonic() < end:
+        time.sleep(0.01)
+    assert scratch.outputs() == smoke.outputs()

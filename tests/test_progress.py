@@ -6,7 +6,7 @@ import re
 import subprocess
 
 import pytest
-from conftest import GROUPS, Programs
+from conftest import GROUPS, SMOKE, Programs
 from write_namelist import write_namelist
 
 TOLD = re.compile(r"trajectory of torus: (\d+) %, (\d+) of (\d+), (?:\d+ min )?\d+ s (left|in all)")
@@ -85,3 +85,14 @@ def test_standard_error_that_takes_nothing_does_not_stop_the_work(long_run):
         run = subprocess.run(command, cwd=long_run.folder, stderr=full, timeout=60)
     assert run.returncode == 0
     assert long_run.left_behind() == ["output.nc"]
+
+
+def test_failure_is_shown_without_the_progress_before_it(scratch):
+    """That stays in the log."""
+    program = scratch.folder / "build" / "release" / "bin" / "hopf"
+    told, reason = "hopf: 5 %, 1 of 20, 2 s left", "error: it cannot go on"
+    program.write_text(f"#!/bin/sh\necho '{told}' >&2\necho '{reason}' >&2\nexit 1\n")
+    run = scratch.snakemake("results/hopf/xi_of_epsilon.nc", *SMOKE)
+    assert run.returncode != 0
+    assert f"\n{reason}\n" in run.stdout
+    assert told not in run.stdout

@@ -2,6 +2,8 @@
 program tester
    use, intrinsic :: iso_fortran_env, only: error_unit
    use mctc_env_testing, only: new_testsuite, run_testsuite, testsuite_type
+   use test_attractor_points, only: collect_attractor_points
+   use test_attractors, only: collect_attractors
    use test_base_frequencies, only: collect_base_frequencies
    use test_dde_behaviour, only: collect_dde_behaviour
    use test_dde_continuation, only: collect_dde_continuation
@@ -28,9 +30,13 @@ program tester
    use test_hopf_curves, only: collect_hopf_curves
    use test_hopf_points, only: collect_hopf_points
    use test_linear, only: collect_linear
+   use test_lyapunov_spectrum, only: collect_lyapunov_spectrum
    use test_measure, only: collect_measure
    use test_model, only: collect_model
+   use test_motion_classes, only: collect_motion_classes
    use test_progress, only: collect_progress
+   use test_rest, only: collect_rest
+   use test_section_motion, only: collect_section_motion
    use test_spectral_peaks, only: collect_spectral_peaks
    use test_spectrum, only: collect_spectrum
    use test_spectrum_verdict, only: collect_spectrum_verdict
@@ -41,7 +47,9 @@ program tester
    character(len=32) :: wanted
    integer :: failed, i, run
 
-   allocate (suites, source=[new_testsuite("base_frequencies", collect_base_frequencies), &
+   allocate (suites, source=[new_testsuite("attractor_points", collect_attractor_points), &
+                             new_testsuite("attractors", collect_attractors), &
+                             new_testsuite("base_frequencies", collect_base_frequencies), &
                              new_testsuite("dde_behaviour", collect_dde_behaviour), &
                              new_testsuite("dde_continuation", collect_dde_continuation), &
                              new_testsuite("dde_controller", collect_dde_controller), &
@@ -67,9 +75,13 @@ program tester
                              new_testsuite("hopf_curves", collect_hopf_curves), &
                              new_testsuite("hopf_points", collect_hopf_points), &
                              new_testsuite("linear", collect_linear), &
+                             new_testsuite("lyapunov_spectrum", collect_lyapunov_spectrum), &
                              new_testsuite("measure", collect_measure), &
                              new_testsuite("model", collect_model), &
+                             new_testsuite("motion_classes", collect_motion_classes), &
                              new_testsuite("progress", collect_progress), &
+                             new_testsuite("rest", collect_rest), &
+                             new_testsuite("section_motion", collect_section_motion), &
                              new_testsuite("spectral_peaks", collect_spectral_peaks), &
                              new_testsuite("spectrum", collect_spectrum), &
                              new_testsuite("spectrum_verdict", collect_spectrum_verdict), &

@@ -49,7 +49,7 @@ contains
       do i = 1, 3
          h = 0.5_wp**i
          step = explicit_step_type(problem)
-         call take_step(problem, 0.0_wp, h, step, estimate(i))
+         call take_step(problem, 0.0_wp, h, step, estimate(i), absolute=1.0e-24_wp)
          misfit(i) = norm2(step%y_new - [cos(h), -sin(h)])
          misfit_inside(i) = maxval([(norm2(interpolated(step, places(j)) - &
                                            [cos(h*places(j)), -sin(h*places(j))]), &
@@ -75,7 +75,7 @@ contains
       do i = 1, 3
          h = 0.25_wp*0.5_wp**i
          step = explicit_step_type(problem)
-         call take_step(problem, 0.0_wp, h, step, estimate(i))
+         call take_step(problem, 0.0_wp, h, step, estimate(i), absolute=1.0e-24_wp)
          misfit(i) = abs(step%y_new(1) - 1.0_wp/(1.0_wp - h))
          misfit_inside(i) = 0.0_wp
          do j = 1, size(places)

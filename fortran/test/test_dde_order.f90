@@ -153,7 +153,7 @@ contains
 
       problem = decay(n=1, past=[1.0_wp], first=[1.0_wp])
       call without_delays(problem)
-      do digits = 3, 12
+      do digits = 4, 12
          tolerance = 10.0_wp**(-digits)
          worst = 0.0_wp
          do i = 1, 4000

@@ -198,8 +198,7 @@ contains
          attractor%by_exponents = class_by_exponents(attractor%exponents, settings%zero_level, &
                                                      settings%longest_bar)
          if (attractor%by_exponents /= undecided .or. i == settings%doublings) exit
-         wanted%t_end = wanted%t_end + settings%t_observed*2**i
-         call extend_growth(block_model, wanted, options, wanted%t_end, measured, error)
+         call extend_growth(block_model, wanted, options, measured, error)
       end do
 
       call judge_spectrum(exp(samples%values(3, :)), settings, attractor, error)
@@ -239,6 +238,8 @@ contains
          attractor%by_spectrum = torus
       case (continuum)
          attractor%by_spectrum = chaos
+      case default
+         attractor%by_spectrum = undecided
       end select
    end subroutine judge_spectrum
 

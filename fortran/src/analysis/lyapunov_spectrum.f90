@@ -63,7 +63,8 @@ module lyapunov_spectrum
 contains
 
    !> Growth of tangent vectors along a solution that begins at t = 0, or goes on from where an
-   !> earlier run ended: then the vectors begin there and turn before measuring begins.
+   !> earlier run ended: then the vectors begin there, or where the delays are over, and turn before
+   !> measuring begins.
    subroutine measure_growth(problem, settings, options, measured, error, undisturbed, progress)
       !> The problem, with derivatives of its own
       class(dde_problem_type), intent(in) :: problem
@@ -82,28 +83,30 @@ contains
       type(continuation_type) :: approach
       type(integration_result) :: outcome
       type(tangent_problem_type) :: tangent
-      real(wp) :: growth(settings%exponents), norm(settings%exponents), share, start
+      real(wp) :: begun, growth(settings%exponents), norm(settings%exponents), share, start
       integer :: i, intervals, turning
 
       call check(problem, settings, error)
       if (allocated(error)) return
+      begun = 0.0_wp
+      start = max(settings%interval, settings%t_begin - settings%t_turning)
       if (present(undisturbed)) then
          approach = undisturbed
-         start = approach%time(1)
-         measured%t_begin = start + settings%t_turning
-      else
-         start = max(settings%interval, settings%t_begin - settings%t_turning)
-         if (size(problem%lag) > 0) start = max(start, maxval(problem%lag))
-         measured%t_begin = max(start, settings%t_begin)
+         begun = approach%time(1)
+         start = begun
       end if
+      ! before that the vectors would have no whole past
+      if (size(problem%lag) > 0) start = max(start, maxval(problem%lag))
+      measured%t_begin = max(start, settings%t_begin)
+      if (present(undisturbed)) measured%t_begin = start + settings%t_turning
       if (.not. measured%t_begin < settings%t_end) then
          call raise(error, "exponents: t_end = "//text(settings%t_end)//"; expected > " &
                     //text(measured%t_begin)//", where the vectors begin")
          return
       end if
 
-      if (.not. present(undisturbed)) then
-         call integrate(problem, 0.0_wp, start, options, outcome, error, continuation=approach)
+      if (start > begun) then
+         call integrate(problem, begun, start, options, outcome, error, continuation=approach)
          if (allocated(error)) return
       end if
       tangent = tangent_problem_type(problem, settings%exponents)
@@ -120,39 +123,42 @@ contains
          if (present(progress)) call progress%advance(i, turning + intervals)
       end do
       allocate (measured%growth(settings%exponents, 0))
-      call go_on(tangent, settings, options, settings%t_end, turning, measured, error, progress)
+      call go_on(tangent, settings, options, settings%t_end, intervals, turning, measured, &
+                 error, progress)
    end subroutine measure_growth
 
-   !> Go on measuring from where it ended, up to `t_end`: best for a time that has as many
-   !> intervals again in each block.
-   subroutine extend_growth(problem, settings, options, t_end, measured, error)
+   !> Go on measuring from where it ended, for as long again and in intervals as long, so that all
+   !> of them count alike.
+   subroutine extend_growth(problem, settings, options, measured, error)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> How many exponents, and the length of an interval
+      !> How many exponents
       type(growth_settings), intent(in) :: settings
       !> Method and tolerances
       type(integration_options), intent(in) :: options
-      !> Where to end
-      real(wp), intent(in) :: t_end
       !> The growth
       type(growth_type), intent(inout) :: measured
       !> It cannot be measured
       type(error_type), allocatable, intent(out) :: error
 
-      call go_on(tangent_problem_type(problem, settings%exponents), settings, options, t_end, 0, &
-                 measured, error)
+      associate (intervals => size(measured%growth, 2), start => measured%continuation%time(1))
+         call go_on(tangent_problem_type(problem, settings%exponents), settings, options, &
+                    start + intervals*measured%interval, intervals, 0, measured, error)
+      end associate
    end subroutine extend_growth
 
    !> Measure interval by interval.
-   subroutine go_on(tangent, settings, options, t_end, done, measured, error, progress)
+   subroutine go_on(tangent, settings, options, t_end, intervals, done, measured, error, progress)
       !> The problem with its tangent vectors
       type(tangent_problem_type), intent(in) :: tangent
-      !> How many exponents, and the length of an interval
+      !> How many exponents
       type(growth_settings), intent(in) :: settings
       !> Method and tolerances
       type(integration_options), intent(in) :: options
       !> Where to end
       real(wp), intent(in) :: t_end
+      !> Number of intervals up to there
+      integer, intent(in) :: intervals
       !> Intervals done before
       integer, intent(in) :: done
       !> The growth
@@ -162,12 +168,9 @@ contains
       !> Receiver of the number of intervals done
       class(progress_receiver), intent(inout), optional :: progress
       real(wp), allocatable :: growth(:, :)
-      integer :: i, intervals
+      integer :: i
 
-      associate (start => measured%continuation%time(1))
-         intervals = intervals_in(t_end - start, settings)
-         measured%interval = (t_end - start)/intervals
-      end associate
+      measured%interval = (t_end - measured%continuation%time(1))/intervals
       allocate (growth(settings%exponents, intervals))
       do i = 1, intervals
          call pass(tangent, settings, options, t_end - (intervals - i)*measured%interval, &

@@ -21,7 +21,7 @@ contains
    !> The class that leading exponents tell: all negative, a fixed point; one zero, the others
    !> negative, a cycle; two zero, a torus; positive ones, chaos. Undecided where a zero is missed
    !> among them, or one that counts as zero has too long an error bar.
-   pure integer function class_by_exponents(exponents, zero_level, longest_bar) result(class)
+   pure integer function class_by_exponents(exponents, zero_level, longest_bar) result(found)
       !> Exponents, descending
       type(exponent_type), intent(in) :: exponents(:)
       !> What is as good as zero, whatever the error bar
@@ -34,24 +34,26 @@ contains
       zero = without_sign(exponents, zero_level)
       positive = count(exponents%value > 0.0_wp .and. .not. zero)
       zeros = count(zero)
-      class = undecided
+      found = undecided
       if (positive > 0) then
-         if (zeros > 0 .or. positive == size(exponents)) class = chaos
+         if (zeros > 0 .or. positive == size(exponents)) found = chaos
       else if (zeros < size(exponents) &
                .and. .not. any(zero .and. error_bars*exponents%error > longest_bar)) then
          select case (zeros)
          case (0)
-            class = fixed_point
+            found = fixed_point
          case (1)
-            class = cycle_motion
+            found = cycle_motion
          case (2)
-            class = torus
+            found = torus
+         case default
+            found = undecided
          end select
       end if
    end function class_by_exponents
 
    !> The verdict: that of the exponents where one of the others confirms it and none contradicts.
-   pure integer function agreed(by_exponents, by_section, by_spectrum) result(class)
+   pure integer function agreed(by_exponents, by_section, by_spectrum) result(found)
       !> Class by exponents
       integer, intent(in) :: by_exponents
       !> Class by the section; `undecided` abstains
@@ -60,9 +62,9 @@ contains
       integer, intent(in) :: by_spectrum
 
       associate (others => [by_section, by_spectrum])
-         class = by_exponents
-         if (any(others /= undecided .and. others /= class)) class = undecided
-         if (all(others == undecided)) class = undecided
+         found = by_exponents
+         if (any(others /= undecided .and. others /= found)) found = undecided
+         if (all(others == undecided)) found = undecided
       end associate
    end function agreed
 end module motion_classes

@@ -101,10 +101,10 @@ contains
    end function roughness_of
 
    !> The part of a phase within half a turn of 0.
-   elemental real(wp) function turned(phase)
+   elemental real(wp) function turned(phase) result(value)
       !> Phase, in turns
       real(wp), intent(in) :: phase
 
-      turned = phase - anint(phase)
+      value = phase - anint(phase)
    end function turned
 end module section_motion

@@ -22,7 +22,7 @@ module dde_explicit_stages
    !> What the embedded errors of orders 3 and 5 may be where the step is short enough for the
    !> estimate to mean something, over tolerance**(1/2) and tolerance**(3/4): a few times what
    !> good steps show.
-   real(wp), parameter :: largest_e3 = 10.0_wp, largest_e5 = 2.0_wp
+   real(wp), parameter :: largest_e3 = 50.0_wp, largest_e5 = 3.0_wp
    !> Places of stages 14 to 16, those of the dense output.
    real(wp), parameter :: dense_places(3) = [c14, c15, c16]
 

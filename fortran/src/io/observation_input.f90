@@ -72,9 +72,9 @@ contains
       !> Tolerances and limits
       type(integration_options), intent(out) :: options
       !> Method
-      character(len=*), intent(out) :: method
+      character(len=word_length), intent(out) :: method
       !> Window
-      character(len=*), intent(out) :: window
+      character(len=word_length), intent(out) :: window
       !> They cannot be read
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: interval, longest_bar, overlap, peak_floor, peak_prominence, sample_interval

@@ -102,7 +102,8 @@ contains
       !> It could not be written
       type(error_type), allocatable, intent(out) :: error
 
-      call self%save(error)
+      call self%place%check(error)
+      if (.not. allocated(error)) call self%save(error)
       if (.not. allocated(error)) call self%place%publish(error)
    end subroutine finish
 

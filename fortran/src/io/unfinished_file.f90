@@ -25,6 +25,8 @@ module unfinished_file
       procedure :: other_path
       !> The file was created under its other path; a second call does nothing
       procedure :: created
+      !> Refuse to go on where another run has begun to write the file
+      procedure :: check
       !> Give the complete file its name
       procedure :: publish
       !> Leave nothing behind
@@ -65,6 +67,17 @@ contains
       if (self%number == 0) self%number = number_of_file(self%other_path())
    end subroutine created
 
+   !> Refuse to go on where another run has begun to write the file.
+   subroutine check(self, error)
+      !> The file
+      class(unfinished_type), intent(in) :: self
+      !> The other run has the file
+      type(error_type), allocatable, intent(out) :: error
+
+      if (self%is_ours()) return
+      call raise(error, self%path//": another run began to write it; only the last one does")
+   end subroutine check
+
    !> Give the complete file its name; on an error nothing is left behind.
    subroutine publish(self, error)
       !> The file
@@ -73,10 +86,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: failure
 
-      if (.not. self%is_ours()) then
-         call raise(error, self%path//": another run began to write it; only the last one does")
-         return
-      end if
+      call self%check(error)
+      if (allocated(error)) return
       call rename_file(self%other_path(), self%path, failure)
       if (.not. allocated(failure)) return
       call raise(error, failure%message//"; remove what is there, then run again")

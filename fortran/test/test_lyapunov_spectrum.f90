@@ -1,0 +1,291 @@
+!> Growth of tangent vectors: measured in one go and in two, from where a run ended, in halves of an
+!> interval, and where vectors are lost.
+module test_lyapunov_spectrum
+   use dde, only: continuation_type, dde_problem_type, integrate, integration_options, &
+                  integration_result, table_sampler
+   use errors, only: failure_type => error_type
+   use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
+   use exponent_averages, only: average_growth, exponent_type
+   use kinds, only: wp
+   use lyapunov_spectrum, only: extend_growth, growth_settings, growth_type, measure_growth
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use rest, only: exponents_at_rest
+   use solving, only: at_tolerance
+   use spring_block, only: index_of_ln_v, spring_block_type
+   implicit none (type, external)
+   private
+   public :: collect_lyapunov_spectrum
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_lyapunov_spectrum(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("in one go and in two halves", test_two_halves), &
+                   new_unittest("halves that are no multiple of an interval", test_uneven), &
+                   new_unittest("from where a run ended", test_undisturbed), &
+                   new_unittest("a run that ended before its delay", test_short_run), &
+                   new_unittest("halved intervals, steady sliding", test_halved_at_rest), &
+                   new_unittest("halved intervals, divergence of the flow", test_divergence), &
+                   new_unittest("vectors lost give a bound or an error", test_lost), &
+                   new_unittest("refusals", test_refusals)]
+   end subroutine collect_lyapunov_spectrum
+
+   !> The oscillation of the paper.
+   pure type(spring_block_type) function oscillation() result(block)
+      block = spring_block_type(10.0_wp, 0.35_wp, 0.8_wp, 0.8_wp, 0.0_wp, 0.0_wp, 1.1_wp)
+   end function oscillation
+
+   !> A block without delay whose third vector shrinks by exp(-2e4) in a unit of time.
+   pure type(spring_block_type) function stiff(u) result(block)
+      !> Displacement for t <= 0
+      real(wp), intent(in) :: u
+
+      block = spring_block_type(0.0_wp, 0.3_wp, 0.5_wp, 100.0_wp, 0.0_wp, u, 1.0_wp)
+   end function stiff
+
+   !> Three exponents of it in four intervals of a given length, each a block.
+   pure type(growth_settings) function four_intervals(interval) result(settings)
+      !> Length of an interval
+      real(wp), intent(in) :: interval
+
+      settings = growth_settings(exponents=3, t_begin=1.0_wp, t_end=1.0_wp + 4*interval, &
+                                 t_turning=2*interval, interval=interval, blocks=4)
+   end function four_intervals
+
+   !> Twice 100 in 2 blocks of 10 intervals each are 200 in 2 blocks of 20.
+   subroutine test_two_halves(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(growth_settings) :: settings
+      type(growth_type) :: halves, whole
+      integer :: i
+
+      settings = growth_settings(exponents=4, t_begin=150.0_wp, t_end=250.0_wp, &
+                                 t_turning=50.0_wp, interval=5.0_wp, blocks=2)
+      call measure_growth(oscillation(), settings, at_tolerance(1.0e-8_wp), halves, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect(error, all(shape(halves%growth) == [4, 20]), "20 intervals")
+      call extend_growth(oscillation(), settings, at_tolerance(1.0e-8_wp), halves, failure)
+      call expect_success(error, failure)
+      settings%t_end = 350.0_wp
+      call measure_growth(oscillation(), settings, at_tolerance(1.0e-8_wp), whole, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect(error, all(shape(halves%growth) == [4, 40]), "40 intervals")
+      call expect(error, all(shape(whole%growth) == [4, 40]), "40 intervals in one go")
+      call expect_close(error, halves%interval, whole%interval, 1.0e-12_wp, "interval")
+      call expect_close(error, halves%continuation%time(1), 350.0_wp, 1.0e-10_wp, "the end")
+      do i = 1, 4
+         call expect_close(error, halves%growth(i, :), whole%growth(i, :), 1.0e-9_wp, "growth")
+      end do
+      call expect(error, halves%steps == whole%steps .and. halves%evaluations == &
+                  whole%evaluations, "as many steps and evaluations")
+   end subroutine test_two_halves
+
+   !> A time that takes 20 intervals of 4.4 goes on in as many of 4.4, not in fewer longer ones:
+   !> only so do all count alike.
+   subroutine test_uneven(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(growth_settings) :: settings
+      type(growth_type) :: measured
+      integer :: twice
+
+      settings = growth_settings(exponents=1, t_begin=100.0_wp, t_end=122.0_wp, &
+                                 interval=5.0_wp, blocks=2)
+      ! 22 in 2 blocks of at most 5: 3 each; 44 would be 5 each
+      call measure_growth(oscillation(), settings, at_tolerance(1.0e-6_wp), measured, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect(error, size(measured%growth, 2) == 6, "6 intervals")
+      do twice = 1, 2
+         call extend_growth(oscillation(), settings, at_tolerance(1.0e-6_wp), measured, failure)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         call expect(error, size(measured%growth, 2) == 6*2**twice, "twice as many intervals")
+         call expect_close(error, measured%interval, 22.0_wp/6, 1.0e-12_wp, "interval")
+         call expect_close(error, measured%continuation%time(1), 100.0_wp + 22.0_wp*2**twice, &
+                           1.0e-9_wp, "the end")
+      end do
+   end subroutine test_uneven
+
+   !> A run that ended where the vectors would begin anyway makes no difference.
+   subroutine test_undisturbed(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(continuation_type) :: arrived
+      type(failure_type), allocatable :: failure
+      type(growth_settings) :: settings
+      type(growth_type) :: one_go, two_goes
+      type(integration_result) :: outcome
+
+      settings = growth_settings(exponents=3, t_begin=150.0_wp, t_end=200.0_wp, &
+                                 t_turning=50.0_wp, interval=5.0_wp, blocks=2)
+      call measure_growth(oscillation(), settings, at_tolerance(1.0e-8_wp), one_go, failure)
+      call expect_success(error, failure)
+      call integrate(oscillation(), 0.0_wp, 100.0_wp, at_tolerance(1.0e-8_wp), outcome, failure, &
+                     continuation=arrived)
+      call expect_success(error, failure)
+      settings%t_begin = 0.0_wp
+      call measure_growth(oscillation(), settings, at_tolerance(1.0e-8_wp), two_goes, failure, &
+                          arrived)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect_close(error, two_goes%t_begin, 150.0_wp, 0.0_wp, "beginning")
+      call expect_close(error, reshape(two_goes%growth, [size(two_goes%growth)]), &
+                        reshape(one_go%growth, [size(one_go%growth)]), 0.0_wp, "growth")
+      call expect_close(error, arrived%time(1), 100.0_wp, 0.0_wp, "the run that ended")
+   end subroutine test_undisturbed
+
+   !> Vectors have no past before the delay is over: they begin then.
+   subroutine test_short_run(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(continuation_type) :: arrived
+      type(failure_type), allocatable :: failure
+      type(growth_settings) :: settings
+      type(growth_type) :: one_go, two_goes
+      type(integration_result) :: outcome
+
+      settings = growth_settings(exponents=3, t_begin=30.0_wp, t_end=60.0_wp, &
+                                 t_turning=20.0_wp, interval=5.0_wp, blocks=2)
+      call measure_growth(oscillation(), settings, at_tolerance(1.0e-8_wp), one_go, failure)
+      call expect_success(error, failure)
+      call integrate(oscillation(), 0.0_wp, 3.0_wp, at_tolerance(1.0e-8_wp), outcome, failure, &
+                     continuation=arrived)
+      call expect_success(error, failure)
+      call measure_growth(oscillation(), settings, at_tolerance(1.0e-8_wp), two_goes, failure, &
+                          arrived)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect_close(error, two_goes%t_begin, 30.0_wp, 0.0_wp, "10 and 20")
+      call expect_close(error, reshape(two_goes%growth, [size(two_goes%growth)]), &
+                        reshape(one_go%growth, [size(one_go%growth)]), 1.0e-4_wp, "growth")
+   end subroutine test_short_run
+
+   !> Steady sliding at gamma = 100: an interval of 0.02 is too long for the third vector, a part
+   !> of it is not; the exponents are the roots of the cubic.
+   subroutine test_halved_at_rest(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(exponent_type), allocatable :: exponents(:), known(:)
+      type(failure_type), allocatable :: failure
+      type(growth_settings) :: settings
+      type(growth_type) :: measured
+      real(wp), parameter :: trace = -(1.0_wp + 100.0_wp**2/0.5_wp)
+
+      settings = four_intervals(0.02_wp)
+      call measure_growth(stiff(0.0_wp), settings, at_tolerance(1.0e-8_wp, "radau9"), measured, &
+                          failure)
+      call expect_success(error, failure)
+      call exponents_at_rest(stiff(0.0_wp), 3, known, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect(error, size(known) == 2, "two roots are above -8")
+      call expect(error, all(shape(measured%growth) == [3, 4]), "growth in each of four intervals")
+      call expect(error, .not. measured%bounds, "no vector is lost")
+      call expect_between(error, measured%least_share, 1.0e-7_wp, 1.0e-2_wp, "share")
+      exponents = average_growth(measured%growth, measured%interval, settings%blocks)
+      ! a part of the vector, exp(-12.5) of which is left, is known to a tenth at least
+      call expect_close(error, exponents(3)%value/(trace - sum(known%value)), 1.0_wp, &
+                        0.1_wp/12.5_wp, "the third over the root")
+      call expect_close(error, sum(exponents(:2)%value), sum(known%value), 1.0e-2_wp, "the pair")
+   end subroutine test_halved_at_rest
+
+   !> Far from rest: the logarithm of the volume that three vectors span grows by the integral of
+   !> the divergence, -v - (gamma^2/xi)/v - dw/dt in (theta, u, w = ln v).
+   subroutine test_divergence(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(growth_settings) :: settings
+      type(growth_type) :: measured
+      type(integration_result) :: outcome
+      type(table_sampler) :: samples
+      integer, parameter :: n = 2000
+      real(wp) :: divergence, rate(0:n), w(0:n)
+      integer :: i
+
+      settings = four_intervals(0.02_wp)
+      call measure_growth(stiff(-1.0_wp), settings, at_tolerance(1.0e-8_wp, "radau9"), measured, &
+                          failure)
+      call expect_success(error, failure)
+      samples = table_sampler([index_of_ln_v], &
+                              [((1.0_wp - real(i, wp)/n)*settings%t_begin &
+                                + real(i, wp)/n*settings%t_end, i=0, n)])
+      call integrate(stiff(-1.0_wp), 0.0_wp, settings%t_end, at_tolerance(1.0e-8_wp, "radau9"), &
+                     outcome, failure, sampler=samples)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      w = samples%values(1, :)
+      rate = -exp(w) - 100.0_wp**2/0.5_wp*exp(-w)
+      ! the trapezoidal rule
+      divergence = (settings%t_end - settings%t_begin)/n*(sum(rate) - 0.5_wp*(rate(0) + rate(n))) &
+                   - (w(n) - w(0))
+      call expect(error, abs(w(n)) > 0.05_wp, "not at rest")
+      call expect(error, .not. measured%bounds, "no vector is lost")
+      call expect_close(error, sum(measured%growth)/divergence, 1.0_wp, 0.1_wp/12.5_wp, &
+                        "growth of the volume over the integral of the divergence")
+   end subroutine test_divergence
+
+   !> An interval so long that ten halvings do not help: an error, or a bound from above where that
+   !> is asked for, and the others as before.
+   subroutine test_lost(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(growth_settings) :: settings
+      type(growth_type) :: measured
+
+      settings = growth_settings(exponents=3, t_begin=1.0_wp, t_end=3.0_wp, interval=1.0_wp, &
+                                 blocks=2)
+      call measure_growth(stiff(0.0_wp), settings, at_tolerance(1.0e-4_wp, "radau5"), measured, &
+                          failure)
+      call expect_failure(error, failure, &
+                          "is left of a vector without those before it; expected > 0.001")
+      settings%bounds = .true.
+      call measure_growth(stiff(0.0_wp), settings, at_tolerance(1.0e-4_wp, "radau5"), measured, &
+                          failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect(error, measured%bounds, "it is said that there are bounds only")
+      call expect(error, all(measured%growth(3, :) < -log(1.0e3_wp)), "the third is lost")
+      call expect_between(error, sum(measured%growth(:2, :))/2, -0.3_wp, 0.1_wp, &
+                          "the pair, whose roots sum to -0.2")
+   end subroutine test_lost
+
+   !> What cannot be measured is refused in words.
+   subroutine test_refusals(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(growth_settings), parameter :: good = &
+         growth_settings(exponents=1, t_begin=1.0_wp, t_end=2.0_wp, interval=0.5_wp, blocks=2)
+      type(growth_settings) :: settings
+
+      settings = good
+      settings%exponents = 0
+      call expect_refusal("exponents: 0 asked for; at least 1 expected")
+      settings%exponents = 4
+      call expect_refusal("4 asked for of 3 equations without delay; at most as many expected")
+      settings = good
+      settings%blocks = 1
+      call expect_refusal("exponents: 1 blocks; at least 2 expected")
+      settings = good
+      settings%interval = 0.0_wp
+      call expect_refusal("exponents: interval = 0.0; > 0 expected")
+      settings = good
+      settings%t_end = 1.0_wp
+      call expect_refusal("exponents: t_end = 1.0; expected > 1.0, where the vectors begin")
+
+   contains
+
+      !> The settings are refused in these words.
+      subroutine expect_refusal(words)
+         !> The words
+         character(len=*), intent(in) :: words
+         type(failure_type), allocatable :: failure
+         type(growth_type) :: measured
+
+         call measure_growth(stiff(0.0_wp), settings, at_tolerance(1.0e-6_wp, "radau5"), &
+                             measured, failure)
+         call expect_failure(error, failure, words)
+      end subroutine expect_refusal
+   end subroutine test_refusals
+end module test_lyapunov_spectrum

@@ -1,0 +1,194 @@
+!> Blocks that come to rest, and the exponents of steady sliding.
+module test_rest
+   use dde, only: continuation_type, integrate, integration_result
+   use errors, only: failure_type => error_type, text
+   use expectations, only: expect, expect_close, expect_success
+   use exponent_averages, only: average_growth, exponent_type
+   use kinds, only: wp
+   use lapack, only: eigenvalues
+   use lyapunov_spectrum, only: growth_settings, growth_type, measure_growth
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use rest, only: comes_to_rest, exponents_at_rest
+   use solving, only: at_tolerance
+   use spring_block, only: spring_block_type
+   implicit none (type, external)
+   private
+   public :: collect_rest
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_rest(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("decay, growth and neither", test_signals), &
+                   new_unittest("roots of the cubic", test_cubic), &
+                   new_unittest("Hopf points in closed form", test_hopf_points), &
+                   new_unittest("measured exponents with delay", test_measured), &
+                   new_unittest("roots beyond the last bound", test_beyond)]
+   end subroutine collect_rest
+
+   !> A block at the steady state.
+   pure type(spring_block_type) function steady(tau, epsilon, xi, gamma) result(block)
+      !> Parameters
+      real(wp), intent(in) :: tau, epsilon, xi, gamma
+
+      block = spring_block_type(tau, epsilon, xi, gamma, 0.0_wp, 0.0_wp, 1.0_wp)
+   end function steady
+
+   !> An oscillation of ln v that grows at a rate, from an amplitude, in 400 units of time.
+   pure function oscillation(amplitude, rate) result(w)
+      !> Amplitude at the start
+      real(wp), intent(in) :: amplitude
+      !> Rate of growth
+      real(wp), intent(in) :: rate
+      real(wp) :: w(4000)
+      integer :: i
+
+      w = [(amplitude*exp(rate*0.1_wp*i)*cos(0.7_wp*0.1_wp*i), i=0, 3999)]
+   end function oscillation
+
+   !> What shrinks by a fifth from half to half, within 0.2, comes to rest, and so does what stays
+   !> within 1e-3.
+   subroutine test_signals(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: fifth = -log(0.8_wp)/200.0_wp
+      real(wp) :: constant(100)
+
+      call expect(error, comes_to_rest(oscillation(1.0_wp, -0.1_wp)), "fast decay")
+      call expect(error, comes_to_rest(oscillation(0.1_wp, -1.1_wp*fifth)), "a little over a fifth")
+      call expect(error, .not. comes_to_rest(oscillation(0.1_wp, -0.9_wp*fifth)), &
+                  "a little less than a fifth")
+      call expect(error, .not. comes_to_rest(oscillation(1.0_wp, -1.1_wp*fifth)), &
+                  "still far away")
+      call expect(error, .not. comes_to_rest(oscillation(0.1_wp, 0.0_wp)), "no decay")
+      call expect(error, .not. comes_to_rest(oscillation(0.01_wp, 0.002_wp)), "growth")
+      call expect(error, comes_to_rest(oscillation(0.9e-3_wp, 0.0_wp)), "no decay, very small")
+      call expect(error, .not. comes_to_rest(oscillation(1.1e-3_wp, 0.0_wp)), "not so small")
+      call expect(error, comes_to_rest(-oscillation(1.0_wp, -0.1_wp)), "the sign does not matter")
+      constant = 0.1_wp
+      call expect(error, .not. comes_to_rest(constant), "a constant away from 0")
+      constant = 0.0_wp
+      call expect(error, comes_to_rest(constant), "always at rest")
+   end subroutine test_signals
+
+   !> Without delay: the eigenvalues of the cubic's companion matrix by LAPACK.
+   subroutine test_cubic(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(exponent_type), allocatable :: exponents(:)
+      complex(wp), allocatable :: roots(:)
+      real(wp), parameter :: all_epsilon(3) = [-0.5_wp, 0.3_wp, 0.7_wp]
+      real(wp), parameter :: all_gamma(2) = [0.8_wp, 1.5_wp], xi = 0.8_wp
+      real(wp) :: companion(3, 3), known(3)
+      integer :: i, j
+
+      do j = 1, size(all_gamma)
+         do i = 1, size(all_epsilon)
+            associate (square => all_gamma(j)**2, epsilon => all_epsilon(i))
+               companion = 0.0_wp
+               companion(2, 1) = 1.0_wp
+               companion(3, 2) = 1.0_wp
+               companion(1, :) = -[1.0_wp + square/xi, square*(1.0_wp - epsilon/xi), square]
+               call eigenvalues(companion, roots, failure)
+               call expect_success(error, failure)
+               known = [maxval(roots%re), sum(roots%re) - maxval(roots%re) - minval(roots%re), &
+                        minval(roots%re)]
+               call exponents_at_rest(steady(0.0_wp, epsilon, xi, all_gamma(j)), 3, exponents, &
+                                      failure)
+            end associate
+            call expect_success(error, failure)
+            if (allocated(error)) return
+            call expect_close(error, exponents%value, known, 1.0e-12_wp, &
+                              "exponents at epsilon = "//text(all_epsilon(i)))
+            call expect(error, all(abs(exponents%error) <= 0.0_wp), "no error bars")
+         end do
+      end do
+   end subroutine test_cubic
+
+   !> The Hopf set in closed form: with B = xi (gamma^2 - omega^2)/(gamma^2 omega),
+   !> 1 + epsilon = sqrt((1 + omega^2) (1 + B^2)), tau = (atan B - atan omega + 2 pi k)/omega, a
+   !> pair of roots is imaginary. At the first of these delays it is the rightmost one.
+   subroutine test_hopf_points(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(exponent_type), allocatable :: exponents(:)
+      real(wp), parameter :: all_omega(3) = [0.3_wp, 0.45_wp, 0.56568542494923802_wp]
+      real(wp), parameter :: gamma = 0.8_wp, pi = acos(-1.0_wp), xi = 0.8_wp
+      real(wp) :: b, epsilon, tau
+      integer :: i, k
+
+      do i = 1, size(all_omega)
+         do k = 0, 1
+            associate (omega => all_omega(i))
+               b = xi*(gamma**2 - omega**2)/(gamma**2*omega)
+               epsilon = sqrt((1.0_wp + omega**2)*(1.0_wp + b**2)) - 1.0_wp
+               tau = (atan(b) - atan(omega) + 2.0_wp*pi*k)/omega
+            end associate
+            call exponents_at_rest(steady(tau, epsilon, xi, gamma), 12, exponents, failure)
+            call expect_success(error, failure)
+            if (allocated(error)) return
+            call expect(error, count(abs(exponents%value) <= 1.0e-9_wp) == 2, &
+                        "two zero exponents at tau = "//text(tau)//", epsilon = "//text(epsilon))
+            if (k == 0) call expect(error, all(exponents(3:)%value < -1.0e-3_wp), &
+                                    "the others negative at tau = "//text(tau))
+         end do
+      end do
+   end subroutine test_hopf_points
+
+   !> With tau = 10 exponents measured along a motion that has come to rest are the roots.
+   subroutine test_measured(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(exponent_type), allocatable :: exponents(:), measured_ones(:)
+      type(continuation_type) :: arrived
+      type(growth_type) :: measured
+      type(integration_result) :: outcome
+      type(spring_block_type) :: block
+      integer, parameter :: number = 5
+
+      block = spring_block_type(10.0_wp, 0.1_wp, 0.8_wp, 0.8_wp, 0.0_wp, 0.0_wp, 1.1_wp)
+      call integrate(block, 0.0_wp, 300.0_wp, at_tolerance(1.0e-9_wp), outcome, failure, &
+                     continuation=arrived)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call measure_growth(block, growth_settings(exponents=number, t_turning=300.0_wp, &
+                                                 t_end=1200.0_wp, interval=5.0_wp, blocks=4), &
+                          at_tolerance(1.0e-9_wp), measured, failure, arrived)
+      call expect_success(error, failure)
+      call exponents_at_rest(block, number, exponents, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect(error, size(exponents) == number, "as many exponents as asked for")
+      measured_ones = average_growth(measured%growth, measured%interval, 4)
+      call expect_close(error, measured_ones%value, exponents%value, 1.0e-3_wp, "exponents")
+   end subroutine test_measured
+
+   !> The cubic's third root is below -8 where gamma is large: two exponents are found, the others
+   !> are not made up.
+   subroutine test_beyond(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(exponent_type), allocatable :: exponents(:)
+
+      call exponents_at_rest(steady(0.0_wp, 0.3_wp, 1.0_wp, 10.0_wp), 3, exponents, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect(error, size(exponents) == 2, "two exponents")
+      ! s^3 + 101 s^2 + 70 s + 100: the pair is the quotient's by the real root
+      call expect_close(error, exponents%value, [1.0_wp, 1.0_wp]*(-0.5_wp)*(101.0_wp + real_root()), &
+                        1.0e-9_wp, "the pair")
+
+   contains
+
+      !> The real root by Newton's iteration.
+      pure real(wp) function real_root() result(s)
+         integer :: iteration
+
+         s = -101.0_wp
+         do iteration = 1, 50
+            s = s - (((s + 101.0_wp)*s + 70.0_wp)*s + 100.0_wp)/((3.0_wp*s + 202.0_wp)*s + 70.0_wp)
+         end do
+      end function real_root
+   end subroutine test_beyond
+end module test_rest
