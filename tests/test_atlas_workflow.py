@@ -1,0 +1,111 @@
+"""The atlas in the workflow: only its own rules, one job a part, and no part twice."""
+
+import re
+from pathlib import Path
+
+import attractor_tables
+import pytest
+import xarray as xr
+from attractor_surveys import atlas_groups
+from conftest import ROOT, SMOKE, Programs, rules_in
+from tables import read_table, write_table
+from write_namelist import write_groups
+
+PARTS = "results/attractors/atlas"
+RULES = {"build", "attractors_namelist", "attractors_runs", "atlas_table"}
+
+
+def parts_in(log: str) -> list[str]:
+    """Parts that a run or a dry run computes."""
+    return re.findall(rf"^ +output: {PARTS}/(\S+\.nc)$", log, flags=re.MULTILINE)
+
+
+def test_fine_atlas_is_a_target_of_its_own(project, default_config):
+    """All its parts in both planes, and nothing of it without being asked for."""
+    run = project.snakemake("--dry-run", "atlas")
+    assert run.returncode == 0, run.stdout
+    assert rules_in(run.stdout) == {*RULES, "hopf_namelist", "hopf_curves", "atlas"}
+    atlas = default_config["atlas"]
+    parts = range(1, atlas["grids"]["fine"]["parts"] + 1)
+    expected = {f"fine/{plane}/{part:04}.nc" for plane in atlas["planes"] for part in parts}
+    assert len(parts_in(run.stdout)) == len(expected)
+    assert set(parts_in(run.stdout)) == expected
+    assert "fine" not in "".join(parts_in(project.snakemake("--dry-run").stdout))
+
+
+def test_fine_atlas_resumes(scratch):
+    """Where it ended before its last part only that part is computed, to the same bytes."""
+    run = scratch.snakemake("atlas", *SMOKE)
+    assert run.returncode == 0, run.stdout
+    before = scratch.outputs()
+    assert {"figures/atlas.pdf", "figures/atlas.png", "tables/atlas-fine.tsv"} <= set(before)
+    last = [f"{PARTS}/fine/xi_08/0002.nc", "results/tables/atlas-fine.tsv"]
+    for name in (*last, "results/figures/atlas.pdf", "results/figures/atlas.png"):
+        (scratch.folder / name).unlink()
+    run = scratch.snakemake("atlas", *SMOKE)
+    assert run.returncode == 0, run.stdout
+    assert parts_in(run.stdout) == ["fine/xi_08/0002.nc"]
+    assert rules_in(run.stdout) == {"attractors_runs", "atlas_table", "atlas"}
+    assert scratch.outputs() == before
+
+
+def test_atlas_has_a_caption():
+    """That of the coarse one: the same figure."""
+    captions = [
+        (ROOT / "scripts" / f"{name}.rst").read_text() for name in ("atlas", "atlas_coarse")
+    ]
+    assert captions[0] == captions[1]
+
+
+def test_coarse_table_holds_the_grid_of_each_plane(smoke, smoke_config):
+    """Every point once, the ends of both windows among them."""
+    rows = read_table(smoke.folder / "results/tables/atlas-coarse.tsv")
+    atlas = smoke_config["atlas"]
+    grid = atlas["grids"]["coarse"]
+    assert {row["xi"] for row in rows} == {0.5, 0.8}
+    for xi in (0.5, 0.8):
+        places = [(row["epsilon"], row["tau"]) for row in rows if row["xi"] == xi]
+        assert len(places) == len(set(places)) == grid["epsilon_count"] * grid["tau_count"]
+        for axis, window in enumerate((atlas["epsilon_window"], atlas["tau_window"])):
+            values = [place[axis] for place in places]
+            assert [min(values), max(values)] == window
+
+
+def made_parts(programs: Programs, config: dict, parts: int) -> list[Path]:
+    """The coarse grid of a plane, cut into so many parts."""
+    config["atlas"]["grids"]["coarse"]["parts"] = parts
+    paths = []
+    for part in range(1, parts + 1):
+        write_groups(programs.folder / "input.nml", atlas_groups(config, "xi_05", "coarse", part))
+        paths.append(programs.folder / f"{parts}_{part}.nc")
+        run = programs.run("attractors", "input.nml", paths[-1].name)
+        assert run.returncode == 0, run.stderr
+    return paths
+
+
+@pytest.fixture
+def tiny(smoke_config) -> dict:
+    """The smoke config, to change its atlas."""
+    grids = {name: {**grid} for name, grid in smoke_config["atlas"]["grids"].items()}
+    return {**smoke_config, "atlas": {**smoke_config["atlas"], "grids": grids}}
+
+
+def test_number_of_parts_does_not_matter(programs, tiny):
+    """The tables of two cuts are the same."""
+    tables = []
+    for parts in (1, 3):
+        runs = [xr.load_dataset(path) for path in made_parts(programs, tiny, parts)]
+        tables.append(programs.folder / f"{parts}.tsv")
+        write_table(tables[-1], [row for run in runs for row in attractor_tables.rows_of(run)])
+    assert len(read_table(tables[0])) == 12
+    assert tables[0].read_bytes() == tables[1].read_bytes()
+
+
+def test_number_of_threads_does_not_matter(programs, tiny, monkeypatch):
+    """The files are the same bytes."""
+    contents = []
+    for threads in ("1", "2"):
+        monkeypatch.setenv("OMP_NUM_THREADS", threads)
+        (path,) = made_parts(programs, tiny, 1)
+        contents.append(path.read_bytes())
+    assert contents[0] == contents[1]
