@@ -18,7 +18,7 @@ from tables import read_table
 LINEAR, LARGEST = 1e-3, 0.1
 """Exponents closer to zero are coloured on a linear scale, larger ones all alike."""
 NEAR = 0.25
-"""A scene this close at the right, as a share of the axis, sends a name to the left."""
+"""A scene this close at the right, as a share of the axis, sends a name above its dot."""
 
 
 def draw(rows: list[dict], curves: list[xr.Dataset], scenes: dict[str, dict]) -> Figure:
@@ -93,17 +93,17 @@ def mark_scenes(axes: Axes, scenes: dict[str, dict], named: bool) -> None:
         axes.plot(*place, "o", color=INK, mfc="white", clip_on=False, zorder=5)
         if not named:
             continue
-        to_left = any(
+        above = any(
             0 < other["epsilon"] - place[0] < near and abs(other["tau"] - place[1]) < close
             for other in scenes.values()
         )
         axes.annotate(
             name.replace("_", " "),
             place,
-            xytext=(-4, 0) if to_left else (4, 0),
+            xytext=(0, 4) if above else (4, 0),
             textcoords="offset points",
-            ha="right" if to_left else "left",
-            va="bottom" if place[1] <= axes.get_ylim()[0] else "center",
+            ha="center" if above else "left",
+            va="bottom" if above or place[1] <= axes.get_ylim()[0] else "center",
             fontsize=7,
             path_effects=[withStroke(linewidth=2, foreground="white")],
             zorder=6,

@@ -197,6 +197,7 @@ def _contradictions(config: dict):
                     f"{place}: scene = {shown['scene']!r}; expected one of:"
                     f" {', '.join(config['scenes'])}"
                 )
+    yield from _contradictions_of_sections(config)
     for name, plane in config["hopf_curves"].items():
         place = f"config hopf_curves {name}"
         for key, least in (
@@ -215,6 +216,20 @@ def _contradictions(config: dict):
         if plane["ordinate"] == "tau" and plane["fixed"] <= 0:
             yield f"{place}: fixed (xi) = {plane['fixed']}; expected a finite number > 0"
     yield from _contradictions_of_studies(config)
+
+
+def _contradictions_of_sections(config: dict):
+    """Problems of figures that show maxima and points of sections."""
+    for row, shown in config["figures"]["true_torus"]["rows"].items():
+        scene = config["scenes"].get(shown["scene"])
+        if scene is not None and "attractors" not in scene:
+            yield (
+                f"config figures true_torus rows {row}: scene = {shown['scene']!r}; expected a"
+                " scene with the key attractors"
+            )
+    for survey in ("attractors", "route"):
+        if config[survey]["observation"]["kept"] == 0:
+            yield f"config {survey} observation: kept = 0; expected a whole number >= 1"
 
 
 def _contradictions_of_exponents(place: str, scene: dict):

@@ -5,9 +5,10 @@ import numpy as np
 from drawing import INK
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.collections import PatchCollection
 from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
+from matplotlib.patches import Patch, Rectangle
 from motion_rows import UNDECIDED, has_problem, kind_of
 
 COLOURS = {
@@ -20,6 +21,7 @@ COLOURS = {
 }
 """Kinds of cells, told apart by people who see colours differently, undecided ones by hatching."""
 HATCH = "//////"
+HATCH_GREY = "0.45"
 NO_RESULT = {"ls": "", "marker": "x", "color": INK, "ms": 3, "mew": 0.7}
 """How a point whose run failed is marked."""
 
@@ -47,9 +49,13 @@ def draw_classes(axes: Axes, rows: list[dict], ordinate: str) -> None:
     x, y, numbers = table_of(rows, ordinate, lambda row: kinds.index(kind_of(row)))
     colours = ListedColormap(list(COLOURS.values()))
     axes.pcolormesh(x, y, numbers, cmap=colours, vmin=-0.5, vmax=len(kinds) - 0.5, zorder=0)
-    unsure = np.ma.masked_where(numbers != kinds.index(UNDECIDED), numbers)
-    with mpl.rc_context({"hatch.linewidth": 0.4, "hatch.color": "0.45"}):
-        axes.pcolor(x, y, unsure, hatch=HATCH, alpha=0.0, zorder=0.5)
+    unsure = np.argwhere(numbers == kinds.index(UNDECIDED))
+    boxes = [Rectangle((x[i], y[k]), x[i + 1] - x[i], y[k + 1] - y[k]) for k, i in unsure]
+    with mpl.rc_context({"hatch.linewidth": 0.4}):
+        hatched = PatchCollection(
+            boxes, facecolor="none", edgecolor=HATCH_GREY, lw=0, hatch=HATCH, zorder=0.5
+        )
+        axes.add_collection(hatched, autolim=False)
     mark_failures(axes, rows, ordinate)
     axes.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
 
@@ -66,7 +72,7 @@ def legend_of(rows: list[dict]) -> list[Artist]:
     handles: list[Artist] = [
         Patch(
             facecolor=colour,
-            edgecolor="0.45",
+            edgecolor=HATCH_GREY,
             lw=0.4,
             label=kind,
             hatch=HATCH if kind == UNDECIDED else None,

@@ -23,9 +23,9 @@ def draw(rows: list[dict], runs: list[xr.Dataset]) -> Figure:
         3, 1, figsize=(6.7, 5.6), height_ratios=[10, 0.8, 8], sharex=True
     )
     for run in runs:
-        if "maximum" in run:
-            draw_maxima(above, run)
-    above.set(ylabel="maxima of $v$", yscale="log")
+        draw_maxima(above, run)
+    above.set_ylabel("maxima of $v$")
+    above.set_ylim(bottom=0)
     above.set_title(words(rows))
     draw_classes(strip, [{**row, "line": 0.0} for row in rows], "line")
     strip.set(yticks=[], ylabel="class")
@@ -48,7 +48,7 @@ def words(rows: list[dict]) -> str:
     """Parameters, and the classes in the order in which they are first met."""
     one = rows[0]
     line = rf"$\tau$ = {one['tau']:g}, $\xi$ = {one['xi']:g}, $\gamma$ = {one['gamma']:g}"
-    met = [rf"{name} from {epsilon:g}" for name, epsilon in first_met(rows).items()]
+    met = [rf"{name} from {epsilon:.3g}" for name, epsilon in first_met(rows).items()]
     route = ", ".join(met) if met else "no class told"
     return f"{line}: {count_in_words(rows)}\nwith growing $\\varepsilon$ first met: {route}"
 

@@ -45,7 +45,7 @@ def label_peaks(
 ) -> None:
     """A dot on each peak; its name and frequency where no higher one's are in the way.
 
-    A letter is as wide as this share of the axis.
+    Labels begin right of the axis. A letter is as wide as this share of the axis.
     """
     peaks = spectrum.drop_dims(["frequency", "base"])
     peaks = peaks.isel(peak=peaks.peak_frequency.values <= frequency_shown)
@@ -60,13 +60,14 @@ def label_peaks(
         lines = [name_of(peak)] if named else []
         lines.append(f"{place[0]:.4f}")
         half = 0.5 * letter * frequency_shown * max(map(characters, lines))
-        if any(abs(place[0] - other) < half + its_half for other, its_half in taken):
+        centre = max(place[0], half)
+        if any(abs(centre - other) < half + its_half for other, its_half in taken):
             taken.append((place[0], 0.0))
             continue
-        taken.append((place[0], half))
+        taken.append((centre, half))
         axes.annotate(
             "\n".join(lines),
-            place,
+            (centre, place[1]),
             xytext=(0, 4),
             textcoords="offset points",
             ha="center",

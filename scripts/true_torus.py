@@ -1,4 +1,4 @@
-"""Figure of the true torus: beside the paper's torus, in time, in the section, in the spectrum."""
+"""Figure of the true torus beside the paper's: in time, spectrum, section and map of maxima."""
 
 import math
 from dataclasses import dataclass
@@ -15,8 +15,9 @@ from tables import read_table
 from trajectory_rows import draw_velocity, parameters
 
 EXPONENTS = (1, 2, 3)
-LETTER = 0.0195
+LETTER = 0.0155
 """How wide a letter is, as a share of the narrower axis."""
+DOTS = {"ls": "", "marker": "o", "color": "C1", "ms": 2.5, "mew": 0}
 NUMBERS = {0: "no", 1: "one", 2: "two", 3: "three"}
 
 
@@ -32,34 +33,29 @@ class Scene:
 
 
 def draw(scenes: dict[str, Scene], end_shown: float, frequency_shown: float) -> Figure:
-    """Scenes a, b, ... below each other: v(t), under it the spectrum, beside both the section."""
-    places = [
-        line
-        for label in scenes
-        for line in ([f"v{label}", f"s{label}"], [f"p{label}", f"s{label}"])
-    ]
+    """Scenes a, b, ...: v(t), under it its spectrum, beside them the map of maxima and section."""
+    places = [[f"{kind}{label}" for kind in kinds] for label in scenes for kinds in ("vm", "ps")]
     figure, axes = plt.subplot_mosaic(
-        places,
-        figsize=(6.7, 3.5 * len(scenes)),
-        width_ratios=[1.6, 1],
-        height_ratios=[1, 1.5] * len(scenes),
+        places, figsize=(6.7, 3.6 * len(scenes)), width_ratios=[1.9, 1]
     )
     first = next(iter(scenes))
     for label, scene in scenes.items():
-        velocity, spectrum, section = (axes[f"{kind}{label}"] for kind in "vps")
+        panels = [axes[f"{kind}{label}"] for kind in "vpms"]
+        velocity, spectrum, maxima, section = panels
         last = float(scene.trajectory.time[-1])
         draw_velocity(velocity, scene.trajectory, max(0.0, last - end_shown), last)
         velocity.set_title(f"$\\bf{{{label}}}$  {words(scene)}")
         draw_spectrum(spectrum, scene.spectrum, frequency_shown)
+        draw_maxima(maxima, scene.attractors)
         draw_section(section, scene.attractors)
-        if label != first:
-            velocity.sharey(axes[f"v{first}"])
-            spectrum.sharey(axes[f"p{first}"])
-            section.sharex(axes[f"s{first}"])
-            section.sharey(axes[f"s{first}"])
-    for label in scenes:
-        # a single point is to be seen as such on the scale of the largest section
-        axes[f"s{label}"].autoscale()
+        for kind, panel in zip("vpms", panels, strict=True):
+            if label != first:
+                panel.sharey(axes[f"{kind}{first}"])
+            if label != first and kind in "ms":
+                panel.sharex(axes[f"{kind}{first}"])
+    for kind in "ms":
+        # a single point is to be seen as such on the scale of a curve
+        axes[f"{kind}{first}"].autoscale()
     return figure
 
 
@@ -79,12 +75,13 @@ def words(scene: Scene) -> str:
 
 
 def with_error(value: float, error: float) -> str:
-    """A number with its error, both to the last digit that the error lets count."""
+    """A number with its error, in the same power of ten, to the first digits of the error."""
     largest = max(abs(value), error)
     power = math.floor(math.log10(largest)) if largest > 0 else 0
     finest = math.floor(math.log10(error)) if error > 0 else power - 2
-    digits = min(max(power - finest, 0) + 1, 5)
-    scaled = f"{value / 10.0**power:.{digits}f} ± {error / 10.0**power:.{digits}f}"
+    digits = power - finest + (1 if power == finest else 0)
+    number, bar = (round(x / 10.0**power, digits) + 0.0 for x in (value, error))
+    scaled = f"{number:.{digits}f} ± {bar:.{digits}f}"
     return f"({scaled})$\\cdot 10^{{{power}}}$" if power else scaled
 
 
@@ -99,12 +96,18 @@ def draw_spectrum(axes: Axes, spectrum: xr.Dataset, frequency_shown: float) -> N
     axes.set_title(lines_in_words(spectrum))
 
 
+def draw_maxima(axes: Axes, attractors: xr.Dataset) -> None:
+    """Each maximum of v over the one before."""
+    maxima = attractors.maximum.values[0]
+    axes.plot(maxima[:-1], maxima[1:], **DOTS)
+    axes.set(xlabel="maximum of $v$", ylabel="next maximum")
+
+
 def draw_section(axes: Axes, attractors: xr.Dataset) -> None:
-    """Points of the section from the scene's own history."""
+    """Points of the section."""
     own = attractors.isel(point=0)
-    axes.plot(own.section_theta, own.section_u, "o", color="C1", ms=2, mew=0)
-    axes.set(xlabel=r"friction state $\theta$", ylabel="displacement $u$")
-    axes.set_title("section $v$ = 1, $v$ rising")
+    axes.plot(own.section_theta, own.section_u, **DOTS)
+    axes.set(xlabel=r"$\theta$ where $v$ rises through 1", ylabel="$u$ there")
 
 
 if __name__ == "__main__":

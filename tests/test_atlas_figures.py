@@ -1,0 +1,280 @@
+"""Figures of the atlas, of the true torus and of the route, from small made-up tables."""
+
+import math
+
+import atlas
+import class_map
+import numpy as np
+import pytest
+import route_to_chaos
+import true_torus
+import xarray as xr
+from config_refusals import line_about, refusal
+from drawing import STYLE
+from figure_contents import points_in, title_of, words_in
+from made_up_results import attractor_row, hopf_curve
+from matplotlib import pyplot as plt
+from matplotlib.collections import PatchCollection, QuadMesh
+from matplotlib.colors import to_rgba
+from matplotlib.figure import Figure
+from spectrum_rows import BASE, COMBINATION, HARMONIC, SECOND_BASE
+
+PLACES = {
+    "first": {"epsilon": 0.35, "tau": 10.0, "xi": 0.8},
+    "at_zero": {"epsilon": 0.3, "tau": 0.0, "xi": 0.8},
+    "first_neighbour": {"epsilon": 0.5, "tau": 10.0, "xi": 0.8},
+    "elsewhere": {"epsilon": 0.7, "tau": 7.0, "xi": 0.5},
+}
+
+
+@pytest.fixture(autouse=True)
+def _style():
+    """That of all figures, and none is left open."""
+    with plt.style.context(STYLE):
+        yield
+    plt.close("all")
+
+
+def a_row(met: str, epsilon: float, tau: float = 7.0, xi: float = 0.5, **given) -> dict:
+    """A row of the atlas or the route."""
+    place = {"epsilon": epsilon, "tau": tau, "xi": xi, "gamma": 0.8, "problem": math.nan}
+    return attractor_row(met) | place | given
+
+
+def grid_of(xi: float) -> list[dict]:
+    """Three by four points with every class, one cycle of period 3 and one failure."""
+    classes = ["fixed point", "cycle", "cycle", "torus", "chaos", "undecided"] * 2
+    places = [(e, t) for t in (0.0, 10.0, 20.0) for e in (0.0, 0.5, 1.0, 1.5)]
+    rows = [a_row(met, e, t, xi) for met, (e, t) in zip(classes, places, strict=True)]
+    rows[2]["period"] = 3.0
+    rows[11] |= {"problem": "it stopped", "exponent_1": math.nan}
+    return rows
+
+
+def curves_at(xi: float) -> xr.Dataset:
+    """A Hopf curve that changes its kind."""
+    curve = hopf_curve(xi=xi)
+    size = curve.sizes["point"]
+    l1 = np.where(np.arange(size) < size // 2, -0.1, 0.1)
+    return curve.assign(piece=("point", np.zeros(size, int)), l1=("point", l1))
+
+
+@pytest.fixture
+def drawn() -> Figure:
+    """The atlas of two planes."""
+    rows = grid_of(0.8) + grid_of(0.5)
+    figure = atlas.draw(rows, [curves_at(0.5), curves_at(0.8)], PLACES)
+    figure.canvas.draw()
+    return figure
+
+
+def assert_on_page(figure: Figure) -> None:
+    """Nothing is cut off at printed size."""
+    figure.canvas.draw()
+    box, (width, height) = figure.get_tightbbox(), figure.get_size_inches()
+    assert width <= 7.0
+    assert min(box.x0, box.y0) >= -0.02
+    assert box.x1 <= width + 0.02
+    assert box.y1 <= height + 0.02
+
+
+def test_atlas_is_on_its_page(drawn):
+    """Both planes."""
+    assert_on_page(drawn)
+
+
+def test_atlas_has_a_column_for_each_plane(drawn):
+    """Smaller xi first, with counts; below each its exponents."""
+    titles = [title_of(axes) for axes in drawn.axes[:4]]
+    assert all(r"$\xi$ = 0.5" in titles[i] for i in (0,))
+    assert r"$\xi$ = 0.8" in titles[1]
+    assert "12 points, 1 undecided, 1 failed" in titles[0]
+    assert all("largest Lyapunov exponent" in title for title in titles[2:])
+    assert r"\lambda_1" in words_in(drawn)
+
+
+def test_cells_have_the_colours_of_their_classes(drawn):
+    """Around the points, cut at the window."""
+    (mesh,) = [item for item in drawn.axes[0].collections if isinstance(item, QuadMesh)]
+    expected = [class_map.COLOURS[name] for name in ("fixed point", "cycle", "cycle of period > 1")]
+    colours = mesh.get_facecolors().reshape(3, 4, 4)
+    np.testing.assert_allclose(colours[0, :3], [to_rgba(colour) for colour in expected])
+    np.testing.assert_allclose(mesh.get_coordinates()[0, :, 0], [0, 0.25, 0.75, 1.25, 1.5])
+    np.testing.assert_allclose(mesh.get_coordinates()[:, 0, 1], [0, 5, 15, 20])
+
+
+def test_undecided_cells_are_hatched_and_failures_crossed(drawn):
+    """The failed one too is undecided; the legend names all that is there."""
+    axes = drawn.axes[0]
+    (hatched,) = [item for item in axes.collections if isinstance(item, PatchCollection)]
+    corners = {tuple(path.vertices[0]) for path in hatched.get_paths()}
+    assert corners == {(0.25, 5.0), (1.25, 15.0)}
+    for panel in (axes, drawn.axes[2]):
+        crosses = [line for line in panel.lines if line.get_marker() == "x"]
+        assert [(line.get_xdata()[0], line.get_ydata()[0]) for line in crosses] == [(1.5, 20.0)]
+    words = words_in(drawn)
+    assert all(kind in words for kind in class_map.COLOURS)
+    assert "run failed" in words
+
+
+def test_legend_names_only_what_is_there():
+    """No failure, no chaos."""
+    handles = class_map.legend_of([a_row("cycle", 0.1), a_row("torus", 0.2)])
+    assert [handle.get_label() for handle in handles] == ["cycle", "torus"]
+
+
+def test_exponents_have_one_colour_scale(drawn):
+    """White at zero, symmetric, blank where there is none."""
+    meshes = [drawn.axes[i].collections[0] for i in (2, 3)]
+    for mesh in meshes:
+        assert (mesh.norm.vmin, mesh.norm.vmax) == (-atlas.LARGEST, atlas.LARGEST)
+        middle = mesh.cmap(mesh.norm(0.0))
+        assert min(middle[:3]) > 0.9
+        values = np.ma.filled(mesh.get_array(), np.nan).ravel()
+        assert np.isnan(values[11])
+        np.testing.assert_allclose(values[:11], -0.01)
+
+
+def test_scenes_stand_in_their_own_plane(drawn):
+    """With a name in the map of classes only; curves are dashed where subcritical."""
+    there = [{(x, y) for x, y, _ in points_in(axes)} for axes in drawn.axes[:4]]
+    assert there[0] == there[2] == {(0.7, 7.0)}
+    assert there[1] == there[3] == {(0.35, 10.0), (0.3, 0.0), (0.5, 10.0)}
+    names = [{text.get_text() for text in axes.texts} for axes in drawn.axes[:4]]
+    assert names == [{"elsewhere"}, {"first", "at zero", "first neighbour"}, set(), set()]
+    styles = {line.get_linestyle() for line in drawn.axes[1].lines if line.get_marker() == "None"}
+    assert styles == {"-", "--"}
+
+
+def test_names_of_scenes_keep_clear_of_each_other(drawn):
+    """The one with a neighbour at its right stands above its dot."""
+    texts = {text.get_text(): text for text in drawn.axes[1].texts}
+    boxes = [texts[name].get_window_extent() for name in ("first", "first neighbour", "at zero")]
+    assert not any(one.overlaps(other) for one in boxes for other in boxes if one is not other)
+
+
+def test_route_shows_maxima_classes_and_exponents():
+    """Over one axis; the title tells what is met first."""
+    classes = ["cycle", "undecided", "torus", "chaos", "torus"]
+    rows = [a_row(met, 0.1 * (i + 1)) for i, met in enumerate(classes)]
+    maxima = np.full((5, 3), np.nan)
+    maxima[:, :2] = np.arange(1, 6)[:, None]
+    runs = [
+        xr.Dataset(
+            {
+                "epsilon": ("point", 0.1 * np.arange(1, 6)[part]),
+                "maximum": (("point", "kept"), maxima[part]),
+            }
+        )
+        for part in (slice(0, 2), slice(2, 5))
+    ]
+    figure = route_to_chaos.draw(rows[::-1], runs)
+    assert_on_page(figure)
+    above, strip, below = figure.axes
+    points = [point for line in above.lines for point in line.get_xydata().tolist()]
+    expected = [[0.1 * v, v] for v in range(1, 6) for _ in range(2)]
+    np.testing.assert_allclose(points, expected)
+    title = title_of(above)
+    assert "5 points, 1 undecided" in title
+    assert title.endswith("first met: cycle from 0.1, torus from 0.3, chaos from 0.4")
+    assert len(strip.collections[0].get_array().ravel()) == 5
+    assert len(below.containers) == 3
+    bars = below.containers[1].lines[2][0].get_segments()
+    np.testing.assert_allclose(sorted(bars[0][:, 1]), [-0.021, -0.019])
+
+
+def test_route_without_a_class_says_so():
+    """All undecided."""
+    assert route_to_chaos.words([a_row("undecided", 0.1)]).endswith("first met: no class told")
+
+
+def a_scene(name: str, met: str) -> true_torus.Scene:
+    """A made-up scene: one base or two."""
+    angle = 2 * np.pi * 0.6180339887 * np.arange(50)
+    size = 1.0 if met == "torus" else 0.0
+    time = np.arange(0.0, 200.0, 0.1)
+    trajectory = xr.Dataset(
+        {"v": ("time", 1 + 0.5 * np.cos(time))},
+        {"time": time},
+        {"tau": 10.0, "epsilon": 0.5, "xi": 0.8, "gamma": 0.8},
+    )
+    attractors = xr.Dataset(
+        {
+            "maximum": (("point", "kept"), [3 + size * np.cos(angle), angle]),
+            "section_theta": (("point", "kept"), [1 + size * np.cos(angle), angle]),
+            "section_u": (("point", "kept"), [2 + size * np.sin(angle), angle]),
+        },
+        attrs={"zero_level": 1e-5},
+    )
+    frequency = np.linspace(0, 1, 401)
+    two = met == "torus"
+    spectrum = xr.Dataset(
+        {
+            "power": ("frequency", 1e-9 + np.exp(-(((frequency - 0.1) / 0.01) ** 2))),
+            "peak_frequency": ("peak", [0.1, 0.26, 0.36]),
+            "peak_power": ("peak", [1.0, 0.1, 0.01]),
+            "peak_kind": ("peak", [BASE, SECOND_BASE if two else HARMONIC, COMBINATION]),
+            "peak_multiple": ("peak", [1, 0 if two else 2, 1]),
+            "peak_second_multiple": ("peak", [0, 1 if two else 0, 1]),
+            "base_frequency": ("base", [0.1, 0.26] if two else [0.1]),
+        },
+        {"frequency": frequency},
+        {"spectrum_kind": "two bases" if two else "one base"},
+    )
+    errors = {"exponent_1": 1e-6, "error_1": 0.0, "exponent_2": 2e-3 if two else -0.04}
+    row = attractor_row(met, name, **errors)
+    return true_torus.Scene(trajectory, attractors, spectrum, row)
+
+
+def test_true_torus_is_drawn_beside_the_papers():
+    """Titles from the table; the same axes for both, so that a point looks like a point."""
+    scenes = {"a": a_scene("torus", "cycle"), "b": a_scene("true_torus", "torus")}
+    figure = true_torus.draw(scenes, 50.0, 0.5)
+    assert_on_page(figure)
+    first, second = title_of(figure.axes[0]), title_of(figure.axes[4])
+    assert "scene torus (" in first
+    assert "cycle, one zero exponent\n" in first
+    assert "scene true torus (" in second
+    assert "torus, two zero exponents\n" in second
+    words = words_in(figure)
+    assert "one base frequency, $f_1$ = 0.1000, and its harmonics" in words
+    assert "two base frequencies, $f_1$ = 0.1000 and $f_2$ = 0.2600" in words
+    assert all(label in words for label in ("base $f_1$", "base $f_2$", "$f_1 + f_2$"))
+    by_label = dict(zip(("va", "ma", "pa", "sa", "vb", "mb", "pb", "sb"), figure.axes, strict=True))
+    for kind in "ms":
+        one, other = by_label[f"{kind}a"], by_label[f"{kind}b"]
+        assert (one.get_xlim(), one.get_ylim()) == (other.get_xlim(), other.get_ylim())
+        assert np.ptp(one.lines[0].get_xdata()) == 0
+        assert np.ptp(other.lines[0].get_xdata()) > 1.9
+    maxima = by_label["mb"].lines[0].get_xydata()
+    np.testing.assert_array_equal(maxima[1:, 0], maxima[:-1, 1])
+    assert by_label["va"].get_xlim() == pytest.approx((149.9, 199.9))
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "words"),
+    [
+        (-0.014042, 3e-5, r"(-1.404 ± 0.003)$\cdot 10^{-2}$"),
+        (1.2e-5, 2.1e-5, r"(1.2 ± 2.1)$\cdot 10^{-5}$"),
+        (-1e-9, 6.5e-7, r"(0.0 ± 6.5)$\cdot 10^{-7}$"),
+        (-1.77753, 0.0, "-1.78 ± 0.00"),
+    ],
+)
+def test_numbers_have_the_digits_that_their_error_lets_count(value, error, words):
+    """Of the same power of ten."""
+    assert true_torus.with_error(value, error) == words
+
+
+def test_scene_of_the_true_torus_needs_attractors(config):
+    """The line names the row."""
+    del config["scenes"]["torus"]["attractors"]
+    line = line_about(refusal(config), "scene")
+    assert line.startswith("config figures true_torus rows a: scene = 'torus'; expected ")
+
+
+@pytest.mark.parametrize("survey", ["attractors", "route"])
+def test_figures_need_points_that_are_kept(config, survey):
+    """The line names the key."""
+    config[survey]["observation"]["kept"] = 0
+    line = line_about(refusal(config), "kept")
+    assert line == f"config {survey} observation: kept = 0; expected a whole number >= 1"
