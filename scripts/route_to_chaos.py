@@ -32,7 +32,10 @@ def draw(rows: list[dict], runs: list[xr.Dataset]) -> Figure:
     strip.yaxis.label.set(rotation=0, ha="right", va="center")
     strip.tick_params(bottom=False)
     draw_exponents(below, rows)
+    first, last = below.get_xlim()
+    margin = 0.01 * (last - first)
     below.set(
+        xlim=(first - margin, last + margin),
         xlabel=r"sensitivity of the velocity relaxation $\varepsilon$",
         ylabel=r"exponent $\lambda_i$",
     )
