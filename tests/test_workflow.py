@@ -159,7 +159,7 @@ def test_every_job_has_a_log_and_every_computation_a_benchmark(smoke):
     results = smoke.folder / "results"
     computed = {path.relative_to(results) for path in results.rglob("*.nc")}
     computed |= {path.relative_to(results) for path in (results / "references").rglob("*.tsv")}
-    assert len(computed) == 17 + 2 * len(FAMILIES) - 2 + 3 * len(WORK_SCENES)
+    assert len(computed) == 33 + 2 * len(FAMILIES) - 2 + 3 * len(WORK_SCENES)
     for path in computed:
         assert (results / "logs" / path).with_suffix(".log").is_file()
         assert (results / "benchmarks" / path).with_suffix(".tsv").is_file()
@@ -179,6 +179,8 @@ def test_namelists_hold_the_config(smoke, smoke_config):
         name: {"name": name, **{key: scene[key] for key in set(scene) - OF_OTHERS}}
         for name, scene in smoke_config["scenes"].items()
     }
+    # a list of one is read as its item
+    scenes["true_torus"]["variables"] = "v"
     expected = {
         **{f"trajectories/{name}": {"scene": scene} for name, scene in scenes.items()},
         **{f"hopf/{k}": {"hopf_curves": v} for k, v in smoke_config["hopf_curves"].items()},
