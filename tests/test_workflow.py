@@ -284,15 +284,14 @@ def test_changed_scene_reruns_only_what_depends_on_it(scratch):
     assert run.returncode == 0, run.stdout
     expected = {"all", "scene_namelist", "trajectory", "spectrum", "figure_5", "figure_6"}
     expected |= {"true_torus"}
-    expected |= {"exponents_namelist", "exponents_runs", "exponents_table", "exponents", "claims"}
+    expected |= {"exponents_namelist", "exponents_runs", "exponents_table", "exponents"}
     assert rules_in(run.stdout) == expected
     after = scratch.outputs()
     assert set(after) == set(before)
     changed = {name for name in after if after[name] != before[name]}
     assert {"trajectories/torus.nc", "namelists/trajectories/torus.nml"} <= changed
     assert all(
-        "torus" in name
-        or name.startswith(("figures/figure_5", "figures/exp", "tables/exp", "tables/claims"))
+        "torus" in name or name.startswith(("figures/figure_5", "figures/exp", "tables/exp"))
         for name in changed - {"figures/figure_6.pdf", "figures/figure_6.png"}
     )
 
