@@ -1,9 +1,13 @@
-"""The program `attractors`: what it writes."""
+"""The program `attractors`: what it writes, and what a table makes of it."""
+
+import math
 
 import numpy as np
 import pytest
 import xarray as xr
+from attractor_tables import scene_rows
 from attractors_runs import OBSERVATION, good_groups, made
+from tables import read_table, write_table
 
 
 @pytest.fixture
@@ -62,6 +66,27 @@ def test_steady_sliding_has_no_maxima(programs, groups):
     for key in ("smallest_maximum", "largest_maximum", "maximum", "section_theta", "section_u"):
         assert np.isnan(found[key]).all()
     assert found.problem.str.strip().values.tolist() == [""]
+
+
+def test_table_shows_runs_that_failed_as_no_attractors(programs, groups):
+    """Empty cells where nothing was found, and the words that say why; read back the same."""
+    groups["points"] |= {"epsilon_part": [2, 2], "tau_part": [1, 1]}
+    groups["points"] |= {"theta": [0.0] * 3, "u": [0.0] * 3, "v": [1.1, 1e-300, 1.0]}
+    table = programs.folder / "table.tsv"
+    write_table(table, scene_rows("mine", made(programs, groups)))
+    at_rest, failed, steady = read_table(table)
+    assert [row["class"] for row in (at_rest, failed, steady)] == [
+        "fixed point",
+        "undecided",
+        "fixed point",
+    ]
+    assert (at_rest["attractor"], steady["attractor"]) == (1, 1)
+    assert math.isnan(at_rest["problem"])
+    assert math.isnan(at_rest["exponent_4"])
+    assert "stopped at t = " in failed["problem"]
+    for key in ("attractor", "exponent_1", "error_1", "period", "f1", "largest_maximum"):
+        assert math.isnan(failed[key])
+    assert math.isnan(steady["largest_maximum"])
 
 
 @pytest.mark.parametrize("kept", [0, 3])
