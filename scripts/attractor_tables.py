@@ -57,23 +57,24 @@ def positive(value: xr.DataArray) -> float:
 
 
 def scene_rows(scene: str, run: xr.Dataset) -> list[dict]:
-    """Rows of a scene, numbered by history and by attractor."""
+    """Rows of a scene, numbered by history and by attractor; a run that failed came to none."""
     found: list[dict] = []
     rows = []
     for history, row in enumerate(rows_of(run), start=1):
         number = next(
             (i for i, other in enumerate(found, start=1) if same_attractor(row, other)), None
         )
-        if number is None:
+        if number is None and not row["problem"]:
             found.append(row)
             number = len(found)
+        number = np.nan if number is None else number
         rows.append({"scene": scene, "history": history, "attractor": number, **row})
     return rows
 
 
 def same_attractor(one: dict, other: dict) -> bool:
     """Whether two runs came to one and the same attractor, as far as can be told."""
-    if one["class"] != other["class"]:
+    if one["class"] != other["class"] or one["problem"]:
         return False
     if one["class"] == "fixed point":
         return True

@@ -4,6 +4,7 @@ import math
 from difflib import get_close_matches
 from pathlib import Path
 
+import check_attractors
 import jsonschema
 import yaml
 from study_cases import cases_of_family
@@ -100,6 +101,7 @@ def _names_that_are_no_text(config: dict):
         ["hopf_curves"],
         ["stability", "families"],
         ["work_precision", "scenes"],
+        ["atlas", "planes"],
     ):
         named = config
         for key in path:
@@ -216,6 +218,7 @@ def _contradictions(config: dict):
         if plane["ordinate"] == "tau" and plane["fixed"] <= 0:
             yield f"{place}: fixed (xi) = {plane['fixed']}; expected a finite number > 0"
     yield from _contradictions_of_studies(config)
+    yield from check_attractors.contradictions(config)
 
 
 def _contradictions_of_sections(config: dict):

@@ -1,11 +1,282 @@
+!> Attractors of the delayed block: those of the scenes, and what cannot be told.
 module test_attractors
+   use attractors, only: attractor_settings, attractor_type, find_attractor
+   use dde, only: integration_options
+   use errors, only: failure_type => error_type
+   use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
+   use kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use motion_classes, only: chaos, class_names, cycle_motion, fixed_point, torus, undecided
+   use solving, only: at_tolerance
+   use spring_block, only: spring_block_type
    implicit none (type, external)
    private
    public :: collect_attractors
+
 contains
+
+   !> All tests of this suite.
    subroutine collect_attractors(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
-      allocate (testsuite(0))
+
+      testsuite = [new_unittest("fixed point of the paper", test_fixed_point), &
+                   new_unittest("oscillation of the paper", test_oscillation), &
+                   new_unittest("torus of the paper is a cycle", test_paper_torus), &
+                   new_unittest("chaos of the paper", test_chaos), &
+                   new_unittest("a true torus", test_true_torus), &
+                   new_unittest("another torus, time doubled", test_doublings), &
+                   new_unittest("cycle without delay", test_without_delay), &
+                   new_unittest("unstable steady sliding", test_unstable), &
+                   new_unittest("approach shorter than the delay", test_short_approach), &
+                   new_unittest("a run that ends early", test_failed_run), &
+                   new_unittest("too few samples", test_few_samples)]
    end subroutine collect_attractors
+
+   !> Settings as in the configuration, with times of a scene's own.
+   pure type(attractor_settings) function after(t_transient, t_observed) result(settings)
+      !> Time left out
+      real(wp), intent(in) :: t_transient
+      !> Time observed
+      real(wp), intent(in) :: t_observed
+
+      settings = attractor_settings(t_transient=t_transient, t_observed=t_observed, &
+                                    t_turning=0.5_wp*t_observed, interval=5.0_wp, blocks=5, &
+                                    exponents=4, zero_level=3.0e-5_wp, longest_bar=1.0e-3_wp, &
+                                    doublings=0, sample_interval=0.1_wp, window="hann", &
+                                    segments=8, overlap=0.5_wp, peak_floor=1.0e-6_wp, &
+                                    peak_prominence=10.0_wp)
+   end function after
+
+   !> A block that starts near steady sliding, gamma = 0.8.
+   pure type(spring_block_type) function disturbed(tau, epsilon, xi) result(block)
+      !> Parameters
+      real(wp), intent(in) :: tau, epsilon, xi
+
+      block = spring_block_type(tau, epsilon, xi, 0.8_wp, 0.0_wp, 0.0_wp, 1.1_wp)
+   end function disturbed
+
+   !> The attractor of a block and its four classes.
+   subroutine find(block, settings, class, found, error)
+      !> The block
+      type(spring_block_type), intent(in) :: block
+      !> How
+      type(attractor_settings), intent(in) :: settings
+      !> What all witnesses say
+      integer, intent(in) :: class
+      !> What was found
+      type(attractor_type), intent(out) :: found
+      !> The first failure of the test
+      type(error_type), allocatable, intent(inout) :: error
+      type(failure_type), allocatable :: failure
+
+      call find_attractor(block, settings, at_tolerance(1.0e-8_wp, "auto"), found, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      associate (classes => [found%class, found%by_exponents, found%by_section, found%by_spectrum])
+         call expect(error, all(classes == class), "all say "//trim(class_names(class))//" (" &
+                     //trim(class_names(classes(1)))//": "//trim(class_names(classes(2)))//", " &
+                     //trim(class_names(classes(3)))//", "//trim(class_names(classes(4)))//")")
+      end associate
+   end subroutine find
+
+   !> A cycle that meets the section once a turn: its maxima are one, and its frequency is that at
+   !> which the section is met.
+   subroutine expect_simple_cycle(error, found)
+      !> The first failure of the test
+      type(error_type), allocatable, intent(inout) :: error
+      !> The attractor
+      type(attractor_type), intent(in) :: found
+
+      if (allocated(error)) return
+      call expect(error, found%period == 1, "period 1")
+      associate (n => size(found%section_time))
+         call expect(error, size(found%section, 2) == n, "a time for each point")
+         call expect_close(error, found%bases(1)*(found%section_time(n) - found%section_time(1)), &
+                           n - 1.0_wp, 1.0e-2_wp, "turns by frequency and by passages")
+      end associate
+      call expect_close(error, found%bases(2), 0.0_wp, 0.0_wp, "second base")
+      call expect_between(error, found%line_share, 0.999_wp, 1.0_wp, "share of the lines")
+      call expect_between(error, maxval(found%maxima)/minval(found%maxima), 1.0_wp, 1.001_wp, &
+                          "largest over smallest maximum")
+      call expect_between(error, minval(found%maxima), 1.0_wp, 100.0_wp, "smallest maximum")
+   end subroutine expect_simple_cycle
+
+   !> Fig. 4a: the exponents are the roots of the cubic s^3 + 1.8 s^2 + 0.4 s + 0.64.
+   subroutine test_fixed_point(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(attractor_type) :: found
+      real(wp) :: s
+      integer :: iteration
+
+      call find(disturbed(0.0_wp, 0.3_wp, 0.8_wp), after(600.0_wp, 1000.0_wp), fixed_point, &
+                found, error)
+      if (allocated(error)) return
+      s = -2.0_wp
+      do iteration = 1, 50
+         s = s - (((s + 1.8_wp)*s + 0.4_wp)*s + 0.64_wp)/((3.0_wp*s + 3.6_wp)*s + 0.4_wp)
+      end do
+      call expect_close(error, found%exponents%value, &
+                        [-0.5_wp*(1.8_wp + s), -0.5_wp*(1.8_wp + s), s], 1.0e-12_wp, "exponents")
+   end subroutine test_fixed_point
+
+   !> Fig. 4b.
+   subroutine test_oscillation(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(attractor_type) :: found
+
+      call find(disturbed(10.0_wp, 0.35_wp, 0.8_wp), after(7000.0_wp, 3000.0_wp), cycle_motion, &
+                found, error)
+      call expect_simple_cycle(error, found)
+   end subroutine test_oscillation
+
+   !> Fig. 5a and 6b: another computation (see the README) found a cycle there.
+   subroutine test_paper_torus(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(attractor_type) :: found
+
+      call find(disturbed(10.0_wp, 0.5_wp, 0.8_wp), after(2000.0_wp, 3000.0_wp), cycle_motion, &
+                found, error)
+      call expect_simple_cycle(error, found)
+   end subroutine test_paper_torus
+
+   !> Fig. 5b and 7.
+   subroutine test_chaos(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(attractor_type) :: found
+
+      call find(disturbed(7.0_wp, 0.7_wp, 0.5_wp), after(1000.0_wp, 2000.0_wp), chaos, found, error)
+      if (allocated(error)) return
+      call expect_between(error, found%exponents(1)%value/found%exponents(1)%error, 3.0_wp, &
+                          huge(1.0_wp), "leading exponent in error bars")
+      call expect_between(error, found%roughness, 0.5_wp, 2.0_wp, "roughness")
+      call expect(error, found%period == 0, "no period")
+   end subroutine test_chaos
+
+   !> The delay of Fig. 5a made longer. The section is a closed curve.
+   subroutine test_true_torus(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(attractor_type) :: found
+
+      call find(disturbed(12.5_wp, 0.5_wp, 0.8_wp), after(15000.0_wp, 6000.0_wp), torus, found, &
+                error)
+      call expect_torus(error, found)
+   end subroutine test_true_torus
+
+   !> Two zero exponents, two bases and a smooth section.
+   subroutine expect_torus(error, found)
+      !> The first failure of the test
+      type(error_type), allocatable, intent(inout) :: error
+      !> The attractor
+      type(attractor_type), intent(in) :: found
+
+      if (allocated(error)) return
+      call expect(error, all(found%bases > 0.0_wp), "two bases")
+      call expect(error, found%period == 0, "no period")
+      call expect_between(error, found%roughness, 0.0_wp, 0.05_wp, "roughness")
+      call expect_between(error, found%line_share, 0.99_wp, 1.0_wp, "share of the lines")
+      call expect_between(error, maxval(abs(found%exponents(:2)%value)), 0.0_wp, 1.0e-3_wp, &
+                          "leading exponents")
+      call expect_between(error, found%exponents(3)%value, -1.0_wp, -1.0e-4_wp, "the third")
+   end subroutine expect_torus
+
+   !> In 1500 units of time the exponents of a torus cannot be told from zero closely enough, in
+   !> four times that they can.
+   subroutine test_doublings(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(attractor_settings) :: settings
+      type(attractor_type) :: found, longer
+
+      settings = after(3000.0_wp, 1500.0_wp)
+      settings%segments = 4
+      call find_attractor(disturbed(15.0_wp, 0.8_wp, 0.8_wp), settings, &
+                          at_tolerance(1.0e-8_wp, "auto"), found, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect(error, found%by_exponents == undecided .and. found%class == undecided, &
+                  "undecided at first")
+      call expect(error, found%by_section == torus .and. found%by_spectrum == torus, &
+                  "the others are sure")
+      settings%doublings = 2
+      call find(disturbed(15.0_wp, 0.8_wp, 0.8_wp), settings, torus, longer, error)
+      call expect_torus(error, longer)
+      if (allocated(error)) return
+      call expect_between(error, maxval(longer%exponents(:2)%error), 0.0_wp, &
+                          maxval(found%exponents(:2)%error), "error bars of the longer time")
+   end subroutine test_doublings
+
+   !> Without delay there are three exponents, however many are wanted.
+   subroutine test_without_delay(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(attractor_type) :: found
+
+      call find(disturbed(0.0_wp, 0.6_wp, 0.8_wp), after(500.0_wp, 2000.0_wp), cycle_motion, &
+                found, error)
+      call expect_simple_cycle(error, found)
+      if (allocated(error)) return
+      call expect(error, size(found%exponents) == 3, "three exponents")
+   end subroutine test_without_delay
+
+   !> A block that slides steadily for ever, though unstably, comes to no class and to no points.
+   subroutine test_unstable(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(attractor_type) :: found
+
+      call find(spring_block_type(10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp, 0.0_wp, 0.0_wp, 1.0_wp), &
+                after(100.0_wp, 500.0_wp), undecided, found, error)
+      if (allocated(error)) return
+      call expect(error, size(found%maxima) == 0 .and. size(found%section) == 0 .and. &
+                  size(found%section_time) == 0, "no events")
+   end subroutine test_unstable
+
+   !> Tangent vectors wait until the delay is over. On the way to a cycle, which is all that is seen
+   !> then, the exponents tell it, and nothing says that it is anything else.
+   subroutine test_short_approach(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(attractor_type) :: found
+
+      call find_attractor(disturbed(10.0_wp, 0.5_wp, 0.8_wp), after(4.0_wp, 3000.0_wp), &
+                          at_tolerance(1.0e-8_wp, "auto"), found, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect(error, size(found%exponents) == 4, "four exponents")
+      call expect(error, found%by_exponents == cycle_motion, "a cycle by exponents")
+   end subroutine test_short_approach
+
+   !> A run that takes too many steps is an error and leaves the class undecided, in the approach
+   !> as in the observation.
+   subroutine test_failed_run(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(attractor_type) :: found
+      type(integration_options) :: options
+      real(wp), parameter :: t_transient(2) = [100.0_wp, 0.1_wp]
+      integer :: i
+
+      do i = 1, size(t_transient)
+         options = at_tolerance(1.0e-8_wp, "auto")
+         options%most_steps = 20
+         call find_attractor(disturbed(10.0_wp, 0.5_wp, 0.8_wp), after(t_transient(i), 500.0_wp), &
+                             options, found, failure)
+         call expect_failure(error, failure, "20 steps (most_steps) were used up")
+         call expect(error, found%class == undecided .and. .not. allocated(found%exponents), &
+                     "nothing found")
+      end do
+   end subroutine test_failed_run
+
+   !> No spectrum: an error, no class.
+   subroutine test_few_samples(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(attractor_settings) :: settings
+      type(attractor_type) :: found
+
+      settings = after(200.0_wp, 500.0_wp)
+      settings%sample_interval = 500.0_wp
+      call find_attractor(disturbed(10.0_wp, 0.5_wp, 0.8_wp), settings, &
+                          at_tolerance(1.0e-6_wp, "auto"), found, failure)
+      call expect_failure(error, failure, "samples")
+      call expect(error, found%class == undecided, "undecided")
+   end subroutine test_few_samples
 end module test_attractors

@@ -175,8 +175,8 @@ contains
       call expect_success(error, failure)
       if (allocated(error)) return
       call expect(error, size(exponents) == 2, "two exponents")
-      ! s^3 + 101 s^2 + 70 s + 100: the pair is the quotient's by the real root
-      call expect_close(error, exponents%value, [1.0_wp, 1.0_wp]*(-0.5_wp)*(101.0_wp + real_root()), &
+      ! s^3 + 101 s^2 + 70 s + 100: all three sum to -101
+      call expect_close(error, exponents%value, spread(-0.5_wp*(101.0_wp + real_root()), 1, 2), &
                         1.0e-9_wp, "the pair")
 
    contains

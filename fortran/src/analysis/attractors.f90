@@ -99,6 +99,7 @@ contains
       type(event_table) :: events
       type(integration_result) :: outcome
       type(table_sampler) :: samples
+      real(wp) :: t_end
       integer :: i
 
       call integrate(block_model, 0.0_wp, settings%t_transient, options, outcome, error, &
@@ -106,12 +107,13 @@ contains
       if (allocated(error)) return
       events = event_table([index_of_ln_v, index_of_ln_v], level=[0.0_wp, 0.0_wp], &
                            direction=[1, -1], of_slope=[.false., .true.])
+      t_end = settings%t_transient + settings%t_observed
+      ! rounding may put the last one beyond the end, where there is none
       samples = table_sampler([index_of_theta, index_of_u, index_of_ln_v], &
-                              [(settings%t_transient + i*settings%sample_interval, &
+                              [(min(settings%t_transient + i*settings%sample_interval, t_end), &
                                 i=0, int(settings%t_observed/settings%sample_interval))])
       onward = arrived
-      call integrate(block_model, settings%t_transient, &
-                     settings%t_transient + settings%t_observed, options, outcome, error, &
+      call integrate(block_model, settings%t_transient, t_end, options, outcome, error, &
                      sampler=samples, watcher=events, continuation=onward)
       if (allocated(error)) return
       call keep_events(events, attractor)

@@ -2,7 +2,7 @@
 module observation_input
    use attractors, only: attractor_settings
    use dde, only: integration_options, methods
-   use errors, only: error_type, raise
+   use errors, only: error_type, raise, text
    use kinds, only: int64, wp
    use namelist_input, only: check_choice, check_count, check_number, close_namelist, not_given, &
                              open_namelist, word_length
@@ -58,7 +58,11 @@ contains
       if (allocated(error)) return
       call check_number(error, path, "number of samples t_observed/sample_interval", &
                         settings%t_observed/settings%sample_interval, at_most=most_samples)
-      if (options%most_steps < 1) call raise(error, path//": most_steps; expected >= 1")
+      if (options%most_steps < 1) then
+         call raise(error, path//": most_steps = "//text(options%most_steps) &
+                    //"; expected a whole number >= 1")
+         return
+      end if
       settings%window = trim(window)
       options%method = trim(method)
    end subroutine read_observation

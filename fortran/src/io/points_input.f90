@@ -6,15 +6,20 @@ module points_input
    use characteristic_function, only: block_parameters
    use errors, only: error_type, raise, text
    use kinds, only: wp
-   use namelist_input, only: check_count, check_number, close_namelist, not_given, open_namelist
+   use namelist_input, only: check_count, check_number, close_namelist, not_given, open_namelist, &
+                             word_length
    implicit none (type, external)
    private
    public :: points_settings, read_points
 
    !> Most histories.
    integer, parameter :: most_histories = 1000
-   !> Most points along a side of the grid.
-   integer, parameter :: most_places = 100000
+   !> Most points along a side of the grid, and most in all.
+   integer, parameter :: most_places = 100000, most_points = 1000000
+   !> Most maxima and points of the section kept of each.
+   integer, parameter :: most_kept = 100000
+   !> Longest name.
+   integer, parameter :: longest_name = 128
 
    !> Evenly spaced values of one parameter, and which of them are wanted.
    type :: axis_type
@@ -29,7 +34,7 @@ module points_input
    !> What is looked for, and what is kept of it.
    type :: points_settings
       !> Name of what the points belong to
-      character(len=64) :: name = ""
+      character(len=word_length) :: name = ""
       !> Points: epsilon runs fastest, histories slowest
       type(point_type), allocatable :: points(:)
       !> Most maxima and points of the section kept of each
@@ -51,17 +56,20 @@ contains
       integer :: histories, i, j, k
 
       call read_group(path, settings, xi, gamma, epsilon_axis, tau_axis, theta, u, v, error)
+      call check_count(error, path, "letters of name", len_trim(settings%name), at_least=1, &
+                       at_most=longest_name)
       call check_number(error, path, "xi", xi, above=0.0_wp)
       call check_number(error, path, "gamma", gamma, above=0.0_wp)
-      call check_count(error, path, "kept", settings%kept, at_least=0)
+      call check_count(error, path, "kept", settings%kept, at_least=0, at_most=most_kept)
       call check_axis(error, path, "epsilon", epsilon_axis)
       call check_axis(error, path, "tau", tau_axis)
       do i = 1, 2
          call check_number(error, path, "epsilon_window", epsilon_axis%window(i), above=-1.0_wp)
          call check_number(error, path, "tau_window", tau_axis%window(i), at_least=0.0_wp)
       end do
-      histories = count(.not. ieee_is_nan(v))
-      call check_count(error, path, "number of histories", histories, at_least=1)
+      histories = maxval([(i, i=1, most_histories)], &
+                         mask=.not. (ieee_is_nan(theta) .and. ieee_is_nan(u) .and. ieee_is_nan(v)))
+      call check_count(error, path, "number of histories", max(0, histories), at_least=1)
       do i = 1, histories
          call check_number(error, path, "theta("//text(i)//")", theta(i))
          call check_number(error, path, "u("//text(i)//")", u(i))
@@ -69,6 +77,10 @@ contains
       end do
       if (allocated(error)) return
       associate (columns => epsilon_axis%wanted, rows => tau_axis%wanted)
+         call check_number(error, path, "number of points", &
+                           real(histories, wp)*(columns(2) - columns(1) + 1) &
+                           *(rows(2) - rows(1) + 1), at_most=real(most_points, wp))
+         if (allocated(error)) return
          settings%points = [(((point_type(block_parameters(value_at(tau_axis, j), &
                                                            value_at(epsilon_axis, i), xi, gamma), &
                                           [theta(k), u(k), v(k)]), &

@@ -1,0 +1,142 @@
+"""The program `attractors`: what it writes, and what a table makes of it."""
+
+import math
+
+import numpy as np
+import pytest
+import xarray as xr
+from attractor_tables import scene_rows
+from attractors_runs import OBSERVATION, good_groups, made
+from tables import read_table, write_table
+
+
+@pytest.fixture
+def groups() -> dict[str, dict]:
+    """Namelist groups that the program accepts, to change."""
+    return good_groups()
+
+
+def test_points_are_the_rectangle_for_each_history(programs, groups):
+    """Epsilon runs fastest, histories slowest; names, flags and settings are told."""
+    found = made(programs, groups)
+    np.testing.assert_allclose(found.epsilon, [0.3, 0.5] * 4, rtol=1e-15)
+    assert found.tau.values.tolist() == [0.0, 0.0, 10.0, 10.0] * 2
+    assert found.history_theta.values.tolist() == [0.0] * 4 + [0.5] * 4
+    assert found.history_u.values.tolist() == [0.0] * 4 + [-0.5] * 4
+    assert found.history_v.values.tolist() == [1.1] * 4 + [1.5] * 4
+    meanings = "undecided fixed_point cycle torus chaos"
+    for key in ("class", "by_exponents", "by_section", "by_spectrum"):
+        assert found[key].attrs["flag_meanings"] == meanings
+        assert set(found[key].values) <= set(range(5))
+    settings = {"name": "a part", "xi": 0.8, "gamma": 0.8, "method": "auto", "tolerance": 1e-6}
+    recorded = ("t_transient", "t_observed", "t_turning", "interval", "blocks", "zero_level")
+    assert found.attrs.items() >= (settings | {key: OBSERVATION[key] for key in recorded}).items()
+    assert found.problem.str.strip().values.tolist() == [""] * 8
+
+
+def test_fixed_point_has_the_roots_and_no_more(programs, groups):
+    """Without delay three exponents, without error; maxima while it decays, NaN beyond them."""
+    groups["points"] |= {"epsilon_part": [2, 2], "tau_part": [1, 1]}
+    found = made(programs, groups)
+    assert found["class"].values.tolist() == [1, 1]
+    roots = np.roots([1, 1.8, 0.64 + 0.8 - 1.3 * 0.8, 0.64])
+    for point in range(2):
+        np.testing.assert_allclose(
+            found.lyapunov_exponent[point, :3], np.sort(roots.real)[::-1], atol=1e-12
+        )
+    assert found.lyapunov_error[:, :3].values.tolist() == [[0.0] * 3] * 2
+    assert np.isnan(found.lyapunov_exponent[:, 3]).all()
+    assert np.isnan(found.lyapunov_error[:, 3]).all()
+    assert found.period.values.tolist() == found.base_1.values.tolist() == [0, 0]
+    for variable in (found.maximum, found.section_theta, found.section_u):
+        kept = np.isfinite(variable).sum("kept")
+        assert (kept > 5).all()
+        assert (kept < 100).all()
+        assert np.isfinite(variable.values[0, : int(kept[0])]).all()
+    np.testing.assert_array_equal(found.maximum.min("kept"), found.smallest_maximum)
+    np.testing.assert_array_equal(found.maximum.max("kept"), found.largest_maximum)
+
+
+def test_steady_sliding_has_no_maxima(programs, groups):
+    """NaN where nothing was found, 0 points of a cycle, and no problem."""
+    groups["points"] |= {"epsilon_part": [2, 2], "tau_part": [1, 1]}
+    groups["points"] |= {"theta": [0.0], "u": [0.0], "v": [1.0]}
+    found = made(programs, groups)
+    assert found["class"].values.tolist() == [1]
+    for key in ("smallest_maximum", "largest_maximum", "maximum", "section_theta", "section_u"):
+        assert np.isnan(found[key]).all()
+    assert found.problem.str.strip().values.tolist() == [""]
+
+
+def test_table_shows_runs_that_failed_as_no_attractors(programs, groups):
+    """Empty cells where nothing was found, and the words that say why; read back the same."""
+    groups["points"] |= {"epsilon_part": [2, 2], "tau_part": [1, 1]}
+    groups["points"] |= {"theta": [0.0] * 3, "u": [0.0] * 3, "v": [1.1, 1e-300, 1.0]}
+    table = programs.folder / "table.tsv"
+    write_table(table, scene_rows("mine", made(programs, groups)))
+    at_rest, failed, steady = read_table(table)
+    assert [row["class"] for row in (at_rest, failed, steady)] == [
+        "fixed point",
+        "undecided",
+        "fixed point",
+    ]
+    assert (at_rest["attractor"], steady["attractor"]) == (1, 1)
+    assert math.isnan(at_rest["problem"])
+    assert math.isnan(at_rest["exponent_4"])
+    assert "stopped at t = " in failed["problem"]
+    for key in ("attractor", "exponent_1", "error_1", "period", "f1", "largest_maximum"):
+        assert math.isnan(failed[key])
+    assert math.isnan(steady["largest_maximum"])
+
+
+@pytest.mark.parametrize("kept", [0, 3])
+def test_the_last_points_are_kept(programs, groups, kept):
+    """As many as are wanted, or none at all."""
+    groups["points"] |= {"epsilon_part": [3, 3], "tau_part": [2, 2]}
+    whole = made(programs, groups)
+    groups["points"]["kept"] = kept
+    found = made(programs, groups)
+    for key in ("maximum", "section_theta", "section_u"):
+        if kept == 0:
+            assert key not in found
+            continue
+        for point in range(2):
+            values = whole[key][point].values
+            last = values[np.isfinite(values)][-kept:]
+            np.testing.assert_array_equal(found[key][point], last)
+
+
+def test_run_that_cannot_be_finished_is_undecided(programs, groups):
+    """It is said why; the others are as they would be without it."""
+    groups["points"]["v"] = [1.1, 1e-300]
+    found = made(programs, groups)
+    assert found["class"].values[4:].tolist() == [0] * 4
+    assert all("stopped at t = " in str(words) for words in found.problem.values[4:])
+    for key in ("lyapunov_exponent", "lyapunov_error", "maximum", "section_theta", "section_u"):
+        assert np.isnan(found[key][4:]).all()
+    assert np.isnan(found.smallest_maximum[4:]).all()
+    assert found.base_1[4:].values.tolist() == [0.0] * 4
+    groups["points"] |= {"theta": [0.0], "u": [0.0], "v": [1.1]}
+    alone = made(programs, groups)
+    xr.testing.assert_identical(
+        alone.drop_vars("problem"), found.drop_vars("problem").isel(point=slice(4))
+    )
+    assert found.problem[:4].str.strip().values.tolist() == [""] * 4
+
+
+def test_steps_that_run_out_are_told_at_each_point(programs, groups):
+    """The file is written all the same."""
+    groups["observation"]["most_steps"] = 5
+    found = made(programs, groups)
+    assert set(found["class"].values) == {0}
+    assert all("5 steps (most_steps) were used up" in str(words) for words in found.problem.values)
+
+
+def test_same_bytes_in_one_thread_and_in_two(programs, groups, monkeypatch):
+    """And when run again."""
+    contents = set()
+    for threads in ("1", "2", "2"):
+        monkeypatch.setenv("OMP_NUM_THREADS", threads)
+        made(programs, groups)
+        contents.add(programs.output.read_bytes())
+    assert len(contents) == 1
