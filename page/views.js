@@ -13,6 +13,11 @@ function rowsOf(run) {
   return v.map((value, i) => [run.start + i * run.step, value, u[i]]);
 }
 
+function legendOf(legend) {
+  const lines = legend.series.map((line) => `${line.dashHTML} ${line.labelHTML}${line.yHTML ? ` = ${line.yHTML}` : ""}`);
+  return [legend.xHTML ? `t = ${legend.xHTML}` : "", ...lines].join(" &nbsp; ");
+}
+
 function trajectoryView(view, runs) {
   const plot = view.querySelector(".plot");
   const read = view.querySelector(".read");
@@ -21,6 +26,7 @@ function trajectoryView(view, runs) {
     colors: ["#0072B2", "#D55E00"],
     labelsDiv: view.querySelector(".values"),
     legend: "always",
+    legendFormatter: legendOf,
     xlabel: "time t",
     digitsAfterDecimal: 4,
     strokeWidth: 1,

@@ -121,7 +121,9 @@ def survey_groups(wildcards):
         groups = attractor_surveys.route_groups(config, int(wildcards.part))
     else:
         _, grid, plane = wildcards.survey.split("/")
-        groups = attractor_surveys.atlas_groups(config, plane, grid, int(wildcards.part))
+        groups = attractor_surveys.atlas_groups(
+            config, plane, grid, int(wildcards.part)
+        )
     return {"runs": groups}
 
 
@@ -208,7 +210,9 @@ def on_page(*figures):
     for name in (name for name in figures if name in FIGURES):
         its_rule = getattr(rules, name).rule
         shown_as = its_rule.output.png.flags["report"]
-        data = [str(path) for path in its_rule.input if str(path).startswith("results/")]
+        data = [
+            str(path) for path in its_rule.input if str(path).startswith("results/")
+        ]
         shown.append(
             {
                 "name": name,
@@ -220,11 +224,23 @@ def on_page(*figures):
     return shown
 
 
+def tables_of(figure):
+    """Tables that a figure draws, none where there is no such figure."""
+    return [
+        path
+        for shown in on_page(figure)
+        for path in shown["data"]
+        if path.endswith(".tsv")
+    ]
+
+
 def trajectories_on_page():
     """Trajectory files that can be zoomed into: those that figures draw."""
     drawn = (path for figure in on_page(*FIGURES) for path in figure["data"])
     return list(
-        dict.fromkeys(path for path in drawn if path.startswith("results/trajectories/"))
+        dict.fromkeys(
+            path for path in drawn if path.startswith("results/trajectories/")
+        )
     )
 
 

@@ -15,7 +15,7 @@ rule page:
         claims="results/tables/claims.json",
         attractors=LEDGER_TABLES["attractors"],
         trajectories=trajectories_on_page(),
-        atlas=[table for figure in on_page("atlas_coarse") for table in figure["data"]],
+        atlas=tables_of("atlas_coarse"),
         captions=[figure["caption"] for figure in on_page(*FIGURES)],
         readme="README.md",
         template="page/index.html.jinja",
@@ -36,4 +36,4 @@ rule page:
         benchmarks=patterns_of_benchmarks(),
         commit=commit_at_work(),
     script:
-        "../scripts/page.py"
+        "../scripts/write_page.py"

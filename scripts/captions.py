@@ -26,7 +26,7 @@ def as_html(path: str | Path) -> str:
 
 def as_words(markup: str) -> str:
     """The text of some HTML on one line, formulas in plain signs without spaces."""
-    closed = re.sub(r"<math.*?</math>", lambda formula: _closed(formula[0]), markup, flags=re.DOTALL)
+    closed = re.sub(r"(?s)<math.*?</math>", lambda formula: _closed(formula[0]), markup)
     return " ".join(html.unescape(re.sub(r"<[^>]*>", "", closed)).split())
 
 

@@ -7,6 +7,9 @@ from pathlib import Path
 import captions
 from claims_results import VERDICTS
 
+LAST = "Solver"
+"""The category of figures that stands at the end: it is not about the paper."""
+
 
 def relative(path: str) -> str:
     """A file in results/ as the page links to it."""
@@ -19,7 +22,7 @@ def title_of(figure: str) -> str:
 
 
 def sections(figures: list[dict], claims: list[dict]) -> dict[str, list[dict]]:
-    """Figures by category, in order, each with all that stands beside it.
+    """Figures by category, in order but for the last, each with all that stands beside it.
 
     A figure is given by its `name`, `category`, `caption` (a file) and `data` (files).
     """
@@ -36,7 +39,7 @@ def sections(figures: list[dict], claims: list[dict]) -> dict[str, list[dict]]:
             "data": [relative(path) for path in figure["data"]],
         }
         grouped.setdefault(figure["category"], []).append(section)
-    return grouped
+    return dict(sorted(grouped.items(), key=lambda item: item[0] == LAST))
 
 
 def claims_by_figure(figures: list[dict], claims: list[dict]) -> dict[str, list[dict]]:

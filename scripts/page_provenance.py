@@ -37,20 +37,21 @@ def seconds(patterns: dict[str, str]) -> list[dict]:
 
     What was not run here has no file and no row.
     """
-    rows = []
-    for rule, pattern in patterns.items():
-        runs = [run for path in measured(pattern) for run in read_benchmark(path)]
-        if runs:
-            rows.append(
-                {
-                    "rule": rule,
-                    "jobs": len(runs),
-                    "seconds": sum(float(run["s"]) for run in runs),
-                    "longest": max(float(run["s"]) for run in runs),
-                    "memory": max((float(run["max_rss"]) for run in runs if known(run)), default=None),
-                }
-            )
-    return rows
+    runs_of = {
+        rule: [run for path in measured(pattern) for run in read_benchmark(path)]
+        for rule, pattern in patterns.items()
+    }
+    return [
+        {
+            "rule": rule,
+            "jobs": len(runs),
+            "seconds": sum(float(run["s"]) for run in runs),
+            "longest": max(float(run["s"]) for run in runs),
+            "memory": max((float(run["max_rss"]) for run in runs if known(run)), default=None),
+        }
+        for rule, runs in runs_of.items()
+        if runs
+    ]
 
 
 def measured(pattern: str) -> list[Path]:

@@ -21,7 +21,9 @@ def parameters(values: dict) -> str:
 
 
 def verdict(row: dict) -> str:
-    """Class and exponents of a row of a table of attractors."""
+    """Class and exponents of a row of a table of attractors; why there are none."""
+    if isinstance(row["problem"], str):
+        return f"no result: {row['problem']}"
     met = row["class"]
     if met == "cycle" and row["period"] > 1:
         met = f"cycle of period {row['period']:g} in its section"

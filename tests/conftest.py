@@ -77,7 +77,13 @@ class Project:
         results = self.folder / "results"
         files = [path for path in results.rglob("*") if path.is_file()]
         names = {path.relative_to(results).as_posix(): path for path in files}
-        changing = ("logs/", "benchmarks/", "measurements/", "figures/work_precision")
+        changing = (
+            "logs/",
+            "benchmarks/",
+            "measurements/",
+            "figures/work_precision",
+            "index.html",
+        )
         return {n: timeless(path) for n, path in names.items() if not n.startswith(changing)}
 
 
@@ -202,7 +208,8 @@ def programs(smoke, tmp_path) -> Programs:
 
 def of_trajectory(config: dict, scene: str) -> dict:
     """What the namelist of a scene's trajectory holds of the configuration."""
-    return {key: value for key, value in config["scenes"][scene].items() if key not in ("exponents", "attractors")}
+    studies = ("exponents", "attractors")
+    return {key: value for key, value in config["scenes"][scene].items() if key not in studies}
 
 
 @pytest.fixture

@@ -43,14 +43,14 @@ def figures(smoke, smoke_config, tmp_path_factory) -> dict[int, Figure]:
     with pytest.MonkeyPatch.context() as patch:
         for number in NUMBERS:
 
-            def keep(figure, pdf, png, number=number):
+            def keep(figure, output, number=number):
                 figure.canvas.draw()
                 drawn[number] = figure
 
             patch.setattr(drawing, "save", keep)
             inputs = script_inputs(smoke, smoke_config, number)
             inputs.log = [folder / f"{number}.log"]
-            inputs.output = SimpleNamespace(pdf="figure.pdf", png="figure.png")
+            inputs.output = SimpleNamespace()
             script = ROOT / "scripts" / f"figure_{number}.py"
             runpy.run_path(str(script), {"snakemake": inputs}, "__main__")
             assert inputs.log[0].read_text() == ""

@@ -40,6 +40,7 @@ def emulate(chrome: Chrome, width: int, **media: str) -> None:
     """A window of this width and a reader of these wishes."""
     size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}
     chrome.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    chrome.execute_cdp_cmd("Emulation.setScrollbarsHidden", {"hidden": True})
     wishes = {
         "media": media.get("media", ""),
         "features": [{"name": "prefers-color-scheme", "value": media.get("scheme", "light")}],
@@ -48,9 +49,11 @@ def emulate(chrome: Chrome, width: int, **media: str) -> None:
 
 
 def photograph(chrome: Chrome, path: Path) -> None:
-    """The whole page, not only what the window shows."""
+    """The whole page, from its top, not only what the window shows."""
+    chrome.execute_script("window.scrollTo(0, 0)")
     wanted = {"captureBeyondViewport": True, "format": "png"}
-    path.write_bytes(base64.b64decode(chrome.execute_cdp_cmd("Page.captureScreenshot", wanted)["data"]))
+    picture = chrome.execute_cdp_cmd("Page.captureScreenshot", wanted)["data"]
+    path.write_bytes(base64.b64decode(picture))
 
 
 def too_wide(chrome: Chrome) -> int:
@@ -98,7 +101,8 @@ def of_trajectories(chrome: Chrome) -> dict | None:
         said.append(view.find_element(By.CSS_SELECTOR, ".read").text)
     plot = view.find_element(By.CSS_SELECTOR, ".plot")
     ticks = [axis_labels(plot)]
-    ActionChains(chrome).move_to_element(plot).click_and_hold().move_by_offset(60, 0).release().perform()
+    drag = ActionChains(chrome).move_to_element(plot).click_and_hold().move_by_offset(60, 0)
+    drag.release().perform()
     ticks.append(axis_labels(plot))
     view.find_element(By.TAG_NAME, "button").click()
     ticks.append(axis_labels(plot))
@@ -147,7 +151,8 @@ def visit(chrome: Chrome, page: Path, folder: Path) -> dict:
     """All that is looked at, in an order in which no look disturbs the next."""
     emulate(chrome, WIDTHS[-1])
     chrome.get(page.resolve().as_uri())
-    seen = {**chrome.execute_script(FACTS), "keyboard": by_keyboard(chrome), "too_wide": {}, "axe": {}}
+    seen = {**chrome.execute_script(FACTS), "too_wide": {}, "axe": {}}
+    seen |= {"keyboard": by_keyboard(chrome)}
     seen |= {"trajectories": of_trajectories(chrome), "atlas": of_atlas(chrome)}
     for details in chrome.find_elements(By.TAG_NAME, "summary"):
         details.click()
@@ -156,7 +161,7 @@ def visit(chrome: Chrome, page: Path, folder: Path) -> dict:
             emulate(chrome, width, scheme=scheme)
             seen["too_wide"][f"{scheme} {width}"] = too_wide(chrome)
             photograph(chrome, folder / f"{scheme}-{width}.png")
-            seen["axe"][f"{scheme} {width}"] = violations(chrome)
+        seen["axe"][scheme] = violations(chrome)
     emulate(chrome, 700, media="print")
     seen["too_wide"]["print"] = too_wide(chrome)
     photograph(chrome, folder / "print.png")

@@ -38,7 +38,7 @@ def content(given, params) -> dict:
         "unplaced": page_content.claims_by_figure(params.figures, claims)[""],
         "verdicts": page_content.tally(claims),
         "trajectories": [page_views.trajectory(run, attractors) for run in runs],
-        "atlas": page_views.atlas(read_table(given.atlas)) if given.get("atlas") else [],
+        "atlas": page_views.atlas([row for table in given.atlas for row in read_table(table)]),
         "commit": params.commit,
         "programs": page_provenance.programs([p for p in data if p.endswith(".nc")]),
         "packages": page_provenance.packages(),
