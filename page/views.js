@@ -8,9 +8,12 @@ function numbers(text) {
 }
 
 function rowsOf(run) {
-  const v = numbers(run.v);
-  const u = numbers(run.u);
-  return v.map((value, i) => [run.start + i * run.step, value, u[i]]);
+  const [first, ...others] = Object.values(run.series).map(numbers);
+  return first.map((value, i) => [run.start + i * run.step, value, ...others.map((other) => other[i])]);
+}
+
+function labelsOf(run) {
+  return ["t", ...Object.keys(run.series)];
 }
 
 function legendOf(legend) {
@@ -22,7 +25,7 @@ function trajectoryView(view, runs) {
   const plot = view.querySelector(".plot");
   const read = view.querySelector(".read");
   const graph = new Dygraph(plot, rowsOf(runs[0]), {
-    labels: ["t", "v", "u"],
+    labels: labelsOf(runs[0]),
     colors: ["#0072B2", "#D55E00"],
     labelsDiv: view.querySelector(".values"),
     legend: "always",
@@ -33,7 +36,7 @@ function trajectoryView(view, runs) {
     axisLabelFontSize: 13,
   });
   function show(run) {
-    graph.updateOptions({ file: rowsOf(run), dateWindow: null, valueRange: null });
+    graph.updateOptions({ file: rowsOf(run), labels: labelsOf(run), dateWindow: null, valueRange: null });
     const thinned = run.every > 1 ? ` One sample in ${run.every} is drawn.` : "";
     read.textContent = `${run.words}.${thinned}`;
   }

@@ -9,6 +9,8 @@ from tables import as_text
 
 SHOWN = 1000.0
 """Time up to the end of a run that can be zoomed into."""
+DRAWN = ["v", "u"]
+"""Variables that are drawn, as far as the scene's file has them."""
 MOST_POINTS = 12_000
 """Of a trajectory; of longer ones every second, third, ... sample is kept."""
 SIGNS = {"epsilon": "ε", "tau": "τ", "xi": "ξ", "gamma": "γ"}
@@ -35,6 +37,11 @@ def verdict(row: dict) -> str:
     return f"{met}; exponents {', '.join(exponents) or 'not known'}"
 
 
+def can_be_drawn(run: xr.Dataset) -> bool:
+    """Whether a scene keeps something to draw."""
+    return any(name in run for name in DRAWN)
+
+
 def trajectory(run: xr.Dataset, attractors: list[dict]) -> dict:
     """The last part of a run, thinned, with what is known of it."""
     scene = run.attrs["scene"]
@@ -42,15 +49,15 @@ def trajectory(run: xr.Dataset, attractors: list[dict]) -> dict:
     shown = run.sel(time=slice(max(0.0, end - SHOWN), end))
     every = math.ceil(shown.sizes["time"] / MOST_POINTS)
     shown = shown.isel(time=slice(None, None, every))
-    (own,) = [row for row in attractors if row["scene"] == scene and row["history"] == 1]
+    own = [row for row in attractors if row["scene"] == scene and row["history"] == 1]
+    known = verdict(own[0]) if own else "its attractor was not looked for"
     return {
         "name": scene.replace("_", " "),
-        "words": f"{parameters(run.attrs)}: {verdict(own)}",
+        "words": f"{parameters(run.attrs)}: {known}",
         "every": every,
         "start": float(shown.time[0]),
         "step": every * run.attrs["sample_interval"],
-        "v": as_base64(shown.v.values),
-        "u": as_base64(shown.u.values),
+        "series": {name: as_base64(shown[name].values) for name in DRAWN if name in shown},
     }
 
 

@@ -37,7 +37,9 @@ def content(given, params) -> dict:
         "figures": figures,
         "unplaced": page_content.claims_by_figure(params.figures, claims)[""],
         "verdicts": page_content.tally(claims),
-        "trajectories": [page_views.trajectory(run, attractors) for run in runs],
+        "trajectories": [
+            page_views.trajectory(run, attractors) for run in runs if page_views.can_be_drawn(run)
+        ],
         "atlas": page_views.atlas([row for table in given.atlas for row in read_table(table)]),
         "commit": params.commit,
         "programs": page_provenance.programs([p for p in data if p.endswith(".nc")]),

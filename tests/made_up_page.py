@@ -52,13 +52,17 @@ def content(**given) -> dict:
     claims = [claim(f"claim {i}", verdict) for i, verdict in enumerate(VERDICTS)]
     claims.append(claim("beside", look_at="results/figures/figure_1.png"))
     cells = [attractor(0.1 * i, float(j)) for j in range(3) for i in range(4)]
-    own = [{**attractor(0.5, 10.0), "scene": "my_scene", "history": 1.0}]
+    own = [
+        {**attractor(0.5, 10.0), "scene": scene, "history": 1.0}
+        for scene in ("my_scene", "without_u")
+    ]
+    runs = [run(), run().drop_vars("u").assign_attrs(scene="without_u", tau=11.0)]
     return {
         "opening": "What it is about.",
         "figures": page_content.sections(figures, claims),
         "unplaced": page_content.claims_by_figure(figures, claims)[""],
         "verdicts": page_content.tally(claims),
-        "trajectories": [page_views.trajectory(run(), own)],
+        "trajectories": [page_views.trajectory(one, own) for one in runs],
         "atlas": page_views.atlas(cells),
         "commit": "unknown",
         "programs": [{"version": "1.0", "compiler": "a compiler", "files": 2}],

@@ -22,8 +22,6 @@ from jinja2 import UndefinedError
 from made_up_page import attractor, claim, content, figure, run
 from test_workflow import FIGURES
 
-STYLE = (ROOT / "page" / "style.css").read_text()
-
 
 class Elements(HTMLParser):
     """Elements of a page with their attributes, and its text."""
@@ -116,7 +114,7 @@ def test_trajectory_is_thinned_to_its_last_part():
     other = {**own, "history": 2.0, "class": "chaos"}
     shown = page_views.trajectory(run(), [other, own])
     assert (shown["start"], shown["every"], shown["step"]) == (500.0, 2, 0.1)
-    v = np.frombuffer(base64.b64decode(shown["v"]), "<f4")
+    v = np.frombuffer(base64.b64decode(shown["series"]["v"]), "<f4")
     np.testing.assert_allclose(v, 1 + 0.5 * np.cos(500 + 0.1 * np.arange(10001)), atol=1e-6)
     assert shown["words"] == (
         "ε = 0.5, τ = 10, ξ = 0.8, γ = 0.8: cycle;"
@@ -129,7 +127,22 @@ def test_short_trajectory_is_shown_whole():
     own = {**attractor(0.5, 10.0), "scene": "my_scene", "history": 1.0}
     shown = page_views.trajectory(run(count=101), [own])
     assert (shown["start"], shown["every"]) == (0.0, 1)
-    assert len(base64.b64decode(shown["u"])) == 4 * 101
+    assert len(base64.b64decode(shown["series"]["u"])) == 4 * 101
+
+
+def test_scene_that_keeps_less_is_drawn_as_far_as_it_goes():
+    """Without u, v alone; with neither there is nothing to draw."""
+    own = {**attractor(0.5, 10.0), "scene": "my_scene", "history": 1.0}
+    without_u = run(count=101).drop_vars("u")
+    assert list(page_views.trajectory(without_u, [own])["series"]) == ["v"]
+    assert page_views.can_be_drawn(without_u)
+    assert not page_views.can_be_drawn(without_u.drop_vars("v"))
+
+
+def test_scene_whose_attractor_is_unknown_says_so():
+    """It is still drawn."""
+    words = page_views.trajectory(run(count=101), [])["words"]
+    assert words.endswith("γ = 0.8: its attractor was not looked for")
 
 
 def test_atlas_has_a_map_for_each_stiffness():
@@ -241,59 +254,3 @@ def test_provenance_is_told(smoke, smoke_page):
     assert "Commit unknown." in " ".join(smoke_page.text.split())
     rows = [given for tag, given in smoke_page.found if tag == "th" and given.get("scope") == "row"]
     assert len(rows) > 8
-
-
-def colours(number: int) -> dict[str, str]:
-    """The colours by name: 0 light, 1 dark, 2 on paper, where light ones go on."""
-    blocks = re.findall(r":root \{([^}]*)\}", STYLE)
-    found = [dict(re.findall(r"--([\w-]+): (#\w{6});", block)) for block in blocks]
-    assert len(found) == 3
-    return found[0] | found[number]
-
-
-def pairs() -> set[tuple[str, str]]:
-    """Names of colours of text and of what is behind it, in the rules of the style sheet.
-
-    Text of a rule without a background stands on the page or on a card.
-    """
-    found = set()
-    for _, body in re.findall(r"([^{}]+)\{([^{}]*)\}", STYLE):
-        text = re.search(r"(?<![\w-])color: var\(--([\w-]+)\)", body)
-        behind = re.search(r"background: var\(--([\w-]+)\)", body)
-        if text and text[1] != "figure-text":
-            found |= {(text[1], name) for name in ([behind[1]] if behind else ["page", "card"])}
-        elif text:
-            found.add((text[1], "figure"))
-    return found
-
-
-def luminance(colour: str) -> float:
-    """Relative luminance as WCAG 2 defines it."""
-    parts = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
-    linear = [x / 12.92 if x <= 0.04045 else ((x + 0.055) / 1.055) ** 2.4 for x in parts]
-    return float(np.dot([0.2126, 0.7152, 0.0722], linear))
-
-
-def contrast(one: str, other: str) -> float:
-    """Ratio of contrast of two colours."""
-    low, high = sorted([luminance(one), luminance(other)])
-    return (high + 0.05) / (low + 0.05)
-
-
-def test_contrast_by_known_values():
-    """The extremes, and the grey that just passes on white."""
-    assert contrast("#000000", "#ffffff") == pytest.approx(21)
-    assert contrast("#767676", "#ffffff") == pytest.approx(4.54, abs=0.005)
-
-
-@pytest.mark.parametrize("number", [0, 1, 2], ids=["light", "dark", "paper"])
-def test_text_can_be_read(number):
-    """Contrast of 4.5 or more for each text on what is behind it (WCAG 2, AA)."""
-    found = colours(number)
-    assert len(pairs()) >= 10
-    low = {
-        pair: contrast(found[pair[0]], found[pair[1]])
-        for pair in pairs()
-        if contrast(found[pair[0]], found[pair[1]]) < 4.5
-    }
-    assert low == {}
