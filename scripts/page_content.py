@@ -51,13 +51,11 @@ def claims_by_figure(figures: list[dict], claims: list[dict]) -> dict[str, list[
 
 
 def figure_of(claim: dict, figures: list[dict]) -> str:
-    """The figure to look at, else one drawn from the table to look at, else the paper's own."""
-    by_table = {path: figure["name"] for figure in figures for path in figure["data"]}
+    """The figure to look at, or that of the table to look at, by its name; else the paper's own."""
     names = {figure["name"] for figure in figures}
     own = re.search(r"Figure (\d+)", claim["place"])
     candidates = [
-        Path(claim["look_at"]).stem,
-        by_table.get(claim["look_at"], ""),
+        Path(claim["look_at"]).stem.replace("-", "_"),
         f"figure_{own[1]}" if own else "",
     ]
     return next((name for name in candidates if name in names), "")

@@ -76,7 +76,7 @@ def test_caption_that_cannot_be_read_is_an_error(tmp_path):
     ("given", "expected"),
     [
         ({"look_at": "results/figures/figure_3.png", "place": "Figure 2"}, "figure_3"),
-        ({"look_at": "results/tables/a.tsv", "place": "below Figure 2"}, "route"),
+        ({"look_at": "results/tables/to-chaos.tsv", "place": "below Figure 2"}, "to_chaos"),
         ({"look_at": "results/tables/b.tsv", "place": "abstract; below Figure 2"}, "figure_2"),
         ({"look_at": "results/tables/b.tsv", "place": "Figure 3b"}, "figure_3"),
         ({"look_at": "results/tables/b.tsv", "place": "Figure 9"}, ""),
@@ -84,9 +84,9 @@ def test_caption_that_cannot_be_read_is_an_error(tmp_path):
     ],
 )
 def test_claim_stands_beside_one_figure(given, expected):
-    """The one to look at, one drawn from that table, the paper's own, or none."""
+    """The one to look at, that of the table to look at, the paper's own, or none."""
     figures = [figure("figure_2"), figure("figure_3")]
-    figures.append(figure("route", "Supplement", "results/tables/a.tsv"))
+    figures.append(figure("to_chaos", "Supplement"))
     placed = page_content.claims_by_figure(figures, [claim("it", **given)])
     assert [name for name, claims in placed.items() if claims] == [expected]
 

@@ -126,13 +126,15 @@ def of_atlas(chrome: Chrome) -> dict | None:
     cell = map_.find_element(By.CSS_SELECTOR, "[x='1'][y='1']")
     ActionChains(chrome).move_to_element(cell).perform()
     said = {"by_pointer": read.text, "cell": cell.get_attribute("data-words")}
-    map_.send_keys(Keys.ARROW_RIGHT)
+    # a scroll would bring another cell under the pointer
+    chrome.execute_script("arguments[0].focus({ preventScroll: true })", map_)
+    ActionChains(chrome).send_keys(Keys.ARROW_RIGHT).perform()
     neighbour = map_.find_element(By.CSS_SELECTOR, "[x='2'][y='1']")
     said |= {"by_keyboard": read.text, "neighbour": neighbour.get_attribute("data-words")}
-    boxes = [map_.get_attribute("viewBox")]
+    boxes = [map_.get_dom_attribute("viewBox")]
     for button in view.find_elements(By.CSS_SELECTOR, "[data-zoom]"):
         button.click()
-        boxes.append(map_.get_attribute("viewBox"))
+        boxes.append(map_.get_dom_attribute("viewBox"))
     return {**said, "boxes": boxes}
 
 
