@@ -85,9 +85,9 @@ function atlasView(view) {
 
   const steps = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
   for (const map of view.querySelectorAll(".map svg")) {
-    for (const event of ["pointerover", "click"]) {
+    for (const event of ["pointermove", "click"]) {
       map.addEventListener(event, ({ target }) => {
-        if (target.dataset.words) choose(target);
+        if (target.dataset.words && target !== chosen) choose(target);
       });
     }
     map.addEventListener("keydown", (event) => {
