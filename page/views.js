@@ -8,12 +8,12 @@ function numbers(text) {
 }
 
 function rowsOf(run) {
-  const [first, ...others] = Object.values(run.series).map(numbers);
+  const [first, ...others] = run.series.map((one) => numbers(one.values));
   return first.map((value, i) => [run.start + i * run.step, value, ...others.map((other) => other[i])]);
 }
 
 function labelsOf(run) {
-  return ["t", ...Object.keys(run.series)];
+  return ["t", ...run.series.map((one) => one.name)];
 }
 
 function legendOf(legend) {

@@ -57,7 +57,11 @@ def trajectory(run: xr.Dataset, attractors: list[dict]) -> dict:
         "every": every,
         "start": float(shown.time[0]),
         "step": every * run.attrs["sample_interval"],
-        "series": {name: as_base64(shown[name].values) for name in DRAWN if name in shown},
+        "series": [
+            {"name": name, "values": as_base64(shown[name].values)}
+            for name in DRAWN
+            if name in shown
+        ],
     }
 
 

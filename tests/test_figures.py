@@ -23,6 +23,9 @@ def script_inputs(smoke, config: dict, number: int) -> SimpleNamespace:
     settings = config["figures"].get(f"figure_{number}", {"rows": {}})
     shown = [row["scene"] for row in settings["rows"].values()]
     results = smoke.folder / "results"
+    own = [rows for name, rows in config["figures"].items() if name.startswith("figure_")]
+    in_figures = {row["scene"] for figure in own for row in figure["rows"].values()}
+    scenes = {name: config["scenes"][name] for name in sorted(in_figures)}
     plane = {2: "tau_of_epsilon", 3: "xi_of_epsilon"}.get(number)
     return SimpleNamespace(
         input=SimpleNamespace(
@@ -31,7 +34,7 @@ def script_inputs(smoke, config: dict, number: int) -> SimpleNamespace:
             spectra=[results / "spectra" / f"{scene}.nc" for scene in shown],
             response=results / "friction" / "velocity_step.nc",
         ),
-        params=SimpleNamespace(settings=settings, scenes=config["scenes"]),
+        params=SimpleNamespace(settings=settings, scenes=scenes),
     )
 
 

@@ -114,7 +114,7 @@ def test_trajectory_is_thinned_to_its_last_part():
     other = {**own, "history": 2.0, "class": "chaos"}
     shown = page_views.trajectory(run(), [other, own])
     assert (shown["start"], shown["every"], shown["step"]) == (500.0, 2, 0.1)
-    v = np.frombuffer(base64.b64decode(shown["series"]["v"]), "<f4")
+    v = np.frombuffer(base64.b64decode(shown["series"][0]["values"]), "<f4")
     np.testing.assert_allclose(v, 1 + 0.5 * np.cos(500 + 0.1 * np.arange(10001)), atol=1e-6)
     assert shown["words"] == (
         "ε = 0.5, τ = 10, ξ = 0.8, γ = 0.8: cycle;"
@@ -127,14 +127,15 @@ def test_short_trajectory_is_shown_whole():
     own = {**attractor(0.5, 10.0), "scene": "my_scene", "history": 1.0}
     shown = page_views.trajectory(run(count=101), [own])
     assert (shown["start"], shown["every"]) == (0.0, 1)
-    assert len(base64.b64decode(shown["series"]["u"])) == 4 * 101
+    assert len(base64.b64decode(shown["series"][1]["values"])) == 4 * 101
 
 
 def test_scene_that_keeps_less_is_drawn_as_far_as_it_goes():
     """Without u, v alone; with neither there is nothing to draw."""
     own = {**attractor(0.5, 10.0), "scene": "my_scene", "history": 1.0}
     without_u = run(count=101).drop_vars("u")
-    assert list(page_views.trajectory(without_u, [own])["series"]) == ["v"]
+    series = page_views.trajectory(without_u, [own])["series"]
+    assert [one["name"] for one in series] == ["v"]
     assert page_views.can_be_drawn(without_u)
     assert not page_views.can_be_drawn(without_u.drop_vars("v"))
 

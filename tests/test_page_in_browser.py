@@ -123,7 +123,8 @@ def test_trajectories_are_zoomed_and_read(seen):
     assert before == after
     assert before[0] <= within[0] < within[-1] <= before[-1]
     assert within[-1] - within[0] < 0.5 * (before[-1] - before[0])
-    assert all(word in view["values"] for word in ("t = ", "v = ", "u = "))
+    assert len(view["values"]) == len(view["said"])
+    assert all(word in view["values"][0] for word in ("t = ", "v = ", "u = "))
 
 
 def test_atlas_is_pointed_at_and_zoomed(seen):

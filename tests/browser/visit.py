@@ -46,6 +46,9 @@ def emulate(chrome: Chrome, width: int, **media: str) -> None:
         "features": [{"name": "prefers-color-scheme", "value": media.get("scheme", "light")}],
     }
     chrome.execute_cdp_cmd("Emulation.setEmulatedMedia", wishes)
+    # until what follows the size of the window has done so
+    drawn = "const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(done))"
+    chrome.execute_async_script(drawn)
 
 
 def photograph(chrome: Chrome, path: Path) -> None:
@@ -90,15 +93,16 @@ def values_read(chrome: Chrome, view) -> str:
 
 
 def of_trajectories(chrome: Chrome) -> dict | None:
-    """What each scene says of itself, and the span of time before, in and after a zoom."""
+    """What each scene says of itself and of a place, and the times before, in and after a zoom."""
     views = chrome.find_elements(By.ID, "trajectory-view")
     if not views:
         return None
     (view,) = views
-    said = []
+    said, values = [], []
     for option in view.find_elements(By.TAG_NAME, "option"):
         option.click()
         said.append(view.find_element(By.CSS_SELECTOR, ".read").text)
+        values.append(values_read(chrome, view))
     plot = view.find_element(By.CSS_SELECTOR, ".plot")
     ticks = [axis_labels(plot)]
     drag = ActionChains(chrome).move_to_element(plot).click_and_hold().move_by_offset(60, 0)
@@ -106,7 +110,7 @@ def of_trajectories(chrome: Chrome) -> dict | None:
     ticks.append(axis_labels(plot))
     view.find_element(By.TAG_NAME, "button").click()
     ticks.append(axis_labels(plot))
-    return {"said": said, "ticks": ticks, "values": values_read(chrome, view)}
+    return {"said": said, "ticks": ticks, "values": values}
 
 
 def axis_labels(plot) -> list[str]:
