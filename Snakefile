@@ -18,8 +18,11 @@ rule all:
     default_target: True
     input:
         expand(
-            "results/figures/{figure}.{ending}", figure=FIGURES, ending=["pdf", "png"]
+            "results/figures/{figure}.{ending}",
+            figure=FIGURES,
+            ending=["pdf", "png", "svg"],
         ),
+        "results/index.html",
         "results/tables/tolerance-proportionality.tsv",
         "results/tables/hopf-points.tsv",
         "results/tables/linear-stability.tsv",
@@ -38,3 +41,4 @@ include: "rules/attractors.smk"
 include: "rules/atlas_figures.smk"
 include: "rules/studies.smk"
 include: "rules/ledger.smk"
+include: "rules/page.smk"

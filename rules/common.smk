@@ -1,4 +1,5 @@
 # The configuration, checked, and what rules ask of it.
+import os
 import sys
 from pathlib import Path
 
@@ -9,6 +10,7 @@ import attractor_surveys
 import before_run
 import check_config
 import claims_config
+import git_commit
 import study_cases
 
 try:
@@ -233,3 +235,54 @@ def claims_listed():
         return claims_config.checked(claims_config.listed(), config, shown)
     except check_config.ConfigError as problems:
         raise WorkflowError(problems) from None
+
+
+def on_page(*figures):
+    """What the page shows of figures beside their files: category, caption and data of their rules."""
+    shown = []
+    for name in (name for name in figures if name in FIGURES):
+        its_rule = getattr(rules, name).rule
+        shown_as = its_rule.output.png.flags["report"]
+        data = [
+            str(path) for path in its_rule.input if str(path).startswith("results/")
+        ]
+        shown.append(
+            {
+                "name": name,
+                "category": shown_as.category,
+                "caption": os.path.relpath(shown_as.caption, workflow.basedir),
+                "data": data,
+            }
+        )
+    return shown
+
+
+def tables_of(figure):
+    """Tables that a figure draws, none where there is no such figure."""
+    return [
+        path
+        for shown in on_page(figure)
+        for path in shown["data"]
+        if path.endswith(".tsv")
+    ]
+
+
+def trajectories_on_page():
+    """Trajectory files that can be zoomed into: those that figures draw."""
+    drawn = (path for figure in on_page(*FIGURES) for path in figure["data"])
+    return list(
+        dict.fromkeys(
+            path for path in drawn if path.startswith("results/trajectories/")
+        )
+    )
+
+
+def patterns_of_benchmarks():
+    """Benchmark files of each rule that has some."""
+    names = [each.name for each in workflow.rules if each.benchmark]
+    return {name: str(getattr(rules, name).benchmark) for name in names}
+
+
+def commit_at_work():
+    """The project's commit, as the page names it."""
+    return git_commit.commit_of(Path(workflow.basedir))

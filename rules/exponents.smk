@@ -49,6 +49,7 @@ rule exponents:
             caption="../scripts/exponents.rst",
             category="Supplement",
         ),
+        svg="results/figures/exponents.svg",
     log:
         "results/logs/figures/exponents.log",
     script:

@@ -12,6 +12,7 @@ rule figure_1:
             caption="../scripts/figure_1.rst",
             category="Figures",
         ),
+        svg="results/figures/figure_1.svg",
     log:
         "results/logs/figures/figure_1.log",
     script:
@@ -29,6 +30,7 @@ rule figure_2:
             caption="../scripts/figure_2.rst",
             category="Figures",
         ),
+        svg="results/figures/figure_2.svg",
     log:
         "results/logs/figures/figure_2.log",
     params:
@@ -48,6 +50,7 @@ rule figure_3:
             caption="../scripts/figure_3.rst",
             category="Figures",
         ),
+        svg="results/figures/figure_3.svg",
     log:
         "results/logs/figures/figure_3.log",
     params:
@@ -67,6 +70,7 @@ rule figure_4:
             caption="../scripts/figure_4.rst",
             category="Figures",
         ),
+        svg="results/figures/figure_4.svg",
     log:
         "results/logs/figures/figure_4.log",
     params:
@@ -87,6 +91,7 @@ rule figure_5:
             caption="../scripts/figure_5.rst",
             category="Figures",
         ),
+        svg="results/figures/figure_5.svg",
     log:
         "results/logs/figures/figure_5.log",
     params:
@@ -106,6 +111,7 @@ rule figure_6:
             caption="../scripts/figure_6.rst",
             category="Figures",
         ),
+        svg="results/figures/figure_6.svg",
     log:
         "results/logs/figures/figure_6.log",
     params:
@@ -125,6 +131,7 @@ rule figure_7:
             caption="../scripts/figure_7.rst",
             category="Figures",
         ),
+        svg="results/figures/figure_7.svg",
     log:
         "results/logs/figures/figure_7.log",
     params:
@@ -144,6 +151,7 @@ rule figure_8:
             caption="../scripts/figure_8.rst",
             category="Figures",
         ),
+        svg="results/figures/figure_8.svg",
     log:
         "results/logs/figures/figure_8.log",
     script:

@@ -84,6 +84,7 @@ rule stability:
             caption="../scripts/stability.rst",
             category="Solver",
         ),
+        svg="results/figures/stability.svg",
     log:
         "results/logs/figures/stability.log",
     script:
@@ -160,6 +161,7 @@ rule work_precision:
             caption="../scripts/work_precision.rst",
             category="Solver",
         ),
+        svg="results/figures/work_precision.svg",
     log:
         "results/logs/figures/work_precision.log",
     script:

@@ -19,9 +19,14 @@ FAINT = "0.7"
 """Greys for drawing and for what stays in the background."""
 
 
-def save(figure: Figure, pdf: str | Path, png: str | Path) -> None:
-    """Write a figure as vector and as picture, the same bytes each time."""
-    for final, ending, metadata in ((pdf, "pdf", {"CreationDate": None}), (png, "png", None)):
+METADATA = {"pdf": {"CreationDate": None}, "png": None, "svg": {"Date": None}}
+"""For each ending that a figure is saved with: what keeps its bytes the same each time."""
+
+
+def save(figure: Figure, output) -> None:
+    """Write a figure for print, as picture and for the page; `output` names the three files."""
+    for ending, metadata in METADATA.items():
+        final = getattr(output, ending)
         # to memory first: matplotlib hides that a disk is full
         drawn = io.BytesIO()
         figure.savefig(drawn, format=ending, metadata=metadata)

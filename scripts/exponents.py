@@ -93,4 +93,4 @@ if __name__ == "__main__":
     with logged(snakemake.log[0]):
         runs = [read(path) for path in snakemake.input.runs]
         figure = draw(runs, read_table(snakemake.input.table))
-        save(figure, snakemake.output.pdf, snakemake.output.png)
+        save(figure, snakemake.output)

@@ -90,4 +90,4 @@ def draw() -> Figure:
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        save(draw(), snakemake.output.pdf, snakemake.output.png)
+        save(draw(), snakemake.output)

@@ -7,4 +7,4 @@ from inputs import read
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         figure = draw(read(snakemake.input.curves), snakemake.params.scenes)
-        save(figure, snakemake.output.pdf, snakemake.output.png)
+        save(figure, snakemake.output)

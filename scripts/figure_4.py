@@ -11,4 +11,4 @@ if __name__ == "__main__":
         rows = dict(zip(settings["rows"], trajectories, strict=True))
         titles = {label: f"the paper: “{row['paper']}”" for label, row in settings["rows"].items()}
         figure = draw(rows, titles, settings)
-        save(figure, snakemake.output.pdf, snakemake.output.png)
+        save(figure, snakemake.output)

@@ -16,4 +16,4 @@ if __name__ == "__main__":
             for (label, row), spectrum in zip(settings["rows"].items(), spectra, strict=True)
         }
         figure = draw(rows, titles, settings)
-        save(figure, snakemake.output.pdf, snakemake.output.png)
+        save(figure, snakemake.output)

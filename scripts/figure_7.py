@@ -11,4 +11,4 @@ if __name__ == "__main__":
         rows = dict(zip(settings["rows"], spectra, strict=True))
         paper = {label: row["paper"] for label, row in settings["rows"].items()}
         figure = draw(rows, paper, settings["frequency_shown"])
-        save(figure, snakemake.output.pdf, snakemake.output.png)
+        save(figure, snakemake.output)

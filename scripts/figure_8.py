@@ -99,4 +99,4 @@ def mark_dc(axes: Axes, slip: np.ndarray, mu: np.ndarray, steps: np.ndarray) -> 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         figure = draw(read(snakemake.input.response))
-        save(figure, snakemake.output.pdf, snakemake.output.png)
+        save(figure, snakemake.output)

@@ -108,4 +108,4 @@ def draw_errors(axes: Axes, rows: list[dict], methods: list[str]) -> None:
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        save(draw(read_table(snakemake.input.table)), snakemake.output.pdf, snakemake.output.png)
+        save(draw(read_table(snakemake.input.table)), snakemake.output)

@@ -71,4 +71,4 @@ if __name__ == "__main__":
     with logged(snakemake.log[0]):
         others = [row for table in snakemake.input.others for row in read_table(table)]
         figure = draw(read_table(snakemake.input.table), others)
-        save(figure, snakemake.output.pdf, snakemake.output.png)
+        save(figure, snakemake.output)

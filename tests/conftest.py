@@ -77,7 +77,13 @@ class Project:
         results = self.folder / "results"
         files = [path for path in results.rglob("*") if path.is_file()]
         names = {path.relative_to(results).as_posix(): path for path in files}
-        changing = ("logs/", "benchmarks/", "measurements/", "figures/work_precision")
+        changing = (
+            "logs/",
+            "benchmarks/",
+            "measurements/",
+            "figures/work_precision",
+            "index.html",
+        )
         return {n: timeless(path) for n, path in names.items() if not n.startswith(changing)}
 
 

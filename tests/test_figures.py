@@ -23,6 +23,9 @@ def script_inputs(smoke, config: dict, number: int) -> SimpleNamespace:
     settings = config["figures"].get(f"figure_{number}", {"rows": {}})
     shown = [row["scene"] for row in settings["rows"].values()]
     results = smoke.folder / "results"
+    own = [rows for name, rows in config["figures"].items() if name.startswith("figure_")]
+    in_figures = {row["scene"] for figure in own for row in figure["rows"].values()}
+    scenes = {name: config["scenes"][name] for name in sorted(in_figures)}
     plane = {2: "tau_of_epsilon", 3: "xi_of_epsilon"}.get(number)
     return SimpleNamespace(
         input=SimpleNamespace(
@@ -31,7 +34,7 @@ def script_inputs(smoke, config: dict, number: int) -> SimpleNamespace:
             spectra=[results / "spectra" / f"{scene}.nc" for scene in shown],
             response=results / "friction" / "velocity_step.nc",
         ),
-        params=SimpleNamespace(settings=settings, scenes=config["scenes"]),
+        params=SimpleNamespace(settings=settings, scenes=scenes),
     )
 
 
@@ -43,14 +46,14 @@ def figures(smoke, smoke_config, tmp_path_factory) -> dict[int, Figure]:
     with pytest.MonkeyPatch.context() as patch:
         for number in NUMBERS:
 
-            def keep(figure, pdf, png, number=number):
+            def keep(figure, output, number=number):
                 figure.canvas.draw()
                 drawn[number] = figure
 
             patch.setattr(drawing, "save", keep)
             inputs = script_inputs(smoke, smoke_config, number)
             inputs.log = [folder / f"{number}.log"]
-            inputs.output = SimpleNamespace(pdf="figure.pdf", png="figure.png")
+            inputs.output = SimpleNamespace()
             script = ROOT / "scripts" / f"figure_{number}.py"
             runpy.run_path(str(script), {"snakemake": inputs}, "__main__")
             assert inputs.log[0].read_text() == ""

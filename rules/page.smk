@@ -1,0 +1,39 @@
+# The page that re-tells the paper; with results/ around it, it can be zipped and mailed.
+DYGRAPHS = "/usr/share/javascript/dygraphs"  # Debian's libjs-dygraphs
+ASSETS = {
+    "style.css": "page/style.css",
+    "views.js": "page/views.js",
+    "dygraph.min.js": f"{DYGRAPHS}/dygraph.min.js",
+    "dygraph.min.css": f"{DYGRAPHS}/dygraph.min.css",
+    "dygraph-licence.txt": "/usr/share/doc/libjs-dygraphs/copyright",
+}
+
+
+rule page:
+    input:
+        figures=expand("results/figures/{figure}.svg", figure=FIGURES),
+        claims="results/tables/claims.json",
+        attractors=LEDGER_TABLES["attractors"],
+        trajectories=trajectories_on_page(),
+        atlas=tables_of("atlas_coarse"),
+        captions=[figure["caption"] for figure in on_page(*FIGURES)],
+        readme="README.md",
+        template="page/index.html.jinja",
+        assets=list(ASSETS.values()),
+        code=[
+            "scripts/captions.py",
+            "scripts/page_content.py",
+            "scripts/page_provenance.py",
+            "scripts/page_views.py",
+        ],
+    output:
+        page="results/index.html",
+        assets=expand("results/page/{asset}", asset=ASSETS),
+    log:
+        "results/logs/page.log",
+    params:
+        figures=on_page(*FIGURES),
+        benchmarks=patterns_of_benchmarks(),
+        commit=commit_at_work(),
+    script:
+        "../scripts/write_page.py"

@@ -1,0 +1,40 @@
+"""Captions: reStructuredText to HTML, with formulas that a browser sets by itself."""
+
+import html
+import re
+from pathlib import Path
+
+from docutils.core import publish_parts
+
+SETTINGS = {
+    "math_output": "MathML",
+    "input_encoding": "unicode",
+    # a caption that cannot be read is an error, not a red box on the page
+    "halt_level": 2,
+    "report_level": 5,
+    "file_insertion_enabled": False,
+    "raw_enabled": False,
+}
+"""How docutils reads a caption."""
+
+
+def as_html(path: str | Path) -> str:
+    """The caption as paragraphs."""
+    parts = publish_parts(Path(path).read_text(), writer="html5", settings_overrides=SETTINGS)
+    return parts["body"].strip()
+
+
+def as_words(markup: str) -> str:
+    """The text of some HTML on one line, formulas in plain signs without spaces."""
+    closed = re.sub(r"(?s)<math.*?</math>", lambda formula: _closed(formula[0]), markup)
+    return " ".join(html.unescape(re.sub(r"<[^>]*>", "", closed)).split())
+
+
+def _closed(formula: str) -> str:
+    """A formula without the spaces between its signs."""
+    return re.sub(r">\s+<", "><", formula)
+
+
+def first_sentence(markup: str) -> str:
+    """What stands for a figure where it is not seen."""
+    return re.split(r"(?<=\.) ", as_words(markup))[0]

@@ -1,0 +1,183 @@
+"""Open the page in a headless Chromium and print, as JSON, what a reader would meet.
+
+visit.py PAGE FOLDER    the page's index.html, and where the screenshots go
+"""
+
+import base64
+import json
+import sys
+from pathlib import Path
+
+from axe_core_python.selenium import Axe
+from selenium.webdriver import Chrome, ChromeOptions, ChromeService, Keys
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+
+WIDTHS = [380, 800, 1400]
+SCHEMES = ["light", "dark"]
+FACTS = """
+return {
+  lang: document.documentElement.lang,
+  title: document.title,
+  headings: [...document.querySelectorAll("h1,h2,h3,h4,h5,h6")].map((h) => Number(h.tagName[1])),
+  images: [...document.images].map((i) => ({ src: i.src, alt: i.alt, width: i.naturalWidth })),
+  links: [...document.querySelectorAll("a")].map((a) => a.href),
+};
+"""
+
+
+def browser() -> Chrome:
+    """Debian's Chromium without a window, that keeps what it says and asks for."""
+    options = ChromeOptions()
+    options.binary_location = "/usr/bin/chromium"
+    for flag in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu"):
+        options.add_argument(flag)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    return Chrome(options, ChromeService("/usr/bin/chromedriver"))
+
+
+def emulate(chrome: Chrome, width: int, **media: str) -> None:
+    """A window of this width and a reader of these wishes."""
+    size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}
+    chrome.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    chrome.execute_cdp_cmd("Emulation.setScrollbarsHidden", {"hidden": True})
+    wishes = {
+        "media": media.get("media", ""),
+        "features": [{"name": "prefers-color-scheme", "value": media.get("scheme", "light")}],
+    }
+    chrome.execute_cdp_cmd("Emulation.setEmulatedMedia", wishes)
+    # until what follows the size of the window has done so
+    drawn = "const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(done))"
+    chrome.execute_async_script(drawn)
+
+
+def photograph(chrome: Chrome, path: Path) -> None:
+    """The whole page, from its top, not only what the window shows."""
+    chrome.execute_script("window.scrollTo(0, 0)")
+    wanted = {"captureBeyondViewport": True, "format": "png"}
+    picture = chrome.execute_cdp_cmd("Page.captureScreenshot", wanted)["data"]
+    path.write_bytes(base64.b64decode(picture))
+
+
+def too_wide(chrome: Chrome) -> int:
+    """Pixels by which the page is wider than the window."""
+    return chrome.execute_script(
+        "const page = document.documentElement; return page.scrollWidth - page.clientWidth"
+    )
+
+
+def violations(chrome: Chrome) -> list[str]:
+    """What axe finds wrong, with one place of each."""
+    found = Axe().run(chrome)["violations"]
+    return [f"{one['id']}: {one['help']}: {one['nodes'][0]['html'][:200]}" for one in found]
+
+
+def by_keyboard(chrome: Chrome) -> dict:
+    """Where the first stop of the tabulator is, what is seen there, and where it leads."""
+    ActionChains(chrome).send_keys(Keys.TAB).perform()
+    link = chrome.switch_to.active_element
+    met = {
+        "words": link.text,
+        "shown": link.is_displayed() and link.rect["x"] >= 0,
+        "outline": link.value_of_css_property("outline-style"),
+    }
+    ActionChains(chrome).send_keys(Keys.ENTER).perform()
+    return {**met, "leads_to": chrome.switch_to.active_element.get_attribute("id")}
+
+
+def values_read(chrome: Chrome, view) -> str:
+    """What stands below the plot when the pointer is at its middle."""
+    plot = view.find_element(By.CSS_SELECTOR, ".plot")
+    ActionChains(chrome).move_to_element(plot).perform()
+    return view.find_element(By.CSS_SELECTOR, ".values").text
+
+
+def of_trajectories(chrome: Chrome) -> dict | None:
+    """What each scene says of itself and of a place, and the times before, in and after a zoom."""
+    views = chrome.find_elements(By.ID, "trajectory-view")
+    if not views:
+        return None
+    (view,) = views
+    said, values = [], []
+    for option in view.find_elements(By.TAG_NAME, "option"):
+        option.click()
+        said.append(view.find_element(By.CSS_SELECTOR, ".read").text)
+        values.append(values_read(chrome, view))
+    plot = view.find_element(By.CSS_SELECTOR, ".plot")
+    ticks = [axis_labels(plot)]
+    drag = ActionChains(chrome).move_to_element(plot).click_and_hold().move_by_offset(60, 0)
+    drag.release().perform()
+    ticks.append(axis_labels(plot))
+    view.find_element(By.TAG_NAME, "button").click()
+    ticks.append(axis_labels(plot))
+    return {"said": said, "ticks": ticks, "values": values}
+
+
+def axis_labels(plot) -> list[str]:
+    """Numbers along the time axis."""
+    labels = plot.find_elements(By.CSS_SELECTOR, ".dygraph-axis-label-x")
+    return [label.get_attribute("textContent") for label in labels]
+
+
+def of_atlas(chrome: Chrome) -> dict | None:
+    """What is read of a cell by pointer and by keyboard, and the map before and after a zoom."""
+    views = chrome.find_elements(By.ID, "atlas-view")
+    if not views:
+        return None
+    (view,) = views
+    read = view.find_element(By.CSS_SELECTOR, ".read")
+    map_ = view.find_element(By.CSS_SELECTOR, ".map svg")
+    cell = map_.find_element(By.CSS_SELECTOR, "[x='1'][y='1']")
+    ActionChains(chrome).move_to_element(cell).perform()
+    said = {"by_pointer": read.text, "cell": cell.get_attribute("data-words")}
+    # a scroll would bring another cell under the pointer
+    chrome.execute_script("arguments[0].focus({ preventScroll: true })", map_)
+    ActionChains(chrome).send_keys(Keys.ARROW_RIGHT).perform()
+    neighbour = map_.find_element(By.CSS_SELECTOR, "[x='2'][y='1']")
+    said |= {"by_keyboard": read.text, "neighbour": neighbour.get_attribute("data-words")}
+    boxes = [map_.get_dom_attribute("viewBox")]
+    for button in view.find_elements(By.CSS_SELECTOR, "[data-zoom]"):
+        button.click()
+        boxes.append(map_.get_dom_attribute("viewBox"))
+    return {**said, "boxes": boxes}
+
+
+def network(chrome: Chrome) -> dict:
+    """Addresses asked for, and requests that failed."""
+    events = [json.loads(entry["message"])["message"] for entry in chrome.get_log("performance")]
+    asked = [e["params"] for e in events if e["method"] == "Network.requestWillBeSent"]
+    failed = [e["params"] for e in events if e["method"] == "Network.loadingFailed"]
+    return {
+        "requests": [one["request"]["url"] for one in asked],
+        "failed": [one["errorText"] for one in failed],
+    }
+
+
+def visit(chrome: Chrome, page: Path, folder: Path) -> dict:
+    """All that is looked at, in an order in which no look disturbs the next."""
+    emulate(chrome, WIDTHS[-1])
+    chrome.get(page.resolve().as_uri())
+    seen = {**chrome.execute_script(FACTS), "too_wide": {}, "axe": {}}
+    seen |= {"keyboard": by_keyboard(chrome)}
+    seen |= {"trajectories": of_trajectories(chrome), "atlas": of_atlas(chrome)}
+    for details in chrome.find_elements(By.TAG_NAME, "summary"):
+        details.click()
+    for scheme in SCHEMES:
+        for width in WIDTHS:
+            emulate(chrome, width, scheme=scheme)
+            seen["too_wide"][f"{scheme} {width}"] = too_wide(chrome)
+            photograph(chrome, folder / f"{scheme}-{width}.png")
+        seen["axe"][scheme] = violations(chrome)
+    emulate(chrome, 700, media="print")
+    seen["too_wide"]["print"] = too_wide(chrome)
+    photograph(chrome, folder / "print.png")
+    messages = [entry["message"] for entry in chrome.get_log("browser")]
+    return {**seen, "console": messages, **network(chrome)}
+
+
+if __name__ == "__main__":
+    window = browser()
+    try:
+        print(json.dumps(visit(window, Path(sys.argv[1]), Path(sys.argv[2]))))
+    finally:
+        window.quit()

@@ -1,0 +1,257 @@
+"""The page: what it says of made-up results, and the page of the smoke run as a file."""
+
+import base64
+import json
+import re
+from collections import Counter
+from html.parser import HTMLParser
+
+import captions
+import made_up_page
+import numpy as np
+import page_content
+import page_provenance
+import page_views
+import pytest
+import write_page
+import xarray as xr
+from claims_results import VERDICTS
+from conftest import ROOT
+from docutils.utils import SystemMessage
+from jinja2 import UndefinedError
+from made_up_page import attractor, claim, content, figure, run
+from test_workflow import FIGURES
+
+
+class Elements(HTMLParser):
+    """Elements of a page with their attributes, and its text."""
+
+    def __init__(self, text: str):
+        super().__init__()
+        self.found, self.text = [], ""
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        self.found.append((tag, dict(attrs)))
+
+    def handle_data(self, data):
+        self.text += data
+
+    def values(self, attribute: str) -> list[str]:
+        """Of an attribute, wherever it stands."""
+        return [attributes[attribute] for _, attributes in self.found if attribute in attributes]
+
+
+@pytest.fixture(scope="module")
+def smoke_page(smoke) -> Elements:
+    """The page of the smoke run."""
+    return Elements((smoke.folder / "results" / "index.html").read_text())
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_caption_has_a_first_sentence_in_plain_signs(name):
+    """For those who do not see the figure."""
+    sentence = captions.first_sentence(captions.as_html(ROOT / "scripts" / f"{name}.rst"))
+    assert len(sentence.split()) >= 4
+    assert sentence.endswith(".")
+    assert not re.search(r"[\\<>`:]{2}|\\", sentence)
+
+
+def test_caption_with_formulas(tmp_path):
+    """Set by the browser, and in words without spaces."""
+    (tmp_path / "caption.rst").write_text("Curves :math:`\\tau = 2` & more. The rest.")
+    markup = captions.as_html(tmp_path / "caption.rst")
+    assert "<math" in markup
+    assert captions.first_sentence(markup) == "Curves τ=2 & more."
+
+
+def test_caption_that_cannot_be_read_is_an_error(tmp_path):
+    """Not a red box on the page."""
+    (tmp_path / "caption.rst").write_text("A :nonsense:`role`.")
+    with pytest.raises(SystemMessage, match="nonsense"):
+        captions.as_html(tmp_path / "caption.rst")
+
+
+@pytest.mark.parametrize(
+    ("given", "expected"),
+    [
+        ({"look_at": "results/figures/figure_3.png", "place": "Figure 2"}, "figure_3"),
+        ({"look_at": "results/tables/to-chaos.tsv", "place": "below Figure 2"}, "to_chaos"),
+        ({"look_at": "results/tables/b.tsv", "place": "abstract; below Figure 2"}, "figure_2"),
+        ({"look_at": "results/tables/b.tsv", "place": "Figure 3b"}, "figure_3"),
+        ({"look_at": "results/tables/b.tsv", "place": "Figure 9"}, ""),
+        ({"look_at": "", "place": "section 1"}, ""),
+    ],
+)
+def test_claim_stands_beside_one_figure(given, expected):
+    """The one to look at, that of the table to look at, the paper's own, or none."""
+    figures = [figure("figure_2"), figure("figure_3")]
+    figures.append(figure("to_chaos", "Supplement"))
+    placed = page_content.claims_by_figure(figures, [claim("it", **given)])
+    assert [name for name, claims in placed.items() if claims] == [expected]
+
+
+def test_figures_of_the_solver_come_last():
+    """The others in their order."""
+    figures = [figure("a"), figure("b", "Solver"), figure("c", "Atlas"), figure("d")]
+    sections = page_content.sections(figures, [])
+    assert {name: [one["name"] for one in shown] for name, shown in sections.items()} == {
+        "Figures": ["a", "d"],
+        "Atlas": ["c"],
+        "Solver": ["b"],
+    }
+
+
+def test_opening_is_the_first_paragraph():
+    """Without its title and marks."""
+    words = page_content.opening("# Title\n\nThe *work*\nof <us>.\n\nMore.\n")
+    assert words == "The <cite>work</cite> of &lt;us>."
+
+
+def test_trajectory_is_thinned_to_its_last_part():
+    """Every second sample of the last 1000 units of time, with class and exponents."""
+    own = {**attractor(0.5, 10.0), "scene": "my_scene", "history": 1.0}
+    other = {**own, "history": 2.0, "class": "chaos"}
+    shown = page_views.trajectory(run(), [other, own])
+    assert (shown["start"], shown["every"], shown["step"]) == (500.0, 2, 0.1)
+    v = np.frombuffer(base64.b64decode(shown["series"][0]["values"]), "<f4")
+    np.testing.assert_allclose(v, 1 + 0.5 * np.cos(500 + 0.1 * np.arange(10001)), atol=1e-6)
+    assert shown["words"] == (
+        "ε = 0.5, τ = 10, ξ = 0.8, γ = 0.8: cycle;"
+        " exponents -0.01 ± 0.001, -0.02 ± 0.001, -0.03 ± 0.001"
+    )
+
+
+def test_short_trajectory_is_shown_whole():
+    """Every sample."""
+    own = {**attractor(0.5, 10.0), "scene": "my_scene", "history": 1.0}
+    shown = page_views.trajectory(run(count=101), [own])
+    assert (shown["start"], shown["every"]) == (0.0, 1)
+    assert len(base64.b64decode(shown["series"][1]["values"])) == 4 * 101
+
+
+def test_scene_that_keeps_less_is_drawn_as_far_as_it_goes():
+    """Without u, v alone; with neither there is nothing to draw."""
+    own = {**attractor(0.5, 10.0), "scene": "my_scene", "history": 1.0}
+    without_u = run(count=101).drop_vars("u")
+    series = page_views.trajectory(without_u, [own])["series"]
+    assert [one["name"] for one in series] == ["v"]
+    assert page_views.can_be_drawn(without_u)
+    assert not page_views.can_be_drawn(without_u.drop_vars("v"))
+
+
+def test_scene_whose_attractor_is_unknown_says_so():
+    """It is still drawn."""
+    words = page_views.trajectory(run(count=101), [])["words"]
+    assert words.endswith("γ = 0.8: its attractor was not looked for")
+
+
+def test_atlas_has_a_map_for_each_stiffness():
+    """Epsilon to the right, tau upwards."""
+    rows = [attractor(e, t) for t in (0.0, 5.0) for e in (0.1, 0.2, 0.3)]
+    rows[4] |= {"class": "chaos", "exponent_3": np.nan}
+    rows.append(attractor(0.1, 0.0, xi=0.8, period=4.0))
+    rows.append(attractor(0.2, 0.0, xi=0.8, **{"class": "undecided", "problem": "too stiff"}))
+    first, second = page_views.atlas(rows)
+    assert (first["xi"], first["columns"], first["lines"]) == ("0.5", [0.1, 0.2, 0.3], [0.0, 5.0])
+    (chaos,) = [cell for cell in first["cells"] if cell["kind"] == "chaos"]
+    assert (chaos["x"], chaos["y"]) == (1, 0)
+    assert chaos["words"].endswith("chaos; exponents -0.01 ± 0.001, -0.02 ± 0.001")
+    assert [cell["kind"] for cell in second["cells"]] == ["cycles", "undecided"]
+    assert "cycle of period 4 in its section" in second["cells"][0]["words"]
+    assert second["cells"][1]["words"].endswith("no result: too stiff")
+
+
+def test_programs_are_told_by_version_and_compiler(tmp_path):
+    """As the files say."""
+    for name, compiler in (("a", "one"), ("b", "one"), ("c", "two")):
+        made = xr.Dataset(attrs={"program_version": "1.2", "compiler": compiler})
+        made.to_netcdf(tmp_path / f"{name}.nc")
+    files = [str(tmp_path / f"{name}.nc") for name in "abc"]
+    assert page_provenance.programs(files) == [
+        {"version": "1.2", "compiler": "one", "files": 2},
+        {"version": "1.2", "compiler": "two", "files": 1},
+    ]
+
+
+def test_seconds_are_summed_over_the_jobs_of_a_rule(tmp_path):
+    """Memory as far as it was seen; a rule that did not run has no row."""
+    for name, line in (("a", "1.5\t-"), ("b/c", "2.5\t30.0"), ("d", "4.0\t20.0")):
+        path = tmp_path / f"{name}.tsv"
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(f"s\tmax_rss\n{line}\n")
+    patterns = {"one": f"{tmp_path}/{{x}}.tsv", "two": f"{tmp_path}/none/{{x}}/{{y}}.tsv"}
+    (row,) = page_provenance.seconds(patterns)
+    assert row == {"rule": "one", "jobs": 3, "seconds": 8.0, "longest": 4.0, "memory": 30.0}
+
+
+def test_missing_value_is_an_error():
+    """Not a hole in the page."""
+    given = content()
+    del given["commit"]
+    with pytest.raises(UndefinedError, match="commit"):
+        write_page.rendered(made_up_page.TEMPLATE, **given)
+
+
+def test_words_of_the_ledger_are_no_markup():
+    """What looks like a tag is text."""
+    text = write_page.rendered(made_up_page.TEMPLATE, **content())
+    assert "0 &lt; 1 &amp; so on" in text
+    assert "0 < 1 & so on" in Elements(text).text
+
+
+@pytest.mark.parametrize("part", ["trajectories", "atlas", "unplaced", "seconds"])
+def test_page_without_a_part_has_no_trace_of_it(part):
+    """The rest stands."""
+    text = write_page.rendered(made_up_page.TEMPLATE, **content(**{part: []}))
+    assert text.count("<h1") == 1
+    view = {"trajectories": "trajectory-view", "atlas": "atlas-view"}.get(part)
+    assert view is None or view not in text
+
+
+def test_every_claim_stands_in_the_page_once(smoke, smoke_page):
+    """With its verdict and its evidence."""
+    claims = json.loads((smoke.folder / "results/tables/claims.json").read_text())
+    text = " ".join(smoke_page.text.split())
+    ids = Counter(smoke_page.values("id"))
+    assert len(claims) > 40
+    for row in claims:
+        assert ids[f"claim-{row['id']}"] == 1
+        assert " ".join(f"{row['claim']} {row['verdict']} {row['evidence']}".split()) in text
+    for verdict in VERDICTS:
+        count = sum(row["verdict"] == verdict for row in claims)
+        assert f"{verdict} {count} claim" in text
+
+
+def test_every_figure_stands_in_the_page(smoke_page):
+    """With its caption, its rule, and words for those who do not see it."""
+    images = {given["src"]: given["alt"] for tag, given in smoke_page.found if tag == "img"}
+    text = " ".join(smoke_page.text.split())
+    assert set(images) == {f"figures/{name}.svg" for name in FIGURES}
+    for name in FIGURES:
+        markup = captions.as_html(ROOT / "scripts" / f"{name}.rst")
+        assert images[f"figures/{name}.svg"] == captions.first_sentence(markup)
+        assert f"Rule {name}." in text
+
+
+def test_every_link_of_the_page_resolves(smoke, smoke_page):
+    """To a file in results/ or to a place in the page; no address but files beside it."""
+    results = smoke.folder / "results"
+    links = smoke_page.values("href") + smoke_page.values("src")
+    ids = smoke_page.values("id")
+    assert len(ids) == len(set(ids))
+    places = [link[1:] for link in links if link.startswith("#")]
+    files = [link for link in links if not link.startswith(("#", "data:"))]
+    assert (len(places) > 20, len(files) > 40) == (True, True)
+    assert set(places) <= set(ids)
+    assert [link for link in files if not (results / link).is_file()] == []
+    assert not [link for link in files if re.match(r"\w+:|/", link)]
+
+
+def test_provenance_is_told(smoke, smoke_page):
+    """The compiler of the programs, the seconds of rules; a copy without git has no commit."""
+    compiler = xr.open_dataset(smoke.folder / "results/trajectories/torus.nc").attrs["compiler"]
+    assert f"compiled by {compiler}" in " ".join(smoke_page.text.split())
+    assert "Commit unknown." in " ".join(smoke_page.text.split())
+    rows = [given for tag, given in smoke_page.found if tag == "th" and given.get("scope") == "row"]
+    assert len(rows) > 8

@@ -1,0 +1,140 @@
+"""The page in a real browser: nothing fails, nothing is asked of elsewhere, all can be used."""
+
+import json
+import shutil
+import subprocess
+from itertools import pairwise
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+import made_up_page
+import pytest
+from conftest import ROOT
+
+BROWSER = ROOT / "tests" / "browser"
+PYTHON = BROWSER / ".venv" / "bin" / "python"
+pytestmark = pytest.mark.skipif(
+    not (PYTHON.exists() and Path("/usr/bin/chromium").exists()),
+    reason="no Chromium; `setup/setup.sh tests/browser` sets it up, and so does ./test",
+)
+
+
+def mailed(smoke, folder: Path) -> Path:
+    """The page of the smoke run after its folder was zipped and unpacked elsewhere."""
+    archive = shutil.make_archive(folder / "results", "zip", smoke.folder / "results")
+    shutil.unpack_archive(archive, folder / "unpacked")
+    return folder / "unpacked" / "index.html"
+
+
+def made_up(smoke, folder: Path) -> Path:
+    """A page that has every part."""
+    return made_up_page.written_to(folder, smoke.folder / "results" / "page")
+
+
+@pytest.fixture(scope="module", params=[mailed, made_up])
+def visited(request, smoke, tmp_path_factory) -> tuple[Path, dict]:
+    """A page and what the browser saw of it."""
+    page = request.param(smoke, tmp_path_factory.mktemp("page"))
+    pictures = tmp_path_factory.mktemp("pictures")
+    run = subprocess.run(
+        [PYTHON, BROWSER / "visit.py", page, pictures],
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
+    assert run.returncode == 0, run.stderr
+    names = [f"{scheme}-{width}" for scheme in ("light", "dark") for width in (380, 800, 1400)]
+    assert {path.stem for path in pictures.iterdir()} == {*names, "print"}
+    return page, json.loads(run.stdout)
+
+
+@pytest.fixture
+def seen(visited) -> dict:
+    """What the browser saw."""
+    return visited[1]
+
+
+def test_nothing_is_complained_about(seen):
+    """No word on the console, no request that failed."""
+    assert seen["console"] == []
+    assert seen["failed"] == []
+
+
+def test_nothing_is_asked_of_elsewhere(visited):
+    """Every request is for a file beside the page or is data in it."""
+    page, seen = visited
+    folder = page.parent.resolve().as_uri() + "/"
+    assert len(seen["requests"]) >= 6
+    outside = [url for url in seen["requests"] if not url.startswith((folder, "data:"))]
+    assert outside == []
+
+
+def test_every_image_is_drawn_and_said_in_words(seen):
+    """None is empty."""
+    assert len(seen["images"]) >= 2
+    for image in seen["images"]:
+        assert image["width"] > 0, image["src"]
+        assert len(image["alt"]) > 20, image["src"]
+
+
+def test_every_link_leads_to_a_file(visited):
+    """As the browser resolves it; places within the page are checked in test_page.py."""
+    page, seen = visited
+    files = {Path(unquote(urlsplit(link).path)) for link in seen["links"]}
+    assert len(files) > 3
+    assert [path for path in files if not path.is_file()] == []
+    assert all(path.is_relative_to(page.parent.resolve()) for path in files)
+
+
+def test_headings_and_language(seen):
+    """One heading of the first order; none skips an order on its way down."""
+    headings = seen["headings"]
+    assert (seen["lang"], headings[0], headings.count(1)) == ("en", 1, 1)
+    assert all(after <= before + 1 for before, after in pairwise(headings))
+
+
+def test_page_is_as_wide_as_the_window(seen):
+    """On a phone, a tablet, a desk and on paper."""
+    assert set(seen["too_wide"].values()) == {0}
+    assert len(seen["too_wide"]) == 7
+
+
+def test_page_is_accessible(seen):
+    """By the rules of axe, contrast among them, light and dark."""
+    assert seen["axe"] == {"light": [], "dark": []}
+
+
+def test_keyboard_skips_to_the_content(seen):
+    """The first stop is seen, and leads there."""
+    first = seen["keyboard"]
+    assert first["words"] == "Skip to the content"
+    assert first["shown"]
+    assert first["outline"] == "solid"
+    assert first["leads_to"] == "content"
+
+
+def test_trajectories_are_zoomed_and_read(seen):
+    """Each scene says its parameters and class; a drag shows a part, the button all again."""
+    view = seen["trajectories"]
+    assert len(set(view["said"])) == len(view["said"]) > 0
+    for words in view["said"]:
+        assert all(sign in words for sign in ("ε = ", "τ = ", "ξ = ", "γ = ", "; exponents "))
+    before, within, after = ([float(label) for label in ticks] for ticks in view["ticks"])
+    assert before == after
+    assert before[0] <= within[0] < within[-1] <= before[-1]
+    assert within[-1] - within[0] < 0.5 * (before[-1] - before[0])
+    assert len(view["values"]) == len(view["said"])
+    assert all(word in view["values"][0] for word in ("t = ", "v = ", "u = "))
+
+
+def test_atlas_is_pointed_at_and_zoomed(seen):
+    """By pointer, arrow keys and buttons, where there is an atlas."""
+    atlas = seen["atlas"]
+    if atlas is None:
+        pytest.skip("this page has no atlas")
+    assert atlas["by_pointer"] == atlas["cell"]
+    assert atlas["by_keyboard"] == atlas["neighbour"] != atlas["cell"]
+    assert "exponents" in atlas["cell"]
+    whole, closer, back = ([float(x) for x in box.split()] for box in atlas["boxes"])
+    assert whole == back
+    assert closer[2] == pytest.approx(whole[2] / 1.5)
