@@ -38,3 +38,7 @@ include: "rules/attractors.smk"
 include: "rules/atlas_figures.smk"
 include: "rules/studies.smk"
 include: "rules/ledger.smk"
+
+
+# On a cluster all but the long rules run where Snakemake does: they take seconds.
+workflow.localrules(*({rule.name for rule in workflow.rules} - LONG_RULES))
