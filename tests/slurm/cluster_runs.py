@@ -3,6 +3,7 @@
 Run by ./test slurm; not collected with the other tests.
 """
 
+import contextlib
 import csv
 import os
 import re
@@ -19,14 +20,13 @@ import psutil
 import pytest
 import yaml
 from conftest import ROOT, Project, copy_of_project, rules_in
-
-sys.path.insert(0, str(Path(__file__).parent))
-from job_watch import MemoryWatch, processes_in, running_program
+from job_watch import GONE, MemoryWatch, Program, running_program
 from scaling import Run, report
-from slurm_cluster import Cluster
+from slurm_cluster import Cluster, until
 
 SHORT_PARTS = ("--configfile", "config/smoke.yaml", "tests/slurm/short_parts.yaml")
 SAMPLE = ("--configfile", "tests/slurm/sample.yaml")
+ATLAS = "results/tables/atlas-fine.tsv"
 PARTS = [f"results/attractors/atlas/fine/xi_05/{part:04}.nc" for part in range(1, 5)]
 POINTS = 24
 """Points of the sample in those parts."""
@@ -44,10 +44,9 @@ def cluster() -> Iterator[Cluster]:
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory) -> Project:
-    """A copy of the project with its programs for the atlas; not to be changed."""
+    """A copy of the project with the atlas's program; not to be changed."""
     project = copy_of_project(tmp_path_factory.mktemp("built") / "project")
-    programs = [f"build/release/bin/{name}" for name in ("attractors", "hopf")]
-    run = project.snakemake(*SHORT_PARTS, "--", *programs)
+    run = project.snakemake(*SHORT_PARTS, "--", "build/release/bin/attractors")
     assert run.returncode == 0, run.stdout
     return project
 
@@ -71,22 +70,22 @@ class SlurmRun:
         log, _ = self.process.communicate(timeout=PATIENCE)
         return self.process.returncode, log
 
-    def program(self, besides: str = "") -> tuple[psutil.Process, str]:
-        """A program that works in a job, waited for, and its namelist, which is not `besides`."""
+    def program(self, besides: str = "") -> Program:
+        """One that works in a job, waited for, on another namelist than `besides`."""
         while not (found := running_program(self.folder, besides)):
             assert self.process.poll() is None, self.result()[1]
             time.sleep(0.1)
         return found
 
 
-def started(cluster: Cluster, project: Project, workers: int, *arguments: str) -> SlurmRun:
-    """Start the workflow with so many jobs at once, each on one core."""
+def started(cluster: Cluster, project: Project, *arguments: str) -> SlurmRun:
+    """Start the workflow; every job asks for one core, and Slurm lets them wait for theirs."""
     command = [Path(sys.executable).parent / "snakemake", "--profile", "profiles/slurm"]
-    asked_soon = ["--slurm-init-seconds-before-status-checks", "2"]
+    asked_soon = ["--slurm-init-seconds-before-status-checks", "10"]
     no_accounting = ["--slurm-status-command", "squeue", "--slurm-no-account"]
-    size = ["--jobs", str(workers), "--set-threads", "attractors_runs=1"]
+    one_core = ["--set-threads", "attractors_runs=1"]
     process = subprocess.Popen(
-        [*command, *asked_soon, *no_accounting, *size, *arguments],
+        [*command, *asked_soon, *no_accounting, *one_core, *arguments],
         cwd=project.folder,
         env=cluster.environment,
         stdout=subprocess.PIPE,
@@ -96,9 +95,9 @@ def started(cluster: Cluster, project: Project, workers: int, *arguments: str) -
     return SlurmRun(project.folder, process)
 
 
-def run_on(cluster: Cluster, project: Project, workers: int, *arguments: str) -> tuple[int, str]:
+def run_on(cluster: Cluster, project: Project, *arguments: str) -> tuple[int, str]:
     """Exit status and log of the workflow through Slurm."""
-    with started(cluster, project, workers, *arguments) as run:
+    with started(cluster, project, *arguments) as run:
         return run.result()
 
 
@@ -127,19 +126,19 @@ def times_of_parts(project: Project) -> dict[str, int]:
 def test_killed_jobs_are_redone_and_nothing_else(cluster, built, tmp_path):
     """A job by scancel, a program by kill -9; in the end the results are the local ones."""
     project = built.copy_to(tmp_path / "on slurm")
-    with started(cluster, project, 2, *SHORT_PARTS, "--", "atlas") as run:
-        first, cancelled = run.program()
-        cluster.command("scancel", processes_in(project.folder)[first])
-        second, killed = run.program(besides=cancelled)
-        second.kill()
+    with started(cluster, project, *SHORT_PARTS, "--", ATLAS) as run:
+        cancelled = run.program()
+        cluster.command("scancel", cancelled.job)
+        killed = run.program(besides=cancelled.namelist)
+        killed.process.kill()
         status, log = run.result()
     assert status != 0
-    victims = {result_of(namelist) for namelist in (cancelled, killed)}
+    victims = {result_of(namelist) for namelist in (cancelled.namelist, killed.namelist)}
     made = times_of_parts(project)
     assert len(made) == 6, log
     assert all(re.fullmatch(PART, name) and name not in victims for name in made)
 
-    status, log = run_on(cluster, project, 2, *SHORT_PARTS, "--", "atlas")
+    status, log = run_on(cluster, project, *SHORT_PARTS, "--", ATLAS)
     assert status == 0, log
     assert counted(log, "attractors_runs") == 2
     again = times_of_parts(project)
@@ -148,11 +147,41 @@ def test_killed_jobs_are_redone_and_nothing_else(cluster, built, tmp_path):
     assert "attractors_namelist" not in rules_in(log)
 
     local = built.copy_to(tmp_path / "local")
-    here = local.snakemake(*SHORT_PARTS, "--", "atlas")
+    here = local.snakemake(*SHORT_PARTS, "--", ATLAS)
     assert here.returncode == 0, here.stdout
     outputs = local.outputs()
-    assert {"tables/atlas-fine.tsv", "figures/atlas.pdf"} <= set(outputs)
+    assert ATLAS.removeprefix("results/") in outputs
+    assert len(outputs) == 1 + 2 * len(again)
     assert project.outputs() == outputs
+
+
+def users_of(cluster: Cluster) -> list[psutil.Process]:
+    """Daemons and jobs of a cluster."""
+    configuration = cluster.environment["SLURM_CONF"]
+    found = []
+    for process in psutil.process_iter():
+        with contextlib.suppress(*GONE):
+            if process.environ().get("SLURM_CONF") == configuration:
+                found.append(process)
+    return found
+
+
+def failure_amid_a_job(cluster: Cluster) -> None:
+    """A test that fails while a job runs."""
+    with cluster:
+        cluster.command("sbatch", "--output=/dev/null", "--wrap", "sleep 600")
+        until(lambda: cluster.command("squeue", "-h", "-o", "%T") == "RUNNING\n", "start of a job")
+        assert {"munged", "slurmctld", "slurmd", "sleep"} <= {p.name() for p in users_of(cluster)}
+        raise RuntimeError("amid a job")
+
+
+def test_nothing_is_left_of_a_cluster_that_fails():
+    """Neither daemons nor the job that ran, nor a file."""
+    cluster = Cluster()
+    with pytest.raises(RuntimeError, match="amid a job"):
+        failure_amid_a_job(cluster)
+    assert users_of(cluster) == []
+    assert not cluster.folder.exists()
 
 
 def seconds_of_program(project: Project) -> tuple[float, dict[str, bytes]]:
@@ -193,11 +222,11 @@ def test_scaling_and_cost(cluster, built, tmp_path, capsys):
     runs, memory = [], 0.0
     for workers in (1, 2):
         project = built.copy_to(tmp_path / f"{workers} workers")
-        begin = time.monotonic()
+        cluster.limit_cores(workers)
         with MemoryWatch(project.folder) as watch:
-            status, log = run_on(cluster, project, workers, *SAMPLE, "--", *PARTS)
-        seconds = time.monotonic() - begin
+            status, log = run_on(cluster, project, *SAMPLE, "--", *PARTS)
         assert status == 0, log
+        seconds = cluster.seconds_of_jobs(project.folder)
         assert {part: (project.folder / part).read_bytes() for part in PARTS} == by_hand
         assert len(watch.most) == len(PARTS)
         runs.append(Run(workers, POINTS, len(PARTS), seconds, seconds_in_jobs(project)))

@@ -4,6 +4,7 @@ import contextlib
 import threading
 from collections import Counter
 from pathlib import Path
+from typing import NamedTuple
 
 import psutil
 
@@ -20,13 +21,21 @@ def processes_in(folder: Path) -> dict[psutil.Process, str]:
     return found
 
 
-def running_program(folder: Path, besides: str = "") -> tuple[psutil.Process, str] | None:
-    """A program that runs in a job now, and its namelist, which is not `besides`."""
-    for process in processes_in(folder):
+class Program(NamedTuple):
+    """A program that works in a job."""
+
+    process: psutil.Process
+    job: str
+    namelist: str
+
+
+def running_program(folder: Path, besides: str = "") -> Program | None:
+    """One that works now in the folder, on another namelist than `besides`."""
+    for process, job in processes_in(folder).items():
         with contextlib.suppress(*GONE):
             words = process.cmdline()
             if words and words[0].startswith("build/release/bin/") and words[1] != besides:
-                return process, words[1]
+                return Program(process, job, words[1])
     return None
 
 

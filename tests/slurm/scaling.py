@@ -20,9 +20,9 @@ class Run:
     points: int
     parts: int
     seconds: float
-    """Of the whole run, by the clock."""
+    """From the first job's start to the last one's end."""
     seconds_in_programs: float
-    """Of all programs together, by the clock."""
+    """Of all programs together."""
 
 
 def start_up(run: Run) -> float:
