@@ -38,6 +38,12 @@ SCENES_WITH_ATTRACTORS = [
 ]
 FAMILIES = list(config["stability"]["families"])
 WORK_SCENES = list(config["work_precision"]["scenes"])
+LONG_RULES = {
+    "attractors_runs",
+    "exponents_runs",
+    "reference",
+    "work_precision_runs",
+}
 LEDGER_TABLES = {
     "hopf_points": "results/tables/hopf-points.tsv",
     "linear_stability": "results/tables/linear-stability.tsv",

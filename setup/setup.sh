@@ -2,8 +2,8 @@
 # Sets up what is missing: the Debian packages of setup/apt-packages.txt, then
 # the Python packages of requirements.lock in .venv. When all is there it does
 # nothing and needs no network. An interrupted run is repaired by the next one.
-# `setup/setup.sh FOLDER` does the same for FOLDER's own lists, with FOLDER/.venv where it has a
-# requirements.lock.
+# `setup/setup.sh FOLDER` does the same for those lists that FOLDER has, with FOLDER/.venv; but
+# packages of a profile, which work inside Snakemake, are added to .venv.
 set -euo pipefail
 cd -P "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 
@@ -15,11 +15,18 @@ if (($#)); then
     lock=$1/requirements.lock
     venv=$1/.venv
 fi
+made_from=$venv/made-from
+if [[ ${1-} == profiles/* ]]; then
+    setup/setup.sh
+    venv=.venv
+    made_from=.venv/made-from-${1##*/}
+fi
 
 say() { printf 'set-up: %s\n' "$*" >&2; }
 
 missing_packages() {
     local wanted
+    [[ -e $list ]] || return 0
     wanted=$(sed 's/#.*//' "$list" | xargs -n 1 | sort -u)
     # dpkg-query fails when it knows nothing of a package, and still lists the others
     # shellcheck disable=SC2016,SC2086
@@ -64,21 +71,21 @@ venv_source() {
 }
 
 venv_is_ready() {
-    [[ ! -e $lock ]] || [[ -x $venv/bin/python && $(cat "$venv/made-from" 2>/dev/null) == "$(venv_source)" ]]
+    [[ ! -e $lock ]] || [[ -x $venv/bin/python && $(cat "$made_from" 2>/dev/null) == "$(venv_source)" ]]
 }
 
 make_venv() {
-    say "making $venv with the Python packages of $lock"
+    say "filling $venv with the Python packages of $lock"
     # settings that would send the packages elsewhere or change their versions
     unset PYTHONHOME PYTHONPATH PIP_CONSTRAINT PIP_PREFIX PIP_ROOT PIP_TARGET PIP_USER
-    /usr/bin/python3 -m venv --clear "$venv"
+    [[ $made_from != "$venv/made-from" ]] || /usr/bin/python3 -m venv --clear "$venv"
     "$venv/bin/python" -W ignore:DEPRECATION -m pip install --quiet --no-input --no-user \
         --disable-pip-version-check --require-hashes -r "$lock"
     # Snakemake leaves its interpreter unquoted, so that scripts fail in a folder
     # whose name holds a space (snakemake issue 2645, open)
     [[ $venv != .venv ]] || sed -i 's/"{py_exec} {fname:q}"/"{py_exec:q} {fname:q}"/' \
         .venv/lib/python3.*/site-packages/snakemake/script/__init__.py
-    venv_source >"$venv/made-from"
+    venv_source >"$made_from"
 }
 
 # A build, too, holds the path of its folder: drop those made before a move.

@@ -118,6 +118,20 @@ def test_other_compilers_are_refused_where_packages_are_missing(recording):
     assert (status, calls) == (7, [])
 
 
+@pytest.mark.parametrize("missing", ["tests/slurm", "profiles/slurm"])
+def test_slurm_is_refused_where_packages_are_missing(recording, missing):
+    """The set-up's own words and status, and no daemon is started."""
+    write_script(recording / "setup" / "setup.sh", f"[[ ${{1-}} != {missing} ]] || exit 7")
+    status, calls = calls_of(recording / "test", "slurm")
+    assert (status, calls) == (7, [])
+
+
+def test_slurm_runs_its_own_tests(recording):
+    """And no others."""
+    status, calls = calls_of(recording / "test", "slurm")
+    assert (status, calls) == (0, ["pytest tests/slurm/cluster_runs.py"])
+
+
 def test_test_hands_arguments_to_pytest(recording):
     """And keeps their words apart."""
     status, calls = calls_of(recording / "test", "python", "-k", "a or b")
@@ -166,6 +180,13 @@ def debian_packages(folder: str = "setup") -> list[str]:
     return sorted({line for line in text.split("\n") if line and not line.startswith("#")})
 
 
+def made_from(folder: Path) -> str:
+    """What the set-up notes of the .venv that it made there."""
+    command = "sha256sum requirements.lock; /usr/bin/python3 --version; pwd"
+    run = subprocess.run(["bash", "-c", command], cwd=folder, capture_output=True, text=True)
+    return run.stdout
+
+
 def pretend_installed(folder: Path, packages: list[str]) -> None:
     """Let dpkg-query list these."""
     (folder / "installed").write_text("".join(f"{package} installed\n" for package in packages))
@@ -199,6 +220,43 @@ def test_packages_of_other_compilers_are_asked_for(bare):
     assert not (bare / "compilers" / ".venv").exists()
 
 
+def test_packages_of_slurm_are_asked_for(bare):
+    """One line to copy; once they are there nothing is left to do."""
+    (bare / "tests" / "slurm").mkdir(parents=True)
+    shutil.copy(ROOT / "tests" / "slurm" / "apt-packages.txt", bare / "tests" / "slurm")
+    wanted = debian_packages("tests/slurm")
+    assert {"munge", "slurmctld", "slurmd"} <= set(wanted)
+    pretend_installed(bare, [name for name in wanted if name not in ("munge", "slurmd")])
+    write_script(bare / "bin" / "apt-get", "exit 1")
+    run = set_up_in(bare, part=("tests/slurm",))
+    assert run.returncode == 1
+    assert "--no-install-recommends munge slurmd\n" in run.stderr
+    pretend_installed(bare, wanted)
+    run = set_up_in(bare, part=("tests/slurm",))
+    assert (run.returncode, run.stderr) == (0, "")
+
+
+def test_packages_of_a_profile_are_added(bare):
+    """To .venv as it is, once; a .venv made anew gets them again."""
+    pretend_installed(bare, debian_packages())
+    (bare / "profiles" / "slurm").mkdir(parents=True)
+    shutil.copy(ROOT / "profiles" / "slurm" / "requirements.lock", bare / "profiles" / "slurm")
+    write_script(bare / ".venv" / "bin" / "python", f"echo \"$*\" >>'{bare}/calls'")
+    scripts = bare / ".venv" / "lib" / "python3.11" / "site-packages" / "snakemake" / "script"
+    scripts.mkdir(parents=True)
+    (scripts / "__init__.py").touch()
+    (bare / ".venv" / "made-from").write_text(made_from(bare))
+    for _ in range(2):
+        run = set_up_in(bare, part=("profiles/slurm",))
+        assert run.returncode == 0, run.stderr
+    (call,) = (bare / "calls").read_text().splitlines()
+    assert "pip install" in call
+    assert call.endswith("--require-hashes -r profiles/slurm/requirements.lock")
+    (bare / ".venv" / "made-from-slurm").unlink()
+    assert set_up_in(bare, part=("profiles/slurm",)).returncode == 0
+    assert len((bare / "calls").read_text().splitlines()) == 2
+
+
 def test_only_missing_packages_are_installed(bare):
     """As root or with sudo, without what is only recommended."""
     wanted = debian_packages()
@@ -229,9 +287,7 @@ def test_set_up_that_is_complete_does_nothing(bare):
     """All packages there, .venv made from this lock in this folder: no word, no call."""
     pretend_installed(bare, debian_packages())
     write_script(bare / ".venv" / "bin" / "python", "exit 0")
-    made_from = "sha256sum requirements.lock; /usr/bin/python3 --version; pwd"
-    run = subprocess.run(["bash", "-c", made_from], cwd=bare, capture_output=True, text=True)
-    (bare / ".venv" / "made-from").write_text(run.stdout)
+    (bare / ".venv" / "made-from").write_text(made_from(bare))
     write_script(bare / "bin" / "apt-get", f"touch '{bare}/called'")
     run = set_up_in(bare)
     assert (run.returncode, run.stdout, run.stderr) == (0, "", "")

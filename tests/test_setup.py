@@ -7,8 +7,8 @@ import pytest
 from conftest import ROOT, project_files
 
 SCRIPTS = ["reproduce", "test", "setup/setup.sh", ".ci/run", "benchmarks/run", "compilers/run"]
-LOCKS = [".", "benchmarks", "tests/browser"]
-"""Folders with a lock of Python packages."""
+LOCKS = {".": 10, "benchmarks": 2, "tests/browser": 1, "profiles/slurm": 0}
+"""Folders with a lock of Python packages, and more than how many of them are named by hand."""
 
 
 def run(*command: str, **options) -> subprocess.CompletedProcess[str]:
@@ -49,7 +49,7 @@ def test_lock_holds_every_required_package(folder):
     text = (ROOT / folder / "requirements.in").read_text()
     wanted = {name.lower() for name in re.findall(r"^([a-zA-Z][\w.-]*)", text, re.MULTILINE)}
     locked = {package.split("==")[0].lower() for package in locked_packages(folder)}
-    assert len(wanted) > (10 if folder == "." else 1)
+    assert len(wanted) > LOCKS[folder]
     assert wanted <= locked
 
 
@@ -58,6 +58,21 @@ def test_lock_names_no_address(folder):
     """Where packages come from is the user's business."""
     text = (ROOT / folder / "requirements.lock").read_text()
     assert not re.search(r"://|index-url|find-links|trusted-host", text)
+
+
+def test_lock_of_the_profile_agrees_with_the_main_one():
+    """Both fill one .venv: what both name has one version."""
+    pins = [
+        {line.partition(" ;")[0].split(" ")[0] for line in locked_packages(folder)}
+        for folder in (".", "profiles/slurm")
+    ]
+    names = [{pin.split("==")[0] for pin in each} for each in pins]
+    added = {pin for pin in pins[1] - pins[0] if pin.split("==")[0] in names[0]}
+    assert added == set()
+    assert names[1] - names[0] == {
+        "snakemake-executor-plugin-slurm",
+        "snakemake-executor-plugin-slurm-jobstep",
+    }
 
 
 def test_no_file_names_a_package_index():
@@ -72,7 +87,7 @@ def test_no_file_names_a_package_index():
     assert [name for name, text in texts.items() if address.search(text)] == []
 
 
-@pytest.mark.parametrize("folder", ["setup", "benchmarks", "tests/browser"])
+@pytest.mark.parametrize("folder", ["setup", "benchmarks", "tests/browser", "tests/slurm"])
 def test_apt_list_is_sorted_out(folder):
     """One Debian package a line, none twice."""
     text = (ROOT / folder / "apt-packages.txt").read_text()
@@ -88,7 +103,9 @@ def test_test_names_its_parts():
     assert result.returncode == 2
     assert result.stdout == ""
     assert "'nonsense'" in result.stderr
-    assert all(part in result.stderr for part in ("lint", "fortran", "python"))
+    assert all(
+        part in result.stderr for part in ("lint", "fortran", "python", "compilers", "slurm")
+    )
 
 
 @pytest.mark.parametrize("option", ["--help", "-h"])

@@ -1,0 +1,236 @@
+"""The atlas on a real Slurm of one node: killed jobs, the same bytes, and what it costs.
+
+Run by ./test slurm; not collected with the other tests.
+"""
+
+import contextlib
+import csv
+import os
+import re
+import resource
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import psutil
+import pytest
+import yaml
+from conftest import ROOT, Project, copy_of_project, rules_in
+from job_watch import GONE, MemoryWatch, Program, running_program
+from scaling import Run, report
+from slurm_cluster import Cluster, until
+
+SHORT_PARTS = ("--configfile", "config/smoke.yaml", "tests/slurm/short_parts.yaml")
+SAMPLE = ("--configfile", "tests/slurm/sample.yaml")
+ATLAS = "results/tables/atlas-fine.tsv"
+PARTS = [f"results/attractors/atlas/fine/xi_05/{part:04}.nc" for part in range(1, 5)]
+POINTS = 24
+"""Points of the sample in those parts."""
+PART = r"results/attractors/atlas/fine/xi_0[58]/000[1-4].nc"
+PATIENCE = 300.0
+
+
+@pytest.fixture(scope="module")
+def cluster() -> Iterator[Cluster]:
+    """Slurm, stopped at the end whatever happens; only kill -9 leaves jobs to end by themselves."""
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    with Cluster() as cluster:
+        yield cluster
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory) -> Project:
+    """A copy of the project with the atlas's program; not to be changed."""
+    project = copy_of_project(tmp_path_factory.mktemp("built") / "project")
+    run = project.snakemake(*SHORT_PARTS, "--", "build/release/bin/attractors")
+    assert run.returncode == 0, run.stdout
+    return project
+
+
+@dataclass
+class SlurmRun:
+    """A run of the workflow through Slurm, under way; a context, at whose end it has ended."""
+
+    folder: Path
+    process: subprocess.Popen[str]
+
+    def __enter__(self) -> "SlurmRun":
+        return self
+
+    def __exit__(self, *_) -> None:
+        self.process.kill()
+        self.process.wait()
+
+    def result(self) -> tuple[int, str]:
+        """Exit status and log, once it has ended by itself."""
+        log, _ = self.process.communicate(timeout=PATIENCE)
+        return self.process.returncode, log
+
+    def program(self, besides: str = "") -> Program:
+        """One that works in a job, waited for, on another namelist than `besides`."""
+        while not (found := running_program(self.folder, besides)):
+            assert self.process.poll() is None, self.result()[1]
+            time.sleep(0.1)
+        return found
+
+
+def started(cluster: Cluster, project: Project, *arguments: str) -> SlurmRun:
+    """Start the workflow; every job asks for one core, and Slurm lets them wait for theirs."""
+    command = [Path(sys.executable).parent / "snakemake", "--profile", "profiles/slurm"]
+    asked_soon = ["--slurm-init-seconds-before-status-checks", "10"]
+    no_accounting = ["--slurm-status-command", "squeue", "--slurm-no-account"]
+    one_core = ["--set-threads", "attractors_runs=1"]
+    process = subprocess.Popen(
+        [*command, *asked_soon, *no_accounting, *one_core, *arguments],
+        cwd=project.folder,
+        env=cluster.environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+    return SlurmRun(project.folder, process)
+
+
+def run_on(cluster: Cluster, project: Project, *arguments: str) -> tuple[int, str]:
+    """Exit status and log of the workflow through Slurm."""
+    with started(cluster, project, *arguments) as run:
+        return run.result()
+
+
+def counted(log: str, rule: str) -> int:
+    """How many jobs of a rule a log tells of."""
+    return len(re.findall(rf"^(?:local)?rule {rule}:", log, flags=re.MULTILINE))
+
+
+def limits() -> dict:
+    """What the profile asks Slurm for, for a part of the atlas."""
+    profile = yaml.safe_load((ROOT / "profiles" / "slurm" / "config.yaml").read_text())
+    return profile["set-resources"]["attractors_runs"]
+
+
+def result_of(namelist: str) -> str:
+    """What a program makes of a namelist."""
+    return namelist.replace("namelists/", "", 1).replace(".nml", ".nc")
+
+
+def times_of_parts(project: Project) -> dict[str, int]:
+    """When each file of the atlas was written."""
+    files = (project.folder / "results" / "attractors").rglob("*.*")
+    return {str(path.relative_to(project.folder)): path.stat().st_mtime_ns for path in files}
+
+
+def test_killed_jobs_are_redone_and_nothing_else(cluster, built, tmp_path):
+    """A job by scancel, a program by kill -9; in the end the results are the local ones."""
+    project = built.copy_to(tmp_path / "on slurm")
+    with started(cluster, project, *SHORT_PARTS, "--", ATLAS) as run:
+        cancelled = run.program()
+        cluster.command("scancel", cancelled.job)
+        killed = run.program(besides=cancelled.namelist)
+        killed.process.kill()
+        status, log = run.result()
+    assert status != 0
+    victims = {result_of(namelist) for namelist in (cancelled.namelist, killed.namelist)}
+    made = times_of_parts(project)
+    assert len(made) == 6, log
+    assert all(re.fullmatch(PART, name) and name not in victims for name in made)
+
+    status, log = run_on(cluster, project, *SHORT_PARTS, "--", ATLAS)
+    assert status == 0, log
+    assert counted(log, "attractors_runs") == 2
+    again = times_of_parts(project)
+    assert set(again) - set(made) == victims
+    assert {name: again[name] for name in made} == made
+    assert "attractors_namelist" not in rules_in(log)
+
+    local = built.copy_to(tmp_path / "local")
+    here = local.snakemake(*SHORT_PARTS, "--", ATLAS)
+    assert here.returncode == 0, here.stdout
+    outputs = local.outputs()
+    assert ATLAS.removeprefix("results/") in outputs
+    assert len(outputs) == 1 + 2 * len(again)
+    assert project.outputs() == outputs
+
+
+def users_of(cluster: Cluster) -> list[psutil.Process]:
+    """Daemons and jobs of a cluster."""
+    configuration = cluster.environment["SLURM_CONF"]
+    found = []
+    for process in psutil.process_iter():
+        with contextlib.suppress(*GONE):
+            if process.environ().get("SLURM_CONF") == configuration:
+                found.append(process)
+    return found
+
+
+def failure_amid_a_job(cluster: Cluster) -> None:
+    """A test that fails while a job runs."""
+    with cluster:
+        cluster.command("sbatch", "--output=/dev/null", "--wrap", "sleep 600")
+        until(lambda: cluster.command("squeue", "-h", "-o", "%T") == "RUNNING\n", "start of a job")
+        assert {"munged", "slurmctld", "slurmd", "sleep"} <= {p.name() for p in users_of(cluster)}
+        raise RuntimeError("amid a job")
+
+
+def test_nothing_is_left_of_a_cluster_that_fails():
+    """Neither daemons nor the job that ran, nor a file."""
+    cluster = Cluster()
+    with pytest.raises(RuntimeError, match="amid a job"):
+        failure_amid_a_job(cluster)
+    assert users_of(cluster) == []
+    assert not cluster.folder.exists()
+
+
+def seconds_of_program(project: Project) -> tuple[float, dict[str, bytes]]:
+    """CPU seconds that the program takes for the sample, run by hand, and what it writes."""
+    namelists = {
+        part: part.replace("attractors", "namelists/attractors", 1).replace(".nc", ".nml")
+        for part in PARTS
+    }
+    assert project.snakemake(*SAMPLE, "--", *namelists.values()).returncode == 0
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    written = {}
+    for part, namelist in namelists.items():
+        subprocess.run(
+            ["build/release/bin/attractors", namelist, "by_hand.nc"],
+            cwd=project.folder,
+            env={**os.environ, "OMP_NUM_THREADS": "1"},
+            stderr=subprocess.DEVNULL,
+            check=True,
+        )
+        written[part] = (project.folder / "by_hand.nc").read_bytes()
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, written
+
+
+def seconds_in_jobs(project: Project) -> float:
+    """Seconds that the programs of all parts ran, by the clock."""
+    seconds = 0.0
+    for part in PARTS:
+        table = project.folder / part.replace("results", "results/benchmarks", 1)
+        with open(table.with_suffix(".tsv")) as rows:
+            seconds += float(next(csv.DictReader(rows, delimiter="\t"))["s"])
+    return seconds
+
+
+def test_scaling_and_cost(cluster, built, tmp_path, capsys):
+    """Points per second with one and two workers, a point's cost, and the memory of a job."""
+    cpu, by_hand = seconds_of_program(built.copy_to(tmp_path / "by hand"))
+    runs, memory = [], 0.0
+    for workers in (1, 2):
+        project = built.copy_to(tmp_path / f"{workers} workers")
+        cluster.limit_cores(workers)
+        with MemoryWatch(project.folder) as watch:
+            status, log = run_on(cluster, project, *SAMPLE, "--", *PARTS)
+        assert status == 0, log
+        seconds = cluster.seconds_of_jobs(project.folder)
+        assert {part: (project.folder / part).read_bytes() for part in PARTS} == by_hand
+        assert len(watch.most) == len(PARTS)
+        runs.append(Run(workers, POINTS, len(PARTS), seconds, seconds_in_jobs(project)))
+        memory = max(memory, *watch.most.values())
+    with capsys.disabled():
+        print("", *report(runs, cpu / POINTS, memory), sep="\n")
+    assert memory < limits()["mem_mb"]
