@@ -13,6 +13,7 @@ rule docs:
     input:
         documented_sources(),
         project="docs/ford.md",
+        offline="docs/offline_pages.py",
         packages=["docs/apt-packages.txt", "docs/requirements.lock"],
     output:
         directory("results/docs"),
@@ -20,6 +21,8 @@ rule docs:
         "results/logs/docs.log",
     threads: 2
     shell:
-        "(setup/setup.sh docs && docs/.venv/bin/ford --quiet {input.project})"
+        "(setup/setup.sh docs"
+        " && docs/.venv/bin/ford --quiet {input.project}"
+        " && docs/.venv/bin/python {input.offline} {output})"
         " > {log} 2>&1 || {{ cat {log} >&2; exit 1; }};"
         " ! grep -i warning {log} >&2"
