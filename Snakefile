@@ -42,6 +42,7 @@ include: "rules/atlas_figures.smk"
 include: "rules/studies.smk"
 include: "rules/ledger.smk"
 include: "rules/page.smk"
+include: "rules/documents.smk"
 
 
 # On a cluster all but the long rules run where Snakemake does: they take seconds.

@@ -6,8 +6,16 @@ import subprocess
 import pytest
 from conftest import ROOT, project_files
 
-SCRIPTS = ["reproduce", "test", "setup/setup.sh", ".ci/run", "benchmarks/run", "compilers/run"]
-LOCKS = {".": 10, "benchmarks": 2, "tests/browser": 1, "profiles/slurm": 0}
+SCRIPTS = [
+    "reproduce",
+    "test",
+    "setup/setup.sh",
+    ".ci/run",
+    "benchmarks/run",
+    "compilers/run",
+    "docs/draw",
+]
+LOCKS = {".": 10, "benchmarks": 2, "docs": 0, "tests/browser": 1, "profiles/slurm": 0}
 """Folders with a lock of Python packages, and more than how many of them are named by hand."""
 
 

@@ -1,4 +1,4 @@
-!> References: cases solved in quadruple precision, each with the evidence of its own uncertainty
+!> Reference solutions of cases in quadruple precision, each with the evidence of its own uncertainty
 !> and of how much the case magnifies a disturbance of its history.
 program reference
    use cases_input, only: read_cases

@@ -1,4 +1,4 @@
-!> Events: instants where a function of time, state and slope passes zero, such as the maxima of a
+!> Events are instants where a function of time, state and slope passes zero: the maxima of a
 !> component or its passages through a section. The integrator finds them on dense output and hands
 !> them over; which functions and what is done with an event is the watcher's.
 !>
@@ -56,7 +56,7 @@ module dde_events
          class(event_watcher_type), intent(inout) :: self
          !> Number of the function
          integer, intent(in) :: which
-         !> When: t%hi, and t%lo beyond its last digit
+         !> Its time: t%hi, and t%lo beyond its last digit
          type(instant), intent(in) :: t
          !> State there, shape (n)
          real(wp), intent(in) :: y(:)

@@ -2,7 +2,7 @@
 !>
 !>     dy/dt = f(t, y(t), z),   z(k) = y_c(k)(t - lag(k)),   y(t0) given,   y_c(t) given for t < t0.
 !>
-!> Extend `dde_problem`, fill `n`, `lag` and `component`, and write the three procedures.
+!> Extend `dde_problem_type`, fill `n`, `lag` and `component`, and write the three procedures.
 !> Without delays leave `lag` and `component` of size zero: no history is kept then.
 module dde_problem
    use kinds, only: wp

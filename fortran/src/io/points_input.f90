@@ -35,7 +35,7 @@ module points_input
    type :: points_settings
       !> Name of what the points belong to
       character(len=word_length) :: name = ""
-      !> Points: epsilon runs fastest, histories slowest
+      !> The points, of which epsilon runs fastest, histories slowest
       type(point_type), allocatable :: points(:)
       !> Most maxima and points of the section kept of each
       integer :: kept = 0

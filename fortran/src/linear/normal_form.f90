@@ -17,7 +17,7 @@ contains
    !>     c1  = 1/2 p^T [B(conj phi, h20) + 2 B(phi, h11) + C(phi, phi, conj phi)],
    !>     l1  = Re(c1)/omega.
    !>
-   !> Negative: the bifurcation is supercritical. Positive: subcritical.
+   !> If negative, the bifurcation is supercritical; if positive, subcritical.
    subroutine first_lyapunov_coefficient(equation, omega, l1, error)
       !> The equation, which has a pair of simple roots +-i omega
       class(delay_equation_type), intent(in) :: equation

@@ -1,5 +1,5 @@
 !> Where a pair of characteristic roots lies at s = i omega: equations (6) to (10) of the paper,
-!> corrected where the README, "What differs from the paper", says so. With
+!> corrected where docs/method.md, "What was corrected", says so. With
 !>
 !>     X sin(omega tau) = -[omega^2 (gamma^2/xi + 1) - gamma^2]
 !>     X cos(omega tau) = -[omega^3 - omega gamma^2 (1 + xi)/xi],

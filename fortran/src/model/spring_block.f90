@@ -1,5 +1,5 @@
-!> The spring block with delayed friction, equations (3) and (4) of the paper as corrected (see the
-!> README, "What differs from the paper"). All quantities are nondimensional.
+!> The spring block with delayed friction, equations (3) and (4) of the paper as corrected (see
+!> docs/method.md, "What was corrected"). All quantities are nondimensional.
 module spring_block
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde, only: dde_problem_type

@@ -1,0 +1,30 @@
+# Pages about the Fortran code, made by FORD from its comments; no part of everything. What they
+# need besides is set up when they are first asked for.
+
+
+def documented_sources():
+    """Modules and programs that the pages are about."""
+    found = glob_wildcards("fortran/{folder,src|app}/{path}.f90")
+    return sorted(expand("fortran/{folder}/{path}.f90", zip, **found._asdict()))
+
+
+# A warning is a failure: the comment that it is about would be missing from the pages. FORD's own
+# check for missing comments is off, since it wants one for each local variable and knows neither
+# enumerators nor names that a facade passes on; tests/test_documents_made.py checks instead.
+rule docs:
+    input:
+        documented_sources(),
+        project="docs/ford.md",
+        offline="docs/offline_pages.py",
+        packages=["docs/apt-packages.txt", "docs/requirements.lock"],
+    output:
+        directory("results/docs"),
+    log:
+        "results/logs/docs.log",
+    threads: 2
+    shell:
+        "(setup/setup.sh docs"
+        " && docs/.venv/bin/ford --quiet {input.project}"
+        " && docs/.venv/bin/python {input.offline} {output})"
+        " > {log} 2>&1 || {{ cat {log} >&2; exit 1; }};"
+        " ! grep -i warning {log} >&2"

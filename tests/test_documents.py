@@ -1,0 +1,296 @@
+"""What the documents name exists: links, files, targets, programs, config keys, other words of the
+code; and no sentence stands twice."""
+
+import copy
+import re
+import subprocess
+from collections import Counter
+from fnmatch import fnmatch
+from functools import cache
+from pathlib import PurePath
+
+import pytest
+import yaml
+from check_config import checked
+from claims_config import checked as checked_claims
+from conftest import ROOT, project_files
+from snakemake.utils import update_config
+
+DOCUMENTS = [
+    "README.md",
+    "config/README.md",
+    *(name for name in project_files() if fnmatch(name, "docs/*.md") and name != "docs/ford.md"),
+]
+ENDINGS = "c cff f90 in lock md mplstyle nc png py rst sh smk svg toml tsv txt yaml yml".split()
+WITH_VALUE = {"--cores", "--configfile", "--report", "--profile", "--workflow-profile"}
+"""Options of Snakemake that the documents use with a value behind them."""
+OF_THE_READER = {"mine.yaml", "mine.f90", "CMakeLists.txt"}
+"""Files that the documents ask the reader to write."""
+MOST_LINES = 150
+"""Of the README: three minutes."""
+
+each = pytest.mark.parametrize("document", DOCUMENTS)
+
+
+@cache
+def text_of(document: str) -> str:
+    """The whole document."""
+    return (ROOT / document).read_text()
+
+
+def blocks_of(document: str, language: str) -> list[str]:
+    """Its code blocks in a language."""
+    return re.findall(rf"^```{language}\n(.*?)^```", text_of(document), re.DOTALL | re.MULTILINE)
+
+
+def prose_of(document: str) -> str:
+    """The document without its code blocks."""
+    return re.sub(r"^```.*?^```$", "", text_of(document), flags=re.DOTALL | re.MULTILINE)
+
+
+def ticked(document: str) -> list[str]:
+    """What stands in backticks in its prose."""
+    return re.findall(r"`([^`\n]+)`", prose_of(document))
+
+
+def anchors_of(document: str) -> set[str]:
+    """Names of its headings, as links write them."""
+    headings = re.findall(r"^#+ (.*)$", prose_of(document), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+@cache
+def code() -> str:
+    """All of the project's own text that is no document, and the names of its files."""
+    names = [name for name in project_files() if not name.endswith((".md", ".lock", ".png"))]
+    names = [name for name in names if name not in ("LICENSE", "tests/test_documents.py")]
+    return "\n".join([*names, *((ROOT / name).read_text(errors="replace") for name in names)])
+
+
+@cache
+def words() -> set[str]:
+    """All words of the code."""
+    return set(re.findall(r"\w+", code()))
+
+
+@cache
+def rules() -> set[str]:
+    """Names of the rules of the workflow."""
+    workflow = "".join(path.read_text() for path in [ROOT / "Snakefile", *ROOT.glob("rules/*.smk")])
+    return set(re.findall(r"^(?:rule|use rule \w+ as) (\w+)", workflow, re.MULTILINE))
+
+
+@cache
+def made() -> list[str]:
+    """Patterns of the files that are made, by the workflow, the benchmarks or Snakemake itself."""
+    texts = [path.read_text() for path in sorted(ROOT.glob("rules/*.smk"))]
+    texts += [path.read_text() for path in sorted(ROOT.glob("benchmarks/*.py"))]
+    found = re.findall(r'"((?:results|build)/[^"\s]+|[\w-]+\.tsv)"', "\n".join(texts))
+    return [re.sub(r"\{[^{}]*\}", "*", path) for path in found] + ["results/report.zip"]
+
+
+def is_made(path: str) -> bool:
+    """Whether something makes it; a bare name counts, and a folder in which something is made."""
+    wanted = path.rstrip("/")
+    program = re.fullmatch(r"build/release/bin/(\w+)", wanted)
+    if program:
+        return (ROOT / "fortran" / "app" / f"{program[1]}.f90").is_file()
+    if wanted.endswith("/.venv"):
+        return (ROOT / wanted).with_name("requirements.lock").is_file()
+    return any(
+        fnmatch(wanted, pattern)
+        or fnmatch(pattern, wanted)
+        or pattern.startswith(f"{wanted}/")
+        or wanted.startswith(f"{pattern}/")
+        or ("/" not in wanted and PurePath(pattern).name == wanted)
+        for pattern in made()
+    )
+
+
+def exists(path: str, document: str) -> bool:
+    """Whether a path, its end, or a pattern names a file or folder of the project."""
+    wanted = path.removeprefix("./").rstrip("/")
+    files = {*project_files()}
+    folders = {str(parent) for name in files for parent in PurePath(name).parents}
+    beside = str(PurePath(document).parent / wanted)
+    return any(
+        name in (wanted, beside) or name.endswith(f"/{wanted}") or fnmatch(name, wanted)
+        or fnmatch(PurePath(name).name, wanted)
+        for name in files | folders
+    )  # fmt: skip
+
+
+def is_path(token: str) -> bool:
+    """Whether a word in backticks is meant as a path."""
+    if not re.fullmatch(r"[\w.*/-]+", token) or token.startswith(("-", ".f")):
+        return False
+    return "/" in token.strip(".") or token.rpartition(".")[2] in ENDINGS
+
+
+def commands_in(text: str) -> list[list[str]]:
+    """Words of the commands that call Snakemake or ./reproduce, without options."""
+    found = []
+    for line in re.findall(r"(?:snakemake|\./reproduce)(?: [^\n`|&#]*)?", text):
+        kept, skip = [], False
+        for word in line.split()[1:]:
+            if not skip and not word.startswith("-"):
+                kept.append(word)
+            skip = word in WITH_VALUE
+        found.append(kept)
+    return found
+
+
+@each
+def test_relative_links_resolve(document):
+    """To a file, and to a heading where one is named."""
+    for target in re.findall(r"\]\(([^)\s]+)\)", prose_of(document)):
+        if re.match(r"\w+:", target):
+            continue
+        path, _, anchor = target.partition("#")
+        file = (ROOT / document).parent / path if path else ROOT / document
+        assert file.exists(), target
+        named = file.resolve().relative_to(ROOT)
+        if anchor:
+            assert anchor in anchors_of(str(named)), target
+
+
+@each
+def test_files_that_are_named_exist(document):
+    """In the project, or something makes them."""
+    paths = {token for token in ticked(document) if is_path(token)} - OF_THE_READER
+    missing = [path for path in paths if not (exists(path, document) or is_made(path))]
+    assert missing == []
+
+
+@each
+def test_words_of_code_exist(document):
+    """Rules, programs, config keys, scenes, types: each stands somewhere in the code."""
+    named = [token for token in ticked(document) if re.fullmatch(r"[A-Za-z]\w*", token)]
+    assert [word for word in named if word not in words()] == []
+
+
+@each
+def test_targets_that_are_named_exist(document):
+    """Rules and files that the workflow makes."""
+    commands = commands_in("\n".join([*blocks_of(document, "sh"), *ticked(document)]))
+    targets = [word for command in commands for word in command]
+    # TARGET, SCENE and such stand for any
+    targets = [word for word in targets if not word.isupper()]
+    assert [target for target in targets if target not in rules() and not is_made(target)] == []
+
+
+@each
+def test_commands_that_are_named_exist(document):
+    """Those of the project, with a part of ./test where one is named."""
+    parts = re.findall(r"\b(\w+)\)", (ROOT / "test").read_text())
+    text = "\n".join([*blocks_of(document, "sh"), *ticked(document)])
+    for command, first in re.findall(r"^(\./\w+|\w+/(?:run|draw))(?: +(\w+))?", text, re.MULTILINE):
+        assert (ROOT / command).is_file()
+        if command == "./test" and first:
+            assert first in parts
+
+
+@each
+def test_examples_of_config_are_accepted(document, default_config):
+    """Merged over the config, as Snakemake does it; claims over the claims."""
+    for block in blocks_of(document, "yaml"):
+        mine = yaml.safe_load(block)
+        config = copy.deepcopy(default_config)
+        # examples build on the scene that the first one adds
+        scene = yaml.safe_load(blocks_of("config/README.md", "yaml")[0])
+        update_config(config, scene)
+        if "claims" in mine:
+            checked_claims(mine, checked(config), {c["look_at"] for c in mine["claims"].values()})
+        else:
+            update_config(config, mine)
+            checked(config)
+
+
+def test_keys_of_a_scene_are_those_of_the_schema():
+    """Each in the table, and none besides."""
+    table = text_of("config/README.md").partition("## Keys of a scene")[2].partition("\n## ")[0]
+    rows = re.findall(r"^\| (`.*?) \|", table, re.MULTILINE)
+    named = {key for row in rows for key in re.findall(r"`(\w+)`", row)}
+    schema = yaml.safe_load((ROOT / "config" / "schema.yaml").read_text())
+    scene = schema["properties"]["scenes"]["additionalProperties"]
+    if "$ref" in scene:
+        for step in scene["$ref"].removeprefix("#/").split("/"):
+            schema = schema[step]
+        scene = schema
+    assert named == set(scene["properties"])
+
+
+def test_readme_is_short():
+    """Detail is for docs/."""
+    assert len(text_of("README.md").splitlines()) <= MOST_LINES
+
+
+def test_nothing_is_said_twice():
+    """No long line stands in two places."""
+    lines = [line.strip() for name in DOCUMENTS for line in prose_of(name).splitlines()]
+    repeated = [line for line, n in Counter(lines).items() if n > 1 and len(line) > 60]
+    assert repeated == []
+
+
+def test_every_document_is_reached_from_the_readme():
+    """By links, over others."""
+    reached, waiting = set(), ["README.md"]
+    while waiting:
+        document = waiting.pop()
+        reached.add(document)
+        for target in re.findall(r"\]\(([^)\s#]+)", prose_of(document)):
+            named = (ROOT / document).parent / target
+            if target.endswith(".md") and named.exists():
+                name = str(named.resolve().relative_to(ROOT))
+                waiting += [name] if name not in reached else []
+    assert set(DOCUMENTS) <= reached
+
+
+def test_every_picture_is_shown_and_has_its_command():
+    """Pictures in docs/ stand in a document; docs/draw says how each is drawn."""
+    drawing = (ROOT / "docs" / "draw").read_text()
+    for picture in [name for name in project_files() if fnmatch(name, "docs/*.[ps][nv]g")]:
+        name = PurePath(picture).name
+        assert any(f"{name})" in text_of(document) for document in DOCUMENTS)
+        assert name in drawing
+
+
+def test_catalog_file_is_what_the_catalog_reads():
+    """The keys that the Snakemake workflow catalog knows; Snakemake itself is told nothing more."""
+    usage = yaml.safe_load((ROOT / ".snakemake-workflow-catalog.yml").read_text())["usage"]
+    assert set(usage) == {"mandatory-flags", "software-stack-deployment"}
+    assert usage["mandatory-flags"]["flags"] == []
+    stack = usage["software-stack-deployment"]
+    uses_conda = any("conda:" in path.read_text() for path in ROOT.glob("rules/*.smk"))
+    assert stack == {
+        "conda": uses_conda, "apptainer": False, "apptainer+conda": False, "report": True
+    }  # fmt: skip
+
+
+def test_citation_is_valid():
+    """By cffconvert, where `setup/setup.sh docs` has set it up."""
+    program = ROOT / "docs" / ".venv" / "bin" / "cffconvert"
+    if not program.exists():
+        pytest.skip("docs/.venv is not set up")
+    command = [program, "--validate", "--infile", ROOT / "CITATION.cff"]
+    run = subprocess.run(command, capture_output=True, text=True)
+    assert run.returncode == 0, run.stdout + run.stderr
+
+
+@pytest.mark.parametrize(
+    "token",
+    ["fortran/src/nowhere.f90", "scripts/removed.py", "results/tables/no-such.tsv", "no_such_*.py"],
+)
+def test_missing_file_is_caught(token):
+    """The checker itself."""
+    assert is_path(token)
+    assert not exists(token, "README.md")
+    assert not is_made(token)
+
+
+def test_unknown_target_is_caught():
+    """The reader of commands itself."""
+    found = commands_in("snakemake --cores 2 no_such --configfile=x.yaml\n./reproduce figure_5 -n")
+    assert found == [["no_such"], ["figure_5"]]
+    assert "no_such" not in rules()
+    assert not is_made("no_such")

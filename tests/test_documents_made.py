@@ -1,0 +1,209 @@
+"""What is made for the documents: the picture of the data flow, the pages about the code, and the
+program of docs/own-model.md, built and run as it is printed."""
+
+import html
+import math
+import re
+import subprocess
+import sys
+from itertools import pairwise
+from pathlib import Path
+
+import data_flow
+import offline_pages
+import pytest
+from conftest import ROOT
+from PIL import Image
+from test_documents import blocks_of
+
+FILEGRAPH = """digraph snakemake_dag {
+0 [ shape=none, margin=0, label=<<table border="2">
+<b><font point-size="18">all</font></b>
+<tr><td align="right">  </td> </tr>
+</table>>]
+1 [ shape=none, margin=0, label=<<table border="2">
+<b><font point-size="18">later</font></b>
+<td align="left"><font face="monospace">results/data/{scene}.nc</font></td>
+<tr><td align="right"> <b><font point-size="14">output &rarr;</font></b> </td> </tr>
+<td align="left"><font face="monospace">results/tables/a.tsv</font></td></tr>
+</table>>]
+2 [ shape=none, margin=0, label=<<table border="2">
+<b><font point-size="18">earlier</font></b>
+<tr><td align="right"> <b><font point-size="14">output &rarr;</font></b> </td> </tr>
+<td align="left"><font face="monospace">results/data/{scene,one|two}.nc</font></td></tr>
+</table>>]
+\t1 -> 0
+\t2 -> 1
+}
+"""
+
+SOURCES = sorted(
+    path for folder in ("src", "app") for path in (ROOT / "fortran" / folder).rglob("*.f90")
+)
+"""What the pages about the code are made from."""
+
+
+def drawn() -> tuple[set[str], set[tuple[str, str]]]:
+    """Rules and pairs of rules in the committed picture."""
+    svg = (ROOT / "docs" / "data-flow.svg").read_text()
+    found = re.findall(r'class="(node|edge)">\s*<title>(.*?)</title>', svg)
+    names = [(kind, html.unescape(title)) for kind, title in found if "title_" not in title]
+    nodes = {name for kind, name in names if kind == "node"}
+    edges = {tuple(name.split("->")) for kind, name in names if kind == "edge"}
+    return nodes - {"config"}, {pair for pair in edges if pair[0] != "config"}
+
+
+def test_picture_of_the_data_flow_is_up_to_date(project):
+    """Its boxes are the rules that everything needs, its arrows theirs; else run docs/draw."""
+    rules, pairs = data_flow.read_filegraph(project.snakemake("--filegraph", "all").stdout)
+    assert len(rules) > 30
+    assert drawn() == ({rule.name for rule in rules}, pairs)
+
+
+def test_filegraph_is_read():
+    """Rules by name with their files, patterns of wildcards dropped, without the target."""
+    rules, pairs = data_flow.read_filegraph(FILEGRAPH)
+    assert rules == [
+        data_flow.Rule("earlier", ("results/data/{scene}.nc",)),
+        data_flow.Rule("later", ("results/tables/a.tsv",)),
+    ]
+    assert pairs == {("earlier", "later")}
+
+
+@pytest.mark.parametrize(
+    ("path", "stage"),
+    [
+        ("results/namelists/hopf/{plane}.nml", "namelist"),
+        ("build/release/bin/{program}", "program"),
+        ("results/references/trust/{family}.tsv", "data"),
+        ("results/tables/claims.tsv", "table"),
+        ("results/figures/figure_1.pdf", "figure"),
+        ("results/index.html", "page"),
+    ],
+)
+def test_stage_is_that_of_the_file(path, stage):
+    """From the config to the page."""
+    assert data_flow.Rule("a_rule", (path,)).stage == stage
+
+
+def with_stand_ins(folder: Path, ford: str) -> None:
+    """A set-up that does nothing, FORD as a line of shell, and Python that writes its call down."""
+    python = "echo $* >results/docs/called"
+    lines = {"setup/setup.sh": "exit 0", "docs/.venv/bin/ford": ford}
+    for path, line in {**lines, "docs/.venv/bin/python": python}.items():
+        script = folder / path
+        script.parent.mkdir(parents=True, exist_ok=True)
+        script.write_text(f"#!/bin/bash\n{line}\n")
+        script.chmod(0o755)
+
+
+def test_pages_about_the_code_are_made(project):
+    """By FORD, with the settings of docs/ford.md."""
+    settings = (project.folder / "docs" / "ford.md").read_text()
+    assert re.search(r"^output_dir: \.\./results/docs$", settings, re.MULTILINE)
+    make = "mkdir -p results/docs && echo $* > results/docs/index.html"
+    with_stand_ins(project.folder, make)
+    run = project.snakemake("docs")
+    assert run.returncode == 0, run.stdout
+    called = (project.folder / "results" / "docs" / "index.html").read_text()
+    assert called == "--quiet docs/ford.md\n"
+    called = (project.folder / "results" / "docs" / "called").read_text()
+    assert called == "docs/offline_pages.py results/docs\n"
+
+
+def test_warning_of_ford_is_a_failure(project):
+    """It is shown, and no pages are left."""
+    warn = "mkdir -p results/docs && echo 'Warning: a comment lost'"
+    with_stand_ins(project.folder, warn)
+    run = project.snakemake("docs")
+    assert run.returncode != 0
+    assert "Warning: a comment lost" in run.stdout
+    assert not (project.folder / "results" / "docs").exists()
+
+
+def test_pages_fetch_nothing():
+    """Bootstrap is a file beside them, MathJax is left out, links of their own are kept."""
+    page = """<link href="https://cdn.example/bootstrap.min.css" rel="stylesheet"
+        integrity="x"><script src="https://cdn.example/bootstrap.bundle.min.js"></script>
+        <script src="https://cdn.example/MathJax.js?config=x" async></script>
+        <link href="../css/local.css" rel="stylesheet"><a href="https://example.org">FORD</a>"""
+    found = offline_pages.offline(page, "..")
+    assert re.findall(r'(?:href|src)="(.*?)"', found) == [
+        "../css/bootstrap.min.css",
+        "../js/bootstrap.bundle.min.js",
+        "../css/local.css",
+        "https://example.org",
+    ]
+
+
+def test_unknown_fetch_is_refused():
+    """By its address."""
+    with pytest.raises(
+        ValueError, match=r"fetches https://cdn\.example/new\.js; expected Bootstrap"
+    ):
+        offline_pages.offline('<script src="https://cdn.example/new.js"></script>', ".")
+
+
+def without_bindings(lines: list[str]) -> list[str]:
+    """The lines without interfaces of other libraries, whose own pages explain them."""
+    text = "\n".join(lines)
+    return re.sub(r"^ +interface$.*?^ +end interface$", "", text, flags=re.DOTALL | re.M).split(
+        "\n"
+    )
+
+
+def test_everything_has_a_comment():
+    """Modules, programs, types, procedures and their arguments: `!>` stands above each."""
+    procedure = r"(?!end\b)(?:[\w(), =*:]+ )?(?:subroutine|function) \w+"
+    thing = re.compile(
+        rf"\s*(?:module (?!procedure)\w+$|program \w+$|type(?:, [\w(), ]+)? :: \w+|{procedure})"
+        r"|\s*[\w(), =*:+-]+,\s*intent\("
+    )
+    checked, bare = 0, []
+    for path in SOURCES:
+        for before, line in pairwise(["", *without_bindings(path.read_text().splitlines())]):
+            if thing.match(line) and not line.lstrip().startswith(("end ", "!")):
+                checked += 1
+                bare += [] if before.strip().startswith("!>") else [f"{path.name}: {line.strip()}"]
+    assert checked > 1500
+    assert bare == []
+
+
+def test_no_comment_begins_like_metadata():
+    """FORD drops a first line such as `Name: text`."""
+    for path in SOURCES:
+        for before, line in pairwise(["", *path.read_text().splitlines()]):
+            first = not before.strip().startswith("!>")
+            assert not (first and re.match(r"\s*!> [\w-]+:(\s|$)", line)), f"{path}: {line}"
+
+
+def test_program_of_ones_own(tmp_path):
+    """Maxima of sin t, and its values after going on, to 100 x tolerance."""
+    (tmp_path / "CMakeLists.txt").write_text(blocks_of("docs/own-model.md", "cmake")[0])
+    (tmp_path / "mine.f90").write_text(blocks_of("docs/own-model.md", "fortran")[0])
+    where = ["-G", "Ninja", "-S", tmp_path, "-B", tmp_path / "build"]
+    for command in (
+        ["cmake", *where, "-D", f"SPRING_BLOCK_DELAY={ROOT}"],
+        ["cmake", "--build", tmp_path / "build"],
+        [tmp_path / "build" / "mine"],
+    ):
+        run = subprocess.run(command, capture_output=True, text=True)
+        assert run.returncode == 0, run.stdout + run.stderr
+    lines = run.stdout.splitlines()
+    maxima = [float(line.split()[-1]) for line in lines if line.startswith("maximum")]
+    assert maxima == pytest.approx([math.pi / 2, 5 * math.pi / 2, 9 * math.pi / 2], abs=2e-8)
+    values = dict(map(float, line.split()) for line in lines if re.match(r"\d", line))
+    assert values == pytest.approx({t: math.sin(t) for t in (16.0, 18.0, 20.0)}, abs=1e-8)
+    assert lines[-1].split()[0] == "T"
+
+
+def test_small_picture_is_half_the_figure(tmp_path):
+    """And the same bytes from the same figure."""
+    Image.effect_noise((301, 200), 80.0).convert("RGB").save(tmp_path / "figure.png")
+    script = ROOT / "docs" / "small_picture.py"
+    for name in ("one.png", "two.png"):
+        command = [sys.executable, script, tmp_path / "figure.png", tmp_path / name]
+        subprocess.run(command, check=True)
+    assert (tmp_path / "one.png").read_bytes() == (tmp_path / "two.png").read_bytes()
+    with Image.open(tmp_path / "one.png") as small:
+        assert small.size == (150, 100)
