@@ -1,5 +1,5 @@
-!> Reference solutions of cases in quadruple precision, each with the evidence of its own uncertainty
-!> and of how much the case magnifies a disturbance of its history.
+!> Reference solutions of cases in quadruple precision, each with the evidence of its own
+!> uncertainty and of how much the case magnifies a disturbance of its history.
 program reference
    use cases_input, only: read_cases
    use errors, only: error_type
