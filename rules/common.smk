@@ -11,6 +11,7 @@ import before_run
 import check_config
 import claims_config
 import git_commit
+import page_assets
 import study_cases
 
 try:

@@ -1,12 +1,4 @@
 # The page that re-tells the paper; with results/ around it, it can be zipped and mailed.
-DYGRAPHS = "/usr/share/javascript/dygraphs"  # Debian's libjs-dygraphs
-ASSETS = {
-    "style.css": "page/style.css",
-    "views.js": "page/views.js",
-    "dygraph.min.js": f"{DYGRAPHS}/dygraph.min.js",
-    "dygraph.min.css": f"{DYGRAPHS}/dygraph.min.css",
-    "dygraph-licence.txt": "/usr/share/doc/libjs-dygraphs/copyright",
-}
 
 
 rule page:
@@ -19,7 +11,7 @@ rule page:
         captions=[figure["caption"] for figure in on_page(*FIGURES)],
         readme="README.md",
         template="page/index.html.jinja",
-        assets=list(ASSETS.values()),
+        assets=list(page_assets.ASSETS.values()),
         code=[
             "scripts/captions.py",
             "scripts/page_content.py",
@@ -28,7 +20,7 @@ rule page:
         ],
     output:
         page="results/index.html",
-        assets=expand("results/page/{asset}", asset=ASSETS),
+        assets=expand("results/page/{asset}", asset=page_assets.ASSETS),
     log:
         "results/logs/page.log",
     params:
