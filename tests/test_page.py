@@ -16,7 +16,7 @@ import pytest
 import write_page
 import xarray as xr
 from claims_results import VERDICTS
-from conftest import ROOT
+from conftest import ROOT, SMOKE, rules_in
 from docutils.utils import SystemMessage
 from jinja2 import UndefinedError
 from made_up_page import attractor, claim, content, figure, run
@@ -255,3 +255,13 @@ def test_provenance_is_told(smoke, smoke_page):
     assert "Commit unknown." in " ".join(smoke_page.text.split())
     rows = [given for tag, given in smoke_page.found if tag == "th" and given.get("scope") == "row"]
     assert len(rows) > 8
+
+
+def test_page_made_again_is_the_same_bytes(scratch):
+    """With the same results and the same measured seconds."""
+    index = scratch.folder / "results" / "index.html"
+    before = index.read_bytes()
+    made = scratch.snakemake("--force", "page", *SMOKE)
+    assert made.returncode == 0, made.stdout
+    assert "page" in rules_in(made.stdout)
+    assert index.read_bytes() == before
