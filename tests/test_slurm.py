@@ -61,8 +61,8 @@ def test_report_shows_its_arithmetic(runs):
     """Rates and their ratio, then each product with its factors."""
     lines = report(runs, 0.36, 500.0)
     assert [line.split() for line in lines[1:3]] == [
-        ["1", "60", "4", "60.0", "40.0", "1.00", "1.00"],
-        ["2", "60", "4", "40.0", "44.0", "1.50", "1.50"],
+        ["1", "60", "4", "60.0", "0.67", "1.00", "1.00", "1.00"],
+        ["2", "60", "4", "40.0", "0.73", "1.50", "1.50", "1.65"],
     ]
     text = "\n".join(lines)
     assert "1000000 x 0.360 s / 3600 = 100 core hours" in text

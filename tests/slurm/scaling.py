@@ -36,21 +36,29 @@ def projected_hours(cpu_seconds: float, extra: float, workers: int) -> float:
     return -(-PARTS // workers) * one_part / 3600
 
 
+def row(run: Run, first: Run) -> str:
+    """A line of the scaling table; `first` is the run with one worker."""
+    rate, first_rate = run.points / run.seconds, first.points / first.seconds
+    slower = run.seconds_in_programs / first.seconds_in_programs
+    return (
+        f"{run.workers:7}  {run.points:6}  {run.parts:5}  {run.seconds:7.1f}"
+        f"  {run.seconds_in_programs / run.points:9.2f}  {rate:8.2f}  {rate / first_rate:5.2f}"
+        f"  {rate / first_rate * slower:23.2f}"
+    )
+
+
 def report(runs: list[Run], cpu_seconds: float, memory: float) -> list[str]:
-    """Lines of the scaling table and of the projection with its arithmetic."""
+    """Lines of the scaling table and of the projection with its arithmetic.
+
+    The last column of the table leaves out that programs run slower beside others.
+    """
     first = runs[0]
-    rate = first.points / first.seconds
     extra = start_up(first)
     points = SIDE * SIDE
     one_part = points / PARTS * cpu_seconds / THREADS
     return [
-        "workers  points  parts  seconds  in programs  points/s  ratio",
-        *(
-            f"{run.workers:7}  {run.points:6}  {run.parts:5}  {run.seconds:7.1f}"
-            f"  {run.seconds_in_programs:11.1f}  {run.points / run.seconds:8.2f}"
-            f"  {run.points / run.seconds / rate:5.2f}"
-            for run in runs
-        ),
+        "workers  points  parts  seconds  s a point  points/s  ratio  ratio at the same speed",
+        *(row(run, first) for run in runs),
         f"a point of the fine atlas: {cpu_seconds:.3f} s of CPU time ({first.points} points)",
         f"a part, beside its program: {extra:.1f} s with one worker",
         f"memory of a job: {memory:.0f} MB at most",
