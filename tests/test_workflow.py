@@ -144,14 +144,6 @@ def test_every_rule_ran(smoke_run):
     assert rules_in(run.stdout) == set(listed) - OPTIONAL
 
 
-def test_smoke_run_is_short(smoke_run):
-    """The build in both precisions included."""
-    hours, minutes, seconds = re.search(
-        r"Elapsed time: (\d+):(\d+):(\S+)", smoke_run[1].stdout
-    ).groups()
-    assert 3600 * int(hours) + 60 * int(minutes) + float(seconds) < 150
-
-
 def test_every_figure_is_there_three_times(smoke):
     """For print, as picture and for the page, none empty, and for the page none that is slow."""
     figures = {
