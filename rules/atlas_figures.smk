@@ -14,6 +14,7 @@ rule atlas_coarse:
             caption="../scripts/atlas_coarse.rst",
             category="Atlas",
         ),
+        svg="results/figures/atlas_coarse.svg",
     log:
         "results/logs/figures/atlas_coarse.log",
     params:
@@ -34,6 +35,7 @@ use rule atlas_coarse as atlas with:
             caption="../scripts/atlas.rst",
             category="Atlas",
         ),
+        svg="results/figures/atlas.svg",
     log:
         "results/logs/figures/atlas.log",
 
@@ -57,6 +59,7 @@ rule true_torus:
             caption="../scripts/true_torus.rst",
             category="Atlas",
         ),
+        svg="results/figures/true_torus.svg",
     log:
         "results/logs/figures/true_torus.log",
     params:
@@ -77,6 +80,7 @@ rule route_to_chaos:
             caption="../scripts/route_to_chaos.rst",
             category="Atlas",
         ),
+        svg="results/figures/route_to_chaos.svg",
     log:
         "results/logs/figures/route_to_chaos.log",
     script:

@@ -117,4 +117,4 @@ if __name__ == "__main__":
             [read(path) for path in snakemake.input.curves],
             snakemake.params.scenes,
         )
-        save(figure, snakemake.output.pdf, snakemake.output.png)
+        save(figure, snakemake.output)

@@ -80,4 +80,4 @@ if __name__ == "__main__":
     with logged(snakemake.log[0]):
         runs = [read(path) for path in snakemake.input.runs]
         figure = draw(read_table(snakemake.input.table), runs)
-        save(figure, snakemake.output.pdf, snakemake.output.png)
+        save(figure, snakemake.output)

@@ -126,4 +126,4 @@ if __name__ == "__main__":
             )
         }
         figure = draw(scenes, shown["end_shown"], shown["frequency_shown"])
-        save(figure, snakemake.output.pdf, snakemake.output.png)
+        save(figure, snakemake.output)
