@@ -110,6 +110,12 @@ def sources_of(wildcards):
     ]
 
 
+def documented_sources():
+    """Modules and programs that the pages about the code explain."""
+    found = glob_wildcards("fortran/{folder,src|app}/{path}.f90")
+    return sorted(expand("fortran/{folder}/{path}.f90", zip, **found._asdict()))
+
+
 def scene_values(wildcards):
     """The scene's namelist group."""
     scene = {

@@ -2,12 +2,6 @@
 # need besides is set up when they are first asked for.
 
 
-def documented_sources():
-    """Modules and programs that the pages are about."""
-    found = glob_wildcards("fortran/{folder,src|app}/{path}.f90")
-    return sorted(expand("fortran/{folder}/{path}.f90", zip, **found._asdict()))
-
-
 # A warning is a failure: the comment that it is about would be missing from the pages. FORD's own
 # check for missing comments is off, since it wants one for each local variable and knows neither
 # enumerators nor names that a facade passes on; tests/test_documents_made.py checks instead.

@@ -133,7 +133,8 @@ def commands_in(text: str) -> list[list[str]]:
     for line in re.findall(r"(?:snakemake|\./reproduce)(?: [^\n`|&#]*)?", text):
         kept, skip = [], False
         for word in line.split()[1:]:
-            if not skip and not word.startswith("-"):
+            # NAME=VALUE is a setting, of --default-resources for one
+            if not skip and not word.startswith("-") and "=" not in word:
                 kept.append(word)
             skip = word in WITH_VALUE
         found.append(kept)
