@@ -33,6 +33,8 @@ scenes:
     t_transient: 7000.0
     t_end: 10000.0
     exponents: {{ count: 6, t_end: 12000.0 }}
+attractors:
+  observation: {{ t_observed: 6000.0, t_turning: 3000.0 }}
 """
 """The oscillation as in the full reproduction, at an epsilon."""
 needs_attractors = pytest.mark.skipif(

@@ -9,13 +9,14 @@ import pytest
 import xarray as xr
 from check_config import checked
 from config_refusals import NO_NUMBERS, line_about, out_of_range, put, refusal
+from conftest import of_trajectory
 from drawing import STYLE
 from figure_contents import title_of, words_in
 from matplotlib import pyplot as plt
 from tables import read_table
 from write_namelist import write_groups
 
-SCENES = ["oscillation", "torus", "chaos"]
+SCENES = ["oscillation", "torus", "chaos", "true_torus"]
 COLUMNS = "scene i exponent error sign dimension dimension_error t tolerance"
 SETTING_RANGES = {
     ("exponents", "t_turning"): (">= 0", [-1.0]),
@@ -32,7 +33,7 @@ SETTING_RANGES = {
 def groups(config) -> dict[str, dict]:
     """Namelist groups that the program accepts, to change: the fixed point without delay."""
     config = checked(config)
-    scene = {"name": "fixed_point", **config["scenes"]["fixed_point"]}
+    scene = {"name": "fixed_point", **of_trajectory(config, "fixed_point")}
     settings = {**config["exponents"], "t_turning": 100.0, "interval": 0.5}
     return {
         "scene": scene | {"t_transient": 200.0, "t_end": 300.0},
@@ -178,7 +179,7 @@ def test_figure_shows_time_and_tolerance(smoke):
     with plt.style.context(STYLE):
         figure = exponents.draw(runs, read_table(results / "tables/exponents.tsv"))
         figure.canvas.draw()
-    assert len(figure.axes) == 6
+    assert len(figure.axes) == 8
     for scene, axes in zip(SCENES, figure.axes[::2], strict=True):
         assert f"scene {scene}: " in title_of(axes)
         assert len([line for line in axes.lines if len(line.get_xdata()) > 10]) == 6
