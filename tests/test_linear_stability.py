@@ -8,7 +8,7 @@ from linear_stability_table import amplitude_death, row_of
 from tables import read_table
 from test_hopf import count_by_crossings, residual
 
-SCENES = {"fixed_point": 0, "oscillation": 1, "torus": 1, "chaos": 1}
+SCENES = {"fixed_point": 0, "oscillation": 1, "torus": 1, "chaos": 1, "true_torus": 1}
 """Number of unstable pairs."""
 
 
