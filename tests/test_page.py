@@ -18,9 +18,9 @@ import xarray as xr
 from claims_results import VERDICTS
 from conftest import ROOT, SMOKE, rules_in
 from docutils.utils import SystemMessage
+from expected_rules import FIGURES
 from jinja2 import UndefinedError
 from made_up_page import attractor, claim, content, figure, run
-from test_workflow import FIGURES
 
 
 class Elements(HTMLParser):

@@ -1,0 +1,37 @@
+"""The report of Snakemake and its captions."""
+
+import re
+import zipfile
+
+import pytest
+from conftest import ROOT, SMOKE
+from expected_rules import FIGURES
+
+
+@pytest.mark.parametrize("figure", FIGURES)
+def test_figure_has_a_caption(figure):
+    """At least one whole sentence."""
+    caption = (ROOT / "scripts" / f"{figure}.rst").read_text()
+    assert len(caption.split()) >= 8
+    assert caption.rstrip().endswith(".")
+
+
+@pytest.mark.parametrize("ending", ["html", "zip"])
+def test_report_holds_every_figure_and_caption(smoke, tmp_path, ending):
+    """In one file; the longest plain part of each caption stands for the whole."""
+    report = tmp_path / f"report.{ending}"
+    run = smoke.snakemake(*SMOKE, "--report", str(report))
+    assert run.returncode == 0, run.stdout
+    if ending == "zip":
+        with zipfile.ZipFile(report) as parts:
+            pictures = {name.split("/")[-1] for name in parts.namelist()}
+            assert {f"{figure}.png" for figure in FIGURES} <= pictures
+            text = parts.read("report/report.html").decode()
+    else:
+        text = report.read_text()
+    text = " ".join(text.replace("\\n", " ").split())
+    for figure in FIGURES:
+        caption = (ROOT / "scripts" / f"{figure}.rst").read_text().replace(":math:", "")
+        plain_parts = re.findall(r"[\w ,;:.()-]+", " ".join(caption.split()))
+        assert max(plain_parts, key=len).strip() in text
+        assert f"{figure}.png" in text
