@@ -1,12 +1,9 @@
 """The table of exponents: each scene, each tolerance, each exponent with its error bar."""
 
 import xarray as xr
-from drawing import logged
 from inputs import read
+from outputs import logged
 from tables import write_table
-
-ERROR_BARS = 3.0
-"""An exponent this many error bars from zero, or closer, counts as zero."""
 
 
 def rows_of(run: xr.Dataset) -> list[dict]:
@@ -17,7 +14,7 @@ def rows_of(run: xr.Dataset) -> list[dict]:
             "i": i + 1,
             "exponent": float(at.value[i]),
             "error": float(at.error[i]),
-            "sign": sign(float(at.value[i]), float(at.error[i]), run.attrs["zero_level"]),
+            "sign": sign(float(at.value[i]), float(at.sign_bound[i])),
             "dimension": float(at.dimension),
             "dimension_error": float(at.dimension_error),
             "t": run.attrs["t_end"] - run.attrs["t_begin"],
@@ -28,9 +25,9 @@ def rows_of(run: xr.Dataset) -> list[dict]:
     ]
 
 
-def sign(value: float, error: float, zero_level: float) -> str:
+def sign(value: float, bound: float) -> str:
     """What can be told of an exponent's sign."""
-    if abs(value) <= max(zero_level, ERROR_BARS * error):
+    if abs(value) <= bound:
         return "zero"
     return "positive" if value > 0 else "negative"
 

@@ -62,10 +62,10 @@ def draw(scenes: dict[str, Scene], end_shown: float, frequency_shown: float) -> 
 def words(scene: Scene) -> str:
     """Scene, parameters, class, and the leading exponents with their standard errors."""
     row = scene.row
-    level = scene.attractors.attrs["zero_level"]
+    bounds = scene.attractors.sign_bound.values[0]
     there = [i for i in EXPONENTS if not math.isnan(row[f"exponent_{i}"])]
     pairs = [(row[f"exponent_{i}"], row[f"error_{i}"]) for i in there]
-    zeros = sum(sign(*pair, level) == "zero" for pair in pairs)
+    zeros = sum(sign(row[f"exponent_{i}"], bounds[i - 1]) == "zero" for i in there)
     told = [f"$\\lambda_{i}$ = {with_error(*pair)}" for i, pair in zip(there, pairs, strict=True)]
     name = row["scene"].replace("_", " ")
     return (

@@ -203,8 +203,8 @@ def a_scene(name: str, met: str) -> true_torus.Scene:
             "maximum": (("point", "kept"), [3 + size * np.cos(angle), angle]),
             "section_theta": (("point", "kept"), [1 + size * np.cos(angle), angle]),
             "section_u": (("point", "kept"), [2 + size * np.sin(angle), angle]),
+            "sign_bound": (("point", "exponent"), np.full((2, 6), 0.003)),
         },
-        attrs={"zero_level": 1e-5},
     )
     frequency = np.linspace(0, 1, 401)
     two = met == "torus"

@@ -47,6 +47,7 @@ def test_fixed_point_has_the_roots_and_no_more(programs, groups):
     assert found.lyapunov_error[:, :3].values.tolist() == [[0.0] * 3] * 2
     assert np.isnan(found.lyapunov_exponent[:, 3]).all()
     assert np.isnan(found.lyapunov_error[:, 3]).all()
+    assert found.sign_bound[:, :3].values.tolist() == [[found.zero_level] * 3] * 2
     assert found.period.values.tolist() == found.base_1.values.tolist() == [0, 0]
     for variable in (found.maximum, found.section_theta, found.section_u):
         kept = np.isfinite(variable).sum("kept")

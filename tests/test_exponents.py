@@ -153,6 +153,8 @@ def test_table_holds_all_exponents_of_all_scenes(smoke):
         own = [row for row in rows if row["scene"] == scene]
         values = np.array([row["exponent"] for row in own]).reshape(3, 6)
         np.testing.assert_allclose(values, made.value, rtol=1e-5)
+        bounds = np.maximum(made.attrs["zero_level"], 3 * made.error)
+        np.testing.assert_allclose(made.sign_bound, bounds, rtol=1e-12)
         assert (np.diff(values) <= 0).all()
         assert [row["i"] for row in own] == 3 * [1, 2, 3, 4, 5, 6]
         signs = [row["sign"] for row in own[:6]]
@@ -160,17 +162,11 @@ def test_table_holds_all_exponents_of_all_scenes(smoke):
 
 
 @pytest.mark.parametrize(
-    ("value", "error", "sign"),
-    [
-        (1e-6, 0.0, "zero"),
-        (-0.02, 0.01, "zero"),
-        (0.02, 0.005, "positive"),
-        (-0.02, 0.005, "negative"),
-    ],
+    ("value", "sign"), [(-0.01, "zero"), (0.02, "positive"), (-0.02, "negative")]
 )
-def test_sign_needs_three_error_bars(value, error, sign):
-    """And more than the zero level."""
-    assert exponents_table.sign(value, error, 1e-5) == sign
+def test_sign_is_told_beyond_a_bound(value, sign):
+    """The program gives the bound: three error bars, and no less than the zero level."""
+    assert exponents_table.sign(value, 0.01) == sign
 
 
 def test_figure_shows_time_and_tolerance(smoke):

@@ -5,7 +5,8 @@ module exponent_averages
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: average_growth, dimension_of, error_bars, exponent_type, running_averages, without_sign
+   public :: average_growth, dimension_of, error_bars, exponent_type, running_averages, &
+             sign_bound, without_sign
 
    !> An exponent this many error bars from zero, or closer, has no sign.
    real(wp), parameter :: error_bars = 3.0_wp
@@ -93,8 +94,18 @@ contains
       !> What is as good as zero, whatever the error bar
       real(wp), intent(in) :: zero_level
 
-      value = abs(exponent%value) <= max(zero_level, error_bars*exponent%error)
+      value = abs(exponent%value) <= sign_bound(exponent, zero_level)
    end function without_sign
+
+   !> Absolute value up to which an exponent has no sign.
+   elemental real(wp) function sign_bound(exponent, zero_level) result(value)
+      !> The exponent
+      type(exponent_type), intent(in) :: exponent
+      !> What is as good as zero, whatever the error bar
+      real(wp), intent(in) :: zero_level
+
+      value = max(zero_level, error_bars*exponent%error)
+   end function sign_bound
 
    !> Dimension of Kaplan and Yorke, k + (lambda_1 + ... + lambda_k)/|lambda_(k+1)|, k the most
    !> exponents whose sum is not negative; those without sign count as 0. Not a number where more

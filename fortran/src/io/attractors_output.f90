@@ -5,6 +5,7 @@ module attractors_output
    use attractors, only: attractor_settings
    use dde, only: integration_options
    use errors, only: error_type
+   use exponent_averages, only: sign_bound
    use kinds, only: int64, wp
    use motion_classes, only: class_names
    use netcdf_output, only: output_file
@@ -109,20 +110,24 @@ contains
 
       !> Exponents and their errors.
       subroutine put_exponents()
-         real(wp), dimension(settings%exponents, size(findings)) :: bars, values
+         real(wp), dimension(settings%exponents, size(findings)) :: bars, bounds, values
          integer :: dimensions(2), k, n
 
          values = ieee_value(1.0_wp, ieee_quiet_nan)
          bars = values
+         bounds = values
          do k = 1, size(findings)
             if (.not. allocated(findings(k)%attractor%exponents)) cycle
             n = size(findings(k)%attractor%exponents)
             values(:n, k) = findings(k)%attractor%exponents%value
             bars(:n, k) = findings(k)%attractor%exponents%error
+            bounds(:n, k) = sign_bound(findings(k)%attractor%exponents, settings%zero_level)
          end do
          dimensions = [file%dimension("exponent", settings%exponents), rows]
          call file%table("lyapunov_exponent", dimensions, values, "Lyapunov exponents, descending")
          call file%table("lyapunov_error", dimensions, bars, "standard errors of the exponents")
+         call file%table("sign_bound", dimensions, bounds, &
+                         "absolute value up to which an exponent has no sign")
       end subroutine put_exponents
    end subroutine write_attractors
 

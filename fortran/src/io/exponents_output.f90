@@ -2,7 +2,7 @@
 module exponents_output
    use errors, only: error_type
    use exponent_averages, only: average_growth, dimension_of, exponent_type, running_averages, &
-                                without_sign
+                                sign_bound, without_sign
    use exponents_input, only: exponents_settings
    use kinds, only: int64, wp
    use lyapunov_spectrum, only: growth_type
@@ -33,7 +33,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(exponent_type), allocatable :: exponents(:)
       type(output_file) :: file
-      real(wp), dimension(settings%exponents, size(tolerances)) :: bars, values
+      real(wp), dimension(settings%exponents, size(tolerances)) :: bars, bounds, values
       real(wp), dimension(size(tolerances)) :: dimension, dimension_error
       real(wp), allocatable :: averages(:, :), blocks(:, :), time(:)
       integer :: i, id, ids(4)
@@ -43,6 +43,7 @@ contains
          exponents = average_growth(measured(i)%growth, measured(i)%interval, settings%blocks)
          values(:, i) = exponents%value
          bars(:, i) = exponents%error
+         bounds(:, i) = sign_bound(exponents, settings%zero_level)
          call dimension_of(exponents, settings%zero_level, dimension(i), dimension_error(i))
       end do
       do i = 1, settings%exponents
@@ -64,6 +65,8 @@ contains
          call file%put(id, first%t_begin + time)
          call file%table("value", ids([1, 2]), values, "exponent")
          call file%table("error", ids([1, 2]), bars, "standard error from blocks")
+         call file%table("sign_bound", ids([1, 2]), bounds, &
+                         "absolute value up to which an exponent has no sign")
          call file%table("block_value", ids([1, 4]), blocks, "exponent in each block")
          call file%table("running_average", ids([1, 3]), averages, "plain average up to a time")
          call file%attribute("scene", trim(scene%name))
