@@ -14,6 +14,7 @@ rule page:
         assets=list(page_assets.ASSETS.values()),
         code=[
             "scripts/captions.py",
+            "scripts/motion_rows.py",
             "scripts/page_content.py",
             "scripts/page_provenance.py",
             "scripts/page_views.py",

@@ -1,4 +1,4 @@
-"""Classes of motion as figures show them: colours, cells of a map, names for the legend."""
+"""Classes of motion as figures show them: cells of a map, names for the legend."""
 
 import matplotlib as mpl
 import numpy as np
@@ -9,17 +9,8 @@ from matplotlib.collections import PatchCollection
 from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
-from motion_rows import UNDECIDED, has_problem, kind_of
+from motion_rows import COLOURS, UNDECIDED, has_problem, kind_of
 
-COLOURS = {
-    "fixed point": "0.85",
-    "cycle": "#56B4E9",
-    "cycle of period > 1": "#0072B2",
-    "torus": "#F0E442",
-    "chaos": "#D55E00",
-    "undecided": "white",
-}
-"""Kinds of cells, told apart by people who see colours differently, undecided ones by hatching."""
 HATCH = "//////"
 HATCH_GREY = "0.45"
 NO_RESULT = {"ls": "", "marker": "x", "color": INK, "ms": 3, "mew": 0.7}

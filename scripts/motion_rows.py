@@ -1,6 +1,16 @@
 """What rows of attractors, of the atlas and of the route say."""
 
 UNDECIDED = "undecided"
+COLOURS = {
+    "fixed point": "#d9d9d9",
+    "cycle": "#56b4e9",
+    "cycle of period > 1": "#0072b2",
+    "torus": "#f0e442",
+    "chaos": "#d55e00",
+    UNDECIDED: "#ffffff",
+}
+"""Kinds of motion by the colours of their cells, which people who see colours differently tell
+apart."""
 
 
 def has_problem(row: dict) -> bool:

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import xarray as xr
+from motion_rows import has_problem, kind_of
 from tables import as_text
 
 SHOWN = 1000.0
@@ -24,10 +25,10 @@ def parameters(values: dict) -> str:
 
 def verdict(row: dict) -> str:
     """Class and exponents of a row of a table of attractors; why there are none."""
-    if isinstance(row["problem"], str):
+    if has_problem(row):
         return f"no result: {row['problem']}"
-    met = row["class"]
-    if met == "cycle" and row["period"] > 1:
+    met = kind_of(row)
+    if met != row["class"]:
         met = f"cycle of period {row['period']:g} in its section"
     exponents = [
         f"{row[f'exponent_{i}']:.3g} ± {row[f'error_{i}']:.1g}"
@@ -81,16 +82,10 @@ def atlas(rows: list[dict]) -> list[dict]:
             {
                 "x": columns.index(row["epsilon"]),
                 "y": len(lines) - 1 - lines.index(row["tau"]),
-                "kind": kind(row),
+                "kind": kind_of(row),
                 "words": f"{parameters(row)}: {verdict(row)}",
             }
             for row in inside
         ]
         maps.append({"xi": as_text(xi), "columns": columns, "lines": lines, "cells": cells})
     return maps
-
-
-def kind(row: dict) -> str:
-    """The class as the style sheet names it."""
-    several = row["class"] == "cycle" and row["period"] > 1
-    return "cycles" if several else row["class"].replace(" ", "-")

@@ -9,6 +9,7 @@ import page_provenance
 import page_views
 from inputs import read
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from motion_rows import COLOURS
 from outputs import logged, written
 from tables import read_table
 
@@ -41,6 +42,7 @@ def content(given, params) -> dict:
             page_views.trajectory(run, attractors) for run in runs if page_views.can_be_drawn(run)
         ],
         "atlas": page_views.atlas([row for table in given.atlas for row in read_table(table)]),
+        "colours": COLOURS,
         "commit": params.commit,
         "programs": page_provenance.programs([p for p in data if p.endswith(".nc")]),
         "packages": page_provenance.packages(),

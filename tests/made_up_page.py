@@ -10,6 +10,7 @@ import write_page
 import xarray as xr
 from claims_results import VERDICTS
 from conftest import ROOT
+from motion_rows import COLOURS
 
 TEMPLATE = ROOT / "page" / "index.html.jinja"
 PICTURE = (
@@ -64,6 +65,7 @@ def content(**given) -> dict:
         "verdicts": page_content.tally(claims),
         "trajectories": [page_views.trajectory(one, own) for one in runs],
         "atlas": page_views.atlas(cells),
+        "colours": COLOURS,
         "commit": "unknown",
         "programs": [{"version": "1.0", "compiler": "a compiler", "files": 2}],
         "packages": {"Python": "3.11"},

@@ -17,6 +17,7 @@ from matplotlib import pyplot as plt
 from matplotlib.collections import PatchCollection, QuadMesh
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
+from motion_rows import COLOURS
 from spectrum_rows import BASE, COMBINATION, HARMONIC, SECOND_BASE
 
 PLACES = {
@@ -96,7 +97,7 @@ def test_atlas_has_a_column_for_each_plane(drawn):
 def test_cells_have_the_colours_of_their_classes(drawn):
     """Around the points, cut at the window."""
     (mesh,) = [item for item in drawn.axes[0].collections if isinstance(item, QuadMesh)]
-    expected = [class_map.COLOURS[name] for name in ("fixed point", "cycle", "cycle of period > 1")]
+    expected = [COLOURS[name] for name in ("fixed point", "cycle", "cycle of period > 1")]
     colours = mesh.get_facecolors().reshape(3, 4, 4)
     np.testing.assert_allclose(colours[0, :3], [to_rgba(colour) for colour in expected])
     np.testing.assert_allclose(mesh.get_coordinates()[0, :, 0], [0, 0.25, 0.75, 1.25, 1.5])
@@ -113,7 +114,7 @@ def test_undecided_cells_are_hatched_and_failures_crossed(drawn):
         crosses = [line for line in panel.lines if line.get_marker() == "x"]
         assert [(line.get_xdata()[0], line.get_ydata()[0]) for line in crosses] == [(1.5, 20.0)]
     words = words_in(drawn)
-    assert all(kind in words for kind in class_map.COLOURS)
+    assert all(kind in words for kind in COLOURS)
     assert "run failed" in words
 
 

@@ -157,7 +157,7 @@ def test_atlas_has_a_map_for_each_stiffness():
     (chaos,) = [cell for cell in first["cells"] if cell["kind"] == "chaos"]
     assert (chaos["x"], chaos["y"]) == (1, 0)
     assert chaos["words"].endswith("chaos; exponents -0.01 ± 0.001, -0.02 ± 0.001")
-    assert [cell["kind"] for cell in second["cells"]] == ["cycles", "undecided"]
+    assert [cell["kind"] for cell in second["cells"]] == ["cycle of period > 1", "undecided"]
     assert "cycle of period 4 in its section" in second["cells"][0]["words"]
     assert second["cells"][1]["words"].endswith("no result: too stiff")
 
