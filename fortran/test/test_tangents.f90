@@ -1,12 +1,11 @@
-!> Tangent vectors, averages of their growth, and what is refused.
+!> Tangent vectors, and averages of their growth.
 module test_tangents
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use dde, only: continuation_type, integrate, integration_result
    use errors, only: failure_type => error_type, text
-   use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
+   use expectations, only: expect, expect_between, expect_close, expect_success
    use exponent_averages, only: average_growth, dimension_of, exponent_type, without_sign
    use kinds, only: wp
-   use lyapunov_spectrum, only: growth_settings, growth_type, measure_growth
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use pseudo_random, only: uniform
    use solving, only: at_tolerance
@@ -14,7 +13,6 @@ module test_tangents
    use tangent_problem, only: tangent_problem_type
    use tangent_vectors, only: orthonormalise, start_vectors
    use test_problems, only: linear
-   use undelayed_problems, only: swing
    implicit none (type, external)
    private
    public :: collect_tangents
@@ -29,9 +27,7 @@ contains
                    new_unittest("norm", test_norm), &
                    new_unittest("smooth restart", test_smooth_restart), &
                    new_unittest("averages", test_averages), &
-                   new_unittest("dimension", test_dimension), &
-                   new_unittest("refusals", test_refusals), &
-                   new_unittest("directions lost", test_directions_lost)]
+                   new_unittest("dimension", test_dimension)]
    end subroutine collect_tangents
 
    !> Tangent vectors follow small differences of solutions; their derivatives are the blocks.
@@ -73,20 +69,12 @@ contains
    !> cos(1) sqrt(2), its orthonormal successors keep being so.
    subroutine test_norm(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(continuation_type) :: continuation, undisturbed
-      type(integration_result) :: outcome
-      type(linear) :: problem
       type(tangent_problem_type) :: tangent
       real(wp) :: norm(4), share
 
-      problem = linear(n=1, lag=[1.0_wp], component=[1], past=[1.0_wp], first=[1.0_wp])
-      call integrate(problem, 0.0_wp, 2.3_wp, at_tolerance(1.0e-9_wp), outcome, failure, &
-                     continuation=undisturbed)
-      call expect_success(error, failure)
+      call start_after(2.3_wp, 4, tangent, undisturbed, continuation, error)
       if (allocated(error)) return
-      tangent = tangent_problem_type(problem, 4)
-      call start_vectors(tangent, undisturbed, continuation)
       call orthonormalise(tangent, 1.0_wp, continuation, norm, share)
       call expect_close(error, norm(1), cos(1.0_wp)*sqrt(2.0_wp), 1.0e-14_wp, "first norm")
       call expect_between(error, share, 0.01_wp, 0.999_wp, "least share")
@@ -106,17 +94,11 @@ contains
       type(failure_type), allocatable :: failure
       type(continuation_type) :: continuation, undisturbed
       type(integration_result) :: outcome
-      type(linear) :: problem
       type(tangent_problem_type) :: tangent
       real(wp) :: norm(2), share
 
-      problem = linear(n=1, lag=[1.0_wp], component=[1], past=[1.0_wp], first=[1.0_wp])
-      call integrate(problem, 0.0_wp, 20.3_wp, at_tolerance(1.0e-9_wp), outcome, failure, &
-                     continuation=undisturbed)
-      call expect_success(error, failure)
+      call start_after(20.3_wp, 2, tangent, undisturbed, continuation, error)
       if (allocated(error)) return
-      tangent = tangent_problem_type(problem, 2)
-      call start_vectors(tangent, undisturbed, continuation)
       continuation%rate = [undisturbed%rate, 0.0_wp, 0.0_wp]
       call integrate(tangent, 20.3_wp, 40.3_wp, at_tolerance(1.0e-9_wp), outcome, failure, &
                      continuation=continuation)
@@ -128,6 +110,30 @@ contains
       call expect_success(error, failure)
       call expect(error, outcome%breaking_points == 0, "orthonormalisation makes none")
    end subroutine test_smooth_restart
+
+   !> y' = -y(t - 1) with 1 as its past, run to a time and given its start vectors.
+   subroutine start_after(time, vectors, tangent, undisturbed, continuation, error)
+      !> End of the run
+      real(wp), intent(in) :: time
+      !> Number of vectors
+      integer, intent(in) :: vectors
+      !> The equation with its vectors
+      type(tangent_problem_type), intent(out) :: tangent
+      !> Where the run ended, without and with the vectors
+      type(continuation_type), intent(out) :: undisturbed, continuation
+      type(error_type), allocatable, intent(inout) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(linear) :: problem
+
+      problem = linear(n=1, lag=[1.0_wp], component=[1], past=[1.0_wp], first=[1.0_wp])
+      call integrate(problem, 0.0_wp, time, at_tolerance(1.0e-9_wp), outcome, failure, &
+                     continuation=undisturbed)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      tangent = tangent_problem_type(problem, vectors)
+      call start_vectors(tangent, undisturbed, continuation)
+   end subroutine start_after
 
    !> Constant growth is its own average whatever the blocks; a sine hardly counts; the error bar is
    !> that of the blocks; the order is descending.
@@ -190,53 +196,4 @@ contains
       end subroutine find
    end subroutine test_dimension
 
-   !> What cannot be measured.
-   subroutine test_refusals(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(growth_settings), parameter :: good = &
-         growth_settings(exponents=2, t_begin=10.0_wp, t_end=20.0_wp, interval=1.0_wp, blocks=2)
-      type(growth_settings) :: settings
-
-      settings = good
-      settings%exponents = 3
-      call expect_refusal("3 asked for of 2 equations without delay")
-      settings%exponents = 0
-      call expect_refusal("0 asked for; at least 1 expected")
-      settings = good
-      settings%blocks = 1
-      call expect_refusal("1 blocks; at least 2 expected")
-      settings = good
-      settings%interval = 0.0_wp
-      call expect_refusal("interval = 0.0; > 0 expected")
-      settings = good
-      settings%t_end = 10.0_wp
-      call expect_refusal("t_end = 10.0; expected > 10.0")
-
-   contains
-
-      !> The oscillator is refused with these words.
-      subroutine expect_refusal(words)
-         character(len=*), intent(in) :: words
-         type(failure_type), allocatable :: failure
-         type(growth_type) :: measured
-
-         call measure_growth(swing(), settings, at_tolerance(1.0e-6_wp), measured, failure)
-         call expect_failure(error, failure, words)
-      end subroutine expect_refusal
-   end subroutine test_refusals
-
-   !> A direction that shrinks below the rounding of the others within an interval is an error,
-   !> never a number.
-   subroutine test_directions_lost(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(growth_type) :: measured
-
-      call measure_growth(spring_block_type(0.0_wp, 0.7_wp, 0.5_wp, 100.0_wp, 0.0_wp, 0.0_wp, &
-                                            1.1_wp), &
-                          growth_settings(exponents=3, t_begin=2.0_wp, t_end=20.0_wp, &
-                                          interval=1.0_wp, blocks=2), &
-                          at_tolerance(1.0e-6_wp, "auto"), measured, failure)
-      call expect_failure(error, failure, "is left of a vector without those before it")
-   end subroutine test_directions_lost
 end module test_tangents
