@@ -4,8 +4,8 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
-from drawing import logged
 from inputs import read
+from outputs import logged
 from tables import write_table
 
 SAME_MAXIMUM = 0.01

@@ -10,7 +10,7 @@ import claims_of_formulas
 import claims_of_runs
 from claims_config import named_test
 from claims_results import NOT_TESTABLE, Finding, Results, read_results
-from drawing import logged
+from outputs import logged
 from tables import write_table
 
 TESTS = {

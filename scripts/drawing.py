@@ -25,6 +25,9 @@ METADATA = {"pdf": {"CreationDate": None}, "png": None, "svg": {"Date": None}}
 
 def save(figure: Figure, output) -> None:
     """Write a figure for print, as picture and for the page; `output` names the three files."""
+    # the layout once, for all three
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
     for ending, metadata in METADATA.items():
         final = getattr(output, ending)
         # to memory first: matplotlib hides that a disk is full

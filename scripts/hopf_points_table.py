@@ -4,9 +4,9 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
-from drawing import logged
 from inputs import read
 from linear_stability_table import amplitude_death
+from outputs import logged
 from tables import write_table
 
 COLUMNS = [

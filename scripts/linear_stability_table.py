@@ -3,8 +3,8 @@
 from pathlib import Path
 
 import xarray as xr
-from drawing import logged
 from inputs import read
+from outputs import logged
 from tables import write_table
 
 ROOTS_SHOWN = 3

@@ -2,7 +2,7 @@
 
 import numpy as np
 from accuracy import Reference, distances, errors_of, largest, read_references, read_runs
-from drawing import logged
+from outputs import logged
 from tables import write_table
 
 PARAMETERS = ["tau", "epsilon", "xi", "gamma", "history_theta", "history_u", "history_v", "t_end"]

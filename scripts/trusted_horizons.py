@@ -2,7 +2,7 @@
 
 import numpy as np
 from accuracy import Reference, errors_of, largest, read_references, read_runs
-from drawing import logged
+from outputs import logged
 from tables import write_table
 
 

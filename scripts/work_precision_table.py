@@ -2,7 +2,7 @@
 
 import numpy as np
 from accuracy import Reference, errors_of, largest, read_references, read_runs
-from drawing import logged
+from outputs import logged
 from tables import write_table
 
 FIXED = {"error_quarter": 0.25, "error_half": 0.5, "error_end": 1.0}

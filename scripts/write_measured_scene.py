@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from drawing import logged
+from outputs import logged
 from study_cases import work_precision_groups
 from tables import read_table
 from write_namelist import write_groups
