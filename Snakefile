@@ -14,6 +14,12 @@ report: "scripts/report.rst"
 include: "rules/common.smk"
 
 
+onstart:
+    # The limit of jobs a second wakes the scheduler each second once more for every job that ended,
+    # until that costs more than some of the jobs.
+    workflow.scheduler.job_rate_limiter = None
+
+
 rule all:
     default_target: True
     input:

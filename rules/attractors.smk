@@ -1,5 +1,6 @@
 # Attractors and their classes: of scenes from several histories, over the plane of epsilon and tau
-# (the atlas), and along the route to chaos. A survey is cut into parts, each a job of its own.
+# (the atlas), and along the route to chaos. A survey is cut into parts, each a job of its own: one
+# core each leaves fewer cores idle than the program's threads (--set-threads attractors_runs=2).
 
 
 rule attractors_namelist:
@@ -23,7 +24,7 @@ rule attractors_runs:
         "results/logs/attractors/{survey}/{part}.log",
     benchmark:
         "results/benchmarks/attractors/{survey}/{part}.tsv"
-    threads: 2
+    priority: 1
     shell:
         "OMP_NUM_THREADS={threads} {input.program} {input.namelist} {output}"
         " 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"

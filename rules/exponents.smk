@@ -22,6 +22,7 @@ rule exponents_runs:
         "results/logs/exponents/{scene}.log",
     benchmark:
         "results/benchmarks/exponents/{scene}.tsv"
+    priority: 1
     shell:
         "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
 

@@ -36,6 +36,7 @@ rule reference:
         "results/logs/references/{study}/{family}.log",
     benchmark:
         "results/benchmarks/references/{study}/{family}.tsv"
+    priority: 1
     shell:
         "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
 
@@ -118,7 +119,7 @@ rule work_precision_namelist:
         "../scripts/write_measured_scene.py"
 
 
-# runs alone, so that nothing else is in the times
+# The runs of a scene take turns, so that what else the machine does hits all methods alike.
 rule work_precision_runs:
     input:
         program="build/release/bin/measure",
@@ -129,7 +130,7 @@ rule work_precision_runs:
         "results/logs/measurements/work_precision/{work_scene}.log",
     benchmark:
         "results/benchmarks/measurements/work_precision/{work_scene}.tsv"
-    threads: 2
+    priority: 1
     shell:
         "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
 
