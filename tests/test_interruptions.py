@@ -18,6 +18,14 @@ LONG = "results/references/stability/grid_fault.tsv"
 """A result that takes about a second."""
 
 
+@pytest.fixture(autouse=True)
+def heed_interrupts() -> Iterator[None]:
+    """A job in the background of a shell ignores them, and so would its children."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 def wait_for(path: Path) -> None:
     """Return when a file is there."""
     end = time.monotonic() + 60
