@@ -81,11 +81,21 @@ make_venv() {
     [[ $made_from != "$venv/made-from" ]] || /usr/bin/python3 -m venv --clear "$venv"
     "$venv/bin/python" -W ignore:DEPRECATION -m pip install --quiet --no-input --no-user \
         --disable-pip-version-check --require-hashes -r "$lock"
-    # Snakemake leaves its interpreter unquoted, so that scripts fail in a folder
-    # whose name holds a space (snakemake issue 2645, open)
-    [[ $venv != .venv ]] || sed -i 's/"{py_exec} {fname:q}"/"{py_exec:q} {fname:q}"/' \
-        .venv/lib/python3.*/site-packages/snakemake/script/__init__.py
+    [[ $venv != .venv ]] || quote_interpreter
     venv_source >"$made_from"
+}
+
+# Snakemake leaves its interpreter unquoted, so that scripts, and jobs on a cluster, fail in a folder
+# whose name holds a space (snakemake issue 2645, open).
+quote_interpreter() {
+    local jobs quoted='__import__("shlex").quote(sys.executable)'
+    cd .venv/lib/python3.*/site-packages
+    sed -i 's/"{py_exec} {fname:q}"/"{py_exec:q} {fname:q}"/' snakemake/script/__init__.py
+    for jobs in snakemake_interface_executor_plugins/executors/remote.py \
+        snakemake_executor_plugin_slurm_jobstep/__init__.py; do
+        [[ ! -e $jobs ]] || sed -i -E "s/^( +|.* return )sys\.executable$/\1$quoted/" "$jobs"
+    done
+    cd - >/dev/null
 }
 
 # A build, too, holds the path of its folder: drop those made before a move.

@@ -33,7 +33,7 @@ module measured_run
       !> The reason in the solver's own words; empty where it reached t_end
       character(len=:), allocatable :: reason
       !> What the solver did
-      type(integration_result) :: outcome
+      type(integration_result) :: outcome = integration_result()
       !> theta, u, ln v, shape (3, times); not a number where it did not come
       real(wp), allocatable :: samples(:, :)
       !> Smallest and largest ln v over a grid eight times as fine as the samples
