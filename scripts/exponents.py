@@ -1,4 +1,4 @@
-"""Figure of exponents: running averages and, beside them, values at several tolerances."""
+"""Figure of exponents: running averages; values by tolerance and by resolution of the history."""
 
 import numpy as np
 import xarray as xr
@@ -7,6 +7,7 @@ from inputs import read
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 from tables import read_table
 
 LEAST_SCALE = 1e-3
@@ -14,29 +15,31 @@ LEAST_SCALE = 1e-3
 
 
 def draw(runs: list[xr.Dataset], table: list[dict]) -> Figure:
-    """One scene a row: convergence in time on the left, in tolerance on the right."""
+    """One scene a row: convergence in time, in tolerance, and in the resolution of the history."""
     figure, grid = plt.subplots(
         len(runs),
-        2,
+        3,
         figsize=(6.7, 0.4 + 2.0 * len(runs)),
-        width_ratios=[2, 1],
+        width_ratios=[2, 1, 0.7],
         sharey="row",
         squeeze=False,
     )
-    for letter, run, (left, right) in zip("abcdefgh", runs, grid, strict=False):
+    for letter, run, (left, middle, right) in zip("abcdefgh", runs, grid, strict=False):
         draw_times(left, run)
-        draw_tolerances(right, run)
+        draw_tolerances(middle, run.isel(run=np.isnan(run.longest_step)))
+        draw_resolutions(right, run.isel(run=run.tolerance == run.tolerance[0]))
         scene = run.attrs["scene"]
         rows = [row for row in table if row["scene"] == scene]
         left.set_title(f"$\\bf{{{letter}}}$  scene {scene.replace('_', ' ')}: {words(rows)}")
     grid[-1, 0].set_xlabel("time averaged over")
     grid[-1, 1].set_xlabel("tolerance of one step")
+    grid[-1, 2].set_xlabel("mean step")
     return figure
 
 
 def words(rows: list[dict]) -> str:
     """How many exponents are positive and zero, and the dimension, at the scene's tolerance."""
-    own = [row for row in rows if row["tolerance"] == rows[0]["tolerance"]]
+    own = [row for row in rows if row["mean_step"] == rows[0]["mean_step"]]
     signs = [row["sign"] for row in own]
     dimension = f"{own[0]['dimension']:.2f} ± {own[0]['dimension_error']:.2f}"
     if np.isnan(own[0]["dimension"]):
@@ -60,16 +63,26 @@ def draw_times(axes: Axes, run: xr.Dataset) -> None:
 
 def draw_tolerances(axes: Axes, run: xr.Dataset) -> None:
     """Values and error bars at each tolerance, side by side."""
-    count = run.sizes["exponent"]
-    for k in range(run.sizes["tolerance"]):
-        spread = 10 ** np.linspace(-0.3, 0.3, count)
-        draw_bars(axes, run, k, float(run.tolerance[k]) * spread)
+    spread = 10 ** np.linspace(-0.3, 0.3, run.sizes["exponent"])
+    for k, tolerance in enumerate(run.tolerance.values):
+        draw_bars(axes, run, k, tolerance * spread)
     axes.set_xscale("log")
     scale(axes)
 
 
+def draw_resolutions(axes: Axes, run: xr.Dataset) -> None:
+    """Values and error bars at each mean step, side by side."""
+    steps = run.mean_step.values
+    spread = 0.05 * steps.max() * np.linspace(-1, 1, run.sizes["exponent"])
+    for k, step in enumerate(steps):
+        draw_bars(axes, run, k, step + spread)
+    axes.set_xlim(0, 1.15 * steps.max())
+    axes.xaxis.set_major_locator(MaxNLocator(3))
+    scale(axes)
+
+
 def draw_bars(axes: Axes, run: xr.Dataset, k: int, places: np.ndarray) -> None:
-    """All exponents at one tolerance."""
+    """All exponents of one run."""
     for i, place in enumerate(places):
         axes.errorbar(
             place,

@@ -1,4 +1,4 @@
-"""The table of exponents: each scene, each tolerance, each exponent with its error bar."""
+"""The table of exponents: each scene, each of its runs, each exponent with its error bar."""
 
 import xarray as xr
 from inputs import read
@@ -7,7 +7,7 @@ from tables import write_table
 
 
 def rows_of(run: xr.Dataset) -> list[dict]:
-    """Rows of a scene, its own tolerance first."""
+    """Rows of a scene, those by its own tolerance alone first."""
     return [
         {
             "scene": run.attrs["scene"],
@@ -19,8 +19,10 @@ def rows_of(run: xr.Dataset) -> list[dict]:
             "dimension_error": float(at.dimension_error),
             "t": run.attrs["t_end"] - run.attrs["t_begin"],
             "tolerance": float(at.tolerance),
+            "longest_step": float(at.longest_step),
+            "mean_step": float(at.mean_step),
         }
-        for at in (run.isel(tolerance=k) for k in range(run.sizes["tolerance"]))
+        for at in (run.isel(run=k) for k in range(run.sizes["run"]))
         for i in range(run.sizes["exponent"])
     ]
 

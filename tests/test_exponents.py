@@ -17,7 +17,7 @@ from tables import read_table
 from write_namelist import write_groups
 
 SCENES = ["oscillation", "torus", "chaos", "true_torus"]
-COLUMNS = "scene i exponent error sign dimension dimension_error t tolerance"
+COLUMNS = "scene i exponent error sign dimension dimension_error t tolerance longest_step mean_step"
 SETTING_RANGES = {
     ("exponents", "t_turning"): (">= 0", [-1.0]),
     ("exponents", "interval"): ("> 0", [0.0, -1.0]),
@@ -56,12 +56,14 @@ def test_exponents_of_a_fixed_point_are_its_roots(programs, groups):
     ratio = 0.8**2 / 0.8
     roots = np.roots([1, 1 + ratio, 0.8**2 + ratio - 1.3 * ratio, 0.8**2])
     known = np.sort(roots.real)[::-1]
-    assert made.tolerance.values.tolist() == [1e-9, 1e-7, 1e-5]
+    assert made.tolerance.values.tolist() == [1e-9, 1e-7, 1e-5, 1e-9]
+    assert made.longest_step.fillna(0).values.tolist() == [0, 0, 0, 0.1]
+    assert 0.09 < made.mean_step[3] <= 0.1 < made.mean_step[0] < made.mean_step[1]
     # what is left of the way to the fixed point, and the turning of the pair
-    np.testing.assert_allclose(made.value, np.tile(known, (3, 1)), atol=1e-3)
+    np.testing.assert_allclose(made.value, np.tile(known, (4, 1)), atol=1e-3)
     np.testing.assert_allclose(made.value[0].sum(), -(1 + ratio), atol=1e-4)
     np.testing.assert_allclose(made.block_value.mean("block"), made.value[0], atol=1e-12)
-    assert made.dimension.values.tolist() == [0, 0, 0]
+    assert made.dimension.values.tolist() == [0, 0, 0, 0]
     assert made.time[-1] == pytest.approx(500)
     assert made.attrs["zero_exponents"] == 0
 
@@ -78,6 +80,7 @@ def test_exponents_of_a_fixed_point_are_its_roots(programs, groups):
         ("t_turning", math.nan, "t_turning = NaN; expected a finite number >= 0"),
         ("zero_level", -1.0, "zero_level = -1.0; expected a finite number >= 0"),
         ("check_tolerances", [1e-5, 0.1], "check_tolerances(2) = 0.1; expected a finite number"),
+        ("check_steps", [0.2, 0.0], "check_steps(2) = 0.0; expected a finite number > 0"),
         ("colour", 1, "&exponents"),
     ],
 )
@@ -103,7 +106,7 @@ def test_file_without_a_group_is_refused(programs, groups, group):
 
 def test_long_intervals_are_halved(programs, groups):
     """The third vector shrinks by exp(-50) in an interval; its exponent comes out all the same."""
-    groups["exponents"] |= {"interval": 100.0, "check_tolerances": [1.0e-7]}
+    groups["exponents"] |= {"interval": 100.0, "check_tolerances": [1.0e-7], "check_steps": []}
     done = run(programs, groups)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
     made = xr.load_dataset(programs.output)
@@ -151,12 +154,12 @@ def test_table_holds_all_exponents_of_all_scenes(smoke):
     for scene in SCENES:
         made = xr.load_dataset(smoke.folder / f"results/exponents/{scene}.nc")
         own = [row for row in rows if row["scene"] == scene]
-        values = np.array([row["exponent"] for row in own]).reshape(3, 6)
+        values = np.array([row["exponent"] for row in own]).reshape(4, 6)
         np.testing.assert_allclose(values, made.value, rtol=1e-5)
         bounds = np.maximum(made.attrs["zero_level"], 3 * made.error)
         np.testing.assert_allclose(made.sign_bound, bounds, rtol=1e-12)
         assert (np.diff(values) <= 0).all()
-        assert [row["i"] for row in own] == 3 * [1, 2, 3, 4, 5, 6]
+        assert [row["i"] for row in own] == 4 * [1, 2, 3, 4, 5, 6]
         signs = [row["sign"] for row in own[:6]]
         assert signs.count("zero") == made.attrs["zero_exponents"]
 
@@ -169,15 +172,15 @@ def test_sign_is_told_beyond_a_bound(value, sign):
     assert exponents_table.sign(value, 0.01) == sign
 
 
-def test_figure_shows_time_and_tolerance(smoke):
+def test_figure_shows_time_tolerance_and_resolution(smoke):
     """A row a scene, with its verdict; all is on the page."""
     results = smoke.folder / "results"
     runs = [xr.load_dataset(results / f"exponents/{scene}.nc") for scene in SCENES]
     with plt.style.context(STYLE):
         figure = exponents.draw(runs, read_table(results / "tables/exponents.tsv"))
         figure.canvas.draw()
-    assert len(figure.axes) == 8
-    for scene, axes in zip(SCENES, figure.axes[::2], strict=True):
+    assert len(figure.axes) == 12
+    for scene, axes in zip(SCENES, figure.axes[::3], strict=True):
         assert f"scene {scene.replace('_', ' ')}: " in title_of(axes)
         assert len([line for line in axes.lines if len(line.get_xdata()) > 10]) == 6
     assert "time averaged over" in words_in(figure)

@@ -1,4 +1,4 @@
-!> Lyapunov exponents of one scene, at its own tolerance and at others.
+!> Lyapunov exponents of one scene, at its own tolerance, at others, and with shorter steps.
 program exponents
    use dde, only: integration_options
    use errors, only: error_type
@@ -15,10 +15,11 @@ program exponents
    type(error_type), allocatable :: error
    type(exponents_settings) :: settings
    type(growth_type), allocatable :: measured(:)
+   type(integration_options) :: own
+   type(integration_options), allocatable :: options(:)
    type(progress_type) :: report
    type(scene_type) :: scene
    type(spring_block_type) :: block_model
-   real(wp), allocatable :: tolerances(:)
    integer :: i
 
    call get_paths(namelist_path, output_path, error)
@@ -30,21 +31,26 @@ program exponents
 
    block_model = spring_block_type(scene%tau, scene%epsilon, scene%xi, scene%gamma, &
                                    scene%history%theta, scene%history%u, scene%history%v)
-   tolerances = [scene%tolerance, settings%check_tolerances]
-   allocate (measured(size(tolerances)))
-   report = progress_type("exponents of "//trim(scene%name), parts=size(tolerances))
-   do i = 1, size(tolerances)
+   own = integration_options(method=trim(scene%method), relative=scene%tolerance, &
+                             absolute=scene%tolerance)
+   associate (tolerances => settings%check_tolerances, steps => settings%check_steps)
+      allocate (options(1 + size(tolerances) + size(steps)), source=own)
+      options(2:1 + size(tolerances))%relative = tolerances
+      options(2:1 + size(tolerances))%absolute = tolerances
+      options(2 + size(tolerances):)%longest_step = steps
+   end associate
+   allocate (measured(size(options)))
+   report = progress_type("exponents of "//trim(scene%name), parts=size(options))
+   do i = 1, size(options)
       call report%begin_part(i)
       call measure_growth(block_model, &
                           growth_settings(settings%exponents, scene%t_transient, settings%t_end, &
                                           settings%t_turning, settings%interval, settings%blocks), &
-                          integration_options(method=trim(scene%method), relative=tolerances(i), &
-                                              absolute=tolerances(i)), measured(i), error, &
-                          progress=report)
+                          options(i), measured(i), error, progress=report)
       if (allocated(error)) exit
    end do
    call report%finish()
    call stop_on(error)
-   call write_exponents(output_path, scene, settings, tolerances, measured, error)
+   call write_exponents(output_path, scene, settings, options, measured, error)
    call stop_on(error)
 end program exponents

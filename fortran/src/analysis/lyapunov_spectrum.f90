@@ -54,7 +54,9 @@ module lyapunov_spectrum
       logical :: bounds = .false.
       !> Right-hand sides evaluated, with their variational equations
       integer(int64) :: evaluations = 0
-      !> Steps accepted, and how many of them were implicit
+      !> Time passed with the vectors
+      real(wp) :: time = 0.0_wp
+      !> Steps accepted on the way, and how many of them were implicit
       integer(int64) :: steps = 0, implicit_steps = 0
       !> Where solution and vectors are
       type(continuation_type) :: continuation
@@ -223,6 +225,7 @@ contains
                      continuation=measured%continuation)
       if (allocated(error)) return
       measured%evaluations = measured%evaluations + outcome%evaluations
+      measured%time = measured%time + (time - before%time(1))
       measured%steps = measured%steps + outcome%accepted
       measured%implicit_steps = measured%implicit_steps + outcome%implicit_steps
       call orthonormalise(tangent, settings%vector_size, measured%continuation, norm, share)

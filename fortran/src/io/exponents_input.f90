@@ -9,7 +9,7 @@ module exponents_input
    private
    public :: exponents_settings, read_exponents
 
-   !> Most tolerances to check by.
+   !> Most tolerances and most lengths of steps to check by.
    integer, parameter :: most_checks = 8
    !> Most exponents and blocks.
    integer, parameter :: most_exponents = 64, most_blocks = 1000
@@ -30,6 +30,8 @@ module exponents_input
       real(wp) :: zero_level = 0.0_wp
       !> Tolerances at which all is measured once more
       real(wp), allocatable :: check_tolerances(:)
+      !> Longest steps with which all is measured once more
+      real(wp), allocatable :: check_steps(:)
    end type exponents_settings
 
 contains
@@ -57,6 +59,10 @@ contains
          call check_number(error, path, "check_tolerances("//text(i)//")", &
                            settings%check_tolerances(i), at_least=1.0e-13_wp, at_most=1.0e-2_wp)
       end do
+      do i = 1, size(settings%check_steps)
+         call check_number(error, path, "check_steps("//text(i)//")", settings%check_steps(i), &
+                           above=0.0_wp)
+      end do
    end subroutine read_exponents
 
    !> Read the group &exponents.
@@ -67,10 +73,12 @@ contains
       type(exponents_settings), intent(out) :: settings
       !> They cannot be read
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: check_tolerances(most_checks), interval, t_end, t_turning, zero_level
+      real(wp), dimension(most_checks) :: check_steps, check_tolerances
+      real(wp) :: interval, t_end, t_turning, zero_level
       character(len=256) :: reason
       integer :: blocks, count, status, unit
-      namelist /exponents/ count, t_end, t_turning, interval, blocks, zero_level, check_tolerances
+      namelist /exponents/ count, t_end, t_turning, interval, blocks, zero_level, &
+         check_tolerances, check_steps
 
       count = 0
       blocks = 0
@@ -79,11 +87,13 @@ contains
       interval = t_end
       zero_level = t_end
       check_tolerances = t_end
+      check_steps = t_end
       call open_namelist(path, unit, error)
       if (allocated(error)) return
       read (unit, nml=exponents, iostat=status, iomsg=reason)
       call close_namelist(path, "exponents", unit, status, reason, error)
       settings = exponents_settings(count, t_end, t_turning, interval, blocks, zero_level, &
-                                    pack(check_tolerances, .not. ieee_is_nan(check_tolerances)))
+                                    pack(check_tolerances, .not. ieee_is_nan(check_tolerances)), &
+                                    pack(check_steps, .not. ieee_is_nan(check_steps)))
    end subroutine read_group
 end module exponents_input

@@ -1,5 +1,7 @@
 !> Files of exponents.
 module exponents_output
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use dde, only: integration_options
    use errors, only: error_type
    use exponent_averages, only: average_growth, dimension_of, exponent_type, running_averages, &
                                 sign_bound, without_sign
@@ -17,29 +19,29 @@ module exponents_output
 
 contains
 
-   !> Write the exponents of a scene at its own tolerance, the first, and at others.
-   subroutine write_exponents(path, scene, settings, tolerances, measured, error)
+   !> Write the exponents of a scene in its own way, the first, and in others.
+   subroutine write_exponents(path, scene, settings, options, measured, error)
       !> Path of the file
       character(len=*), intent(in) :: path
       !> The scene
       type(scene_type), intent(in) :: scene
       !> How they were measured
       type(exponents_settings), intent(in) :: settings
-      !> Tolerances
-      real(wp), intent(in) :: tolerances(:)
-      !> Growth at each
+      !> Tolerances and longest steps
+      type(integration_options), intent(in) :: options(:)
+      !> Growth with each
       type(growth_type), intent(in) :: measured(:)
       !> It could not be written
       type(error_type), allocatable, intent(out) :: error
       type(exponent_type), allocatable :: exponents(:)
       type(output_file) :: file
-      real(wp), dimension(settings%exponents, size(tolerances)) :: bars, bounds, values
-      real(wp), dimension(size(tolerances)) :: dimension, dimension_error
+      real(wp), dimension(settings%exponents, size(options)) :: bars, bounds, values
+      real(wp), dimension(size(options)) :: dimension, dimension_error
       real(wp), allocatable :: averages(:, :), blocks(:, :), time(:)
       integer :: i, id, ids(4)
 
       allocate (blocks(settings%exponents, settings%blocks))
-      do i = size(tolerances), 1, -1
+      do i = size(options), 1, -1
          exponents = average_growth(measured(i)%growth, measured(i)%interval, settings%blocks)
          values(:, i) = exponents%value
          bars(:, i) = exponents%error
@@ -53,10 +55,15 @@ contains
          call running_averages(first%growth, first%interval, most_times, time, averages)
          call file%create(path, "Lyapunov exponents of the spring block with delayed friction")
          ids = [file%dimension("exponent", settings%exponents), &
-                file%dimension("tolerance", size(tolerances)), &
+                file%dimension("run", size(options)), &
                 file%dimension("time", size(time)), file%dimension("block", settings%blocks)]
          id = file%real_variable("tolerance", ids(2), "tolerance, the scene's own first", "1")
-         call file%put(id, tolerances)
+         call file%put(id, options%relative)
+         id = file%real_variable("longest_step", ids(2), "longest step allowed, if any", "1")
+         call file%put(id, merge(options%longest_step, ieee_value(1.0_wp, ieee_quiet_nan), &
+                                 options%longest_step < huge(1.0_wp)))
+         id = file%real_variable("mean_step", ids(2), "mean step, also of the history", "1")
+         call file%put(id, measured%time/max(1_int64, measured%steps))
          id = file%real_variable("dimension", ids(2), "Kaplan-Yorke dimension", "1")
          call file%put(id, dimension)
          id = file%real_variable("dimension_error", ids(2), "its standard error", "1")
