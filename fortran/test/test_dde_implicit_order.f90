@@ -1,6 +1,6 @@
 !> Order of one Radau IIA step, of its interpolant and of its error estimate, for 3, 5 and 7 stages.
 module test_dde_implicit_order
-   use dde_collocation, only: combined
+   use dde_collocation, only: combine, lagrange_weights
    use dde_implicit_step, only: implicit_step_type
    use dde_linear, only: factorise, solve
    use dde_radau_tableau, only: radau_iia, radau_tableau
@@ -9,6 +9,7 @@ module test_dde_implicit_order
    use expectations, only: expect, expect_between, expect_close
    use kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use pseudo_random, only: uniform
    use single_step, only: interpolated, take_step
    use undelayed_problems, only: oscillator, quadrature, without_delays
    implicit none (type, external)
@@ -32,7 +33,8 @@ contains
                    new_unittest("powers of t", test_powers), &
                    new_unittest("one step of an oscillator", test_oscillator), &
                    new_unittest("ten steps of an oscillator", test_global_order), &
-                   new_unittest("a row of huge numbers", test_huge_row)]
+                   new_unittest("a row of huge numbers", test_huge_row), &
+                   new_unittest("delayed values in the step", test_coupling)]
    end subroutine collect_dde_implicit_order
 
    !> Butcher's conditions B(2 s - 1), C(s) and D(s - 1), which make the order 2 s - 1 (Hairer and
@@ -46,8 +48,8 @@ contains
 
       do i = 1, size(stages)
          method = radau_iia(stages(i))
-         systems = stage_systems(method, 1)
-         a = inverse(systems%a_inverse)
+         systems = stage_systems(method, 1, 0)
+         a = inverse(systems%a_inverse(:stages(i), :))
          b = a(stages(i), :)
          associate (c => method%c, s => stages(i))
             do q = 1, 2*s - 1
@@ -189,7 +191,7 @@ contains
       type(radau_tableau) :: method
       type(stage_systems) :: systems
       real(wp), parameter :: h = 2.8e-4_wp, stiffness = 1.0e23_wp
-      real(wp), allocatable :: change(:, :), own_place(:, :), slopes(:, :)
+      real(wp), allocatable, dimension(:, :) :: change, correction, own_place, slopes
       real(wp) :: by_y(3, 3), by_z(3, 1)
       integer :: i, lag
       logical :: singular
@@ -200,22 +202,97 @@ contains
       do i = 1, size(stages)
          do lag = 0, 1
             method = radau_iia(stages(i))
-            systems = stage_systems(method, 3)
+            systems = stage_systems(method, 3, 1)
             allocate (own_place, source=reshape(method%c - (0.35_wp + lag), [1, stages(i)]))
             allocate (slopes(3, stages(i)))
             slopes(1, :) = 0.0_wp
             slopes(2, :) = -1.0_wp
             slopes(3, :) = -2.0e-8_wp*stiffness
-            call systems%prepare(method, h, by_y, by_z, [3], own_place, singular)
-            change = systems%correct(method, slopes, 0.0_wp*slopes, 0.0_wp*slopes)
-            change = combined(3, stages(i), method%t, change)
+            call systems%prepare(method, h, by_y, by_z, [3], own_place, &
+                                 weights_at(method, own_place), singular)
+            allocate (change(3, stages(i)), correction(3, stages(i)))
+            call systems%correct(method, slopes, 0.0_wp*slopes, correction)
+            call combine(3, stages(i), method%t, correction, change)
             call expect(error, systems%coupled .neqv. lag == 1, "coupled by a short delay")
             call expect_close(error, change(1, :), 0.0_wp*method%c, 1.0e-15_wp, "theta")
             call expect_close(error, change(2, :), -h*method%c, 1.0e-15_wp, "u")
-            deallocate (own_place, slopes)
+            deallocate (change, correction, own_place, slopes)
          end do
       end do
    end subroutine test_huge_row
+
+   !> A correction solves the linearised equations of all stages, and the filter its own, with two
+   !> delays that lie in the step at all stages, at some and at none.
+   subroutine test_coupling(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(radau_tableau) :: method
+      type(stage_systems) :: systems
+      real(wp), parameter :: h = 0.7_wp, lags(2, 3) = reshape([0.01_wp, 0.3_wp, 0.5_wp, 0.02_wp, &
+                                                               0.4_wp, 0.9_wp], [2, 3])
+      integer, parameter :: component(2) = [3, 1], n = 4
+      real(wp), allocatable, dimension(:, :) :: change, correction, left, own_place, slopes
+      real(wp), allocatable :: weights(:, :, :)
+      real(wp) :: by_y(n, n), by_z(n, 2), filtered(n), vector(n)
+      integer :: i, j, k, lag
+      logical :: singular
+
+      by_y = reshape(uniform(1, n*n, -2.0_wp, 2.0_wp), [n, n])
+      by_z = reshape(uniform(2, n*2, -2.0_wp, 2.0_wp), [n, 2])
+      vector = uniform(3, n, -1.0_wp, 1.0_wp)
+      do i = 1, size(stages)
+         method = radau_iia(stages(i))
+         do lag = 1, size(lags, 2)
+            systems = stage_systems(method, n, 2)
+            allocate (own_place(2, stages(i)), change(n, stages(i)), correction(n, stages(i)))
+            do j = 1, stages(i)
+               own_place(:, j) = method%c(j) - lags(:, lag)/h
+            end do
+            slopes = reshape(uniform(4, n*stages(i), -1.0_wp, 1.0_wp), [n, stages(i)])
+            weights = weights_at(method, own_place)
+            call systems%prepare(method, h, by_y, by_z, component, own_place, weights, singular)
+            call systems%correct(method, slopes, 0.0_wp*slopes, correction)
+            call combine(n, stages(i), method%t, correction, change)
+            left = matmul(change, transpose(systems%a_inverse(:stages(i), :)))/h &
+                   - matmul(by_y, change)
+            do j = 1, stages(i)
+               do k = 1, 2
+                  if (own_place(k, j) <= 0.0_wp) cycle
+                  left(:, j) = left(:, j) - by_z(:, k)*sum(weights(:, k, j)*change(component(k), :))
+               end do
+            end do
+            call expect(error, .not. singular, "there is a solution")
+            do j = 1, stages(i)
+               call expect_close(error, left(:, j), slopes(:, j), 1.0e-12_wp, "stage "//text(j))
+            end do
+            filtered = vector
+            call systems%filter(filtered)
+            left = reshape(method%real_eigenvalue/h*filtered - matmul(by_y, filtered), [n, 1])
+            do k = 1, 2
+               if (own_place(k, stages(i)) > 0.0_wp) then
+                  left(:, 1) = left(:, 1) - by_z(:, k)*filtered(component(k))
+               end if
+            end do
+            call expect_close(error, left(:, 1), vector, 1.0e-13_wp, "the filter")
+            deallocate (own_place, change, correction)
+         end do
+      end do
+   end subroutine test_coupling
+
+   !> Weights of the stage increments in the delayed values of each stage.
+   pure function weights_at(method, own_place) result(weights)
+      !> The method
+      type(radau_tableau), intent(in) :: method
+      !> Places of the delayed values in the step, shape (delayed values, stages)
+      real(wp), intent(in) :: own_place(:, :)
+      real(wp) :: weights(method%stages, size(own_place, 1), method%stages)
+      integer :: i, k
+
+      do i = 1, method%stages
+         do k = 1, size(own_place, 1)
+            weights(:, k, i) = lagrange_weights(method%x, own_place(k, i))
+         end do
+      end do
+   end function weights_at
 
    !> Tolerance at which a method of s stages asks `rounding` of its estimate of order s.
    pure real(wp) function tight(s) result(tolerance)

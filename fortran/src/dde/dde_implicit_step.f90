@@ -39,8 +39,8 @@ module dde_implicit_step
       real(wp) :: last_h = 0.0_wp
       !> Error of the embedded method, filtered and not, shape (n)
       real(wp), allocatable :: error_vector(:), unfiltered(:)
-      !> Whether the Jacobian belongs to the start of this step, and whether it still serves
-      logical :: jacobian_fresh = .false., jacobian_serves = .false.
+      !> Whether the last Jacobian still serves
+      logical :: jacobian_serves = .false.
    contains
       procedure :: reset
       procedure :: factorisations
@@ -92,7 +92,6 @@ contains
 
       self%last_h = 0.0_wp
       self%jacobian_serves = .false.
-      self%jacobian_fresh = .false.
       call self%stages%forget()
    end subroutine reset
 
@@ -135,11 +134,13 @@ contains
       call self%stages%place_delays(problem, past, self%method, h)
       error = ieee_value(1.0_wp, ieee_quiet_nan)
       do
-         call self%prepare(problem, past, singular)
-         if (singular) return
          call self%stages%start(self%method, self%last_differences, self%last_h, h)
-         call self%stages%iterate(problem, self%method, t, h, self%y, scale, asked, self%safety, &
-                                  self%evaluations, converged, finite)
+         call self%prepare(problem, singular)
+         converged = .false.
+         if (.not. singular) then
+            call self%stages%iterate(problem, self%method, t, h, self%y, scale, asked, &
+                                     self%safety, self%evaluations, converged, finite)
+         end if
          if (converged) then
             self%evaluations = self%evaluations + 1
             converged = confirmed(problem, self%method, self%stages, t, h, self%y, scale)
@@ -147,10 +148,10 @@ contains
          if (converged .or. .not. self%last_h > 0.0_wp) exit
          ! the polynomial carried on may be too far off, the Jacobian too old: once more anew
          self%last_h = 0.0_wp
-         self%jacobian_serves = self%jacobian_fresh
+         self%jacobian_serves = .false.
       end do
       if (converged) then
-         call self%estimate(problem, scale, error)
+         call self%estimate(problem, past, scale, error)
          call self%difference()
          if (ieee_is_finite(error)) then
             error = max(error, error_inside(self%method, h, self%differences, self%unfiltered, &
@@ -158,48 +159,52 @@ contains
                                             max(relative, absolute)))
             if (error <= 1.0_wp) return
          end if
-      else if (finite) then
-         error = huge(1.0_wp)
+      else if (.not. singular) then
+         if (finite) error = huge(1.0_wp)
       end if
-      if (.not. self%jacobian_fresh) self%jacobian_serves = .false.
+      self%jacobian_serves = .false.
    end subroutine attempt
 
-   !> Jacobian and factors, as far as the last ones do not serve.
-   pure subroutine prepare(self, problem, past, singular)
+   !> Jacobian and factors, as far as the last ones do not serve. The Jacobian is that of the middle
+   !> stage as it is expected, which is nearer to all stages than the start of the step.
+   pure subroutine prepare(self, problem, singular)
       !> The step
       class(implicit_step_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The past, facing this step
-      type(history_type), intent(inout) :: past
       !> Whether there is no Jacobian or a system has no solution
       logical, intent(out) :: singular
 
       singular = .false.
       if (.not. self%jacobian_serves) then
-         call past%values(problem, [0.0_wp], self%z)
-         call problem%jacobian(self%t, self%y, self%z, self%by_y, self%by_z)
+         call self%stages%expect_delayed(problem, self%y)
+         associate (middle => (self%method%stages + 1)/2)
+            call problem%jacobian(self%t + self%method%c(middle)*self%h, &
+                                  self%y + self%stages%increments(:, middle), &
+                                  self%stages%delayed(:, middle), self%by_y, self%by_z)
+         end associate
          self%stages%systems%h = 0.0_wp
          singular = .not. (all(ieee_is_finite(self%by_y)) .and. all(ieee_is_finite(self%by_z)))
          if (singular) return
          self%jacobian_serves = .true.
-         self%jacobian_fresh = .true.
       end if
       associate (systems => self%stages%systems)
          if (abs(systems%h - self%h) > 0.0_wp) then
             call systems%prepare(self%method, self%h, self%by_y, self%by_z, problem%component, &
-                                 self%stages%own_place, singular)
+                                 self%stages%own_place, self%stages%own_weights, singular)
          end if
       end associate
    end subroutine prepare
 
    !> Error of the embedded method of order s, filtered by the real system so that stiff components
    !> do not drown it (Hairer and Wanner 1996, eq. (IV.8.20)).
-   pure subroutine estimate(self, problem, scale, error)
+   pure subroutine estimate(self, problem, past, scale, error)
       !> The step
       class(implicit_step_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
+      !> The past, facing this step
+      type(history_type), intent(inout) :: past
       !> Scale of each component
       real(wp), intent(in) :: scale(:)
       !> Estimated error in units of the tolerance
@@ -214,6 +219,7 @@ contains
       if (error >= 1.0_wp .and. .not. self%last_h > 0.0_wp) then
          ! at a start, once more through the filter; the slope of an earlier polynomial is not that
          ! of the state, and only what the error changes of it counts
+         call past%values(problem, [0.0_wp], self%z)
          call problem%rhs(self%t, self%y, self%z, slope)
          call problem%rhs(self%t, self%y + self%error_vector, self%z, self%error_vector)
          self%evaluations = self%evaluations + 2
@@ -294,7 +300,6 @@ contains
       self%y = self%y_new
       self%last_differences = self%differences
       self%last_h = self%h
-      self%jacobian_fresh = .false.
       self%jacobian_serves = self%stages%contraction <= good_contraction
    end subroutine advance
 end module dde_implicit_step

@@ -23,35 +23,54 @@ contains
 
    !> Factors of a real matrix.
    pure subroutine factorise_real(a, pivot, singular)
-      !> Matrix, replaced by its factors, shape (n, n)
-      real(wp), contiguous, intent(inout) :: a(:, :)
       !> Rows exchanged, shape (n)
       integer, intent(out) :: pivot(:)
+      !> Matrix, replaced by its factors
+      real(wp), intent(inout) :: a(size(pivot), size(pivot))
       !> Whether a pivot vanished
       logical, intent(out) :: singular
-      real(wp) :: largest(size(a, 1)), row(size(a, 2))
-      integer :: i, j, k
+      real(wp) :: moved
+      real(wp) :: best, row_scale(size(pivot)), share
+      integer :: i, j, k, n
 
-      largest = max(maxval(abs(a), dim=2), tiny(1.0_wp))
+      n = size(pivot)
       singular = .false.
-      do k = 1, size(a, 1)
-         j = k - 1 + maxloc(abs(a(k:, k))/largest(k:), dim=1)
-         pivot(k) = j
-         if (j /= k) then
-            row(k:) = a(k, k:)
-            a(k, k:) = a(j, k:)
-            a(j, k:) = row(k:)
-            largest(j) = largest(k)
-         end if
-         singular = .not. abs(a(k, k)) > 0.0_wp
+      row_scale = tiny(1.0_wp)
+      do j = 1, n
+         do i = 1, n
+            row_scale(i) = max(row_scale(i), abs(a(i, j)))
+         end do
+      end do
+      row_scale = 1.0_wp/row_scale
+      do k = 1, n
+         pivot(k) = k
+         best = abs(a(k, k))*row_scale(k)
+         do i = k + 1, n
+            share = abs(a(i, k))*row_scale(i)
+            if (share > best) then
+               best = share
+               pivot(k) = i
+            end if
+         end do
+         singular = .not. best > 0.0_wp
          if (singular) return
+         if (pivot(k) /= k) then
+            do j = k, n
+               moved = a(k, j)
+               a(k, j) = a(pivot(k), j)
+               a(pivot(k), j) = moved
+            end do
+            row_scale(pivot(k)) = row_scale(k)
+         end if
          a(k, k) = 1.0_wp/a(k, k)
-         do i = k + 1, size(a, 1)
+         do i = k + 1, n
             a(i, k) = a(i, k)*a(k, k)
          end do
-         do j = k + 1, size(a, 1)
-            do i = k + 1, size(a, 1)
-               a(i, j) = a(i, j) - a(i, k)*a(k, j)
+         do j = k + 1, n
+            moved = a(k, j)
+            if (.not. abs(moved) > 0.0_wp) cycle
+            do i = k + 1, n
+               a(i, j) = a(i, j) - a(i, k)*moved
             end do
          end do
       end do
@@ -59,91 +78,120 @@ contains
 
    !> Factors of a complex matrix.
    pure subroutine factorise_complex(a, pivot, singular)
-      !> Matrix, replaced by its factors, shape (n, n)
-      complex(wp), contiguous, intent(inout) :: a(:, :)
       !> Rows exchanged, shape (n)
       integer, intent(out) :: pivot(:)
+      !> Matrix, replaced by its factors
+      complex(wp), intent(inout) :: a(size(pivot), size(pivot))
       !> Whether a pivot vanished
       logical, intent(out) :: singular
-      complex(wp) :: row(size(a, 2))
-      real(wp) :: largest(size(a, 1))
-      integer :: i, j, k
+      complex(wp) :: moved
+      real(wp) :: best, row_scale(size(pivot)), share
+      integer :: i, j, k, n
 
-      largest = max(maxval(abs(real(a)) + abs(aimag(a)), dim=2), tiny(1.0_wp))
+      n = size(pivot)
       singular = .false.
-      do k = 1, size(a, 1)
-         j = k - 1 + maxloc((abs(real(a(k:, k))) + abs(aimag(a(k:, k))))/largest(k:), dim=1)
-         pivot(k) = j
-         if (j /= k) then
-            row(k:) = a(k, k:)
-            a(k, k:) = a(j, k:)
-            a(j, k:) = row(k:)
-            largest(j) = largest(k)
-         end if
-         singular = .not. abs(real(a(k, k))) + abs(aimag(a(k, k))) > 0.0_wp
+      row_scale = tiny(1.0_wp)
+      do j = 1, n
+         do i = 1, n
+            row_scale(i) = max(row_scale(i), size_of(a(i, j)))
+         end do
+      end do
+      row_scale = 1.0_wp/row_scale
+      do k = 1, n
+         pivot(k) = k
+         best = size_of(a(k, k))*row_scale(k)
+         do i = k + 1, n
+            share = size_of(a(i, k))*row_scale(i)
+            if (share > best) then
+               best = share
+               pivot(k) = i
+            end if
+         end do
+         singular = .not. best > 0.0_wp
          if (singular) return
+         if (pivot(k) /= k) then
+            do j = k, n
+               moved = a(k, j)
+               a(k, j) = a(pivot(k), j)
+               a(pivot(k), j) = moved
+            end do
+            row_scale(pivot(k)) = row_scale(k)
+         end if
          a(k, k) = 1.0_wp/a(k, k)
-         do i = k + 1, size(a, 1)
+         do i = k + 1, n
             a(i, k) = a(i, k)*a(k, k)
          end do
-         do j = k + 1, size(a, 1)
-            do i = k + 1, size(a, 1)
-               a(i, j) = a(i, j) - a(i, k)*a(k, j)
+         do j = k + 1, n
+            moved = a(k, j)
+            do i = k + 1, n
+               a(i, j) = a(i, j) - a(i, k)*moved
             end do
          end do
       end do
    end subroutine factorise_complex
 
+   !> Size of a complex number: the sum of its parts.
+   elemental real(wp) function size_of(z) result(value)
+      !> The number
+      complex(wp), intent(in) :: z
+
+      value = abs(real(z)) + abs(aimag(z))
+   end function size_of
+
    !> Solution of a factorised real system.
    pure subroutine solve_real(a, pivot, b)
-      !> Factors, shape (n, n)
-      real(wp), contiguous, intent(in) :: a(:, :)
       !> Rows exchanged, shape (n)
       integer, intent(in) :: pivot(:)
-      !> Right-hand side, replaced by the solution, shape (n)
-      real(wp), contiguous, intent(inout) :: b(:)
+      !> Factors
+      real(wp), intent(in) :: a(size(pivot), size(pivot))
+      !> Right-hand side, replaced by the solution
+      real(wp), intent(inout) :: b(size(pivot))
       real(wp) :: moved
-      integer :: i, k
+      integer :: i, k, n
 
-      do k = 1, size(b)
+      n = size(pivot)
+      do k = 1, n
          moved = b(pivot(k))
          b(pivot(k)) = b(k)
          b(k) = moved
-         do i = k + 1, size(b)
+         do i = k + 1, n
             b(i) = b(i) - a(i, k)*moved
          end do
       end do
-      do k = size(b), 1, -1
-         b(k) = b(k)*a(k, k)
+      do k = n, 1, -1
+         moved = b(k)*a(k, k)
+         b(k) = moved
          do i = 1, k - 1
-            b(i) = b(i) - a(i, k)*b(k)
+            b(i) = b(i) - a(i, k)*moved
          end do
       end do
    end subroutine solve_real
 
    !> Solution of a factorised complex system.
    pure subroutine solve_complex(a, pivot, b)
-      !> Factors, shape (n, n)
-      complex(wp), contiguous, intent(in) :: a(:, :)
       !> Rows exchanged, shape (n)
       integer, intent(in) :: pivot(:)
-      !> Right-hand side, replaced by the solution, shape (n)
-      complex(wp), contiguous, intent(inout) :: b(:)
+      !> Factors
+      complex(wp), intent(in) :: a(size(pivot), size(pivot))
+      !> Right-hand side, replaced by the solution
+      complex(wp), intent(inout) :: b(size(pivot))
       complex(wp) :: moved
-      integer :: i, k
+      integer :: i, k, n
 
-      do k = 1, size(b)
+      n = size(pivot)
+      do k = 1, n
          moved = b(pivot(k))
          b(pivot(k)) = b(k)
          b(k) = moved
-         do i = k + 1, size(b)
+         do i = k + 1, n
             b(i) = b(i) - a(i, k)*moved
          end do
       end do
-      do k = size(b), 1, -1
-         b(k) = b(k)*a(k, k)
+      do k = n, 1, -1
+         moved = b(k)*a(k, k)
+         b(k) = moved
          do i = 1, k - 1
-            b(i) = b(i) - a(i, k)*b(k)
+            b(i) = b(i) - a(i, k)*moved
          end do
       end do
    end subroutine solve_complex

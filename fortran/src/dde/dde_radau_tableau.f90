@@ -4,6 +4,7 @@
 !> eigenvalue first and then a block [alpha, -beta; beta, alpha] for each complex pair. The nodes
 !> are the zeros of the Radau polynomial, all else follows from them; found with 60 digits, here 36.
 module dde_radau_tableau
+   use dde_collocation, only: stage_lanes
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -15,9 +16,11 @@ module dde_radau_tableau
       integer :: stages = 0
       !> Nodes c, the last one 1
       real(wp), allocatable :: c(:)
-      !> T, each eigenvector scaled to 1 at the last stage
+      !> Nodes of the collocation polynomial: 0 and c
+      real(wp), allocatable :: x(:)
+      !> T, each eigenvector scaled to 1 at the last stage, shape (stage_lanes, stages)
       real(wp), allocatable :: t(:, :)
-      !> Inverse of T
+      !> Inverse of T, shape (stage_lanes, stages)
       real(wp), allocatable :: t_inverse(:, :)
       !> Real eigenvalue of inverse(A)
       real(wp) :: real_eigenvalue = 0.0_wp
@@ -46,10 +49,23 @@ contains
       case default
          method = seven_stages()
       end select
+      method%x = [0.0_wp, method%c]
+      method%t = in_lanes(method%t)
+      method%t_inverse = in_lanes(method%t_inverse)
       associate (x => [(i/32.0_wp, i=1, 32)], c => method%c(:stages - 1))
          method%bulge = maxval(x*[(abs(product(x(i) - c)), i=1, size(x))])
       end associate
    end function radau_iia
+
+   !> A matrix over stages, its rows filled up with zeros.
+   pure function in_lanes(matrix) result(filled)
+      !> The matrix, shape (stages, stages)
+      real(wp), intent(in) :: matrix(:, :)
+      real(wp) :: filled(stage_lanes, size(matrix, 2))
+
+      filled = 0.0_wp
+      filled(:size(matrix, 1), :) = matrix
+   end function in_lanes
 
    !> Order 5.
    pure function three_stages() result(method)

@@ -2,7 +2,7 @@
 !> Wanner 1996, sec. IV.8).
 module dde_stage_iteration
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use dde_collocation, only: combined, lagrange_weights, weighted_sum
+   use dde_collocation, only: combine, lagrange_weights, weighted_sum
    use dde_history, only: history_type
    use dde_interpolant, only: newton_value
    use dde_norm, only: scaled_norm
@@ -29,6 +29,8 @@ module dde_stage_iteration
       real(wp), allocatable :: delayed(:, :)
       !> Place of each stage's delayed values in this step, in units of h; <= 0 in the past
       real(wp), allocatable :: own_place(:, :)
+      !> Weights of the stage increments in those, shape (stages, delayed values, stages)
+      real(wp), allocatable :: own_weights(:, :, :)
       !> Contraction theta of the last iteration
       real(wp) :: contraction = 1.0_wp
       !> What is left after a correction, over the correction: theta/(1 - theta), or a guess that
@@ -41,6 +43,8 @@ module dde_stage_iteration
       procedure :: place_delays
       !> Guess the increments
       procedure :: start
+      !> Delayed values in this step, by the increments as they are
+      procedure :: expect_delayed
       !> Find them
       procedure :: iterate
       !> Slope of the collocation polynomial at the end of the step
@@ -67,8 +71,9 @@ contains
       associate (s => method%stages)
          allocate (iteration%increments(n, s), iteration%transforms(n, s), iteration%slopes(n, s))
          allocate (iteration%delayed(delays, s), iteration%own_place(delays, s))
+         allocate (iteration%own_weights(s, delays, s))
       end associate
-      iteration%systems = stage_systems(method, n)
+      iteration%systems = stage_systems(method, n, delays)
    end function new_iteration
 
    !> Trust no contraction seen before.
@@ -92,11 +97,16 @@ contains
       type(radau_tableau), intent(in) :: method
       !> Length of the step
       real(wp), intent(in) :: h
-      integer :: i
+      integer :: i, k
 
       if (size(problem%lag) == 0) return
       do i = 1, method%stages
          self%own_place(:, i) = method%c(i) - problem%lag/h
+         do k = 1, size(problem%lag)
+            if (self%own_place(k, i) > 0.0_wp) then
+               self%own_weights(:, k, i) = lagrange_weights(method%x, self%own_place(k, i))
+            end if
+         end do
       end do
       call past%values(problem, method%c*h, self%delayed)
    end subroutine place_delays
@@ -113,25 +123,45 @@ contains
       real(wp), intent(in) :: last_h
       !> Length of this step
       real(wp), intent(in) :: h
-      real(wp) :: nodes(method%stages), place, rise(size(last_differences, 2))
+      real(wp) :: place, rise
       integer :: i, k
 
       self%increments = 0.0_wp
-      nodes = [0.0_wp, method%c(:method%stages - 1)]
-      if (last_h > 0.0_wp) then
-         rise = [(newton_value(size(nodes), nodes, last_differences(:, k), 1.0_wp), &
-                  k=1, size(rise))]
-         do i = 1, method%stages
-            place = 1.0_wp + method%c(i)*h/last_h
-            do k = 1, size(rise)
-               self%increments(k, i) = newton_value(size(nodes), nodes, last_differences(:, k), &
-                                                    place) - rise(k)
+      associate (s => method%stages, n => size(self%increments, 1))
+         if (last_h > 0.0_wp) then
+            do k = 1, n
+               rise = newton_value(s, method%x, last_differences(:, k), 1.0_wp)
+               do i = 1, s
+                  place = 1.0_wp + method%c(i)*h/last_h
+                  self%increments(k, i) = newton_value(s, method%x, last_differences(:, k), &
+                                                       place) - rise
+               end do
             end do
-         end do
-      end if
-      self%transforms = combined(size(self%increments, 1), method%stages, method%t_inverse, &
-                                 self%increments)
+         end if
+         call combine(n, s, method%t_inverse, self%increments, self%transforms)
+      end associate
    end subroutine start
+
+   !> Delayed values that lie in this step, by the increments as they are.
+   pure subroutine expect_delayed(self, problem, y)
+      !> The iteration
+      class(stage_iteration), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> State at the start of the step
+      real(wp), intent(in) :: y(:)
+      integer :: i, k
+
+      do i = 1, size(self%own_place, 2)
+         do k = 1, size(self%own_place, 1)
+            if (.not. self%own_place(k, i) > 0.0_wp) cycle
+            associate (component => problem%component(k))
+               self%delayed(k, i) = y(component) + sum(self%increments(component, :) &
+                                    *self%own_weights(:, k, i))
+            end associate
+         end do
+      end do
+   end subroutine expect_delayed
 
    !> Simplified Newton iteration for the stage increments.
    pure subroutine iterate(self, problem, method, t, h, y, scale, tolerance, safety, evaluations, &
@@ -177,7 +207,7 @@ contains
          call self%slopes_at_stages(problem, method, t, h, y, finite)
          evaluations = evaluations + method%stages
          if (.not. finite) return
-         change = self%systems%correct(method, self%slopes, self%increments, self%transforms)
+         call self%systems%correct(method, self%slopes, self%transforms, change)
          norm = scaled_norm(size(change), change, scales)
          finite = ieee_is_finite(norm)
          if (.not. (finite .and. norm < huge(1.0_wp))) return
@@ -195,7 +225,7 @@ contains
          end if
          last_norm = max(norm, epsilon(1.0_wp))
          self%transforms = self%transforms + change
-         self%increments = combined(size(y), method%stages, method%t, self%transforms)
+         call combine(size(y), method%stages, method%t, self%transforms, self%increments)
          ! one correction alone is trusted only where it is no larger than the tolerance
          if ((self%remainder*norm <= limit .and. (iteration > 1 .or. norm <= 1.0_wp)) &
              .or. norm <= rounding) then
@@ -233,16 +263,10 @@ contains
       real(wp), intent(in) :: y(:)
       !> Whether all are finite
       logical, intent(out) :: finite
-      integer :: i, k
+      integer :: i
 
+      call self%expect_delayed(problem, y)
       do i = 1, method%stages
-         do k = 1, size(problem%lag)
-            if (.not. self%own_place(k, i) > 0.0_wp) cycle
-            associate (component => problem%component(k))
-               self%delayed(k, i) = y(component) + sum(self%increments(component, :) &
-                                    *lagrange_weights([0.0_wp, method%c], self%own_place(k, i)))
-            end associate
-         end do
          call problem%rhs(t + method%c(i)*h, y + self%increments(:, i), &
                           self%delayed(:, i), self%slopes(:, i))
       end do

@@ -1,8 +1,9 @@
 !> The linear systems of the simplified Newton iteration of a Radau IIA step. The stages part into
-!> one real and some complex systems of size n (Hairer and Wanner 1996, sec. IV.8); where delayed
-!> values lie in the step itself they do not, and one coupled system holds all stages.
+!> one real and some complex systems of size n (Hairer and Wanner 1996, sec. IV.8). Delayed values
+!> that lie in the step itself couple them: these are unknowns of their own.
 module dde_stage_systems
-   use dde_collocation, only: combined, lagrange_weights
+   use dde_collocation, only: combine, stage_lanes
+   use dde_coupling, only: coupling_type
    use dde_linear, only: factorise, solve
    use dde_radau_tableau, only: radau_tableau
    use kinds, only: int64, wp
@@ -14,20 +15,20 @@ module dde_stage_systems
    type :: stage_systems
       !> Length that the factors belong to; 0 when there are none
       real(wp) :: h = 0.0_wp
-      !> Whether the stages are coupled
+      !> Whether delayed values lie in the step
       logical :: coupled = .false.
       !> Matrices factorised so far
       integer(int64) :: factorisations = 0
-      !> Inverse of A
+      !> Inverse of A, shape (stage_lanes, stages)
       real(wp), allocatable :: a_inverse(:, :)
       !> Factors of the real system, shape (n, n)
       real(wp), allocatable, private :: real_factors(:, :)
       !> Factors of the complex systems, shape (n, n, pairs)
       complex(wp), allocatable, private :: complex_factors(:, :, :)
-      !> Factors of the coupled system, shape (n stages, n stages)
-      real(wp), allocatable, private :: coupled_factors(:, :)
       !> Rows exchanged
-      integer, allocatable, private :: real_pivot(:), complex_pivot(:, :), coupled_pivot(:)
+      integer, allocatable, private :: real_pivot(:), complex_pivot(:, :)
+      !> Delayed values of all stages, and those at the end of the step for the real system alone
+      type(coupling_type), private :: of_stages, of_end
    contains
       !> Factorise for a Jacobian and a length
       procedure :: prepare
@@ -35,7 +36,7 @@ module dde_stage_systems
       procedure :: correct
       !> Solution of the real system alone
       procedure :: filter
-      procedure, private :: couple
+      procedure, private :: couple, solve_stages
    end type stage_systems
 
    interface stage_systems
@@ -45,18 +46,21 @@ module dde_stage_systems
 contains
 
    !> Storage for n equations.
-   pure function new_systems(method, n) result(systems)
+   pure function new_systems(method, n, delays) result(systems)
       !> The method
       type(radau_tableau), intent(in) :: method
       !> Number of equations
       integer, intent(in) :: n
+      !> Number of delayed values
+      integer, intent(in) :: delays
       type(stage_systems) :: systems
 
       associate (s => method%stages)
          allocate (systems%real_factors(n, n), systems%complex_factors(n, n, s/2))
          allocate (systems%real_pivot(n), systems%complex_pivot(n, s/2))
-         allocate (systems%coupled_factors(n*s, n*s), systems%coupled_pivot(n*s))
-         allocate (systems%a_inverse(s, s), source=inverse_of_a(method))
+         allocate (systems%a_inverse(stage_lanes, s), source=inverse_of_a(method))
+         systems%of_stages = coupling_type(n*s, delays*s)
+         systems%of_end = coupling_type(n, delays)
       end associate
    end function new_systems
 
@@ -64,10 +68,11 @@ contains
    pure function inverse_of_a(method) result(a_inverse)
       !> The method
       type(radau_tableau), intent(in) :: method
-      real(wp) :: a_inverse(method%stages, method%stages)
-      real(wp) :: blocks(method%stages, method%stages)
+      real(wp) :: a_inverse(stage_lanes, method%stages), blocks(stage_lanes, method%stages)
+      real(wp), dimension(method%stages, method%stages) :: first, second
       integer :: i, pair
 
+      a_inverse = 0.0_wp
       blocks = 0.0_wp
       blocks(1, 1) = method%real_eigenvalue
       do pair = 1, size(method%complex_eigenvalues)
@@ -78,13 +83,15 @@ contains
             blocks(i:i + 1, i + 1) = [-beta, alpha]
          end associate
       end do
-      a_inverse = transpose(combined(method%stages, method%stages, method%t, &
-                                     combined(method%stages, method%stages, blocks, &
-                                              transpose(method%t_inverse))))
+      associate (s => method%stages)
+         call combine(s, s, blocks, transpose(method%t_inverse(:s, :)), first)
+         call combine(s, s, method%t, first, second)
+         a_inverse(:s, :) = transpose(second)
+      end associate
    end function inverse_of_a
 
    !> Factorise the systems of a step of length `h`.
-   pure subroutine prepare(self, method, h, by_y, by_z, component, own_place, singular)
+   pure subroutine prepare(self, method, h, by_y, by_z, component, own_place, own_weights, singular)
       !> The systems
       class(stage_systems), intent(inout) :: self
       !> The method
@@ -97,8 +104,11 @@ contains
       real(wp), intent(in) :: by_z(:, :)
       !> Component that each delayed value is
       integer, intent(in) :: component(:)
-      !> Place of each stage's delayed values in the step, <= 0 in the past, as in the step
+      !> Place of each stage's delayed values in the step, <= 0 in the past, shape (delayed values,
+      !> stages)
       real(wp), intent(in) :: own_place(:, :)
+      !> Weights of the stage increments in those, shape (stages, delayed values, stages)
+      real(wp), intent(in) :: own_weights(:, :, :)
       !> Whether a system has no solution
       logical, intent(out) :: singular
       integer :: i, pair
@@ -106,23 +116,12 @@ contains
       self%h = h
       self%coupled = any(own_place > 0.0_wp)
       self%real_factors = -by_y
-      do i = 1, size(component)
-         if (own_place(i, method%stages) > 0.0_wp) then
-            associate (column => self%real_factors(:, component(i)))
-               column = column - by_z(:, i)
-            end associate
-         end if
-      end do
       do i = 1, size(by_y, 1)
          self%real_factors(i, i) = self%real_factors(i, i) + method%real_eigenvalue/h
       end do
       call factorise(self%real_factors, self%real_pivot, singular)
       self%factorisations = self%factorisations + 1
       if (singular) return
-      if (self%coupled) then
-         call self%couple(method, by_y, by_z, component, own_place, singular)
-         return
-      end if
       do pair = 1, size(method%complex_eigenvalues)
          associate (e => self%complex_factors(:, :, pair))
             e = cmplx(-by_y, kind=wp)
@@ -134,92 +133,107 @@ contains
          self%factorisations = self%factorisations + 1
          if (singular) return
       end do
+      if (self%coupled) then
+         call self%couple(method, by_z, component, own_place, own_weights, singular)
+      end if
    end subroutine prepare
 
-   !> Factorise inverse(A)/h - J - (delayed part that lies in the step), all stages together.
-   pure subroutine couple(self, method, by_y, by_z, component, own_place, singular)
-      !> The systems
+   !> Make the delayed values that lie in the step unknowns; the others get no weight.
+   pure subroutine couple(self, method, by_z, component, own_place, own_weights, singular)
+      !> The systems, factorised
       class(stage_systems), intent(inout) :: self
       !> The method
       type(radau_tableau), intent(in) :: method
-      !> Jacobian by y
-      real(wp), intent(in) :: by_y(:, :)
       !> Jacobian by the delayed values
       real(wp), intent(in) :: by_z(:, :)
       !> Component that each delayed value is
       integer, intent(in) :: component(:)
       !> Place of each stage's delayed values in the step
       real(wp), intent(in) :: own_place(:, :)
-      !> Whether it has no solution
+      !> Weights of the stage increments in those
+      real(wp), intent(in) :: own_weights(:, :, :)
+      !> Whether a system has no solution
       logical, intent(out) :: singular
-      real(wp) :: weights(method%stages)
-      integer :: column, i, j, k, n
+      integer :: i, j, k, unknown
 
-      n = size(by_y, 1)
-      self%coupled_factors = 0.0_wp
-      do j = 1, method%stages
-         do i = 1, method%stages
-            do k = 1, n
-               self%coupled_factors((i - 1)*n + k, (j - 1)*n + k) = self%a_inverse(i, j)/self%h
-            end do
-         end do
-         associate (block => self%coupled_factors((j - 1)*n + 1:j*n, (j - 1)*n + 1:j*n))
-            block = block - by_y
-         end associate
-      end do
-      do i = 1, method%stages
+      associate (n => size(by_z, 1), s => method%stages, last => method%stages)
+         self%of_stages%weights = 0.0_wp
+         self%of_end%weights = 0.0_wp
          do k = 1, size(component)
-            if (own_place(k, i) <= 0.0_wp) cycle
-            weights = lagrange_weights([0.0_wp, method%c], own_place(k, i))
-            do j = 1, method%stages
-               column = (j - 1)*n + component(k)
-               associate (part => self%coupled_factors((i - 1)*n + 1:i*n, column))
-                  part = part - weights(j)*by_z(:, k)
-               end associate
+            do i = 1, s
+               unknown = (k - 1)*s + i
+               if (.not. own_place(k, i) > 0.0_wp) cycle
+               do j = 1, s
+                  self%of_stages%weights((j - 1)*n + component(k), unknown) &
+                     = sum(own_weights(:, k, i)*method%t(:s, j))
+                  self%of_stages%replies((j - 1)*n + 1:j*n, unknown) &
+                     = method%t_inverse(j, i)*by_z(:, k)
+               end do
+               call self%solve_stages(method, self%of_stages%replies(:, unknown))
             end do
+            if (own_place(k, last) > 0.0_wp) then
+               self%of_end%weights(component(k), k) = 1.0_wp
+               self%of_end%replies(:, k) = by_z(:, k)
+               call solve(self%real_factors, self%real_pivot, self%of_end%replies(:, k))
+            end if
          end do
-      end do
-      call factorise(self%coupled_factors, self%coupled_pivot, singular)
+      end associate
+      call self%of_end%prepare(singular)
+      self%factorisations = self%factorisations + 1
+      if (singular) return
+      call self%of_stages%prepare(singular)
       self%factorisations = self%factorisations + 1
    end subroutine couple
 
+   !> Solution of the real and the complex systems, for transformed stages.
+   pure subroutine solve_stages(self, method, x)
+      !> The systems
+      class(stage_systems), intent(in) :: self
+      !> The method
+      type(radau_tableau), intent(in) :: method
+      !> Right-hand sides, replaced by the solutions
+      real(wp), intent(inout) :: x(size(self%real_pivot), method%stages)
+      complex(wp) :: of_pair(size(self%real_pivot))
+      integer :: i, pair
+
+      call solve(self%real_factors, self%real_pivot, x(:, 1))
+      do pair = 1, size(method%complex_eigenvalues)
+         i = 2*pair
+         of_pair = cmplx(x(:, i), x(:, i + 1), wp)
+         call solve(self%complex_factors(:, :, pair), self%complex_pivot(:, pair), of_pair)
+         x(:, i) = real(of_pair)
+         x(:, i + 1) = aimag(of_pair)
+      end do
+   end subroutine solve_stages
+
    !> Newton correction of the transforms inverse(T) Z of the increments Z.
-   pure function correct(self, method, slopes, increments, transforms) result(change)
+   pure subroutine correct(self, method, slopes, transforms, change)
       !> The systems
       class(stage_systems), intent(in) :: self
       !> The method
       type(radau_tableau), intent(in) :: method
       !> Slopes at the stages, shape (n, stages)
       real(wp), intent(in) :: slopes(:, :)
-      !> Increments Z, shape (n, stages)
-      real(wp), intent(in) :: increments(:, :)
-      !> Their transforms, shape (n, stages)
+      !> Transforms of the increments, shape (n, stages)
       real(wp), intent(in) :: transforms(:, :)
-      real(wp) :: change(size(slopes, 1), size(slopes, 2))
-      complex(wp) :: of_pair(size(slopes, 1))
-      real(wp) :: all_stages(size(slopes))
+      !> The correction, shape (n, stages)
+      real(wp), contiguous, intent(out) :: change(:, :)
+      complex(wp) :: eigenvalue
       integer :: i, pair
 
-      if (self%coupled) then
-         all_stages = reshape(slopes - combined(size(slopes, 1), method%stages, self%a_inverse, &
-                                                increments)/self%h, [size(slopes)])
-         call solve(self%coupled_factors, self%coupled_pivot, all_stages)
-         change = combined(size(slopes, 1), method%stages, method%t_inverse, all_stages)
-         return
-      end if
-      change = combined(size(slopes, 1), method%stages, method%t_inverse, slopes)
+      call combine(size(slopes, 1), method%stages, method%t_inverse, slopes, change)
       change(:, 1) = change(:, 1) - method%real_eigenvalue/self%h*transforms(:, 1)
-      call solve(self%real_factors, self%real_pivot, change(:, 1))
       do pair = 1, size(method%complex_eigenvalues)
          i = 2*pair
-         of_pair = cmplx(change(:, i), change(:, i + 1), wp) &
-                   - method%complex_eigenvalues(pair)/self%h &
-                   *cmplx(transforms(:, i), transforms(:, i + 1), wp)
-         call solve(self%complex_factors(:, :, pair), self%complex_pivot(:, pair), of_pair)
-         change(:, i) = real(of_pair)
-         change(:, i + 1) = aimag(of_pair)
+         eigenvalue = method%complex_eigenvalues(pair)/self%h
+         change(:, i) = change(:, i) - (real(eigenvalue)*transforms(:, i) &
+                                        - aimag(eigenvalue)*transforms(:, i + 1))
+         change(:, i + 1) = change(:, i + 1) - (real(eigenvalue)*transforms(:, i + 1) &
+                                                + aimag(eigenvalue)*transforms(:, i))
       end do
-   end function correct
+      call self%solve_stages(method, change)
+      if (self%coupled) call self%of_stages%complete(change)
+   end subroutine correct
 
    !> Replace a vector by the solution of the real system for another Jacobian.
    pure subroutine correct_real(method, h, by_y, vector, singular)
@@ -251,5 +265,6 @@ contains
       real(wp), intent(inout) :: vector(:)
 
       call solve(self%real_factors, self%real_pivot, vector)
+      if (self%coupled) call self%of_end%complete(vector)
    end subroutine filter
 end module dde_stage_systems

@@ -140,6 +140,11 @@ contains
       real(wp) :: stiffness, v
 
       associate (theta => y(index_of_theta), u => y(index_of_u), w => y(index_of_ln_v))
+         if (w < least_ln_v .or. w > largest_ln_v) then
+            by_y = ieee_value(1.0_wp, ieee_quiet_nan)
+            by_z = by_y(1, 1)
+            return
+         end if
          v = exp(w)
          stiffness = self%gamma**2/v
          by_y = 0.0_wp

@@ -1,0 +1,77 @@
+!> Systems A x = r + sum over l of b_l q_l with few unknowns q_l = w_l x beside x: A is solved for r
+!> and once for each b_l, and a small system for q is left (Woodbury's identity).
+module dde_coupling
+   use dde_linear, only: factorise, solve
+   use kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: coupling_type
+
+   !> What couples a system.
+   type :: coupling_type
+      !> Weights w of x in each unknown, shape (size of x, unknowns)
+      real(wp), allocatable :: weights(:, :)
+      !> Solutions of A x = b, same shape
+      real(wp), allocatable :: replies(:, :)
+      !> Factors of the system for q
+      real(wp), allocatable, private :: factors(:, :)
+      !> Rows exchanged
+      integer, allocatable, private :: pivot(:)
+   contains
+      !> Factorise the system for q
+      procedure :: prepare
+      !> From the solution of A x = r to that with q
+      procedure :: complete
+   end type coupling_type
+
+   interface coupling_type
+      module procedure :: new_coupling
+   end interface coupling_type
+
+contains
+
+   !> No coupling: all weights and replies are zero.
+   pure function new_coupling(n, unknowns) result(coupling)
+      !> Size of x
+      integer, intent(in) :: n
+      !> Number of unknowns q
+      integer, intent(in) :: unknowns
+      type(coupling_type) :: coupling
+
+      allocate (coupling%weights(n, unknowns), coupling%replies(n, unknowns), source=0.0_wp)
+      allocate (coupling%factors(unknowns, unknowns), coupling%pivot(unknowns))
+   end function new_coupling
+
+   !> Factorise 1 - w b, the matrix of the system for q.
+   pure subroutine prepare(self, singular)
+      !> The coupling, its weights and replies given
+      class(coupling_type), intent(inout) :: self
+      !> Whether it has no solution
+      logical, intent(out) :: singular
+      integer :: i, j
+
+      do j = 1, size(self%pivot)
+         do i = 1, size(self%pivot)
+            self%factors(i, j) = -sum(self%weights(:, i)*self%replies(:, j))
+         end do
+         self%factors(j, j) = 1.0_wp + self%factors(j, j)
+      end do
+      call factorise(self%factors, self%pivot, singular)
+   end subroutine prepare
+
+   !> Replace the solution of A x = r by that with q.
+   pure subroutine complete(self, x)
+      !> The coupling, prepared
+      class(coupling_type), intent(in) :: self
+      !> Solution
+      real(wp), intent(inout) :: x(size(self%weights, 1))
+      real(wp) :: q(size(self%pivot))
+      integer :: i
+
+      q = [(sum(self%weights(:, i)*x), i=1, size(q))]
+      call solve(self%factors, self%pivot, q)
+      do i = 1, size(q)
+         x = x + q(i)*self%replies(:, i)
+      end do
+   end subroutine complete
+end module dde_coupling
