@@ -212,7 +212,7 @@ contains
                                  weights_at(method, own_place), singular)
             allocate (change(3, stages(i)), correction(3, stages(i)))
             call systems%correct(method, slopes, 0.0_wp*slopes, correction)
-            call combine(3, stages(i), method%t, correction, change)
+            call combine(3, stages(i), systems%t, correction, change)
             call expect(error, systems%coupled .neqv. lag == 1, "coupled by a short delay")
             call expect_close(error, change(1, :), 0.0_wp*method%c, 1.0e-15_wp, "theta")
             call expect_close(error, change(2, :), -h*method%c, 1.0e-15_wp, "u")
@@ -251,7 +251,7 @@ contains
             weights = weights_at(method, own_place)
             call systems%prepare(method, h, by_y, by_z, component, own_place, weights, singular)
             call systems%correct(method, slopes, 0.0_wp*slopes, correction)
-            call combine(n, stages(i), method%t, correction, change)
+            call combine(n, stages(i), systems%t, correction, change)
             left = matmul(change, transpose(systems%a_inverse(:stages(i), :)))/h &
                    - matmul(by_y, change)
             do j = 1, stages(i)
@@ -289,7 +289,7 @@ contains
 
       do i = 1, method%stages
          do k = 1, size(own_place, 1)
-            weights(:, k, i) = lagrange_weights(method%x, own_place(k, i))
+            weights(:, k, i) = lagrange_weights([0.0_wp, method%c], own_place(k, i))
          end do
       end do
    end function weights_at

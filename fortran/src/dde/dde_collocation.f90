@@ -3,7 +3,8 @@ module dde_collocation
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: combine, divide_differences, lagrange_weights, shape_bump, stage_lanes, weighted_sum
+   public :: combine, divide_differences, in_lanes, lagrange_weights, shape_bump, stage_lanes
+   public :: weighted_sum
 
    !> Rows of matrices over stages, those above the number of stages zero: a number that the
    !> compiler knows, so that it makes vector instructions of them.
@@ -78,6 +79,16 @@ contains
          end do
       end do
    end subroutine combine
+
+   !> A matrix over stages, its rows filled up with zeros.
+   pure function in_lanes(matrix) result(filled)
+      !> The matrix, shape (stages, stages)
+      real(wp), intent(in) :: matrix(:, :)
+      real(wp) :: filled(stage_lanes, size(matrix, 2))
+
+      filled = 0.0_wp
+      filled(:size(matrix, 1), :) = matrix
+   end function in_lanes
 
    !> Sum over j of weight(j) times vector j, in this order and without the fused multiply-adds that
    !> gfortran's library for `matmul` takes where the processor has them.

@@ -3,7 +3,7 @@
 !> the history.
 module dde_implicit_step
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
-   use dde_collocation, only: divide_differences, shape_bump, weighted_sum
+   use dde_collocation, only: shape_bump, weighted_sum
    use dde_history, only: history_type
    use dde_implicit_checks, only: confirmed, error_inside
    use dde_norm, only: scaled_norm
@@ -50,7 +50,7 @@ module dde_implicit_step
       procedure :: interpolant
       procedure :: stiffness
       procedure :: advance
-      procedure, private :: difference, estimate, prepare
+      procedure, private :: estimate, prepare
    end type implicit_step_type
 
    interface implicit_step_type
@@ -149,10 +149,11 @@ contains
          ! the polynomial carried on may be too far off, the Jacobian too old: once more anew
          self%last_h = 0.0_wp
          self%jacobian_serves = .false.
+         call past%values(problem, [0.0_wp], self%z)
       end do
       if (converged) then
-         call self%estimate(problem, past, scale, error)
-         call self%difference()
+         call self%estimate(problem, scale, error)
+         call self%stages%difference(self%differences)
          if (ieee_is_finite(error)) then
             error = max(error, error_inside(self%method, h, self%differences, self%unfiltered, &
                                             self%error_vector, scale, asked, &
@@ -198,13 +199,11 @@ contains
 
    !> Error of the embedded method of order s, filtered by the real system so that stiff components
    !> do not drown it (Hairer and Wanner 1996, eq. (IV.8.20)).
-   pure subroutine estimate(self, problem, past, scale, error)
+   pure subroutine estimate(self, problem, scale, error)
       !> The step
       class(implicit_step_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The past, facing this step
-      type(history_type), intent(inout) :: past
       !> Scale of each component
       real(wp), intent(in) :: scale(:)
       !> Estimated error in units of the tolerance
@@ -219,7 +218,6 @@ contains
       if (error >= 1.0_wp .and. .not. self%last_h > 0.0_wp) then
          ! at a start, once more through the filter; the slope of an earlier polynomial is not that
          ! of the state, and only what the error changes of it counts
-         call past%values(problem, [0.0_wp], self%z)
          call problem%rhs(self%t, self%y, self%z, slope)
          call problem%rhs(self%t, self%y + self%error_vector, self%z, self%error_vector)
          self%evaluations = self%evaluations + 2
@@ -233,19 +231,6 @@ contains
       self%y_new = self%y + self%stages%increments(:, self%method%stages)
       if (.not. all(ieee_is_finite(self%y_new))) error = ieee_value(1.0_wp, ieee_quiet_nan)
    end subroutine estimate
-
-   !> Newton coefficients of the collocation polynomial.
-   pure subroutine difference(self)
-      !> The step, its iteration converged
-      class(implicit_step_type), intent(inout) :: self
-      integer :: k
-
-      do k = 1, size(self%y)
-         self%differences(0, k) = 0.0_wp
-         self%differences(1:, k) = self%stages%increments(k, :)
-         call divide_differences(self%nodes, self%differences(:, k))
-      end do
-   end subroutine difference
 
    !> Nothing is owed.
    pure subroutine complete(self, problem, past)

@@ -4,7 +4,6 @@
 !> eigenvalue first and then a block [alpha, -beta; beta, alpha] for each complex pair. The nodes
 !> are the zeros of the Radau polynomial, all else follows from them; found with 60 digits, here 36.
 module dde_radau_tableau
-   use dde_collocation, only: stage_lanes
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -16,11 +15,9 @@ module dde_radau_tableau
       integer :: stages = 0
       !> Nodes c, the last one 1
       real(wp), allocatable :: c(:)
-      !> Nodes of the collocation polynomial: 0 and c
-      real(wp), allocatable :: x(:)
-      !> T, each eigenvector scaled to 1 at the last stage, shape (stage_lanes, stages)
+      !> T, each eigenvector scaled to 1 at the last stage
       real(wp), allocatable :: t(:, :)
-      !> Inverse of T, shape (stage_lanes, stages)
+      !> Inverse of T
       real(wp), allocatable :: t_inverse(:, :)
       !> Real eigenvalue of inverse(A)
       real(wp) :: real_eigenvalue = 0.0_wp
@@ -49,23 +46,10 @@ contains
       case default
          method = seven_stages()
       end select
-      method%x = [0.0_wp, method%c]
-      method%t = in_lanes(method%t)
-      method%t_inverse = in_lanes(method%t_inverse)
       associate (x => [(i/32.0_wp, i=1, 32)], c => method%c(:stages - 1))
          method%bulge = maxval(x*[(abs(product(x(i) - c)), i=1, size(x))])
       end associate
    end function radau_iia
-
-   !> A matrix over stages, its rows filled up with zeros.
-   pure function in_lanes(matrix) result(filled)
-      !> The matrix, shape (stages, stages)
-      real(wp), intent(in) :: matrix(:, :)
-      real(wp) :: filled(stage_lanes, size(matrix, 2))
-
-      filled = 0.0_wp
-      filled(:size(matrix, 1), :) = matrix
-   end function in_lanes
 
    !> Order 5.
    pure function three_stages() result(method)

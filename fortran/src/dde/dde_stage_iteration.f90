@@ -2,7 +2,7 @@
 !> Wanner 1996, sec. IV.8).
 module dde_stage_iteration
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use dde_collocation, only: combine, lagrange_weights, weighted_sum
+   use dde_collocation, only: combine, divide_differences, lagrange_weights, weighted_sum
    use dde_history, only: history_type
    use dde_interpolant, only: newton_value
    use dde_norm, only: scaled_norm
@@ -21,6 +21,8 @@ module dde_stage_iteration
    type :: stage_iteration
       !> Systems of the iteration
       type(stage_systems) :: systems
+      !> Nodes of the collocation polynomial: 0 and c
+      real(wp), allocatable :: x(:)
       !> Increments Y - y at the stages, and their transforms, shape (n, stages)
       real(wp), allocatable :: increments(:, :), transforms(:, :)
       !> Slopes at the stages, shape (n, stages)
@@ -47,7 +49,9 @@ module dde_stage_iteration
       procedure :: expect_delayed
       !> Find them
       procedure :: iterate
-      !> Slope of the collocation polynomial at the end of the step
+      !> Newton coefficients of the collocation polynomial
+      procedure :: difference
+      !> Its slope at the end of the step
       procedure :: slope_at_end
       procedure, private :: slopes_at_stages
    end type stage_iteration
@@ -73,6 +77,7 @@ contains
          allocate (iteration%delayed(delays, s), iteration%own_place(delays, s))
          allocate (iteration%own_weights(s, delays, s))
       end associate
+      iteration%x = [0.0_wp, method%c]
       iteration%systems = stage_systems(method, n, delays)
    end function new_iteration
 
@@ -104,7 +109,7 @@ contains
          self%own_place(:, i) = method%c(i) - problem%lag/h
          do k = 1, size(problem%lag)
             if (self%own_place(k, i) > 0.0_wp) then
-               self%own_weights(:, k, i) = lagrange_weights(method%x, self%own_place(k, i))
+               self%own_weights(:, k, i) = lagrange_weights(self%x, self%own_place(k, i))
             end if
          end do
       end do
@@ -130,15 +135,15 @@ contains
       associate (s => method%stages, n => size(self%increments, 1))
          if (last_h > 0.0_wp) then
             do k = 1, n
-               rise = newton_value(s, method%x, last_differences(:, k), 1.0_wp)
+               rise = newton_value(s, self%x, last_differences(:, k), 1.0_wp)
                do i = 1, s
                   place = 1.0_wp + method%c(i)*h/last_h
-                  self%increments(k, i) = newton_value(s, method%x, last_differences(:, k), &
+                  self%increments(k, i) = newton_value(s, self%x, last_differences(:, k), &
                                                        place) - rise
                end do
             end do
          end if
-         call combine(n, s, method%t_inverse, self%increments, self%transforms)
+         call combine(n, s, self%systems%t_inverse, self%increments, self%transforms)
       end associate
    end subroutine start
 
@@ -225,7 +230,7 @@ contains
          end if
          last_norm = max(norm, epsilon(1.0_wp))
          self%transforms = self%transforms + change
-         call combine(size(y), method%stages, method%t, self%transforms, self%increments)
+         call combine(size(y), method%stages, self%systems%t, self%transforms, self%increments)
          ! one correction alone is trusted only where it is no larger than the tolerance
          if ((self%remainder*norm <= limit .and. (iteration > 1 .or. norm <= 1.0_wp)) &
              .or. norm <= rounding) then
@@ -235,6 +240,21 @@ contains
       end do
       safety = 0.9_wp*(2*most + 1.0_wp)/(2*most + min(iteration, most))
    end subroutine iterate
+
+   !> Newton coefficients of the collocation polynomial's increments, over 0 and c.
+   pure subroutine difference(self, differences)
+      !> The iteration, converged
+      class(stage_iteration), intent(in) :: self
+      !> The coefficients, shape (0:stages, n)
+      real(wp), intent(out) :: differences(0:, :)
+      integer :: k
+
+      do k = 1, size(differences, 2)
+         differences(0, k) = 0.0_wp
+         differences(1:, k) = self%increments(k, :)
+         call divide_differences(self%x, differences(:, k))
+      end do
+   end subroutine difference
 
    !> Slope of the collocation polynomial at the end of a step of length `h`.
    pure function slope_at_end(self, h) result(slope)

@@ -2,7 +2,7 @@
 !> one real and some complex systems of size n (Hairer and Wanner 1996, sec. IV.8). Delayed values
 !> that lie in the step itself couple them: these are unknowns of their own.
 module dde_stage_systems
-   use dde_collocation, only: combine, stage_lanes
+   use dde_collocation, only: combine, in_lanes, stage_lanes
    use dde_coupling, only: coupling_type
    use dde_linear, only: factorise, solve
    use dde_radau_tableau, only: radau_tableau
@@ -19,8 +19,8 @@ module dde_stage_systems
       logical :: coupled = .false.
       !> Matrices factorised so far
       integer(int64) :: factorisations = 0
-      !> Inverse of A, shape (stage_lanes, stages)
-      real(wp), allocatable :: a_inverse(:, :)
+      !> T of the method, its inverse, and inverse(A), shape (stage_lanes, stages)
+      real(wp), allocatable, dimension(:, :) :: t, t_inverse, a_inverse
       !> Factors of the real system, shape (n, n)
       real(wp), allocatable, private :: real_factors(:, :)
       !> Factors of the complex systems, shape (n, n, pairs)
@@ -58,7 +58,9 @@ contains
       associate (s => method%stages)
          allocate (systems%real_factors(n, n), systems%complex_factors(n, n, s/2))
          allocate (systems%real_pivot(n), systems%complex_pivot(n, s/2))
-         allocate (systems%a_inverse(stage_lanes, s), source=inverse_of_a(method))
+         systems%t = in_lanes(method%t)
+         systems%t_inverse = in_lanes(method%t_inverse)
+         systems%a_inverse = inverse_of_a(method)
          systems%of_stages = coupling_type(n*s, delays*s)
          systems%of_end = coupling_type(n, delays)
       end associate
@@ -68,11 +70,10 @@ contains
    pure function inverse_of_a(method) result(a_inverse)
       !> The method
       type(radau_tableau), intent(in) :: method
-      real(wp) :: a_inverse(stage_lanes, method%stages), blocks(stage_lanes, method%stages)
-      real(wp), dimension(method%stages, method%stages) :: first, second
+      real(wp) :: a_inverse(stage_lanes, method%stages)
+      real(wp), dimension(method%stages, method%stages) :: blocks, first, second
       integer :: i, pair
 
-      a_inverse = 0.0_wp
       blocks = 0.0_wp
       blocks(1, 1) = method%real_eigenvalue
       do pair = 1, size(method%complex_eigenvalues)
@@ -84,9 +85,9 @@ contains
          end associate
       end do
       associate (s => method%stages)
-         call combine(s, s, blocks, transpose(method%t_inverse(:s, :)), first)
-         call combine(s, s, method%t, first, second)
-         a_inverse(:s, :) = transpose(second)
+         call combine(s, s, in_lanes(blocks), transpose(method%t_inverse), first)
+         call combine(s, s, in_lanes(method%t), first, second)
+         a_inverse = in_lanes(transpose(second))
       end associate
    end function inverse_of_a
 
@@ -165,9 +166,9 @@ contains
                if (.not. own_place(k, i) > 0.0_wp) cycle
                do j = 1, s
                   self%of_stages%weights((j - 1)*n + component(k), unknown) &
-                     = sum(own_weights(:, k, i)*method%t(:s, j))
+                     = sum(own_weights(:, k, i)*self%t(:s, j))
                   self%of_stages%replies((j - 1)*n + 1:j*n, unknown) &
-                     = method%t_inverse(j, i)*by_z(:, k)
+                     = self%t_inverse(j, i)*by_z(:, k)
                end do
                call self%solve_stages(method, self%of_stages%replies(:, unknown))
             end do
@@ -221,7 +222,7 @@ contains
       complex(wp) :: eigenvalue
       integer :: i, pair
 
-      call combine(size(slopes, 1), method%stages, method%t_inverse, slopes, change)
+      call combine(size(slopes, 1), method%stages, self%t_inverse, slopes, change)
       change(:, 1) = change(:, 1) - method%real_eigenvalue/self%h*transforms(:, 1)
       do pair = 1, size(method%complex_eigenvalues)
          i = 2*pair
