@@ -134,6 +134,7 @@ contains
       call self%stages%place_delays(problem, past, self%method, h)
       error = ieee_value(1.0_wp, ieee_quiet_nan)
       do
+         if (.not. self%last_h > 0.0_wp) call past%values(problem, [0.0_wp], self%z)
          call self%stages%start(self%method, self%last_differences, self%last_h, h)
          call self%prepare(problem, singular)
          converged = .false.
@@ -149,7 +150,6 @@ contains
          ! the polynomial carried on may be too far off, the Jacobian too old: once more anew
          self%last_h = 0.0_wp
          self%jacobian_serves = .false.
-         call past%values(problem, [0.0_wp], self%z)
       end do
       if (converged) then
          call self%estimate(problem, scale, error)
