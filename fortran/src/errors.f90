@@ -33,49 +33,66 @@ contains
       error%message = message
    end subroutine raise
 
-   !> A real number with the digits that matter to a reader.
+   !> A real number with the digits that matter to a reader. Results of this function have a length
+   !> that is asked for first: gfortran keeps the length of an allocatable one in static storage,
+   !> which threads share.
    pure function text_of_real(value) result(words)
       !> Number to write
       real(wp), intent(in) :: value
-      character(len=:), allocatable :: words
-      character(len=32) :: buffer
+      character(len=len_trim(written_real(value))) :: words
+
+      words = written_real(value)
+   end function text_of_real
+
+   !> The same, filled up with blanks.
+   pure function written_real(value) result(words)
+      !> Number to write
+      real(wp), intent(in) :: value
+      character(len=32) :: words
       integer :: exponent_at, last
 
       if (ieee_is_finite(value)) then
          if (value >= 1.0e7_wp .or. value <= -1.0e7_wp .or. &
              (value > -1.0e-3_wp .and. value < 1.0e-3_wp .and. abs(value) > 0.0_wp)) then
-            write (buffer, "(es32.6e3)") value
+            write (words, "(es32.6e3)") value
          else
-            write (buffer, "(f32.6)") value
+            write (words, "(f32.6)") value
          end if
-         words = trim(adjustl(buffer))
-         exponent_at = scan(words//"E", "E")
+         words = adjustl(words)
+         exponent_at = scan(trim(words)//"E", "E")
          last = verify(words(:exponent_at - 1), "0", back=.true.)
          if (words(last:last) == ".") last = last + 1
          words = words(:min(last, exponent_at - 1))//words(exponent_at:)
       else
-         write (buffer, "(g0)") value
-         words = trim(adjustl(buffer))
+         write (words, "(g0)") value
+         words = adjustl(words)
       end if
-   end function text_of_real
+   end function written_real
 
    !> An integer.
    pure function text_of_integer(value) result(words)
       !> Number to write
       integer, intent(in) :: value
-      character(len=:), allocatable :: words
+      character(len=len_trim(written_integer(int(value, int64)))) :: words
 
-      words = text_of_long_integer(int(value, int64))
+      words = written_integer(int(value, int64))
    end function text_of_integer
 
    !> A long integer.
    pure function text_of_long_integer(value) result(words)
       !> Number to write
       integer(int64), intent(in) :: value
-      character(len=:), allocatable :: words
-      character(len=32) :: buffer
+      character(len=len_trim(written_integer(value))) :: words
 
-      write (buffer, "(i0)") value
-      words = trim(buffer)
+      words = written_integer(value)
    end function text_of_long_integer
+
+   !> The same, filled up with blanks.
+   pure function written_integer(value) result(words)
+      !> Number to write
+      integer(int64), intent(in) :: value
+      character(len=32) :: words
+
+      write (words, "(i0)") value
+   end function written_integer
 end module errors
