@@ -65,6 +65,7 @@ contains
       real(wp), intent(in) :: t_start
       !> What is wrong
       type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: delayed, kept
       integer :: k
 
       if (.not. allocated(self%y)) return
@@ -75,8 +76,10 @@ contains
          call raise(error, "integrate: the arrays of the continuation do not fit each other; " &
                     //"expected as an earlier run left them")
       else if (.not. same_set(self%kept, problem%component)) then
-         call raise(error, "integrate: the continuation keeps components"//listed(self%kept) &
-                    //", delayed are"//listed(problem%component)//"; the same expected")
+         call list(self%kept, kept)
+         call list(problem%component, delayed)
+         call raise(error, "integrate: the continuation keeps components"//kept &
+                    //", delayed are"//delayed//"; the same expected")
       else if (abs(t_start - self%time(1)) > 0.0_wp) then
          call raise(error, "integrate: t_start = "//text(t_start)//" is " &
                     //text(t_start - self%time(1))//" off the time "//text(self%time(1)) &
@@ -129,10 +132,11 @@ contains
    end function same_set
 
    !> Numbers as words, each with a blank before it.
-   pure function listed(numbers) result(words)
+   pure subroutine list(numbers, words)
       !> Numbers
       integer, intent(in) :: numbers(:)
-      character(len=:), allocatable :: words
+      !> Words
+      character(len=:), allocatable, intent(out) :: words
       integer :: i
 
       words = ""
@@ -140,7 +144,7 @@ contains
          words = words//" "//text(numbers(i))
       end do
       if (size(numbers) == 0) words = " none"
-   end function listed
+   end subroutine list
 
    !> Keep the steps that the past keeps, and the kinks in them.
    pure subroutine store(self, past, kinks)

@@ -18,6 +18,8 @@ module dde_coupling
       !> Rows exchanged
       integer, allocatable, private :: pivot(:)
    contains
+      !> No coupling
+      procedure :: clear
       !> Factorise the system for q
       procedure :: prepare
       !> From the solution of A x = r to that with q
@@ -30,7 +32,7 @@ module dde_coupling
 
 contains
 
-   !> No coupling: all weights and replies are zero.
+   !> Storage.
    pure function new_coupling(n, unknowns) result(coupling)
       !> Size of x
       integer, intent(in) :: n
@@ -38,9 +40,18 @@ contains
       integer, intent(in) :: unknowns
       type(coupling_type) :: coupling
 
-      allocate (coupling%weights(n, unknowns), coupling%replies(n, unknowns), source=0.0_wp)
+      allocate (coupling%weights(n, unknowns), coupling%replies(n, unknowns))
       allocate (coupling%factors(unknowns, unknowns), coupling%pivot(unknowns))
    end function new_coupling
+
+   !> All weights and replies are zero.
+   pure subroutine clear(self)
+      !> The coupling
+      class(coupling_type), intent(inout) :: self
+
+      self%weights = 0.0_wp
+      self%replies = 0.0_wp
+   end subroutine clear
 
    !> Factorise 1 - w b, the matrix of the system for q.
    pure subroutine prepare(self, singular)

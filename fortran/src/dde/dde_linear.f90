@@ -68,7 +68,6 @@ contains
          end do
          do j = k + 1, n
             moved = a(k, j)
-            if (.not. abs(moved) > 0.0_wp) cycle
             do i = k + 1, n
                a(i, j) = a(i, j) - a(i, k)*moved
             end do

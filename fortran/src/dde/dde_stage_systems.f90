@@ -155,11 +155,12 @@ contains
       real(wp), intent(in) :: own_weights(:, :, :)
       !> Whether a system has no solution
       logical, intent(out) :: singular
+      real(wp) :: reply(size(by_z, 1), method%stages)
       integer :: i, j, k, unknown
 
+      call self%of_stages%clear()
+      call self%of_end%clear()
       associate (n => size(by_z, 1), s => method%stages, last => method%stages)
-         self%of_stages%weights = 0.0_wp
-         self%of_end%weights = 0.0_wp
          do k = 1, size(component)
             do i = 1, s
                unknown = (k - 1)*s + i
@@ -167,10 +168,10 @@ contains
                do j = 1, s
                   self%of_stages%weights((j - 1)*n + component(k), unknown) &
                      = sum(own_weights(:, k, i)*self%t(:s, j))
-                  self%of_stages%replies((j - 1)*n + 1:j*n, unknown) &
-                     = self%t_inverse(j, i)*by_z(:, k)
+                  reply(:, j) = self%t_inverse(j, i)*by_z(:, k)
                end do
-               call self%solve_stages(method, self%of_stages%replies(:, unknown))
+               call self%solve_stages(method, reply)
+               self%of_stages%replies(:, unknown) = reshape(reply, [n*s])
             end do
             if (own_place(k, last) > 0.0_wp) then
                self%of_end%weights(component(k), k) = 1.0_wp
