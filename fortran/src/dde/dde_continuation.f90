@@ -40,9 +40,9 @@ module dde_continuation
       real(wp), allocatable :: step_start(:, :)
       !> Its length, shape (steps)
       real(wp), allocatable :: step_length(:)
-      !> Newton nodes of its polynomial, shape (highest degree, steps)
+      !> Newton nodes of its polynomial, shape (degree, steps)
       real(wp), allocatable :: nodes(:, :)
-      !> Newton coefficients, shape (1 + highest degree, kept, steps), 0 above the degree in use
+      !> Newton coefficients, shape (1 + degree, kept, steps), 0 above the degree of the step
       real(wp), allocatable :: coefficients(:, :, :)
    contains
       !> Refuse a problem that cannot go on from here
@@ -115,8 +115,9 @@ contains
       value = size(self%slope) == size(self%y) .and. any(size(self%rate) == [0, size(self%y)]) &
               .and. all(shape(self%kink) == [2, size(self%passages)]) &
               .and. all(shape(self%step_start) == [2, steps]) &
-              .and. all(shape(self%nodes) == [highest_degree, steps]) &
-              .and. all(shape(self%coefficients) == [1 + highest_degree, size(self%kept), steps])
+              .and. size(self%nodes, 1) <= highest_degree .and. size(self%nodes, 2) == steps &
+              .and. all(shape(self%coefficients) &
+                        == [1 + size(self%nodes, 1), size(self%kept), steps])
    end function consistent
 
    !> Whether each of some components is among the others.
@@ -157,13 +158,13 @@ contains
       type(kink_type), allocatable :: near(:)
       type(instant) :: start
       integer(int64) :: step
-      integer :: i, steps
+      integer :: degree, i, steps
 
       self%kept = past%kept
+      degree = past%degree_in_use()
       steps = int(past%newest - past%oldest + 1)
       allocate (self%step_start(2, steps), self%step_length(steps))
-      allocate (self%nodes(highest_degree, steps))
-      allocate (self%coefficients(1 + highest_degree, size(past%kept), steps))
+      allocate (self%nodes(degree, steps), self%coefficients(1 + degree, size(past%kept), steps))
       near = pack(kinks, size(past%kept) > 0)
       i = 0
       do step = past%oldest, past%newest
@@ -191,7 +192,8 @@ contains
 
       do i = 1, size(self%step_length)
          call past%append(instant(self%step_start(1, i), self%step_start(2, i)), &
-                          self%step_length(i), self%nodes(:, i), self%coefficients(:, :, i))
+                          self%step_length(i), self%nodes(:, i), self%coefficients(:, :, i), &
+                          serves=self%step_length(i))
       end do
       allocate (kinks(size(self%passages)))
       kinks%at%hi = self%kink(1, :)

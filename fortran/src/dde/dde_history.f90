@@ -1,7 +1,7 @@
 !> The past: the polynomials of accepted steps for the delayed components only, in a ring that
 !> forgets what no delay can reach any more; before the first instant, the problem's own history.
 module dde_history
-   use dde_interpolant, only: highest_degree, newton_values
+   use dde_interpolant, only: highest_degree, newton_values, taylor_coefficients
    use dde_problem, only: dde_problem_type
    use dde_time, only: elapsed, instant, later
    use kinds, only: int64, wp
@@ -11,6 +11,8 @@ module dde_history
 
    !> Slots of a new ring; it doubles when the longest delay spans more steps.
    integer, parameter :: first_capacity = 64
+   !> Part of a step that rounding may hide.
+   real(wp), parameter :: hidden = 4.0_wp*epsilon(1.0_wp)
 
    !> The past of one integration.
    type :: history_type
@@ -27,6 +29,10 @@ module dde_history
       type(instant), allocatable :: start(:)
       !> Length of each step kept, per slot
       real(wp), allocatable :: length(:)
+      !> How long from its start on the interpolant serves, its length or longer, per slot
+      real(wp), allocatable :: serves(:)
+      !> Degree of the interpolant, per slot
+      integer, allocatable :: degree(:)
       !> Its coefficients (0:highest degree, kept component, slot), 0 above the degree
       real(wp), allocatable :: coefficients(:, :, :)
       !> Row of `kept` that each delayed value reads
@@ -54,6 +60,10 @@ module dde_history
       procedure :: face
       !> All delayed values at places of the current step
       procedure :: values
+      !> Their Taylor series from the start of the current step on
+      procedure :: series
+      !> Highest degree of the interpolants kept
+      procedure :: degree_in_use
    end type history_type
 
    interface history_type
@@ -76,6 +86,7 @@ contains
       past%kept = pack([(i, i=1, problem%n)], [(any(problem%component == i), i=1, problem%n)])
       past%row = [(findloc(past%kept, problem%component(k), dim=1), k=1, terms)]
       allocate (past%start(0:first_capacity - 1), past%length(0:first_capacity - 1))
+      allocate (past%serves(0:first_capacity - 1), past%degree(0:first_capacity - 1))
       allocate (past%nodes(highest_degree, 0:first_capacity - 1), source=0.0_wp)
       allocate (past%coefficients(0:highest_degree, size(past%kept), 0:first_capacity - 1))
       allocate (past%found(terms), source=0_int64)
@@ -84,7 +95,7 @@ contains
    end function new_history
 
    !> Take in the polynomial of the step from `start`, `length` long.
-   pure subroutine append(self, start, length, nodes, coefficients)
+   pure subroutine append(self, start, length, nodes, coefficients, serves)
       !> The past
       class(history_type), intent(inout) :: self
       !> Start of the step
@@ -95,6 +106,8 @@ contains
       real(wp), intent(in) :: nodes(:)
       !> Interpolant of the kept components, shape (0:degree, kept)
       real(wp), intent(in) :: coefficients(0:, :)
+      !> How long from the start on it serves; less than the length counts as the length
+      real(wp), intent(in) :: serves
       integer :: slot
 
       if (self%newest - self%oldest + 1 == size(self%start)) call double_capacity(self)
@@ -102,6 +115,8 @@ contains
       slot = int(modulo(self%newest, size(self%start, kind=int64)))
       self%start(slot) = start
       self%length(slot) = length
+      self%serves(slot) = max(length, serves)
+      self%degree(slot) = size(nodes)
       self%nodes(:size(nodes), slot) = nodes
       self%coefficients(:size(nodes), :, slot) = coefficients
       self%coefficients(size(nodes) + 1:, :, slot) = 0.0_wp
@@ -117,17 +132,17 @@ contains
       type(instant), intent(out) :: start
       !> Length of the step
       real(wp), intent(out) :: length
-      !> Newton nodes of its interpolant
-      real(wp), intent(out) :: nodes(highest_degree)
-      !> Interpolant of the kept components, shape (0:highest_degree, kept)
+      !> Newton nodes of its interpolant, as many as its degree at least
+      real(wp), intent(out) :: nodes(:)
+      !> Interpolant of the kept components, shape (0:size(nodes), kept)
       real(wp), intent(out) :: coefficients(0:, :)
       integer :: slot
 
       slot = int(modulo(step, size(self%start, kind=int64)))
       start = self%start(slot)
       length = self%length(slot)
-      nodes = self%nodes(:, slot)
-      coefficients = self%coefficients(:, :, slot)
+      nodes = self%nodes(:size(nodes), slot)
+      coefficients = self%coefficients(0:size(nodes), :, slot)
    end subroutine recall
 
    !> Drop the steps that ended before `horizon`; the newest stays.
@@ -210,12 +225,62 @@ contains
       do
          slot = self%slot(k)
          limit = merge(huge(1.0_wp), self%length(slot), self%found(k) == self%newest)
-         call newton_values(self%nodes(:, slot), self%coefficients(:, self%row(k), slot), &
+         call newton_values(self%degree(slot), self%nodes(:, slot), self%coefficients(:, self%row(k), slot), &
                             self%offset(k), self%length(slot), limit, size(ahead), ahead, first, z)
          if (first > size(ahead)) exit
          call point_at(self, k, self%found(k) + 1)
       end do
    end subroutine look_up
+
+   !> Taylor series of the delayed values from the start of the current step on.
+   pure subroutine series(self, problem, unit, z, serves)
+      !> The past, facing this step
+      class(history_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Unit of time of the powers
+      real(wp), intent(in) :: unit
+      !> Coefficients, shape (0:degree, size(problem%lag))
+      real(wp), intent(out) :: z(0:, :)
+      !> How long they serve
+      real(wp), intent(out) :: serves
+      real(wp) :: place
+      integer :: k, slot
+
+      serves = huge(1.0_wp)
+      do k = 1, size(z, 2)
+         if (self%before_origin(k)) then
+            call problem%past_series(self%now - problem%lag(k), problem%component(k), unit, z(:, k))
+            cycle
+         end if
+         do while (self%offset(k) < 0.0_wp .and. self%found(k) > self%oldest)
+            call point_at(self, k, self%found(k) - 1)
+         end do
+         do while (self%found(k) < self%newest)
+            if (self%offset(k) < (1.0_wp - hidden)*self%length(self%slot(k))) exit
+            call point_at(self, k, self%found(k) + 1)
+         end do
+         slot = self%slot(k)
+         place = self%offset(k)/self%length(slot)
+         if (abs(place) < hidden) place = 0.0_wp
+         call taylor_coefficients(self%degree(slot), self%nodes(:, slot), &
+                                  self%coefficients(:, self%row(k), slot), place, &
+                                  unit/self%length(slot), z(:, k))
+         serves = min(serves, self%serves(slot) - self%offset(k))
+      end do
+   end subroutine series
+
+   !> Highest degree of the interpolants kept.
+   pure integer function degree_in_use(self) result(degree)
+      !> The past
+      class(history_type), intent(in) :: self
+      integer(int64) :: step
+
+      degree = 0
+      do step = self%oldest, self%newest
+         degree = max(degree, self%degree(int(modulo(step, size(self%start, kind=int64)))))
+      end do
+   end function degree_in_use
 
    !> Let delayed value k read step number `step`.
    pure subroutine point_at(self, k, step)
@@ -241,6 +306,7 @@ contains
 
       capacity = size(self%start)
       allocate (wider%start(0:2*capacity - 1), wider%length(0:2*capacity - 1))
+      allocate (wider%serves(0:2*capacity - 1), wider%degree(0:2*capacity - 1))
       allocate (wider%nodes(highest_degree, 0:2*capacity - 1), source=0.0_wp)
       allocate (wider%coefficients(0:highest_degree, size(self%kept), 0:2*capacity - 1))
       do step = self%oldest, self%newest
@@ -248,11 +314,15 @@ contains
          to = int(modulo(step, int(2*capacity, int64)))
          wider%start(to) = self%start(from)
          wider%length(to) = self%length(from)
+         wider%serves(to) = self%serves(from)
+         wider%degree(to) = self%degree(from)
          wider%nodes(:, to) = self%nodes(:, from)
          wider%coefficients(:, :, to) = self%coefficients(:, :, from)
       end do
       call move_alloc(wider%start, self%start)
       call move_alloc(wider%length, self%length)
+      call move_alloc(wider%serves, self%serves)
+      call move_alloc(wider%degree, self%degree)
       call move_alloc(wider%nodes, self%nodes)
       call move_alloc(wider%coefficients, self%coefficients)
       self%slot = int(modulo(self%found, int(2*capacity, int64)))

@@ -20,6 +20,8 @@ module dde_implicit_step
    real(wp), parameter :: good_contraction = 1.0e-3_wp
    !> Ratio of step lengths up to which it pays to keep length and factors.
    real(wp), parameter :: keep_length = 1.2_wp
+   !> Cost of an evaluation within this method over one within the explicit pair.
+   real(wp), parameter :: implicit_cost = 4.5_wp
 
    !> Stages and factors of the current step.
    type, extends(step_type) :: implicit_step_type
@@ -74,6 +76,7 @@ contains
       step%implicit = .true.
       step%predictive = .true.
       step%hold = keep_length
+      step%evaluation_cost = implicit_cost
       step%nodes = [0.0_wp, step%method%c]
       associate (n => problem%n, delays => size(problem%lag))
          allocate (step%y(n), step%y_new(n), step%slope(n), step%z(delays, 1))

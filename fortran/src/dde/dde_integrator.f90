@@ -50,23 +50,22 @@ contains
       type(switch_type) :: switch
       type(instant) :: step_end
       real(wp) :: error_estimate, h, longest
-      logical :: delayed, ended, landing, other
+      logical :: automatic, ended, landing, other
 
       call check(problem, t_start, t_end, options, error, sampler, watcher, continuation)
       if (allocated(error)) return
       call run%begin(problem, t_start, t_end, options, continuation)
       if (present(sampler)) call sample_start(sampler, run%now, run%step%y)
       if (present(watcher)) call run%search%begin(watcher, run%now, run%step%y, run%first_slope)
-      delayed = size(problem%lag) > 0
       longest = longest_step(problem, run%step, options)
+      automatic = options%method == "auto"
       error_estimate = 0.0_wp
 
       do
-         call run%plan(longest, h, landing)
+         call run%plan(problem, options, longest, h, landing)
          outcome%reason = limit_met(outcome, error_estimate, options, h, &
                                     max(abs(t_start), abs(t_end)))
          if (outcome%reason /= reached_end) exit
-         if (delayed) call run%past%face(problem, run%now, h)
          if (run%fresh) call run%step%restart(problem, run%past, run%now%hi)
          run%fresh = .false.
          call run%step%attempt(problem, run%past, run%now%hi, h, options%relative, &
@@ -83,17 +82,21 @@ contains
          call run%step%complete(problem, run%past)
          step_end = later(run%now, h)
          if (landing) step_end = run%points(run%next_point)%at
-         call hand_over(problem, run%step, run%past, run%search, run%now, step_end, ended, &
-                        sampler, watcher)
+         call hand_over(problem, run%step, run%past, run%search, run%now, step_end, &
+                        run%points(run%next_point)%at, ended, sampler, watcher)
          if (ended) then
             run%now = step_end
             run%step%y = run%search%here%y
             outcome%reason = event_met
             exit
          end if
-         call control%accept(run%step, h, error_estimate)
+         if (run%step%foresees) then
+            h = run%step%ideal
+         else
+            call control%accept(run%step, h, error_estimate)
+         end if
          other = .false.
-         if (options%method == "auto") then
+         if (automatic) then
             call switch%wanted(run%step, minval(problem%lag), h, other)
          end if
          call run%step%advance()

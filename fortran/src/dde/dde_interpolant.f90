@@ -7,10 +7,16 @@ module dde_interpolant
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: highest_degree, newton_state, newton_value, newton_values
+   public :: highest_degree, newton_state, newton_value, newton_values, taylor_coefficients
 
    !> Highest degree of an interpolant.
-   integer, parameter :: highest_degree = 8
+   integer, parameter :: highest_degree = 18
+   !> Highest degree but that of Taylor series.
+   integer, parameter :: usual_degree = 8
+   integer :: i
+   !> Factorials, and one over them.
+   real(wp), parameter :: factorial(0:highest_degree) = [(gamma(i + 1.0_wp), i=0, highest_degree)], &
+                          inverse_factorial(0:highest_degree) = 1.0_wp/factorial
 
 contains
 
@@ -34,8 +40,10 @@ contains
    end function newton_value
 
    !> Values of p at ascending places, from the `first` on as far as they lie within a limit;
-   !> written out for the highest degree, since delayed values are what a step asks for most.
-   pure subroutine newton_values(x, a, offset, length, limit, places, ahead, first, values)
+   !> written out for the usual degrees, since delayed values are what a step asks for most.
+   pure subroutine newton_values(degree, x, a, offset, length, limit, places, ahead, first, values)
+      !> Degree of p
+      integer, intent(in) :: degree
       !> Nodes
       real(wp), intent(in) :: x(highest_degree)
       !> Coefficients, 0 above the degree of p
@@ -54,18 +62,89 @@ contains
       integer, intent(inout) :: first
       !> Values at all places
       real(wp), intent(inout) :: values(places)
-      real(wp) :: s
-      integer :: i
+      real(wp) :: s, rest
+      integer :: i, j
 
       do i = first, places
          if (offset + ahead(i) > limit) exit
          s = (offset + ahead(i))/length
+         rest = 0.0_wp
+         do j = degree, usual_degree + 1, -1
+            rest = (s - x(j))*(a(j) + rest)
+         end do
          values(i) = a(0) + (s - x(1))*(a(1) + (s - x(2))*(a(2) + (s - x(3))*(a(3) &
                      + (s - x(4))*(a(4) + (s - x(5))*(a(5) + (s - x(6))*(a(6) &
-                     + (s - x(7))*(a(7) + (s - x(8))*a(8))))))))
+                     + (s - x(7))*(a(7) + (s - x(8))*(a(8) + rest))))))))
       end do
       first = i
    end subroutine newton_values
+
+   !> Coefficients of p in powers of a unit of time from s on.
+   pure subroutine taylor_coefficients(degree, nodes, coefficients, s, unit, taylor)
+      !> Degree of p
+      integer, intent(in) :: degree
+      !> Nodes x(1..degree)
+      real(wp), intent(in) :: nodes(degree)
+      !> Coefficients a(0..degree)
+      real(wp), intent(in) :: coefficients(0:degree)
+      !> Place in the step
+      real(wp), intent(in) :: s
+      !> The unit of time, in lengths of the step
+      real(wp), intent(in) :: unit
+      !> Coefficients of the powers, as many as there is place for
+      real(wp), intent(out) :: taylor(0:)
+      real(wp) :: power, rest(0:highest_degree)
+      integer :: i, j
+
+      rest(0:degree) = coefficients
+      if (any(abs(nodes) > 0.0_wp)) then
+         ! with each node s brought to the front of the others one more coefficient stands
+         do i = 0, degree - 1
+            do j = degree - 1, i, -1
+               rest(j) = rest(j) + (s - nodes(j - i + 1))*rest(j + 1)
+            end do
+         end do
+      else if (abs(s) > 0.0_wp) then
+         call shift(degree, s, rest)
+      end if
+      taylor(degree + 1:) = 0.0_wp
+      power = 1.0_wp
+      do i = 0, min(degree, ubound(taylor, 1))
+         taylor(i) = power*rest(i)
+         power = power*unit
+      end do
+   end subroutine taylor_coefficients
+
+   !> From powers of x to powers of x - s: i! b(i) = sum over j of (i + j)! a(i + j) s**j/j!, sums
+   !> that do not wait for each other.
+   pure subroutine shift(degree, s, a)
+      !> Degree
+      integer, intent(in) :: degree
+      !> Where the new powers vanish
+      real(wp), intent(in) :: s
+      !> Coefficients, replaced
+      real(wp), intent(inout) :: a(0:degree)
+      real(wp) :: derivatives(0:degree + 1), even, odd, power, weights(0:degree + 1)
+      integer :: i, j
+
+      power = 1.0_wp
+      do i = 0, degree
+         derivatives(i) = factorial(i)*a(i)
+         weights(i) = power*inverse_factorial(i)
+         power = power*s
+      end do
+      derivatives(degree + 1) = 0.0_wp
+      weights(degree + 1) = 0.0_wp
+      do i = 0, degree
+         even = 0.0_wp
+         odd = 0.0_wp
+         do j = 0, degree - i, 2
+            even = even + derivatives(i + j)*weights(j)
+            odd = odd + derivatives(i + j + 1)*weights(j + 1)
+         end do
+         a(i) = inverse_factorial(i)*(even + odd)
+      end do
+   end subroutine shift
 
    !> Values at s of several polynomials over the same nodes, and their derivatives by s.
    pure subroutine newton_state(nodes, coefficients, s, values, slopes)

@@ -5,10 +5,11 @@ module dde_methods
    use dde_problem, only: dde_problem_type
    use dde_request, only: integration_options
    use dde_step, only: step_type
+   use dde_taylor_step, only: taylor_step_type
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: change_method, choose_method, implicit_method, longest_step
+   public :: change_method, choose_method, longest_step, matching_method
 
    !> Tolerances from which on, and below which, `auto` takes another order than 9: fewer stages
    !> cost less where little is asked, more where much is.
@@ -16,39 +17,52 @@ module dde_methods
 
 contains
 
-   !> A step of the method asked for.
-   subroutine choose_method(problem, method, step)
+   !> A step of the method asked for; `auto` begins with an explicit one.
+   subroutine choose_method(problem, method, options, step)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Name of the method
-      character(len=*), intent(in) :: method
+      character(len=8), intent(in) :: method
+      !> Tolerances
+      type(integration_options), intent(in) :: options
       !> Its step
       class(step_type), allocatable, intent(out) :: step
 
-      select case (method)
+      select case (merge(matching_method(problem, options, implicit=.false.), method, &
+                         method == "auto"))
       case ("radau5")
          allocate (step, source=implicit_step_type(problem, 3))
       case ("radau9")
          allocate (step, source=implicit_step_type(problem, 5))
       case ("radau13")
          allocate (step, source=implicit_step_type(problem, 7))
+      case ("taylor")
+         allocate (step, source=taylor_step_type(problem, max(options%relative, options%absolute)))
       case default
          allocate (step, source=explicit_step_type(problem))
       end select
    end subroutine choose_method
 
-   !> The implicit method of `auto`.
-   pure function implicit_method(options) result(method)
+   !> The explicit or the implicit method of `auto`.
+   pure function matching_method(problem, options, implicit) result(method)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
       !> Tolerances
       type(integration_options), intent(in) :: options
+      !> Which of the two
+      logical, intent(in) :: implicit
       character(len=8) :: method
 
+      if (.not. implicit) then
+         method = merge("taylor  ", "explicit", problem%analytic)
+         return
+      end if
       associate (tolerance => max(options%relative, options%absolute))
          method = "radau9"
          if (tolerance >= loose) method = "radau5"
          if (tolerance < tight) method = "radau13"
       end associate
-   end function implicit_method
+   end function matching_method
 
    !> The other method takes over where the step stands.
    subroutine change_method(problem, options, step)
@@ -60,7 +74,8 @@ contains
       class(step_type), allocatable, intent(inout) :: step
       class(step_type), allocatable :: other
 
-      call choose_method(problem, merge("explicit", implicit_method(options), step%implicit), other)
+      call choose_method(problem, matching_method(problem, options, .not. step%implicit), options, &
+                         other)
       other%y = step%y
       other%slope = step%slope
       other%evaluations = step%evaluations

@@ -18,7 +18,8 @@ contains
 
    !> Hand over the dense output of an accepted step, as far as it is wanted; without anyone who
    !> wants it, it is not made.
-   subroutine hand_over(problem, step, past, search, start, step_end, ended, sampler, watcher)
+   subroutine hand_over(problem, step, past, search, start, step_end, next_kink, ended, sampler, &
+                        watcher)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> The step, accepted and complete
@@ -31,6 +32,8 @@ contains
       type(instant), intent(in) :: start
       !> Its end; the event that ends the run, if one does
       type(instant), intent(inout) :: step_end
+      !> The next breaking point: no interpolant serves beyond it
+      type(instant), intent(in) :: next_kink
       !> Whether an event ends the run
       logical, intent(out) :: ended
       !> Receiver of samples
@@ -51,19 +54,21 @@ contains
       end if
       if (sampled) call sample(sampler, step, start, step_end)
       if (delayed .and. share > 0.0_wp) then
-         call remember(past, step, start, share)
+         call remember(past, step, start, elapsed(start, next_kink), share)
          call past%forget(later(step_end, -maxval(problem%lag)))
       end if
    end subroutine hand_over
 
    !> Append the delayed components' dense output to the past.
-   pure subroutine remember(past, step, start, share)
+   pure subroutine remember(past, step, start, smooth, share)
       !> The past
       type(history_type), intent(inout) :: past
       !> The step, extended
       class(step_type), intent(in) :: step
       !> Start of the step
       type(instant), intent(in) :: start
+      !> Time from there on without a kink
+      real(wp), intent(in) :: smooth
       !> Share of the step that belongs to the run, > 0
       real(wp), intent(in) :: share
       real(wp) :: coefficients(0:size(step%nodes), size(past%kept))
@@ -77,8 +82,10 @@ contains
          do j = 1, size(step%nodes)
             coefficients(j, :) = share**j*coefficients(j, :)
          end do
+         call past%append(start, share*step%h, step%nodes/share, coefficients, serves=0.0_wp)
+      else
+         call past%append(start, step%h, step%nodes, coefficients, min(step%serves, smooth))
       end if
-      call past%append(start, share*step%h, step%nodes/share, coefficients)
    end subroutine remember
 
    !> The first samples: those at (or before) the first instant.

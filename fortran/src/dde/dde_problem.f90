@@ -4,7 +4,10 @@
 !>
 !> Extend `dde_problem_type`, fill `n`, `lag` and `component`, and write the three procedures.
 !> Without delays leave `lag` and `component` of size zero: no history is kept then.
+!> Optional are `jacobian`, for the implicit methods, and `analytic` with `series` and
+!> `past_series`, without which there is no method `taylor`.
 module dde_problem
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -18,6 +21,8 @@ module dde_problem
       real(wp), allocatable :: lag(:)
       !> Which component of y each delayed value z(k) is, 1..n
       integer, allocatable :: component(:)
+      !> Whether the extension gives `series` and `past_series`
+      logical :: analytic = .false.
    contains
       !> y at the first instant; may differ from the history there (a jump)
       procedure(initial_state), deferred :: initial
@@ -27,6 +32,10 @@ module dde_problem
       procedure(right_hand_side), deferred :: rhs
       !> Derivatives of f by y and z; by differences unless the extension gives them
       procedure :: jacobian => difference_jacobian
+      !> Taylor series of the solution
+      procedure :: series => no_series
+      !> Taylor series of one component before the first instant
+      procedure :: past_series => no_past_series
    end type dde_problem_type
 
    abstract interface
@@ -105,4 +114,41 @@ contains
          by_z(:, j) = (by_z(:, j) - f)/step
       end do
    end subroutine difference_jacobian
+
+   !> Taylor series of the solution in powers of s = (t' - t)/unit: since dy/ds = unit f, coefficient
+   !> k + 1 of y is unit/(k + 1) times coefficient k of f. Not a number where the extension gives
+   !> none.
+   pure subroutine no_series(self, t, unit, degree, z, y)
+      !> The problem
+      class(dde_problem_type), intent(in) :: self
+      !> Time
+      real(wp), intent(in) :: t
+      !> Unit of time of the powers
+      real(wp), intent(in) :: unit
+      !> Degree of the series
+      integer, intent(in) :: degree
+      !> Coefficients of the delayed values
+      real(wp), intent(in) :: z(0:degree, size(self%lag))
+      !> Coefficients of the solution; y(0, :) is given, the state at t
+      real(wp), intent(inout) :: y(0:degree, self%n)
+
+      y(1:, :) = ieee_value(1.0_wp, ieee_quiet_nan)
+   end subroutine no_series
+
+   !> Taylor series of one component, as it was before the first instant, in powers of
+   !> (t' - t)/unit. Not a number where the extension gives none.
+   pure subroutine no_past_series(self, t, component, unit, y)
+      !> The problem
+      class(dde_problem_type), intent(in) :: self
+      !> Time, at which the series begins
+      real(wp), intent(in) :: t
+      !> Index into y, one of self%component
+      integer, intent(in) :: component
+      !> Unit of time of the powers
+      real(wp), intent(in) :: unit
+      !> Coefficients, shape (0:degree)
+      real(wp), intent(out) :: y(0:)
+
+      y = ieee_value(1.0_wp, ieee_quiet_nan)
+   end subroutine no_past_series
 end module dde_problem

@@ -12,9 +12,10 @@ module dde_request
    private
    public :: check, integration_options, methods
 
-   !> Methods to choose from: `auto` changes between the explicit one and one of the others.
-   character(len=8), parameter :: methods(5) = ["auto    ", "explicit", "radau5  ", "radau9  ", &
-                                                "radau13 "]
+   !> Methods to choose from: `auto` changes between the explicit pair and one of the implicit ones;
+   !> `taylor` is for problems that give their series.
+   character(len=8), parameter :: methods(6) = ["auto    ", "explicit", "taylor  ", "radau5  ", &
+                                                "radau9  ", "radau13 "]
 
    !> What a caller may choose.
    type :: integration_options
@@ -55,7 +56,7 @@ contains
 
       call check_problem(problem, error)
       if (.not. allocated(error)) call check_span(t_start, t_end, error, continuation)
-      if (.not. allocated(error)) call check_options(options, error)
+      if (.not. allocated(error)) call check_options(problem, options, error)
       if (present(sampler) .and. .not. allocated(error)) call sampler%check(problem%n, error)
       if (present(watcher) .and. .not. allocated(error)) call watcher%check(problem%n, error)
       if (present(continuation) .and. .not. allocated(error)) then
@@ -117,7 +118,9 @@ contains
    end subroutine check_span
 
    !> Refuse tolerances, limits and a method that there cannot be.
-   pure subroutine check_options(options, error)
+   pure subroutine check_options(problem, options, error)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
       !> Method, tolerances and limits
       type(integration_options), intent(in) :: options
       !> What is wrong
@@ -143,6 +146,9 @@ contains
          end do
          call raise(error, "integrate: method = '"//trim(options%method)//"'; one of "//names &
                     //" expected")
+      else if (options%method == "taylor" .and. .not. problem%analytic) then
+         call raise(error, "integrate: method = 'taylor' for a problem that gives no Taylor " &
+                    //"series (analytic = .false.); another method expected")
       end if
    end subroutine check_options
 

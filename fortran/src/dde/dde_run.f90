@@ -7,7 +7,7 @@ module dde_run
    use dde_event_search, only: event_search
    use dde_first_step, only: choose_first_step
    use dde_history, only: history_type
-   use dde_methods, only: choose_method, implicit_method, longest_step
+   use dde_methods, only: choose_method, longest_step, matching_method
    use dde_problem, only: dde_problem_type
    use dde_request, only: integration_options
    use dde_step, only: step_type
@@ -101,7 +101,7 @@ contains
 
       self%now = start
       self%origin = start
-      call choose_method(problem, options%method, self%step)
+      call choose_method(problem, options%method, options, self%step)
       self%past = history_type(problem, start)
       self%kinks = [kink_type(start)]
       do k = 1, size(problem%lag)
@@ -135,10 +135,10 @@ contains
       self%origin = instant(continuation%origin(1), continuation%origin(2))
       self%h = continuation%next_step
       method = options%method
-      if (method == "auto" .and. continuation%method /= "explicit") then
-         method = implicit_method(options)
+      if (method == "auto") then
+         method = matching_method(problem, options, implicit=index(continuation%method, "radau") == 1)
       end if
-      call choose_method(problem, method, self%step)
+      call choose_method(problem, method, options, self%step)
       self%step%y = continuation%y
       self%first_slope = continuation%slope
       self%past = history_type(problem, self%origin)
@@ -182,10 +182,14 @@ contains
    end subroutine look
 
    !> Length of the step to try; where the next breaking point (or the end) is near, it is landed
-   !> on, or two steps share the way.
-   pure subroutine plan(self, longest, h, landing)
+   !> on, or two steps share the way. The past faces it on return.
+   pure subroutine plan(self, problem, options, longest, h, landing)
       !> The run
       class(run_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Tolerances
+      type(integration_options), intent(in) :: options
       !> Longest step allowed
       real(wp), intent(in) :: longest
       !> Length of the step
@@ -194,10 +198,18 @@ contains
       logical, intent(out) :: landing
       real(wp) :: gap
 
-      self%h = min(self%h, longest)
       gap = elapsed(self%now, self%points(self%next_point)%at)
+      if (self%step%foresees) then
+         if (size(problem%lag) > 0) call self%past%face(problem, self%now, min(longest, gap))
+         call self%step%look_ahead(problem, self%past, self%now%hi, options%relative, &
+                                   options%absolute, self%h)
+      end if
+      self%h = min(self%h, longest)
       landing = 1.01_wp*self%h >= gap .and. gap <= longest
       h = merge(gap, merge(0.5_wp*gap, self%h, 2.0_wp*self%h > gap), landing)
+      if (.not. self%step%foresees .and. size(problem%lag) > 0) then
+         call self%past%face(problem, self%now, h)
+      end if
    end subroutine plan
 
    !> Keep what a later run needs to go on from here.

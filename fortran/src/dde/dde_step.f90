@@ -36,9 +36,17 @@ module dde_step
       real(wp) :: safety = 0.9_wp
       !> A ratio of lengths between 1 and this does not pay a change of length
       real(wp) :: hold = 1.0_wp
+      !> Whether the method foresees how long a step may be
+      logical :: foresees = .false.
+      !> How long from its start on the interpolant of the step serves, if longer than the step
+      real(wp) :: serves = 0.0_wp
       !> Whether step control should foresee the error from the last two (predictive control)
       logical :: predictive = .false.
-      !> Right-hand sides evaluated so far
+      !> Length that such a method would have taken if nothing else had limited it
+      real(wp) :: ideal = 0.0_wp
+      !> Cost of an evaluation over that of the explicit pair
+      real(wp) :: evaluation_cost = 1.0_wp
+      !> Right-hand sides, or Taylor series, evaluated so far
       integer(int64) :: evaluations = 0
       !> Matrices factorised before this method took over
       integer(int64) :: factorised_before = 0
@@ -49,6 +57,8 @@ module dde_step
       procedure :: reset
       !> Matrices factorised so far
       procedure :: factorisations
+      !> Set how long the step may be, for a method that foresees it
+      procedure :: look_ahead
       !> Try a step
       procedure(try_step), deferred :: attempt
       !> What an accepted step still owes the next one
@@ -147,6 +157,24 @@ contains
       self%evaluations = self%evaluations + 1
       call self%reset()
    end subroutine restart
+
+   !> Most methods take the length that they are given, and see from the error what it should be.
+   pure subroutine look_ahead(self, problem, past, t, relative, absolute, h)
+      !> The step
+      class(step_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The past, facing the step
+      type(history_type), intent(inout) :: past
+      !> Start of the step
+      real(wp), intent(in) :: t
+      !> Relative tolerance
+      real(wp), intent(in) :: relative
+      !> Absolute tolerance
+      real(wp), intent(in) :: absolute
+      !> Length of the step: proposed, then possible
+      real(wp), intent(inout) :: h
+   end subroutine look_ahead
 
    !> Nothing is learnt by a method that does not say so.
    pure subroutine reset(self)

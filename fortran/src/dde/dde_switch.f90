@@ -21,8 +21,6 @@ module dde_switch
    !> The pace of the implicit method is taken over this many steps, the first time after as many
    !> that it needs to grow them.
    integer, parameter :: window = 6
-   !> Cost of an evaluation within the implicit method over one within the explicit.
-   real(wp), parameter :: implicit_cost = 4.5_wp
 
    !> Evidence for a change of method.
    type :: switch_type
@@ -65,7 +63,7 @@ contains
          self%steps = self%steps + 1
          self%votes = merge(self%votes + 1, 0, measure < worth_returning &
                             .and. h_next/beyond_the_delay < shortest_delay)
-         pace = self%gone/(implicit_cost*(step%evaluations - self%evaluations_then))
+         pace = self%gone/(step%evaluation_cost*(step%evaluations - self%evaluations_then))
          other = self%votes >= steps_to_return
          if (modulo(self%steps, window) == 0) then
             if (self%steps > window) other = other .or. pace < self%explicit_pace
@@ -88,7 +86,9 @@ contains
          end if
          other = self%votes >= self%patience
          if (other) then
-            self%explicit_pace = self%gone/max(1_int64, step%evaluations - self%evaluations_then)
+            self%explicit_pace = self%gone &
+                                 /(step%evaluation_cost*max(1_int64, step%evaluations &
+                                                            - self%evaluations_then))
          end if
       end if
       if (other) then

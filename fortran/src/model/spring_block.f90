@@ -33,6 +33,8 @@ module spring_block
       procedure :: history => constant_history
       procedure :: rhs => equation_4
       procedure :: jacobian => derivatives_of_4
+      procedure :: series => series_of_4
+      procedure :: past_series => constant_series
    end type spring_block_type
 
    interface spring_block_type
@@ -60,6 +62,7 @@ contains
       type(spring_block_type) :: block
 
       block%n = 3
+      block%analytic = .true.
       allocate (block%lag, source=pack([tau], tau > 0.0_wp))
       allocate (block%component, source=pack([index_of_ln_v], tau > 0.0_wp))
       block%epsilon = epsilon
@@ -162,4 +165,72 @@ contains
          end if
       end associate
    end subroutine derivatives_of_4
+
+   !> Taylor series of the solution of (4), with that of v beside it: v' = v w' is linear in the
+   !> state, and k w(k) the coefficient k of v'/v.
+   pure subroutine series_of_4(self, t, unit, degree, z, y)
+      !> The block
+      class(spring_block_type), intent(in) :: self
+      !> Time, without influence
+      real(wp), intent(in) :: t
+      !> Unit of time of the powers
+      real(wp), intent(in) :: unit
+      !> Degree of the series
+      integer, intent(in) :: degree
+      !> Coefficients of w(t - tau), or nothing
+      real(wp), intent(in) :: z(0:degree, size(self%lag))
+      !> Coefficients of theta, u, w; y(0, :) is given
+      real(wp), intent(inout) :: y(0:degree, self%n)
+      !> Coefficients of v, of theta + (1 + epsilon) w(t - tau), and of w' times unit
+      real(wp), dimension(0:degree) :: v, relaxing, w_rate
+      real(wp) :: compliance, delayed_w, by_v, rest, share, total
+      integer :: j, k
+
+      if (y(0, index_of_ln_v) < least_ln_v .or. y(0, index_of_ln_v) > largest_ln_v) then
+         y(1:, :) = ieee_value(1.0_wp, ieee_quiet_nan)
+         return
+      end if
+      v(0) = exp(y(0, index_of_ln_v))
+      by_v = 1.0_wp/v(0)
+      compliance = 1.0_wp/self%xi
+      do k = 0, degree - 1
+         associate (theta => y(k, index_of_theta), u => y(k, index_of_u), w => y(k, index_of_ln_v), &
+                    theta_next => y(k + 1, index_of_theta), u_next => y(k + 1, index_of_u), &
+                    w_next => y(k + 1, index_of_ln_v))
+            delayed_w = w
+            if (size(z, 2) > 0) delayed_w = z(k, 1)
+            relaxing(k) = theta + (1.0_wp + self%epsilon)*delayed_w
+            w_rate(k) = -self%gamma**2*unit*(u + compliance*(theta + w))
+            total = v(k)*relaxing(0)
+            rest = 0.0_wp
+            do j = 1, k
+               total = total + v(k - j)*relaxing(j)
+               rest = rest + v(k - j + 1)*w_rate(j - 1)
+            end do
+            share = 1.0_wp/(k + 1)
+            v(k + 1) = share*w_rate(k)
+            w_rate(k) = by_v*(w_rate(k) - rest)
+            theta_next = -unit*share*total
+            u_next = unit*share*(v(k) - merge(1.0_wp, 0.0_wp, k == 0))
+            w_next = share*w_rate(k)
+         end associate
+      end do
+   end subroutine series_of_4
+
+   !> Series of the constant history.
+   pure subroutine constant_series(self, t, component, unit, y)
+      !> The block
+      class(spring_block_type), intent(in) :: self
+      !> Time <= 0, without influence
+      real(wp), intent(in) :: t
+      !> Index into the state
+      integer, intent(in) :: component
+      !> Unit of time of the powers, without influence
+      real(wp), intent(in) :: unit
+      !> Coefficients
+      real(wp), intent(out) :: y(0:)
+
+      y = 0.0_wp
+      y(0) = self%past(component)
+   end subroutine constant_series
 end module spring_block
