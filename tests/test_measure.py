@@ -119,10 +119,12 @@ def test_samples_stand_at_their_times(measured):
 
 
 def test_counts_and_extremes(measured):
-    """Steps, evaluations and ln v of a run that is right."""
-    run = measured.isel(run=1)
+    """Steps, evaluations and ln v of a run that is right; a series counts as one evaluation."""
+    run = measured.isel(run=3)
     assert run.steps_accepted > 20
     assert run.evaluations > 10 * run.steps_accepted
+    series = measured.isel(run=1)
+    assert series.steps_accepted < series.evaluations < run.evaluations
     assert run.least_ln_v <= run.ln_v.min()
     assert run.most_ln_v >= run.ln_v.max()
     assert measured.isel(run=4).evaluations == 4 * 2000 + 1

@@ -149,7 +149,7 @@ def test_attributes_tell_where_the_numbers_come_from(programs, scene):
     assert {key: attributes[key] for key in scene | history} == scene | history
     assert attributes["steps_accepted"] > 10
     assert attributes["steps_rejected"] >= 0
-    assert attributes["evaluations"] > 8 * attributes["steps_accepted"]
+    assert attributes["evaluations"] > attributes["steps_accepted"] + attributes["steps_rejected"]
     build = (ROOT / "fortran" / "CMakeLists.txt").read_text()
     assert attributes["program_version"] == re.search(r"project\(.* VERSION (\S+)", build)[1]
     assert "GCC" in attributes["compiler"]
@@ -204,16 +204,17 @@ def test_two_runs_make_the_same_bytes(programs, scene):
     assert programs.output.read_bytes() == first
 
 
-def test_auto_is_the_explicit_method_here(programs, scene):
-    """These scenes are not stiff."""
+def test_auto_is_the_taylor_method_here(programs, scene):
+    """The block gives its series, and these scenes are not stiff."""
     auto = programs.made_by("trajectory", {**scene, "method": "auto"})
-    explicit = programs.made_by("trajectory", {**scene, "method": "explicit"})
-    assert auto.attrs["steps_implicit"] == explicit.attrs["steps_implicit"] == 0
-    xr.testing.assert_equal(auto, explicit)
+    taylor = programs.made_by("trajectory", {**scene, "method": "taylor"})
+    assert auto.attrs["steps_implicit"] == taylor.attrs["steps_implicit"] == 0
+    xr.testing.assert_equal(auto, taylor)
 
 
 def test_tighter_tolerance_takes_more_steps(programs, scene):
-    """The order of the method: about 10^(3/8) times as many steps for each factor of 1000."""
+    """The order of the explicit pair: about 10^(3/8) times as many for each factor of 1000."""
+    scene["method"] = "explicit"
     steps = [
         programs.made_by("trajectory", {**scene, "tolerance": tolerance}).attrs["steps_accepted"]
         for tolerance in (1e-6, 1e-9, 1e-12)

@@ -22,6 +22,7 @@ program tester
    use test_dde_solutions, only: collect_dde_solutions
    use test_dde_stiff, only: collect_dde_stiff
    use test_dde_stops, only: collect_dde_stops
+   use test_dde_taylor, only: collect_dde_taylor
    use test_dde_time, only: collect_dde_time
    use test_exponents, only: collect_exponents
    use test_friction, only: collect_friction
@@ -67,6 +68,7 @@ program tester
                              new_testsuite("dde_solutions", collect_dde_solutions), &
                              new_testsuite("dde_stiff", collect_dde_stiff), &
                              new_testsuite("dde_stops", collect_dde_stops), &
+                             new_testsuite("dde_taylor", collect_dde_taylor), &
                              new_testsuite("dde_time", collect_dde_time), &
                              new_testsuite("exponents", collect_exponents), &
                              new_testsuite("friction", collect_friction), &

@@ -6,8 +6,9 @@ module test_dde_behaviour
    use expectations, only: expect, expect_between, expect_close, expect_success
    use kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use published_problems, only: mackey_glass
    use solving, only: at_tolerance, solve
-   use test_problems, only: linear, mackey_glass, wille_baker
+   use test_problems, only: linear, wille_baker
    use undelayed_problems, only: oscillator, swing
    implicit none (type, external)
    private

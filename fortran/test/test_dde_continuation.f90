@@ -7,8 +7,9 @@ module test_dde_continuation
    use files_of_continuations, only: through_file
    use kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use published_problems, only: infection
    use solving, only: at_tolerance
-   use test_problems, only: infection, linear, sine
+   use test_problems, only: linear, sine
    use undelayed_problems, only: swing
    implicit none (type, external)
    private

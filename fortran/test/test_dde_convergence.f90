@@ -7,9 +7,10 @@ module test_dde_convergence
    use expectations, only: expect_between, expect_close
    use kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use published_problems, only: infection
    use single_step, only: interpolated, take_step
    use solving, only: at_tolerance, solve
-   use test_problems, only: infection, sine
+   use test_problems, only: sine
    use undelayed_problems, only: blow_up, oscillator, without_delays
    implicit none (type, external)
    private

@@ -42,7 +42,7 @@ contains
       integer :: i
 
       do i = 1, size(methods)
-         if (methods(i) == "explicit") cycle
+         if (any(methods(i) == ["explicit", "taylor  "])) cycle
          table = event_table([1], [0.5_wp], [0])
          call integrate(prothero_robinson(-1.0e6_wp), 0.0_wp, 10.0_wp, &
                         at_tolerance(1.0e-10_wp, methods(i)), outcome, failure, watcher=table)
@@ -129,7 +129,8 @@ contains
 
    !> Zeros and extremes of cos t where runs end, and amid runs so short that rounding is all that
    !> their dense output shows: each is met once. A Newton iteration leaves rounding in its slopes
-   !> at the ends, too, so that implicit methods are asked for less.
+   !> at the ends, and a series what follows its last term, so that only the explicit pair is asked
+   !> for all.
    subroutine test_zero_between(error)
       type(error_type), allocatable, intent(out) :: error
       type(event_table) :: table
@@ -139,7 +140,7 @@ contains
 
       do i = 1, size(methods)
          do j = 0, 2
-            little = j*merge(1.0e-5_wp, 1.0e-14_wp, methods(i)(1:5) == "radau")
+            little = j*merge(1.0e-14_wp, 1.0e-5_wp, methods(i) == "explicit")
             table = event_table([1, 1], [0.0_wp, 0.0_wp], [0, 0], of_slope=[.false., .true.])
             continuation = continuation_type()
             do k = 1, 12
@@ -220,7 +221,7 @@ contains
 
       problem = spring_block_type(0.0_wp, 0.7_wp, 0.5_wp, 1.0e12_wp, 0.0_wp, 0.5_wp, 1.1_wp)
       do i = 1, size(methods)
-         if (methods(i) == "explicit") cycle
+         if (any(methods(i) == ["explicit", "taylor  "])) cycle
          call integrate(problem, 0.0_wp, t_end, at_tolerance(1.0e-10_wp, methods(i)), whole, &
                         failure)
          call expect_success(error, failure)

@@ -39,6 +39,7 @@ contains
                    new_unittest("look-ups in a ring that doubles", test_doubling), &
                    new_unittest("look-ups in a ring that doubles late", test_late_doubling), &
                    new_unittest("what is forgotten", test_forget), &
+                   new_unittest("taylor series", test_series), &
                    new_unittest("memory of a ring", test_memory), &
                    new_unittest("memory of an integration", test_memory_of_integration)]
    end subroutine collect_dde_history
@@ -101,7 +102,7 @@ contains
       past = history_type(problem, instant_at(0.0_wp))
       do i = 0, 199
          call past%append(instant_at(real(i, wp)), 1.0_wp, [0.0_wp], &
-                          reshape([real(i, wp), 0.0_wp], [2, 1]))
+                          reshape([real(i, wp), 0.0_wp], [2, 1]), serves=1.0_wp, known=1)
       end do
       call expect_number(error, past, problem, 2.5_wp, 2.0_wp)
       call past%forget(instant_at(100.5_wp))
@@ -115,6 +116,45 @@ contains
       call expect_number(error, past, problem, 2.5_wp, 199.0_wp)
    end subroutine test_forget
 
+   !> One cubic, kept over three nodes that are not all 0 in the first step and in powers in the
+   !> second, has the same series wherever one looks, as far as there is place for its terms; and it
+   !> serves as long as the second step says.
+   subroutine test_series(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(history_type) :: past
+      type(wille_baker) :: problem
+      real(wp) :: known(0:5), serves, unit, z(0:5, 1)
+      real(wp), parameter :: looks(5) = [0.0_wp, 0.3_wp, 0.5_wp, 0.7_wp, 1.25_wp]
+      integer :: i, known_degree
+
+      ! 1 + 2 t - t^2 + t^3/2 over steps of 0.5 and 1
+      problem = delayed([2.0_wp], [1])
+      past = history_type(problem, instant_at(0.0_wp))
+      call past%append(instant_at(0.0_wp), 0.5_wp, even_nodes, &
+                       reshape([1.0_wp, 0.8125_wp, -0.1875_wp, 0.0625_wp], [4, 1]), serves=0.5_wp, &
+                       known=3)
+      call past%append(instant_at(0.5_wp), 1.0_wp, [0.0_wp, 0.0_wp, 0.0_wp], &
+                       reshape([1.8125_wp, 1.375_wp, -0.25_wp, 0.5_wp], [4, 1]), serves=1.2_wp, &
+                       known=2)
+      do i = 1, size(looks)
+         associate (t => looks(i))
+            call past%face(problem, instant_at(t + problem%lag(1)), 0.1_wp)
+            unit = 0.4_wp
+            call past%series(problem, unit, z, serves, known_degree)
+            call expect_close(error, unit, min(0.4_wp, serves), 0.0_wp, "unit")
+            known = [1.0_wp + t*(2.0_wp - t*(1.0_wp - 0.5_wp*t)), 2.0_wp - t*(2.0_wp - 1.5_wp*t), &
+                     -1.0_wp + 1.5_wp*t, 0.5_wp, 0.0_wp, 0.0_wp]*unit**[0, 1, 2, 3, 4, 5]
+            call expect_close(error, z(:, 1), known, 1.0e-15_wp, "series at t = "//text(t))
+            call expect_close(error, serves, merge(0.5_wp, 1.7_wp, t < 0.5_wp) - t, 1.0e-15_wp, &
+                              "how long it serves at t = "//text(t))
+            call expect(error, known_degree == merge(3, 2, t < 0.5_wp), "known terms")
+            call past%series(problem, unit, z(:1, :), serves, known_degree)
+            call expect_close(error, z(:1, 1), known(:1), 1.0e-15_wp, "two terms of it")
+            call expect(error, known_degree == 1, "both are known")
+         end associate
+      end do
+   end subroutine test_series
+
    !> A million steps of which ten matter at a time take no more memory than the first hundred.
    subroutine test_memory(error)
       type(error_type), allocatable, intent(out) :: error
@@ -127,7 +167,7 @@ contains
       do i = 0, 1000000
          if (i == 100) before = peak_memory()
          call past%append(instant_at(real(i, wp)), 1.0_wp, odd_nodes, &
-                          reshape([1.0_wp, 0.0_wp], [2, 1]))
+                          reshape([1.0_wp, 0.0_wp], [2, 1]), serves=1.0_wp, known=1)
          call past%forget(instant_at(i - 9.0_wp))
       end do
       call expect(error, before > 0, "memory is known")
@@ -205,10 +245,12 @@ contains
          end do
          if (modulo(i, 2) == 1) then
             call past%append(now, length, odd_nodes, &
-                             reshape([real(wp) :: i + 1, 1, i + 1, 1], [2, 2]))
+                             reshape([real(wp) :: i + 1, 1, i + 1, 1], [2, 2]), serves=length, &
+                             known=1)
          else
             call past%append(now, length, even_nodes, &
-                             reshape([real(wp) :: i, 1, 0, 0, i, 1, 1, -2], [4, 2]))
+                             reshape([real(wp) :: i, 1, 0, 0, i, 1, 1, -2], [4, 2]), &
+                             serves=length, known=3)
          end if
          now = later(now, length)
          call past%forget(later(now, -maxval(lag)))

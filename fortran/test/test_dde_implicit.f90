@@ -6,10 +6,11 @@ module test_dde_implicit
    use expectations, only: expect, expect_between, expect_close, expect_success
    use kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use published_problems, only: enzyme, infection, mackey_glass
    use solving, only: at_tolerance, solve
    use spring_block, only: spring_block_type
    use stiff_problems, only: exponential_decay
-   use test_problems, only: enzyme, infection, linear, mackey_glass, wille_baker
+   use test_problems, only: linear, wille_baker
    use undelayed_problems, only: blow_up, falls_out, without_delays
    implicit none (type, external)
    private

@@ -6,8 +6,9 @@ module test_dde_receivers
    use expectations, only: expect, expect_close, expect_failure, expect_success
    use kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use published_problems, only: infection
    use solving, only: at_tolerance
-   use test_problems, only: infection, sine
+   use test_problems, only: sine
    implicit none (type, external)
    private
    public :: collect_dde_receivers

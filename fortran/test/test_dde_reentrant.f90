@@ -6,9 +6,10 @@ module test_dde_reentrant
    use kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use omp_lib, only: omp_get_num_threads
+   use published_problems, only: enzyme, infection, mackey_glass
    use solving, only: at_tolerance
    use spring_block, only: spring_block_type
-   use test_problems, only: enzyme, infection, linear, mackey_glass, sine, wille_baker
+   use test_problems, only: linear, sine, wille_baker
    use undelayed_problems, only: oscillator, without_delays
    implicit none (type, external)
    private

@@ -193,7 +193,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       call expect_refusal(error, good(), 2.0_wp, integration_options(method="euler"), &
-                          "method = 'euler'; one of auto, explicit, radau5, radau9, radau13")
+                          "method = 'euler'; one of auto, explicit, taylor, radau5, radau9, " &
+                          //"radau13 expected")
    end subroutine test_method
 
    !> The run is refused in these words, and takes no sample.

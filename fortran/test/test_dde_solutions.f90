@@ -4,8 +4,9 @@ module test_dde_solutions
    use expectations, only: expect_between, expect_close
    use kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use published_problems, only: enzyme, infection, mackey_glass
    use solving, only: at_tolerance, solve
-   use test_problems, only: enzyme, infection, linear, mackey_glass, sine, wille_baker
+   use test_problems, only: linear, sine, wille_baker
    implicit none (type, external)
    private
    public :: collect_dde_solutions

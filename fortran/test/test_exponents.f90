@@ -8,9 +8,10 @@ module test_exponents
    use kinds, only: wp
    use lyapunov_spectrum, only: growth_settings, growth_type, measure_growth
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use published_problems, only: mackey_glass
    use solving, only: at_tolerance
    use spring_block, only: spring_block_type
-   use test_problems, only: linear, mackey_glass, wille_baker
+   use test_problems, only: linear, wille_baker
    implicit none (type, external)
    private
    public :: collect_exponents

@@ -1,11 +1,11 @@
-!> Delay equations with published or exact solutions (Wille and Baker 1992; Hairer, Norsett and
-!> Wanner 1993, sec. II.17; Guglielmi and Hairer 2001; Mackey and Glass 1977).
+!> Delay equations with exact solutions (Wille and Baker 1992; Hairer, Norsett and Wanner 1993, sec.
+!> II.17), and what all problems of the tests share.
 module test_problems
    use dde, only: dde_problem_type
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: constant_past, enzyme, fill, infection, linear, mackey_glass, sine, wille_baker
+   public :: constant_past, fill, linear, sine, wille_baker
 
    !> The start of every problem here that has one: constant history and first state.
    type, extends(dde_problem_type), abstract :: constant_past
@@ -16,6 +16,7 @@ module test_problems
    contains
       procedure :: initial => first_state
       procedure :: history => constant_history
+      procedure :: past_series => constant_series
    end type constant_past
 
    !> y' = -rate y(t - lag).
@@ -24,6 +25,7 @@ module test_problems
       real(wp) :: rate = 1.0_wp
    contains
       procedure :: rhs => linear_rhs
+      procedure :: series => linear_series
    end type linear
 
    interface linear
@@ -34,41 +36,12 @@ module test_problems
    type, extends(constant_past) :: wille_baker
    contains
       procedure :: rhs => wille_baker_rhs
+      procedure :: series => wille_baker_series
    end type wille_baker
 
    interface wille_baker
       module procedure :: new_wille_baker
    end interface wille_baker
-
-   !> An infection: delays 1 and 10.
-   type, extends(constant_past) :: infection
-   contains
-      procedure :: rhs => infection_rhs
-   end type infection
-
-   interface infection
-      module procedure :: new_infection
-   end interface infection
-
-   !> Enzyme kinetics with inhibition.
-   type, extends(constant_past) :: enzyme
-   contains
-      procedure :: rhs => enzyme_rhs
-   end type enzyme
-
-   interface enzyme
-      module procedure :: new_enzyme
-   end interface enzyme
-
-   !> y' = 0.2 y(t-17)/(1 + y(t-17)^10) - 0.1 y.
-   type, extends(constant_past) :: mackey_glass
-   contains
-      procedure :: rhs => mackey_glass_rhs
-   end type mackey_glass
-
-   interface mackey_glass
-      module procedure :: new_mackey_glass
-   end interface mackey_glass
 
    !> y' = -y(t - pi/2) with the history sin t: y = sin t.
    type, extends(dde_problem_type) :: sine
@@ -76,6 +49,8 @@ module test_problems
       procedure :: initial => sine_at_zero
       procedure :: history => sine_history
       procedure :: rhs => sine_rhs
+      procedure :: series => sine_series
+      procedure :: past_series => sine_past_series
    end type sine
 
    interface sine
@@ -108,6 +83,7 @@ contains
 
       call fill(problem, n, past, first, lag, component)
       if (present(rate)) problem%rate = rate
+      problem%analytic = .true.
    end function new_linear
 
    !> The problem with its components.
@@ -116,31 +92,8 @@ contains
       real(wp), intent(in) :: lag(:), past(:), first(:)
 
       call fill(problem, n, past, first, lag, component)
+      problem%analytic = .true.
    end function new_wille_baker
-
-   !> The problem with its components.
-   pure type(infection) function new_infection(n, lag, component, past, first) result(problem)
-      integer, intent(in) :: n, component(:)
-      real(wp), intent(in) :: lag(:), past(:), first(:)
-
-      call fill(problem, n, past, first, lag, component)
-   end function new_infection
-
-   !> The problem with its components.
-   pure type(enzyme) function new_enzyme(n, lag, component, past, first) result(problem)
-      integer, intent(in) :: n, component(:)
-      real(wp), intent(in) :: lag(:), past(:), first(:)
-
-      call fill(problem, n, past, first, lag, component)
-   end function new_enzyme
-
-   !> The problem with its components.
-   pure type(mackey_glass) function new_mackey_glass(n, lag, component, past, first) result(problem)
-      integer, intent(in) :: n, component(:)
-      real(wp), intent(in) :: lag(:), past(:), first(:)
-
-      call fill(problem, n, past, first, lag, component)
-   end function new_mackey_glass
 
    !> The first state.
    pure subroutine first_state(self, y)
@@ -160,6 +113,17 @@ contains
       value = self%past(component) + 0.0_wp*t
    end function constant_history
 
+   !> Its series.
+   pure subroutine constant_series(self, t, component, unit, y)
+      class(constant_past), intent(in) :: self
+      real(wp), intent(in) :: t, unit
+      integer, intent(in) :: component
+      real(wp), intent(out) :: y(0:)
+
+      y = 0.0_wp
+      y(0) = self%past(component)
+   end subroutine constant_series
+
    !> z = y(t - lag).
    pure subroutine linear_rhs(self, t, y, z, dydt)
       class(linear), intent(in) :: self
@@ -170,6 +134,20 @@ contains
 
       dydt = -self%rate*z
    end subroutine linear_rhs
+
+   !> Each coefficient follows from that of z.
+   pure subroutine linear_series(self, t, unit, degree, z, y)
+      class(linear), intent(in) :: self
+      real(wp), intent(in) :: t, unit
+      integer, intent(in) :: degree
+      real(wp), intent(in) :: z(0:degree, size(self%lag))
+      real(wp), intent(inout) :: y(0:degree, self%n)
+      integer :: k
+
+      do k = 0, degree - 1
+         y(k + 1, :) = -self%rate*unit/(k + 1)*z(k, :)
+      end do
+   end subroutine linear_series
 
    !> z = (y1(t-1), y2(t-0.2)).
    pure subroutine wille_baker_rhs(self, t, y, z, dydt)
@@ -182,44 +160,24 @@ contains
       dydt = [z(1), z(1) + z(2), y(2)]
    end subroutine wille_baker_rhs
 
-   !> z = (y2(t-1), y2(t-10)).
-   pure subroutine infection_rhs(self, t, y, z, dydt)
-      class(infection), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
-      real(wp), intent(out) :: dydt(self%n)
+   !> Each coefficient follows from those of y2 and z.
+   pure subroutine wille_baker_series(self, t, unit, degree, z, y)
+      class(wille_baker), intent(in) :: self
+      real(wp), intent(in) :: t, unit
+      integer, intent(in) :: degree
+      real(wp), intent(in) :: z(0:degree, size(self%lag))
+      real(wp), intent(inout) :: y(0:degree, self%n)
+      integer :: k
 
-      dydt = [-y(1)*z(1) + z(2), y(1)*z(1) - y(2), y(2) - z(2)]
-   end subroutine infection_rhs
-
-   !> z = y4(t-4).
-   pure subroutine enzyme_rhs(self, t, y, z, dydt)
-      class(enzyme), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
-      real(wp), intent(out) :: dydt(self%n)
-      real(wp) :: flow
-
-      flow = y(1)/(1.0_wp + 0.0005_wp*z(1)**3)
-      dydt = [10.5_wp - flow, flow - y(2), y(2) - y(3), y(3) - 0.5_wp*y(4)]
-   end subroutine enzyme_rhs
-
-   !> z = y(t-17).
-   pure subroutine mackey_glass_rhs(self, t, y, z, dydt)
-      class(mackey_glass), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
-      real(wp), intent(out) :: dydt(self%n)
-
-      dydt = 0.2_wp*z/(1.0_wp + z**10) - 0.1_wp*y
-   end subroutine mackey_glass_rhs
+      do k = 0, degree - 1
+         y(k + 1, :) = unit/(k + 1)*[z(k, 1), z(k, 1) + z(k, 2), y(k, 2)]
+      end do
+   end subroutine wille_baker_series
 
    !> The problem with its delay.
    pure type(sine) function new_sine() result(problem)
       problem%n = 1
+      problem%analytic = .true.
       allocate (problem%lag, source=[0.5_wp*acos(-1.0_wp)])
       allocate (problem%component, source=[1])
    end function new_sine
@@ -252,4 +210,31 @@ contains
 
       dydt = -z
    end subroutine sine_rhs
+
+   !> Each coefficient follows from that of z.
+   pure subroutine sine_series(self, t, unit, degree, z, y)
+      class(sine), intent(in) :: self
+      real(wp), intent(in) :: t, unit
+      integer, intent(in) :: degree
+      real(wp), intent(in) :: z(0:degree, size(self%lag))
+      real(wp), intent(inout) :: y(0:degree, self%n)
+      integer :: k
+
+      do k = 0, degree - 1
+         y(k + 1, :) = -unit/(k + 1)*z(k, :)
+      end do
+   end subroutine sine_series
+
+   !> The derivatives of sin are sines.
+   pure subroutine sine_past_series(self, t, component, unit, y)
+      class(sine), intent(in) :: self
+      real(wp), intent(in) :: t, unit
+      integer, intent(in) :: component
+      real(wp), intent(out) :: y(0:)
+      integer :: k
+
+      do k = 0, ubound(y, 1)
+         y(k) = unit**k/gamma(k + 1.0_wp)*sin(t + self%lag(1)*k)
+      end do
+   end subroutine sine_past_series
 end module test_problems

@@ -13,7 +13,7 @@ module test_quadruple
    public :: collect_quadruple
 
    !> Methods tried.
-   character(len=8), parameter :: methods(3) = ["explicit", "radau9  ", "radau13 "]
+   character(len=8), parameter :: methods(4) = ["explicit", "taylor  ", "radau9  ", "radau13 "]
    !> Tolerance, and what errors must stay below.
    real(wp), parameter :: tolerance = 1.0e-22_wp, within = 1.0e-20_wp
 

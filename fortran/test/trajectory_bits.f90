@@ -15,6 +15,8 @@ program trajectory_bits
    ! a cycle, chaos, stick, and slips without a delay at gamma = 1e12
    call print_case("cycle", [10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp], 1000.0_wp, "explicit")
    call print_case("chaos", [7.0_wp, 0.7_wp, 0.5_wp, 0.8_wp], 400.0_wp, "explicit")
+   call print_case("cycle", [10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp], 1000.0_wp, "taylor")
+   call print_case("chaos", [7.0_wp, 0.7_wp, 0.5_wp, 0.8_wp], 400.0_wp, "taylor")
    call print_case("cycle", [10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp], 1000.0_wp, "radau5")
    call print_case("cycle", [10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp], 1000.0_wp, "radau9")
    call print_case("cycle", [10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp], 1000.0_wp, "radau13")

@@ -14,6 +14,7 @@ module undelayed_problems
       integer :: power = 0
    contains
       procedure :: rhs => quadrature_rhs
+      procedure :: series => quadrature_series
    end type quadrature
 
    interface quadrature
@@ -38,6 +39,7 @@ module undelayed_problems
       real(wp) :: rate = 1.0_wp
    contains
       procedure :: rhs => oscillator_rhs
+      procedure :: series => oscillator_series
    end type oscillator
 
    interface oscillator
@@ -48,6 +50,7 @@ module undelayed_problems
    type, extends(constant_past) :: blow_up
    contains
       procedure :: rhs => blow_up_rhs
+      procedure :: series => blow_up_series
    end type blow_up
 
    interface blow_up
@@ -80,6 +83,7 @@ contains
       integer, intent(in), optional :: power
 
       call fill(problem, n, past, first)
+      problem%analytic = .true.
       if (present(power)) problem%power = power
    end function new_quadrature
 
@@ -98,6 +102,7 @@ contains
       real(wp), intent(in), optional :: rate
 
       call fill(problem, n, past, first)
+      problem%analytic = .true.
       if (present(rate)) problem%rate = rate
    end function new_oscillator
 
@@ -107,6 +112,7 @@ contains
       real(wp), intent(in) :: past(:), first(:)
 
       call fill(problem, n, past, first)
+      problem%analytic = .true.
    end function new_blow_up
 
    !> The problem with its components.
@@ -147,6 +153,23 @@ contains
       dydt = (self%power + 1)*t**self%power
    end subroutine quadrature_rhs
 
+   !> Binomials of (t + unit s)**(power + 1).
+   pure subroutine quadrature_series(self, t, unit, degree, z, y)
+      class(quadrature), intent(in) :: self
+      real(wp), intent(in) :: t, unit
+      integer, intent(in) :: degree
+      real(wp), intent(in) :: z(0:degree, size(self%lag))
+      real(wp), intent(inout) :: y(0:degree, self%n)
+      integer :: j
+      integer :: k
+
+      y(1:, 1) = 0.0_wp
+      do k = 1, min(degree, self%power + 1)
+         y(k, 1) = unit**k*t**(self%power + 1 - k)*product([(self%power + 2.0_wp - j, j=1, k)]) &
+                   /gamma(k + 1.0_wp)
+      end do
+   end subroutine quadrature_series
+
    !> y1' = rate y2, y2' = -rate y1.
    pure subroutine oscillator_rhs(self, t, y, z, dydt)
       class(oscillator), intent(in) :: self
@@ -158,6 +181,20 @@ contains
       dydt = self%rate*[y(2), -y(1)]
    end subroutine oscillator_rhs
 
+   !> Each coefficient follows from the one before.
+   pure subroutine oscillator_series(self, t, unit, degree, z, y)
+      class(oscillator), intent(in) :: self
+      real(wp), intent(in) :: t, unit
+      integer, intent(in) :: degree
+      real(wp), intent(in) :: z(0:degree, size(self%lag))
+      real(wp), intent(inout) :: y(0:degree, self%n)
+      integer :: k
+
+      do k = 0, degree - 1
+         y(k + 1, :) = self%rate*unit/(k + 1)*[y(k, 2), -y(k, 1)]
+      end do
+   end subroutine oscillator_series
+
    !> y' = y^2.
    pure subroutine blow_up_rhs(self, t, y, z, dydt)
       class(blow_up), intent(in) :: self
@@ -168,6 +205,20 @@ contains
 
       dydt = y**2
    end subroutine blow_up_rhs
+
+   !> The square is a sum of products.
+   pure subroutine blow_up_series(self, t, unit, degree, z, y)
+      class(blow_up), intent(in) :: self
+      real(wp), intent(in) :: t, unit
+      integer, intent(in) :: degree
+      real(wp), intent(in) :: z(0:degree, size(self%lag))
+      real(wp), intent(inout) :: y(0:degree, self%n)
+      integer :: k
+
+      do k = 0, degree - 1
+         y(k + 1, 1) = unit/(k + 1)*sum(y(0:k, 1)*y(k:0:-1, 1))
+      end do
+   end subroutine blow_up_series
 
    !> No number from t = 1 on.
    pure subroutine falls_out_rhs(self, t, y, z, dydt)

@@ -8,15 +8,17 @@ module dde_interpolant
    implicit none (type, external)
    private
    public :: highest_degree, newton_state, newton_value, newton_values, taylor_coefficients
+   public :: usual_degree
 
    !> Highest degree of an interpolant.
    integer, parameter :: highest_degree = 18
    !> Highest degree but that of Taylor series.
    integer, parameter :: usual_degree = 8
-   integer :: i
+   integer, private :: i
    !> Factorials, and one over them.
-   real(wp), parameter :: factorial(0:highest_degree) = [(gamma(i + 1.0_wp), i=0, highest_degree)], &
-                          inverse_factorial(0:highest_degree) = 1.0_wp/factorial
+   real(wp), parameter :: factorial(0:highest_degree) = [(gamma(i + 1.0_wp), &
+                                                          i=0, highest_degree)]
+   real(wp), parameter :: inverse_factorial(0:highest_degree) = 1.0_wp/factorial
 
 contains
 

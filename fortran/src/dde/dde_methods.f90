@@ -37,7 +37,8 @@ contains
       case ("radau13")
          allocate (step, source=implicit_step_type(problem, 7))
       case ("taylor")
-         allocate (step, source=taylor_step_type(problem, max(options%relative, options%absolute)))
+         allocate (step, source=taylor_step_type(problem, max(options%relative, options%absolute), &
+                                               measured=options%method == "auto"))
       case default
          allocate (step, source=explicit_step_type(problem))
       end select

@@ -115,9 +115,9 @@ contains
       end do
    end subroutine difference_jacobian
 
-   !> Taylor series of the solution in powers of s = (t' - t)/unit: since dy/ds = unit f, coefficient
-   !> k + 1 of y is unit/(k + 1) times coefficient k of f. Not a number where the extension gives
-   !> none.
+   !> Taylor series of the solution in powers of s = (t' - t)/unit: since dy/ds = unit f,
+   !> coefficient k + 1 of y is unit/(k + 1) times coefficient k of f. Not a number where the
+   !> extension gives none.
    pure subroutine no_series(self, t, unit, degree, z, y)
       !> The problem
       class(dde_problem_type), intent(in) :: self

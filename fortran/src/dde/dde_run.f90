@@ -136,7 +136,8 @@ contains
       self%h = continuation%next_step
       method = options%method
       if (method == "auto") then
-         method = matching_method(problem, options, implicit=index(continuation%method, "radau") == 1)
+         method = matching_method(problem, options, &
+                                  implicit=index(continuation%method, "radau") == 1)
       end if
       call choose_method(problem, method, options, self%step)
       self%step%y = continuation%y

@@ -40,6 +40,8 @@ module dde_step
       logical :: foresees = .false.
       !> How long from its start on the interpolant of the step serves, if longer than the step
       real(wp) :: serves = 0.0_wp
+      !> Degree up to which the coefficients of its interpolant are those of the solution
+      integer :: known = 0
       !> Whether step control should foresee the error from the last two (predictive control)
       logical :: predictive = .false.
       !> Length that such a method would have taken if nothing else had limited it

@@ -19,7 +19,13 @@ module dde_taylor_step
    !> Lowest degree.
    integer, parameter :: lowest_degree = 6
    !> Share of the length at which the last two terms reach the tolerance: for what follows them.
-   real(wp), parameter :: share = 0.85_wp
+   real(wp), parameter :: share = 0.9_wp
+   !> How long the series serves at most, in units of how long those of the delayed values do: it
+   !> solves an equation whose delayed values depart from the solution there.
+   real(wp), parameter :: beyond = 2.5_wp
+   !> The unit of a series is the length that the one before allowed, at most this times the length
+   !> that its step had: powers of it must not overflow where a solution is a polynomial.
+   real(wp), parameter :: growth = 1000.0_wp
    !> Cost of a series over that of a right-hand side, over its degree (instructions and time of the
    !> spring block).
    real(wp), parameter :: cost_of_degree = 0.75_wp
@@ -33,8 +39,10 @@ module dde_taylor_step
       real(wp), allocatable, private :: series(:, :), delayed(:, :)
       !> Slope at the end of the step times that unit, shape (n)
       real(wp), allocatable, private :: rise(:)
-      !> Whether a component is delayed anywhere, shape (n)
-      logical, allocatable, private :: kept(:)
+      !> All components, and those that are delayed anywhere
+      integer, allocatable, private :: all(:), kept(:)
+      !> Whether its stiffness will be asked for
+      logical, private :: measured = .false.
       !> Derivatives of the right-hand side at the start by y and z
       real(wp), allocatable, private :: by_y(:, :), by_z(:, :)
       !> Rate of change of the highest term by them
@@ -58,11 +66,13 @@ module dde_taylor_step
 contains
 
    !> Storage, and the state at the first instant.
-   pure function new_step(problem, tolerance) result(step)
+   pure function new_step(problem, tolerance, measured) result(step)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Relative or absolute tolerance, the larger
       real(wp), intent(in) :: tolerance
+      !> Whether its stiffness will be asked for
+      logical, intent(in) :: measured
       type(taylor_step_type) :: step
       integer :: degree, i
 
@@ -71,6 +81,7 @@ contains
       step%order = degree
       step%error_order = degree
       step%foresees = .true.
+      step%measured = measured
       step%evaluation_cost = cost_of_degree*degree
       associate (n => problem%n, delays => size(problem%lag))
          allocate (step%nodes(degree), source=0.0_wp)
@@ -78,7 +89,8 @@ contains
          allocate (step%y(n), step%y_new(n), step%slope(n), step%z(delays, 1), step%rise(n))
          allocate (step%by_y(n, n), step%by_z(n, delays))
       end associate
-      step%kept = [(any(problem%component == i), i=1, problem%n)]
+      step%all = [(i, i=1, problem%n)]
+      step%kept = pack(step%all, [(any(problem%component == i), i=1, problem%n)])
       call problem%initial(step%y)
    end function new_step
 
@@ -99,38 +111,49 @@ contains
       real(wp), intent(in) :: absolute
       !> Length of the step: proposed, then possible
       real(wp), intent(inout) :: h
-      real(wp) :: last(2), last_kept(2), past_serves, reached(2)
-      integer :: i
+      real(wp) :: past_serves
 
-      self%unit = merge(self%converges, h, self%converges > 0.0_wp)
+      self%unit = merge(min(self%converges, growth*self%h), h, self%converges > 0.0_wp)
       self%converges = 0.0_wp
       self%series(0, :) = self%y
-      past_serves = h
-      call past%series(problem, self%unit, self%delayed, past_serves)
+      call past%series(problem, self%unit, self%delayed, past_serves, self%known)
       call problem%series(t, self%unit, self%order, self%delayed, self%series)
       self%evaluations = self%evaluations + 1
       if (.not. all(ieee_is_finite(self%series(self%order - 1:, :)))) return
-      last = tiny(1.0_wp)
-      last_kept = tiny(1.0_wp)
-      do i = 1, problem%n
-         reached = abs(self%series(self%order - 1:self%order, i))/(absolute + relative*abs(self%y(i)))
-         last = max(last, reached)
-         if (self%kept(i)) last_kept = max(last_kept, reached)
-      end do
-      self%converges = self%unit*within(self%order, last)
-      self%serves = self%unit*within(self%order, last_kept)
+      ! what the past does not know of the solution enters one degree higher
+      self%known = min(self%known + 1, self%order)
+      self%converges = self%unit*within(self, self%order, self%all, relative, absolute)
+      self%serves = self%unit*within(self, self%known, self%kept, relative, absolute)
+      if (self%serves/beyond > past_serves) self%serves = beyond*past_serves
       self%ideal = self%converges
       h = min(self%converges, past_serves)
    end subroutine look_ahead
 
-   !> How far, in units of its powers, the last two terms of a series are within the tolerance.
-   pure real(wp) function within(degree, last)
-      !> Degree of the series
+   !> How far, in units of its powers, two terms of the series are within the tolerance.
+   pure function within(self, degree, components, relative, absolute) result(reach)
+      !> The step
+      class(taylor_step_type), intent(in) :: self
+      !> Degree of the second term
       integer, intent(in) :: degree
-      !> The coefficients over the tolerance
-      real(wp), intent(in) :: last(2)
+      !> Of which components
+      integer, intent(in) :: components(:)
+      !> Relative tolerance
+      real(wp), intent(in) :: relative
+      !> Absolute tolerance
+      real(wp), intent(in) :: absolute
+      real(wp) :: reach
+      real(wp) :: scale, terms(2)
+      integer :: i
 
-      within = share*exp(-max(log(last(1))/(degree - 1), log(last(2))/degree))
+      terms = tiny(1.0_wp)
+      do i = 1, size(components)
+         associate (c => components(i))
+            scale = absolute + relative*abs(self%y(c))
+            terms(1) = max(terms(1), abs(self%series(degree - 1, c))/scale)
+            terms(2) = max(terms(2), abs(self%series(degree, c))/scale)
+         end associate
+      end do
+      reach = share*exp(-max(log(terms(1))/(degree - 1), log(terms(2))/degree))
    end function within
 
    !> Try the step of length `h` from t: the error is within the tolerance.
@@ -157,6 +180,8 @@ contains
       self%h = h
       error = ieee_value(1.0_wp, ieee_quiet_nan)
       if (.not. self%converges > 0.0_wp) return
+      ! beyond this, terms that have vanished in a very short step would count
+      self%serves = min(self%serves, growth*h)
       do i = 1, problem%n
          call end_of_series(self%order, self%series(:, i), h/self%unit, self%y_new(i), self%rise(i))
       end do
@@ -197,6 +222,7 @@ contains
       real(wp) :: changed(problem%n)
       integer :: i
 
+      if (.not. self%measured) return
       call problem%jacobian(self%t, self%y, self%delayed(0, :), self%by_y, self%by_z)
       changed = 0.0_wp
       do i = 1, problem%n

@@ -166,8 +166,8 @@ contains
       end associate
    end subroutine derivatives_of_4
 
-   !> Taylor series of the solution of (4), with that of v beside it: v' = v w' is linear in the
-   !> state, and k w(k) the coefficient k of v'/v.
+   !> Taylor series of the solution of (4), with that of v beside it: v' = v w' is
+   !> -gamma^2 [u + (theta + w)/xi], linear in the state, and w' follows from it term by term.
    pure subroutine series_of_4(self, t, unit, degree, z, y)
       !> The block
       class(spring_block_type), intent(in) :: self
@@ -181,9 +181,9 @@ contains
       real(wp), intent(in) :: z(0:degree, size(self%lag))
       !> Coefficients of theta, u, w; y(0, :) is given
       real(wp), intent(inout) :: y(0:degree, self%n)
-      !> Coefficients of v, of theta + (1 + epsilon) w(t - tau), and of w' times unit
-      real(wp), dimension(0:degree) :: v, relaxing, w_rate
-      real(wp) :: compliance, delayed_w, by_v, rest, share, total
+      !> Coefficients of v, of theta + (1 + epsilon) w(t - tau), and of unit w'
+      real(wp), dimension(0:degree) :: v, relaxing, rate
+      real(wp) :: by_v, compliance, delayed_w, earlier, share, total, v_rate
       integer :: j, k
 
       if (y(0, index_of_ln_v) < least_ln_v .or. y(0, index_of_ln_v) > largest_ln_v) then
@@ -194,26 +194,25 @@ contains
       by_v = 1.0_wp/v(0)
       compliance = 1.0_wp/self%xi
       do k = 0, degree - 1
-         associate (theta => y(k, index_of_theta), u => y(k, index_of_u), w => y(k, index_of_ln_v), &
-                    theta_next => y(k + 1, index_of_theta), u_next => y(k + 1, index_of_u), &
-                    w_next => y(k + 1, index_of_ln_v))
+         associate (theta => y(k, index_of_theta), u => y(k, index_of_u), &
+                    w => y(k, index_of_ln_v))
             delayed_w = w
             if (size(z, 2) > 0) delayed_w = z(k, 1)
             relaxing(k) = theta + (1.0_wp + self%epsilon)*delayed_w
-            w_rate(k) = -self%gamma**2*unit*(u + compliance*(theta + w))
-            total = v(k)*relaxing(0)
-            rest = 0.0_wp
-            do j = 1, k
-               total = total + v(k - j)*relaxing(j)
-               rest = rest + v(k - j + 1)*w_rate(j - 1)
-            end do
-            share = 1.0_wp/(k + 1)
-            v(k + 1) = share*w_rate(k)
-            w_rate(k) = by_v*(w_rate(k) - rest)
-            theta_next = -unit*share*total
-            u_next = unit*share*(v(k) - merge(1.0_wp, 0.0_wp, k == 0))
-            w_next = share*w_rate(k)
+            v_rate = -self%gamma**2*unit*(u + compliance*(theta + w))
          end associate
+         total = v(k)*relaxing(0)
+         earlier = 0.0_wp
+         do j = 1, k
+            total = total + v(k - j)*relaxing(j)
+            earlier = earlier + v(k - j + 1)*rate(j - 1)
+         end do
+         rate(k) = by_v*(v_rate - earlier)
+         share = 1.0_wp/(k + 1)
+         v(k + 1) = share*v_rate
+         y(k + 1, index_of_theta) = -unit*share*total
+         y(k + 1, index_of_u) = unit*share*merge(v(0) - 1.0_wp, v(k), k == 0)
+         y(k + 1, index_of_ln_v) = share*rate(k)
       end do
    end subroutine series_of_4
 
