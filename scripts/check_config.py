@@ -248,6 +248,11 @@ def _contradictions_of_exponents(place: str, scene: dict):
             f"{place} exponents: t_end = {wanted['t_end']}; expected a finite number >"
             f" t_transient = {scene['t_transient']} and > tau = {scene['tau']}"
         )
+    if wanted and scene["method"] == "taylor":
+        yield (
+            f"{place} method = 'taylor'; expected another one with exponents, whose equations"
+            " have no Taylor series"
+        )
 
 
 def _contradictions_of_studies(config: dict):

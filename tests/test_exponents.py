@@ -147,6 +147,14 @@ def test_more_exponents_than_equations_are_refused_without_delay(config):
     assert "<= 3 without delay" in line
 
 
+def test_exponents_by_taylor_series_are_refused(config):
+    """The equations of their vectors have no series; without exponents the method is allowed."""
+    config["scenes"]["torus"]["method"] = "taylor"
+    assert "exponents, whose equations" in line_about(refusal(config), "method")
+    del config["scenes"]["torus"]["exponents"]
+    assert checked(config)["scenes"]["torus"]["method"] == "taylor"
+
+
 def test_table_holds_all_exponents_of_all_scenes(smoke):
     """At each tolerance, in descending order, as in the files."""
     rows = read_table(smoke.folder / "results/tables/exponents.tsv")
