@@ -78,7 +78,7 @@ contains
       call choose_method(problem, matching_method(problem, options, .not. step%implicit), options, &
                          other)
       other%y = step%y
-      other%slope = step%slope
+      other%slope = step%slope_here()
       other%evaluations = step%evaluations
       other%factorised_before = step%factorisations()
       call move_alloc(other, step)

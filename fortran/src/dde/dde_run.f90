@@ -228,7 +228,7 @@ contains
       continuation%time = [self%now%hi, self%now%lo]
       continuation%origin = [self%origin%hi, self%origin%lo]
       continuation%y = self%step%y
-      continuation%slope = self%step%slope
+      continuation%slope = self%step%slope_here()
       if (allocated(self%search%here%slope)) continuation%slope = self%search%here%slope
       call look(self, problem, options)
       continuation%rate = self%step%slope

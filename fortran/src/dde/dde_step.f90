@@ -53,6 +53,8 @@ module dde_step
       !> Matrices factorised before this method took over
       integer(int64) :: factorised_before = 0
    contains
+      !> Slope at the present state
+      procedure :: slope_here
       !> Evaluate the slope at the start
       procedure :: restart
       !> Forget what was learnt before the start
@@ -177,6 +179,15 @@ contains
       !> Length of the step: proposed, then possible
       real(wp), intent(inout) :: h
    end subroutine look_ahead
+
+   !> Slope at the present state, from the left: the last step leaves it as that of the next start.
+   pure function slope_here(self) result(slope)
+      !> The step
+      class(step_type), intent(in) :: self
+      real(wp) :: slope(size(self%y))
+
+      slope = self%slope
+   end function slope_here
 
    !> Nothing is learnt by a method that does not say so.
    pure subroutine reset(self)

@@ -1,7 +1,7 @@
 !> The polynomials of accepted steps in a ring of slots, which forgets the oldest and doubles when
 !> it is full.
 module dde_step_ring
-   use dde_interpolant, only: highest_degree
+   use dde_interpolant, only: highest_degree, usual_degree
    use dde_time, only: elapsed, instant
    use kinds, only: int64, wp
    implicit none (type, external)
@@ -29,7 +29,8 @@ module dde_step_ring
       integer, allocatable :: degree(:)
       !> Newton nodes of the interpolant, shape (highest degree, slot), unused ones last
       real(wp), allocatable :: nodes(:, :)
-      !> Its coefficients (0:highest degree, kept component, slot), 0 above the degree
+      !> Its coefficients (0:highest degree, kept component, slot), 0 above the degree up to the
+      !> usual one
       real(wp), allocatable :: coefficients(:, :, :)
    contains
       !> Slot of a step
@@ -106,7 +107,7 @@ contains
       self%degree(slot) = size(nodes)
       self%nodes(:size(nodes), slot) = nodes
       self%coefficients(:size(nodes), :, slot) = coefficients
-      self%coefficients(size(nodes) + 1:, :, slot) = 0.0_wp
+      self%coefficients(size(nodes) + 1:usual_degree, :, slot) = 0.0_wp
    end subroutine append
 
    !> Step number `step`, oldest..newest, as it was appended.
@@ -130,6 +131,7 @@ contains
       length = self%length(slot)
       nodes = self%nodes(:size(nodes), slot)
       coefficients = self%coefficients(0:size(nodes), :, slot)
+      coefficients(self%degree(slot) + 1:, :) = 0.0_wp
    end subroutine recall
 
    !> Drop the steps that ended before `horizon`; the newest stays.

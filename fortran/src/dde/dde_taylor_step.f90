@@ -29,6 +29,8 @@ module dde_taylor_step
    !> Cost of a series over that of a right-hand side, over its degree (instructions and time of the
    !> spring block).
    real(wp), parameter :: cost_of_degree = 0.75_wp
+   !> Steps that one measurement of stiffness serves.
+   integer, parameter :: steps_a_measurement = 2
 
    !> The series from the start of the current step on.
    type, extends(step_type) :: taylor_step_type
@@ -37,19 +39,22 @@ module dde_taylor_step
       !> Coefficients of the solution and of its delayed values, shapes (0:degree, n) and
       !> (0:degree, number of delayed values)
       real(wp), allocatable, private :: series(:, :), delayed(:, :)
-      !> Slope at the end of the step times that unit, shape (n)
-      real(wp), allocatable, private :: rise(:)
+      !> Whether the series is that of the step before the present state
+      logical, private :: passed = .false.
       !> All components, and those that are delayed anywhere
       integer, allocatable, private :: all(:), kept(:)
       !> Whether its stiffness will be asked for
       logical, private :: measured = .false.
       !> Derivatives of the right-hand side at the start by y and z
       real(wp), allocatable, private :: by_y(:, :), by_z(:, :)
+      !> Steps since they were evaluated
+      integer, private :: since = 0
       !> Rate of change of the highest term by them
       real(wp), private :: rate = 0.0_wp
       !> Length up to which the series is within the tolerance
       real(wp), private :: converges = 0.0_wp
    contains
+      procedure :: reset
       procedure :: look_ahead
       procedure :: attempt
       procedure :: complete
@@ -57,6 +62,7 @@ module dde_taylor_step
       procedure :: interpolant
       procedure :: stiffness
       procedure :: advance
+      procedure :: slope_here
    end type taylor_step_type
 
    interface taylor_step_type
@@ -86,13 +92,22 @@ contains
       associate (n => problem%n, delays => size(problem%lag))
          allocate (step%nodes(degree), source=0.0_wp)
          allocate (step%series(0:degree, n), step%delayed(0:degree, delays))
-         allocate (step%y(n), step%y_new(n), step%slope(n), step%z(delays, 1), step%rise(n))
+         allocate (step%y(n), step%y_new(n), step%slope(n), step%z(delays, 1))
          allocate (step%by_y(n, n), step%by_z(n, delays))
       end associate
       step%all = [(i, i=1, problem%n)]
       step%kept = pack(step%all, [(any(problem%component == i), i=1, problem%n)])
       call problem%initial(step%y)
    end function new_step
+
+   !> The slope has been evaluated, the last step has no say.
+   pure subroutine reset(self)
+      !> The step
+      class(taylor_step_type), intent(inout) :: self
+
+      self%passed = .false.
+      self%since = 0
+   end subroutine reset
 
    !> The series, and how long the step may be: as its last two terms allow, which those left out
    !> follow, and as long as the past serves.
@@ -115,10 +130,12 @@ contains
 
       self%unit = merge(min(self%converges, growth*self%h), h, self%converges > 0.0_wp)
       self%converges = 0.0_wp
+      self%passed = .false.
       self%series(0, :) = self%y
       call past%series(problem, self%unit, self%delayed, past_serves, self%known)
       call problem%series(t, self%unit, self%order, self%delayed, self%series)
       self%evaluations = self%evaluations + 1
+      self%slope = self%series(1, :)/self%unit
       if (.not. all(ieee_is_finite(self%series(self%order - 1:, :)))) return
       ! what the past does not know of the solution enters one degree higher
       self%known = min(self%known + 1, self%order)
@@ -183,35 +200,30 @@ contains
       ! beyond this, terms that have vanished in a very short step would count
       self%serves = min(self%serves, growth*h)
       do i = 1, problem%n
-         call end_of_series(self%order, self%series(:, i), h/self%unit, self%y_new(i), self%rise(i))
+         self%y_new(i) = end_of_series(self%order, self%series(:, i), h/self%unit)
       end do
       if (all(ieee_is_finite(self%y_new))) error = 0.0_wp
    end subroutine attempt
 
-   !> Value of a series at s, and its derivative by s.
-   pure subroutine end_of_series(degree, series, s, value, slope)
+   !> Value of a series at s.
+   pure function end_of_series(degree, series, s) result(value)
       !> Degree of the series
       integer, intent(in) :: degree
       !> Coefficients
       real(wp), intent(in) :: series(0:degree)
       !> Place, in units of its powers
       real(wp), intent(in) :: s
-      !> Value
-      real(wp), intent(out) :: value
-      !> Derivative
-      real(wp), intent(out) :: slope
+      real(wp) :: value
       integer :: k
 
       value = series(degree)
-      slope = 0.0_wp
       do k = degree - 1, 0, -1
-         slope = value + s*slope
          value = series(k) + s*value
       end do
-   end subroutine end_of_series
+   end function end_of_series
 
-   !> The rate of change that the highest term shows: large eigenvalues rule it, however little of
-   !> them is in the solution.
+   !> Now and then the rate of change that the highest term shows: large eigenvalues rule it, however
+   !> little of them is in the solution.
    pure subroutine complete(self, problem, past)
       !> The step
       class(taylor_step_type), intent(inout) :: self
@@ -223,6 +235,8 @@ contains
       integer :: i
 
       if (.not. self%measured) return
+      self%since = modulo(self%since, steps_a_measurement) + 1
+      if (self%since > 1) return
       call problem%jacobian(self%t, self%y, self%delayed(0, :), self%by_y, self%by_z)
       changed = 0.0_wp
       do i = 1, problem%n
@@ -275,7 +289,23 @@ contains
       !> The step
       class(taylor_step_type), intent(inout) :: self
 
-      self%slope = self%rise/self%unit
       self%y = self%y_new
+      self%passed = .true.
    end subroutine advance
+
+   !> After a step the derivative of its series at the end.
+   pure function slope_here(self) result(slope)
+      !> The step
+      class(taylor_step_type), intent(in) :: self
+      real(wp) :: slope(size(self%y))
+      integer :: k
+
+      slope = self%slope
+      if (.not. self%passed) return
+      slope = 0.0_wp
+      do k = self%order, 1, -1
+         slope = k*self%series(k, :) + self%h/self%unit*slope
+      end do
+      slope = slope/self%unit
+   end function slope_here
 end module dde_taylor_step
