@@ -39,6 +39,7 @@ contains
                    new_unittest("look-ups in a ring that doubles", test_doubling), &
                    new_unittest("look-ups in a ring that doubles late", test_late_doubling), &
                    new_unittest("what is forgotten", test_forget), &
+                   new_unittest("what is given back", test_recall), &
                    new_unittest("taylor series", test_series), &
                    new_unittest("memory of a ring", test_memory), &
                    new_unittest("memory of an integration", test_memory_of_integration)]
@@ -115,6 +116,31 @@ contains
       call past%forget(instant_at(1000.0_wp))
       call expect_number(error, past, problem, 2.5_wp, 199.0_wp)
    end subroutine test_forget
+
+   !> A step of low degree in a slot that had one of high degree before comes back with zeros above.
+   subroutine test_recall(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(history_type) :: past
+      type(instant) :: start
+      real(wp) :: coefficient(0:12, 1), length, nodes(12)
+      integer :: i
+
+      past = history_type(delayed([2.0_wp], [1]), instant_at(0.0_wp))
+      nodes = 0.0_wp
+      coefficient = 7.0_wp
+      do i = 0, 63
+         call past%append(instant_at(real(i, wp)), 1.0_wp, nodes, coefficient, serves=1.0_wp, &
+                          known=12)
+         call past%forget(instant_at(i + 1.0_wp))
+      end do
+      call past%append(instant_at(64.0_wp), 1.0_wp, odd_nodes, reshape([3.0_wp, 4.0_wp], [2, 1]), &
+                       serves=1.0_wp, known=1)
+      call past%recall(past%newest, start, length, nodes, coefficient)
+      call expect_close(error, start%hi, 64.0_wp, 0.0_wp, "start")
+      call expect_close(error, coefficient(:, 1), [3.0_wp, 4.0_wp, (0.0_wp, i=2, 12)], 0.0_wp, &
+                        "coefficients")
+      call expect(error, past%degree_in_use() == 12, "the step before is kept, too")
+   end subroutine test_recall
 
    !> One cubic, kept over three nodes that are not all 0 in the first step and in powers in the
    !> second, has the same series wherever one looks, as far as there is place for its terms; and it

@@ -222,8 +222,8 @@ contains
       end do
    end function end_of_series
 
-   !> Now and then the rate of change that the highest term shows: large eigenvalues rule it, however
-   !> little of them is in the solution.
+   !> Now and then the rate of change that the highest term shows: large eigenvalues rule it,
+   !> however little of them is in the solution.
    pure subroutine complete(self, problem, past)
       !> The step
       class(taylor_step_type), intent(inout) :: self
