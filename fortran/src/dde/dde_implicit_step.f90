@@ -47,8 +47,6 @@ module dde_implicit_step
       procedure :: reset
       procedure :: factorisations
       procedure :: attempt
-      procedure :: complete
-      procedure :: extend
       procedure :: interpolant
       procedure :: stiffness
       procedure :: advance
@@ -235,26 +233,6 @@ contains
       self%y_new = self%y + self%stages%increments(:, self%method%stages)
       if (.not. all(ieee_is_finite(self%y_new))) error = ieee_value(1.0_wp, ieee_quiet_nan)
    end subroutine estimate
-
-   !> Nothing is owed.
-   pure subroutine complete(self, problem, past)
-      !> The step
-      class(implicit_step_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> The past, facing this step
-      type(history_type), intent(inout) :: past
-   end subroutine complete
-
-   !> Nothing more to evaluate.
-   pure subroutine extend(self, problem, past)
-      !> The step
-      class(implicit_step_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> The past, facing this step
-      type(history_type), intent(inout) :: past
-   end subroutine extend
 
    !> Collocation polynomial of component `i` and the multiple of the bump that gives it the slope
    !> at the start: one order more.

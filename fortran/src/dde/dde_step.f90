@@ -66,9 +66,9 @@ module dde_step
       !> Try a step
       procedure(try_step), deferred :: attempt
       !> What an accepted step still owes the next one
-      procedure(finish_step), deferred :: complete
+      procedure :: complete
       !> What only its interpolant needs
-      procedure(finish_step), deferred :: extend
+      procedure :: extend
       !> Interpolant of one component over an accepted, extended step
       procedure(dense_output), deferred :: interpolant
       !> Estimate of the largest rate of change near the end of an accepted, complete step
@@ -100,18 +100,6 @@ module dde_step
          !> Estimated error in units of the tolerance
          real(wp), intent(out) :: error
       end subroutine try_step
-
-      !> Evaluate what an accepted step still owes.
-      pure subroutine finish_step(self, problem, past)
-         import :: dde_problem_type, history_type, step_type
-         implicit none (type, external)
-         !> The step
-         class(step_type), intent(inout) :: self
-         !> The problem
-         class(dde_problem_type), intent(in) :: problem
-         !> The past, facing this step
-         type(history_type), intent(inout) :: past
-      end subroutine finish_step
 
       !> Interpolant of one component over an accepted and extended step, before `advance`.
       pure subroutine dense_output(self, i, a)
@@ -194,6 +182,26 @@ contains
       !> The step
       class(step_type), intent(inout) :: self
    end subroutine reset
+
+   !> Nothing is owed by a method that does not say so.
+   pure subroutine complete(self, problem, past)
+      !> The step
+      class(step_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The past, facing this step
+      type(history_type), intent(inout) :: past
+   end subroutine complete
+
+   !> Its interpolant needs nothing more by a method that does not say so.
+   pure subroutine extend(self, problem, past)
+      !> The step
+      class(step_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The past, facing this step
+      type(history_type), intent(inout) :: past
+   end subroutine extend
 
    !> Only implicit methods factorise.
    pure function factorisations(self) result(count)

@@ -58,7 +58,6 @@ module dde_taylor_step
       procedure :: look_ahead
       procedure :: attempt
       procedure :: complete
-      procedure :: extend
       procedure :: interpolant
       procedure :: stiffness
       procedure :: advance
@@ -244,16 +243,6 @@ contains
       end do
       self%rate = maxval(abs(changed))/max(tiny(1.0_wp), maxval(abs(self%series(self%order, :))))
    end subroutine complete
-
-   !> Nothing more to evaluate.
-   pure subroutine extend(self, problem, past)
-      !> The step
-      class(taylor_step_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> The past, facing this step
-      type(history_type), intent(inout) :: past
-   end subroutine extend
 
    !> The series of component `i`.
    pure subroutine interpolant(self, i, a)
