@@ -14,10 +14,13 @@ module dde_interpolant
    integer, parameter :: highest_degree = 18
    !> Highest degree but that of Taylor series.
    integer, parameter :: usual_degree = 8
-   integer, private :: i
-   !> Factorials, and one over them.
-   real(wp), parameter :: factorial(0:highest_degree) = [(gamma(i + 1.0_wp), &
-                                                          i=0, highest_degree)]
+   !> Factorials, all of them exact (compilers disagree on those that they make of `gamma`), and one
+   !> over them.
+   real(wp), parameter :: factorial(0:highest_degree) = [ &
+      1.0_wp, 1.0_wp, 2.0_wp, 6.0_wp, 24.0_wp, 120.0_wp, 720.0_wp, 5040.0_wp, 40320.0_wp, &
+      362880.0_wp, 3628800.0_wp, 39916800.0_wp, 479001600.0_wp, &
+      6227020800.0_wp, 87178291200.0_wp, 1307674368000.0_wp, &
+      20922789888000.0_wp, 355687428096000.0_wp, 6402373705728000.0_wp]
    real(wp), parameter :: inverse_factorial(0:highest_degree) = 1.0_wp/factorial
 
 contains

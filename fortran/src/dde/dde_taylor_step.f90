@@ -293,7 +293,7 @@ contains
       if (.not. self%passed) return
       slope = 0.0_wp
       do k = self%order, 1, -1
-         slope = k*self%series(k, :) + self%h/self%unit*slope
+         slope = k*self%series(k, :) + (self%h/self%unit)*slope
       end do
       slope = slope/self%unit
    end function slope_here
