@@ -12,8 +12,8 @@ module dde_request
    private
    public :: check, integration_options, methods
 
-   !> Methods to choose from: `auto` changes between the explicit pair and one of the implicit ones;
-   !> `taylor` is for problems that give their series.
+   !> Methods to choose from: `taylor` is for problems that give their series; `auto` changes
+   !> between it, or the explicit pair for other problems, and one of the implicit ones.
    character(len=8), parameter :: methods(6) = ["auto    ", "explicit", "taylor  ", "radau5  ", &
                                                 "radau9  ", "radau13 "]
 

@@ -44,7 +44,8 @@ module dde_step
       integer :: known = 0
       !> Whether step control should foresee the error from the last two (predictive control)
       logical :: predictive = .false.
-      !> Length that such a method would have taken if nothing else had limited it
+      !> Length that such a method would have taken if nothing else had limited it; 0 where it knows
+      !> of none
       real(wp) :: ideal = 0.0_wp
       !> Cost of an evaluation over that of the explicit pair
       real(wp) :: evaluation_cost = 1.0_wp

@@ -51,8 +51,6 @@ module dde_taylor_step
       integer, private :: since = 0
       !> Rate of change of the highest term by them
       real(wp), private :: rate = 0.0_wp
-      !> Length up to which the series is within the tolerance
-      real(wp), private :: converges = 0.0_wp
    contains
       procedure :: reset
       procedure :: look_ahead
@@ -127,8 +125,8 @@ contains
       real(wp), intent(inout) :: h
       real(wp) :: past_serves
 
-      self%unit = merge(min(self%converges, growth*self%h), h, self%converges > 0.0_wp)
-      self%converges = 0.0_wp
+      self%unit = merge(min(self%ideal, growth*self%h), h, self%ideal > 0.0_wp)
+      self%ideal = 0.0_wp
       self%passed = .false.
       self%series(0, :) = self%y
       call past%series(problem, self%unit, self%delayed, past_serves, self%known)
@@ -138,11 +136,10 @@ contains
       if (.not. all(ieee_is_finite(self%series(self%order - 1:, :)))) return
       ! what the past does not know of the solution enters one degree higher
       self%known = min(self%known + 1, self%order)
-      self%converges = self%unit*within(self, self%order, self%all, relative, absolute)
+      self%ideal = self%unit*within(self, self%order, self%all, relative, absolute)
       self%serves = self%unit*within(self, self%known, self%kept, relative, absolute)
       if (self%serves/beyond > past_serves) self%serves = beyond*past_serves
-      self%ideal = self%converges
-      h = min(self%converges, past_serves)
+      h = min(self%ideal, past_serves)
    end subroutine look_ahead
 
    !> How far, in units of its powers, two terms of the series are within the tolerance.
@@ -195,7 +192,7 @@ contains
       self%t = t
       self%h = h
       error = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (.not. self%converges > 0.0_wp) return
+      if (.not. self%ideal > 0.0_wp) return
       ! beyond this, terms that have vanished in a very short step would count
       self%serves = min(self%serves, growth*h)
       do i = 1, problem%n
