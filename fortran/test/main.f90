@@ -19,6 +19,7 @@ program tester
    use test_dde_receivers, only: collect_dde_receivers
    use test_dde_reentrant, only: collect_dde_reentrant
    use test_dde_refusals, only: collect_dde_refusals
+   use test_dde_slow_series, only: collect_dde_slow_series
    use test_dde_solutions, only: collect_dde_solutions
    use test_dde_stiff, only: collect_dde_stiff
    use test_dde_stops, only: collect_dde_stops
@@ -65,6 +66,7 @@ program tester
                              new_testsuite("dde_receivers", collect_dde_receivers), &
                              new_testsuite("dde_reentrant", collect_dde_reentrant), &
                              new_testsuite("dde_refusals", collect_dde_refusals), &
+                             new_testsuite("dde_slow_series", collect_dde_slow_series), &
                              new_testsuite("dde_solutions", collect_dde_solutions), &
                              new_testsuite("dde_stiff", collect_dde_stiff), &
                              new_testsuite("dde_stops", collect_dde_stops), &

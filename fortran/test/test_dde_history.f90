@@ -41,6 +41,9 @@ contains
                    new_unittest("what is forgotten", test_forget), &
                    new_unittest("what is given back", test_recall), &
                    new_unittest("taylor series", test_series), &
+                   new_unittest("series of the next step", test_next), &
+                   new_unittest("series beyond its step", test_disagreement), &
+                   new_unittest("series behind a layer", test_layer), &
                    new_unittest("memory of a ring", test_memory), &
                    new_unittest("memory of an integration", test_memory_of_integration)]
    end subroutine collect_dde_history
@@ -103,7 +106,7 @@ contains
       past = history_type(problem, instant_at(0.0_wp))
       do i = 0, 199
          call past%append(instant_at(real(i, wp)), 1.0_wp, [0.0_wp], &
-                          reshape([real(i, wp), 0.0_wp], [2, 1]), serves=1.0_wp, known=1)
+                          reshape([real(i, wp), 0.0_wp], [2, 1]), serves=1.0_wp)
       end do
       call expect_number(error, past, problem, 2.5_wp, 2.0_wp)
       call past%forget(instant_at(100.5_wp))
@@ -129,12 +132,11 @@ contains
       nodes = 0.0_wp
       coefficient = 7.0_wp
       do i = 0, 63
-         call past%append(instant_at(real(i, wp)), 1.0_wp, nodes, coefficient, serves=1.0_wp, &
-                          known=12)
+         call past%append(instant_at(real(i, wp)), 1.0_wp, nodes, coefficient, serves=1.0_wp)
          call past%forget(instant_at(i + 1.0_wp))
       end do
       call past%append(instant_at(64.0_wp), 1.0_wp, odd_nodes, reshape([3.0_wp, 4.0_wp], [2, 1]), &
-                       serves=1.0_wp, known=1)
+                       serves=1.0_wp)
       call past%recall(past%newest, start, length, nodes, coefficient)
       call expect_close(error, start%hi, 64.0_wp, 0.0_wp, "start")
       call expect_close(error, coefficient(:, 1), [3.0_wp, 4.0_wp, (0.0_wp, i=2, 12)], 0.0_wp, &
@@ -151,35 +153,132 @@ contains
       type(wille_baker) :: problem
       real(wp) :: known(0:5), serves, unit, z(0:5, 1)
       real(wp), parameter :: looks(5) = [0.0_wp, 0.3_wp, 0.5_wp, 0.7_wp, 1.25_wp]
-      integer :: i, known_degree
+      integer :: i
 
       ! 1 + 2 t - t^2 + t^3/2 over steps of 0.5 and 1
       problem = delayed([2.0_wp], [1])
       past = history_type(problem, instant_at(0.0_wp))
       call past%append(instant_at(0.0_wp), 0.5_wp, even_nodes, &
-                       reshape([1.0_wp, 0.8125_wp, -0.1875_wp, 0.0625_wp], [4, 1]), serves=0.5_wp, &
-                       known=3)
+                       reshape([1.0_wp, 0.8125_wp, -0.1875_wp, 0.0625_wp], [4, 1]), serves=0.5_wp)
       call past%append(instant_at(0.5_wp), 1.0_wp, [0.0_wp, 0.0_wp, 0.0_wp], &
-                       reshape([1.8125_wp, 1.375_wp, -0.25_wp, 0.5_wp], [4, 1]), serves=1.2_wp, &
-                       known=2)
+                       reshape([1.8125_wp, 1.375_wp, -0.25_wp, 0.5_wp], [4, 1]), serves=1.2_wp)
       do i = 1, size(looks)
          associate (t => looks(i))
             call past%face(problem, instant_at(t + problem%lag(1)), 0.1_wp)
             unit = 0.4_wp
-            call past%series(problem, unit, z, serves, known_degree)
+            call past%series(problem, .false., unit, z, serves)
             call expect_close(error, unit, min(0.4_wp, serves), 0.0_wp, "unit")
             known = [1.0_wp + t*(2.0_wp - t*(1.0_wp - 0.5_wp*t)), 2.0_wp - t*(2.0_wp - 1.5_wp*t), &
                      -1.0_wp + 1.5_wp*t, 0.5_wp, 0.0_wp, 0.0_wp]*unit**[0, 1, 2, 3, 4, 5]
             call expect_close(error, z(:, 1), known, 1.0e-15_wp, "series at t = "//text(t))
             call expect_close(error, serves, merge(0.5_wp, 1.7_wp, t < 0.5_wp) - t, 1.0e-15_wp, &
                               "how long it serves at t = "//text(t))
-            call expect(error, known_degree == merge(3, 2, t < 0.5_wp), "known terms")
-            call past%series(problem, unit, z(:1, :), serves, known_degree)
+            call past%series(problem, .false., unit, z(:1, :), serves)
             call expect_close(error, z(:1, 1), known(:1), 1.0e-15_wp, "two terms of it")
-            call expect(error, known_degree == 1, "both are known")
          end associate
       end do
    end subroutine test_series
+
+   !> Where the next step begins nearer, its series is read, unless there is a kink between them;
+   !> what it departs from the past before it begins must not count.
+   subroutine test_next(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(history_type) :: past
+      type(wille_baker) :: problem
+      real(wp) :: h, serves, unit, z(0:2, 1)
+
+      problem = delayed([2.0_wp], [1])
+      past = two_steps(problem, serves=1.5_wp)
+      call past%face(problem, instant_at(2.75_wp), 0.5_wp)
+      unit = 0.5_wp
+      call past%series(problem, .true., unit, z, serves)
+      call expect_close(error, z(:, 1), [1.751_wp, 0.5_wp, 0.0_wp], 1.0e-15_wp, "the next, back")
+      h = 0.5_wp
+      call past%confirm(z, unit, 0.0_wp, 1.0e-2_wp, h)
+      call expect_close(error, h, 0.5_wp, 0.0_wp, "a departure of 0.1 tolerances")
+      call past%confirm(z, unit, 0.0_wp, 1.0e-4_wp, h)
+      call expect_close(error, h, 0.0_wp, 0.0_wp, "a departure of 10 tolerances")
+      unit = 0.5_wp
+      call past%series(problem, .false., unit, z, serves)
+      call expect_close(error, z(:, 1), [1.75_wp, 0.5_wp, 0.0_wp], 1.0e-15_wp, "the step itself")
+      past = two_steps(problem, serves=1.0_wp)
+      call past%face(problem, instant_at(2.75_wp), 0.25_wp)
+      unit = 0.25_wp
+      call past%series(problem, .true., unit, z, serves)
+      call expect_close(error, z(:, 1), [1.75_wp, 0.25_wp, 0.0_wp], 1.0e-15_wp, "not beyond a kink")
+   end subroutine test_next
+
+   !> A series is used beyond its step as far as it agrees with what followed.
+   subroutine test_disagreement(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(history_type) :: past
+      type(wille_baker) :: problem
+      real(wp) :: h, serves, unit, z(0:2, 1)
+      real(wp), parameter :: tolerances(2) = [1.0e-2_wp, 1.0e-4_wp], lengths(2) = [1.0_wp, 0.75_wp]
+      integer :: i
+
+      problem = delayed([2.0_wp], [1])
+      past = two_steps(problem, serves=1.5_wp)
+      do i = 1, 2
+         call past%face(problem, instant_at(2.25_wp), 1.0_wp)
+         unit = 1.0_wp
+         call past%series(problem, .true., unit, z, serves)
+         call expect_close(error, z(:, 1), [1.25_wp, 1.0_wp, 0.0_wp], 1.0e-15_wp, "the step itself")
+         h = 1.0_wp
+         call past%confirm(z, unit, 0.0_wp, tolerances(i), h)
+         call expect_close(error, h, lengths(i), 1.0e-15_wp, "length at "//text(tolerances(i)))
+      end do
+   end subroutine test_disagreement
+
+   !> Two steps, 1 + t from 0 to 1 and 0.001 more from there to 2.
+   function two_steps(problem, serves) result(past)
+      !> The problem
+      type(wille_baker), intent(in) :: problem
+      !> How long the first serves
+      real(wp), intent(in) :: serves
+      type(history_type) :: past
+
+      past = history_type(problem, instant_at(0.0_wp))
+      call past%append(instant_at(0.0_wp), 1.0_wp, [0.0_wp, 0.0_wp], &
+                       reshape([1.0_wp, 1.0_wp, 0.0_wp], [3, 1]), serves)
+      call past%append(instant_at(1.0_wp), 1.0_wp, [0.0_wp, 0.0_wp], &
+                       reshape([2.001_wp, 1.0_wp, 0.0_wp], [3, 1]), serves=2.0_wp)
+      call past%append(instant_at(2.0_wp), 1.0_wp, [0.0_wp, 0.0_wp], &
+                       reshape([3.001_wp, 1.0_wp, 0.0_wp], [3, 1]), serves=2.0_wp)
+   end function two_steps
+
+   !> Ten steps of 1e-5 that are 0.1 above what follows: passed over where a step of 0.5 is expected
+   !> and 1e-5 is less than half the tolerance times its length, not where one of 1e-3 is.
+   subroutine test_layer(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(history_type) :: past
+      type(wille_baker) :: problem
+      real(wp) :: h, serves, unit, z(0:2, 1)
+      integer :: i
+
+      problem = delayed([2.0_wp], [1])
+      past = history_type(problem, instant_at(0.0_wp))
+      do i = 0, 9
+         call past%append(instant_at(i*1.0e-5_wp), 1.0e-5_wp, [0.0_wp, 0.0_wp], &
+                          reshape([1.1_wp, 0.0_wp, 0.0_wp], [3, 1]), serves=1.0e-4_wp)
+      end do
+      do i = 0, 1
+         call past%append(instant_at(1.0e-4_wp + i), 1.0_wp, [0.0_wp, 0.0_wp], &
+                          reshape([1.0_wp, 0.0_wp, 0.0_wp], [3, 1]), serves=1.0_wp)
+      end do
+      call past%face(problem, instant_at(2.0_wp), 0.5_wp)
+      unit = 0.5_wp
+      call past%series(problem, .true., unit, z, serves)
+      call expect_close(error, z(:, 1), [1.0_wp, 0.0_wp, 0.0_wp], 1.0e-15_wp, "behind the layer")
+      h = 0.5_wp
+      call past%confirm(z, unit, 0.0_wp, 1.0e-3_wp, h)
+      call expect_close(error, h, 0.5_wp, 0.0_wp, "a layer that does not count")
+      call past%confirm(z, unit, 0.0_wp, 1.0e-5_wp, h)
+      call expect_close(error, h, 0.0_wp, 0.0_wp, "a layer that counts")
+      unit = 1.0e-3_wp
+      call past%series(problem, .true., unit, z, serves)
+      call expect_close(error, z(0, 1), 1.1_wp, 1.0e-15_wp, "where a short step is expected")
+   end subroutine test_layer
 
    !> A million steps of which ten matter at a time take no more memory than the first hundred.
    subroutine test_memory(error)
@@ -193,7 +292,7 @@ contains
       do i = 0, 1000000
          if (i == 100) before = peak_memory()
          call past%append(instant_at(real(i, wp)), 1.0_wp, odd_nodes, &
-                          reshape([1.0_wp, 0.0_wp], [2, 1]), serves=1.0_wp, known=1)
+                          reshape([1.0_wp, 0.0_wp], [2, 1]), serves=1.0_wp)
          call past%forget(instant_at(i - 9.0_wp))
       end do
       call expect(error, before > 0, "memory is known")
@@ -271,12 +370,11 @@ contains
          end do
          if (modulo(i, 2) == 1) then
             call past%append(now, length, odd_nodes, &
-                             reshape([real(wp) :: i + 1, 1, i + 1, 1], [2, 2]), serves=length, &
-                             known=1)
+                             reshape([real(wp) :: i + 1, 1, i + 1, 1], [2, 2]), serves=length)
          else
             call past%append(now, length, even_nodes, &
                              reshape([real(wp) :: i, 1, 0, 0, i, 1, 1, -2], [4, 2]), &
-                             serves=length, known=3)
+                             serves=length)
          end if
          now = later(now, length)
          call past%forget(later(now, -maxval(lag)))

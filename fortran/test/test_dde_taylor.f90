@@ -40,7 +40,6 @@ contains
                    new_unittest("the block by other methods", test_block), &
                    new_unittest("error follows tolerance", test_proportional), &
                    new_unittest("the past of other methods", test_pasts), &
-                   new_unittest("a stiff block", test_stiff), &
                    new_unittest("no series", test_refusal), &
                    new_unittest("a singularity", test_singularity), &
                    new_unittest("a series that is not finite", test_not_finite)]
@@ -101,7 +100,7 @@ contains
       past = history_type(problem, instant_at(0.0_wp))
       step = taylor_step_type(problem, tolerance, measured=.true.)
       length = 0.5_wp*h
-      call step%look_ahead(problem, past, 0.0_wp, 0.0_wp, tolerance, length)
+      call step%look_ahead(problem, past, 0.0_wp, 0.0_wp, tolerance, 1.0_wp, length)
       if (present(allowed)) allowed = length
       call step%attempt(problem, past, 0.0_wp, h, 0.0_wp, tolerance, estimate)
       call step%complete(problem, past)
@@ -285,27 +284,6 @@ contains
                            "slope after "//methods(i))
       end do
    end subroutine test_pasts
-
-   !> `auto` leaves the series where they are limited by stability, at all tolerances.
-   subroutine test_stiff(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: known, outcome
-      type(spring_block_type) :: problem
-      integer :: i
-
-      problem = spring_block_type(1.0_wp, 0.7_wp, 0.5_wp, 1.0e4_wp, 0.0_wp, 0.0_wp, 1.1_wp)
-      call integrate(problem, 0.0_wp, 20.0_wp, at_tolerance(1.0e-12_wp, "radau13"), known, failure)
-      call expect_success(error, failure)
-      do i = 3, 11, 2
-         call integrate(problem, 0.0_wp, 20.0_wp, at_tolerance(10.0_wp**(-i), "auto"), outcome, &
-                        failure)
-         call expect_success(error, failure)
-         call expect_close(error, outcome%y, known%y, 1000*10.0_wp**(-i), "1e-"//text(i))
-         call expect_between(error, real(outcome%implicit_steps, wp), &
-                             0.75_wp*outcome%accepted, real(outcome%accepted, wp), "implicit steps")
-      end do
-   end subroutine test_stiff
 
    !> A problem that gives no series has no such method, and `auto` begins without.
    subroutine test_refusal(error)

@@ -3,7 +3,7 @@
 module dde_continuation
    use dde_breaking_points, only: kink_type
    use dde_history, only: history_type
-   use dde_interpolant, only: highest_degree, usual_degree
+   use dde_interpolant, only: highest_degree
    use dde_problem, only: dde_problem_type
    use dde_time, only: elapsed, instant, later
    use errors, only: error_type, raise, text
@@ -193,7 +193,7 @@ contains
       do i = 1, size(self%step_length)
          call past%append(instant(self%step_start(1, i), self%step_start(2, i)), &
                           self%step_length(i), self%nodes(:, i), self%coefficients(:, :, i), &
-                          serves=self%step_length(i), known=min(usual_degree, size(self%nodes, 1)))
+                          serves=self%step_length(i))
       end do
       allocate (kinks(size(self%passages)))
       kinks%at%hi = self%kink(1, :)

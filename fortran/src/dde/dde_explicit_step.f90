@@ -50,7 +50,6 @@ contains
       step%order = 8
       step%error_order = 8
       step%nodes = real([0, 1, 0, 1, 0, 1, 0], wp)
-      step%known = size(step%nodes)
       blocks = (problem%n + lanes - 1)/lanes
       allocate (step%k(lanes, blocks, slope_count), source=0.0_wp)
       allocate (step%start(lanes, blocks), step%finish(lanes, blocks), source=0.0_wp)

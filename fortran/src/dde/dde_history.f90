@@ -1,10 +1,11 @@
 !> The past: the polynomials of accepted steps for the delayed components only, in a ring that
 !> forgets what no delay can reach any more; before the first instant, the problem's own history.
+!> Here as Taylor series, which one step reads for all of its length.
 module dde_history
-   use dde_interpolant, only: newton_values, taylor_coefficients
+   use dde_interpolant, only: newton_value, series_value, taylor_coefficients
+   use dde_past_values, only: past_values
    use dde_problem, only: dde_problem_type
-   use dde_step_ring, only: step_ring
-   use dde_time, only: elapsed, instant, later
+   use dde_time, only: elapsed, instant
    use kinds, only: int64, wp
    implicit none (type, external)
    private
@@ -12,33 +13,23 @@ module dde_history
 
    !> Part of a step that rounding may hide.
    real(wp), parameter :: hidden = 4.0_wp*epsilon(1.0_wp)
+   !> What is left of a step need not be read, in units of the next: the next series, carried back,
+   !> serves as well, and steps of rounding size would not end.
+   real(wp), parameter :: negligible = 1.0e-3_wp
+   !> Length of a layer that may be passed over, in units of the step that is expected.
+   real(wp), parameter :: thin = 0.01_wp
+   !> How far, in units of the tolerance, a series may depart from the past that it stands for.
+   real(wp), parameter :: agreement = 0.5_wp
 
    !> The past of one integration.
-   type, extends(step_ring) :: history_type
-      private
-      !> First instant of the integration
-      type(instant) :: origin
-      !> Row of `kept` that each delayed value reads
-      integer, allocatable :: row(:)
-      !> Step that each delayed value was last found in
-      integer(int64), allocatable :: found(:)
-      !> Slot of that step, as it was when the past turned to the current one
-      integer, allocatable :: slot(:)
-      !> Current step's start less the delay, for each delayed value
-      type(instant), allocatable :: delayed_start(:)
-      !> The same, measured from the start of the step it was last found in
-      real(wp), allocatable :: offset(:)
-      !> Whether the current step's delayed value lies before the first instant
-      logical, allocatable :: before_origin(:)
-      !> Start of the current step as an ordinary number
-      real(wp) :: now = 0.0_wp
+   type, extends(past_values) :: history_type
+      !> What the series of each delayed value passed over: time times difference
+      real(wp), allocatable, private :: passed_over(:)
    contains
-      !> Turn to the step that starts at a given instant
-      procedure :: face
-      !> All delayed values at places of the current step
-      procedure :: values
-      !> Their Taylor series from the start of the current step on
+      !> Taylor series of the delayed values from the start of the current step on
       procedure :: series
+      !> How long these agree with the past
+      procedure :: confirm
    end type history_type
 
    interface history_type
@@ -54,97 +45,19 @@ contains
       !> First instant of the integration
       type(instant), intent(in) :: origin
       type(history_type) :: past
-      integer :: i, k, terms
 
-      terms = size(problem%lag)
-      past%origin = origin
-      past%step_ring = step_ring(pack([(i, i=1, problem%n)], &
-                                      [(any(problem%component == i), i=1, problem%n)]))
-      past%row = [(findloc(past%kept, problem%component(k), dim=1), k=1, terms)]
-      allocate (past%found(terms), source=0_int64)
-      allocate (past%slot(terms), source=0)
-      allocate (past%delayed_start(terms), past%offset(terms), past%before_origin(terms))
+      past%past_values = past_values(problem, origin)
+      allocate (past%passed_over(size(problem%lag)))
    end function new_history
 
-   !> Turn to the step of length `length` that starts at `start`. Steps land on every instant where
-   !> a delayed time passes the origin, so one side holds for the whole step.
-   pure subroutine face(self, problem, start, length)
-      !> The past
-      class(history_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> Start of the step to come
-      type(instant), intent(in) :: start
-      !> Its length
-      real(wp), intent(in) :: length
-      integer :: k
-
-      self%now = start%hi
-      do k = 1, size(self%offset)
-         self%delayed_start(k) = later(start, -problem%lag(k))
-         self%before_origin(k) = elapsed(self%origin, self%delayed_start(k)) < -0.5_wp*length
-         if (.not. self%before_origin(k)) call point_at(self, k, max(self%found(k), self%oldest))
-      end do
-   end subroutine face
-
-   !> Delayed values at several places of the current step, each place after the one before.
-   pure subroutine values(self, problem, ahead, z)
-      !> The past
-      class(history_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> Times since the start of the current step, ascending, 0..length
-      real(wp), intent(in) :: ahead(:)
-      !> Delayed values, shape (size(problem%lag), size(ahead))
-      real(wp), intent(out) :: z(:, :)
-      integer :: i, k
-
-      do k = 1, size(z, 1)
-         if (self%before_origin(k)) then
-            do i = 1, size(ahead)
-               z(k, i) = problem%history(self%now + (ahead(i) - problem%lag(k)), &
-                                         problem%component(k))
-            end do
-         else
-            call look_up(self, k, ahead, z(k, :))
-         end if
-      end do
-   end subroutine values
-
-   !> One delayed value at several places, ascending: step by step of the past.
-   pure subroutine look_up(self, k, ahead, z)
-      !> The past
-      class(history_type), intent(inout) :: self
-      !> Which delayed value
-      integer, intent(in) :: k
-      !> Times since the start of the current step, ascending
-      real(wp), intent(in) :: ahead(:)
-      !> The delayed value there
-      real(wp), intent(out) :: z(:)
-      real(wp) :: limit
-      integer :: first, slot
-
-      do while (self%offset(k) + ahead(1) < 0.0_wp .and. self%found(k) > self%oldest)
-         call point_at(self, k, self%found(k) - 1)
-      end do
-      first = 1
-      do
-         slot = self%slot(k)
-         limit = merge(huge(1.0_wp), self%length(slot), self%found(k) == self%newest)
-         call newton_values(self%degree(slot), self%nodes(:, slot), &
-                            self%coefficients(:, self%row(k), slot), self%offset(k), &
-                            self%length(slot), limit, size(ahead), ahead, first, z)
-         if (first > size(ahead)) exit
-         call point_at(self, k, self%found(k) + 1)
-      end do
-   end subroutine look_up
-
    !> Taylor series of the delayed values from the start of the current step on.
-   pure subroutine series(self, problem, unit, z, serves, known)
+   pure subroutine series(self, problem, passing, unit, z, serves)
       !> The past, facing this step
       class(history_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
+      !> Whether a series may be that of a later step than the first to read, carried back
+      logical, intent(in) :: passing
       !> Unit of time of the powers, shortened to what the series serve: powers of it over the
       !> length of a very short step must not overflow
       real(wp), intent(inout) :: unit
@@ -152,21 +65,21 @@ contains
       real(wp), intent(out) :: z(0:, :)
       !> How long they serve
       real(wp), intent(out) :: serves
-      !> Degree up to which all their coefficients are those of the solution
-      integer, intent(out) :: known
       real(wp) :: place
+      integer(int64) :: first(size(problem%lag))
       integer :: k, slot
 
       serves = huge(1.0_wp)
-      known = ubound(z, 1)
       do k = 1, size(z, 2)
          if (self%before_origin(k)) cycle
          call point_at_start(self, k)
+         first(k) = self%found(k)
+         if (passing) call look_beyond(self, k, thin*unit)
          serves = min(serves, self%serves(self%slot(k)) - self%offset(k))
-         known = min(known, self%known(self%slot(k)))
       end do
       unit = min(unit, serves)
       do k = 1, size(z, 2)
+         self%passed_over(k) = 0.0_wp
          if (self%before_origin(k)) then
             call problem%past_series(self%now - problem%lag(k), problem%component(k), unit, z(:, k))
          else
@@ -176,11 +89,133 @@ contains
             call taylor_coefficients(self%degree(slot), self%nodes(:, slot), &
                                      self%coefficients(:, self%row(k), slot), place, &
                                      unit/self%length(slot), z(:, k))
+            if (self%found(k) > first(k)) then
+               self%passed_over(k) = integral_passed(self, k, first(k), z(0, k))
+            end if
          end if
       end do
    end subroutine series
 
-   !> Let delayed value k read the step in which the current one's start is, less its delay.
+   !> Let delayed value k read a later step: the first that is not much shorter than what is
+   !> expected, where a transient has left very short ones; and the next where it begins nearer,
+   !> unless there is a kink between them.
+   pure subroutine look_beyond(self, k, most)
+      !> The past
+      class(history_type), intent(inout) :: self
+      !> Which delayed value
+      integer, intent(in) :: k
+      !> How long very short steps, and all of them together, are at most
+      real(wp), intent(in) :: most
+      real(wp) :: ahead
+      integer(int64) :: first
+
+      if (self%found(k) == self%newest) return
+      associate (slot => self%slot(k))
+         ahead = self%length(slot) - self%offset(k)
+         if (ahead > most) then
+            if (ahead < self%offset(k) .and. self%serves(slot) > self%length(slot)) then
+               call self%point_at(k, self%found(k) + 1)
+            end if
+            return
+         end if
+      end associate
+      first = self%found(k)
+      do
+         if (self%found(k) == self%newest .or. -self%offset(k) > most) then
+            call self%point_at(k, first)
+            return
+         end if
+         call self%point_at(k, self%found(k) + 1)
+         if (self%length(self%slot(k)) > most) exit
+      end do
+   end subroutine look_beyond
+
+   !> Integral of what delayed value k is not read from, less what is read in its place.
+   pure function integral_passed(self, k, first, read) result(integral)
+      !> The past
+      class(history_type), intent(in) :: self
+      !> Which delayed value
+      integer, intent(in) :: k
+      !> The first step that it is not read from
+      integer(int64), intent(in) :: first
+      !> The value that is read where the current step starts
+      real(wp), intent(in) :: read
+      real(wp) :: integral, offset
+      integer(int64) :: step
+      integer :: slot
+
+      slot = self%slot_of(first)
+      offset = elapsed(self%start(slot), self%delayed_start(k))
+      integral = (self%length(slot) - offset) &
+                 *abs(newton_value(self%degree(slot), self%nodes(:, slot), &
+                                   self%coefficients(:, self%row(k), slot), &
+                                   offset/self%length(slot)) - read)
+      do step = first + 1, self%found(k) - 1
+         slot = self%slot_of(step)
+         integral = integral + self%length(slot)*abs(self%coefficients(0, self%row(k), slot) - read)
+      end do
+   end function integral_passed
+
+   !> How long the series of delayed values are used: as far as they agree with the past. A step
+   !> reads its past from one series, though other steps than the one this comes from may have
+   !> followed. No use at all of those that passed over a layer whose integral counts.
+   pure subroutine confirm(self, z, unit, relative, absolute, h)
+      !> The past, facing this step
+      class(history_type), intent(inout) :: self
+      !> Coefficients of the series, as `series` gave them
+      real(wp), intent(in) :: z(0:, :)
+      !> Unit of time of the powers
+      real(wp), intent(in) :: unit
+      !> Relative tolerance
+      real(wp), intent(in) :: relative
+      !> Absolute tolerance
+      real(wp), intent(in) :: absolute
+      !> Length of the step: proposed, then possible
+      real(wp), intent(inout) :: h
+      real(wp) :: actual, difference, own
+      integer :: k
+
+      do k = 1, size(z, 2)
+         if (self%before_origin(k) .or. self%found(k) == self%newest) cycle
+         own = self%length(self%slot(k)) - self%offset(k)
+         do while (h > own)
+            call look_ahead(self, k, h, actual)
+            difference = abs(series_value(ubound(z, 1), z(:, k), h/unit) - actual) &
+                         /(agreement*(absolute + relative*abs(actual)))
+            if (difference <= 1.0_wp) exit
+            h = max(own, 0.9_wp*h/difference**(1.0_wp/ubound(z, 1)))
+         end do
+      end do
+      if (any(self%passed_over > agreement*(absolute + relative*abs(z(0, :)))*h)) h = 0.0_wp
+   end subroutine confirm
+
+   !> One delayed value at one place ahead.
+   pure subroutine look_ahead(self, k, ahead, z)
+      !> The past
+      class(history_type), intent(inout) :: self
+      !> Which delayed value
+      integer, intent(in) :: k
+      !> Time since the start of the current step
+      real(wp), intent(in) :: ahead
+      !> The delayed value there
+      real(wp), intent(out) :: z
+      integer :: slot
+
+      do while (self%offset(k) + ahead < 0.0_wp)
+         call self%point_at(k, self%found(k) - 1)
+      end do
+      do
+         slot = self%slot(k)
+         if (self%offset(k) + ahead <= self%length(slot) .or. self%found(k) == self%newest) exit
+         call self%point_at(k, self%found(k) + 1)
+      end do
+      z = newton_value(self%degree(slot), self%nodes(:, slot), &
+                       self%coefficients(:, self%row(k), slot), &
+                       (self%offset(k) + ahead)/self%length(slot))
+   end subroutine look_ahead
+
+   !> Let delayed value k read the step in which the current one's start is, less its delay, or the
+   !> next where that is about to end.
    pure subroutine point_at_start(self, k)
       !> The past
       class(history_type), intent(inout) :: self
@@ -188,25 +223,13 @@ contains
       integer, intent(in) :: k
 
       do while (self%offset(k) < 0.0_wp .and. self%found(k) > self%oldest)
-         call point_at(self, k, self%found(k) - 1)
+         call self%point_at(k, self%found(k) - 1)
       end do
       do while (self%found(k) < self%newest)
-         if (self%offset(k) < (1.0_wp - hidden)*self%length(self%slot(k))) exit
-         call point_at(self, k, self%found(k) + 1)
+         if (self%length(self%slot(k)) - self%offset(k) &
+             > negligible*self%length(self%slot_of(self%found(k) + 1))) exit
+         call self%point_at(k, self%found(k) + 1)
       end do
    end subroutine point_at_start
 
-   !> Let delayed value k read step number `step`.
-   pure subroutine point_at(self, k, step)
-      !> The past
-      class(history_type), intent(inout) :: self
-      !> Which delayed value
-      integer, intent(in) :: k
-      !> Number of the step
-      integer(int64), intent(in) :: step
-
-      self%found(k) = step
-      self%slot(k) = self%slot_of(step)
-      self%offset(k) = elapsed(self%start(self%slot(k)), self%delayed_start(k))
-   end subroutine point_at
 end module dde_history

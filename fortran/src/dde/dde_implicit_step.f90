@@ -76,7 +76,6 @@ contains
       step%hold = keep_length
       step%evaluation_cost = implicit_cost
       step%nodes = [0.0_wp, step%method%c]
-      step%known = stages
       associate (n => problem%n, delays => size(problem%lag))
          allocate (step%y(n), step%y_new(n), step%slope(n), step%z(delays, 1))
          allocate (step%error_vector(n), step%by_y(n, n), step%by_z(n, delays))

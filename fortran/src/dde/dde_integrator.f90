@@ -97,7 +97,7 @@ contains
          end if
          other = .false.
          if (automatic) then
-            call switch%wanted(run%step, minval(problem%lag), h, other)
+            call switch%wanted(problem, run%step, minval(problem%lag), h, other)
          end if
          call run%step%advance()
          run%now = step_end

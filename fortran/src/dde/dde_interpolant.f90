@@ -7,8 +7,8 @@ module dde_interpolant
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: highest_degree, newton_state, newton_value, newton_values, taylor_coefficients
-   public :: usual_degree
+   public :: highest_degree, newton_state, newton_value, newton_values, series_value
+   public :: taylor_coefficients, usual_degree
 
    !> Highest degree of an interpolant.
    integer, parameter :: highest_degree = 18
@@ -84,11 +84,28 @@ contains
       first = i
    end subroutine newton_values
 
+   !> Value of a series of powers at s.
+   pure function series_value(degree, coefficients, s) result(value)
+      !> Degree
+      integer, intent(in) :: degree
+      !> Coefficients
+      real(wp), intent(in) :: coefficients(0:degree)
+      !> Place
+      real(wp), intent(in) :: s
+      real(wp) :: value
+      integer :: k
+
+      value = coefficients(degree)
+      do k = degree - 1, 0, -1
+         value = coefficients(k) + s*value
+      end do
+   end function series_value
+
    !> Coefficients of p in powers of a unit of time from s on.
    pure subroutine taylor_coefficients(degree, nodes, coefficients, s, unit, taylor)
       !> Degree of p
       integer, intent(in) :: degree
-      !> Nodes x(1..degree)
+      !> Nodes x(1..degree); where the last two are 0 all are
       real(wp), intent(in) :: nodes(degree)
       !> Coefficients a(0..degree)
       real(wp), intent(in) :: coefficients(0:degree)
@@ -98,21 +115,21 @@ contains
       real(wp), intent(in) :: unit
       !> Coefficients of the powers, as many as there is place for
       real(wp), intent(out) :: taylor(0:)
-      real(wp) :: power, rest(0:highest_degree)
+      real(wp) :: power, rest(0:degree)
       integer :: i, j
 
-      rest(0:degree) = coefficients
-      if (any(abs(nodes) > 0.0_wp)) then
-         ! with each node s brought to the front of the others one more coefficient stands
-         do i = 0, degree - 1
-            do j = degree - 1, i, -1
-               rest(j) = rest(j) + (s - nodes(j - i + 1))*rest(j + 1)
-            end do
-         end do
-      else if (abs(s) > 0.0_wp) then
-         call shift(degree, s, rest)
-      end if
       taylor(degree + 1:) = 0.0_wp
+      if (.not. any(abs(nodes(max(1, degree - 1):)) > 0.0_wp)) then
+         call shift(degree, coefficients, s, unit, taylor)
+         return
+      end if
+      rest = coefficients
+      ! with each node s brought to the front of the others one more coefficient stands
+      do i = 0, degree - 1
+         do j = degree - 1, i, -1
+            rest(j) = rest(j) + (s - nodes(j - i + 1))*rest(j + 1)
+         end do
+      end do
       power = 1.0_wp
       do i = 0, min(degree, ubound(taylor, 1))
          taylor(i) = power*rest(i)
@@ -120,15 +137,19 @@ contains
       end do
    end subroutine taylor_coefficients
 
-   !> From powers of x to powers of x - s: i! b(i) = sum over j of (i + j)! a(i + j) s**j/j!, sums
-   !> that do not wait for each other.
-   pure subroutine shift(degree, s, a)
+   !> From powers of x to powers of (x - s)/unit: i! b(i) = unit**i times the sum over j of
+   !> (i + j)! a(i + j) s**j/j!, sums that do not wait for each other.
+   pure subroutine shift(degree, a, s, unit, b)
       !> Degree
       integer, intent(in) :: degree
+      !> Coefficients
+      real(wp), intent(in) :: a(0:degree)
       !> Where the new powers vanish
       real(wp), intent(in) :: s
-      !> Coefficients, replaced
-      real(wp), intent(inout) :: a(0:degree)
+      !> Unit of x
+      real(wp), intent(in) :: unit
+      !> New coefficients, as many as there is place for
+      real(wp), intent(inout) :: b(0:)
       real(wp) :: derivatives(0:degree + 1), even, odd, power, weights(0:degree + 1)
       integer :: i, j
 
@@ -140,14 +161,16 @@ contains
       end do
       derivatives(degree + 1) = 0.0_wp
       weights(degree + 1) = 0.0_wp
-      do i = 0, degree
+      power = 1.0_wp
+      do i = 0, min(degree, ubound(b, 1))
          even = 0.0_wp
          odd = 0.0_wp
          do j = 0, degree - i, 2
             even = even + derivatives(i + j)*weights(j)
             odd = odd + derivatives(i + j + 1)*weights(j + 1)
          end do
-         a(i) = inverse_factorial(i)*(even + odd)
+         b(i) = power*inverse_factorial(i)*(even + odd)
+         power = power*unit
       end do
    end subroutine shift
 

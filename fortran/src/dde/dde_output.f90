@@ -82,11 +82,9 @@ contains
          do j = 1, size(step%nodes)
             coefficients(j, :) = share**j*coefficients(j, :)
          end do
-         call past%append(start, share*step%h, step%nodes/share, coefficients, serves=0.0_wp, &
-                          known=step%known)
+         call past%append(start, share*step%h, step%nodes/share, coefficients, serves=0.0_wp)
       else
-         call past%append(start, step%h, step%nodes, coefficients, min(step%serves, smooth), &
-                          step%known)
+         call past%append(start, step%h, step%nodes, coefficients, min(step%serves, smooth))
       end if
    end subroutine remember
 

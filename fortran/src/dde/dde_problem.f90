@@ -5,7 +5,8 @@
 !> Extend `dde_problem_type`, fill `n`, `lag` and `component`, and write the three procedures.
 !> Without delays leave `lag` and `component` of size zero: no history is kept then.
 !> Optional are `jacobian`, for the implicit methods, and `analytic` with `series` and
-!> `past_series`, without which there is no method `taylor`.
+!> `past_series`, without which there is no method `taylor`; beside these `relaxation_rate` and
+!> `slow_series`, with which it takes long steps where fast components are in balance.
 module dde_problem
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use kinds, only: wp
@@ -36,6 +37,10 @@ module dde_problem
       procedure :: series => no_series
       !> Taylor series of one component before the first instant
       procedure :: past_series => no_past_series
+      !> How fast the fast components come to a balance with the others
+      procedure :: relaxation_rate => no_relaxation
+      !> Taylor series of the solution on which they are in balance
+      procedure :: slow_series => no_slow_series
    end type dde_problem_type
 
    abstract interface
@@ -151,4 +156,40 @@ contains
 
       y = ieee_value(1.0_wp, ieee_quiet_nan)
    end subroutine no_past_series
+
+   !> Rate at which fast components come to a balance with the others, wherever they start:
+   !> y_c' = rate (balance - y_c) near it. 0 where the extension knows of none.
+   pure function no_relaxation(self, t, y) result(rate)
+      !> The problem
+      class(dde_problem_type), intent(in) :: self
+      !> Time
+      real(wp), intent(in) :: t
+      !> State, shape (n)
+      real(wp), intent(in) :: y(self%n)
+      !> The rate, in units of one over time
+      real(wp) :: rate
+
+      rate = 0.0_wp
+   end function no_relaxation
+
+   !> A better series of the slow solution, by one step of the iteration of Fraser (1988, "The
+   !> steady state and equilibrium approximations: A geometrical picture", J. Chem. Phys. 88, 4732):
+   !> fast components, their values at t included, are the balance less y_c'/rate with y_c' as it
+   !> was, and the others follow as in `series`. Not a number where the extension gives none.
+   pure subroutine no_slow_series(self, t, unit, degree, z, y)
+      !> The problem
+      class(dde_problem_type), intent(in) :: self
+      !> Time
+      real(wp), intent(in) :: t
+      !> Unit of time of the powers
+      real(wp), intent(in) :: unit
+      !> Degree of the series
+      integer, intent(in) :: degree
+      !> Coefficients of the delayed values
+      real(wp), intent(in) :: z(0:degree, size(self%lag))
+      !> Coefficients as they were, at first the state at t and zeros; better ones
+      real(wp), intent(inout) :: y(0:degree, self%n)
+
+      y = ieee_value(1.0_wp, ieee_quiet_nan)
+   end subroutine no_slow_series
 end module dde_problem

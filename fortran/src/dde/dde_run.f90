@@ -203,7 +203,7 @@ contains
       if (self%step%foresees) then
          if (size(problem%lag) > 0) call self%past%face(problem, self%now, min(longest, gap))
          call self%step%look_ahead(problem, self%past, self%now%hi, options%relative, &
-                                   options%absolute, self%h)
+                                   options%absolute, min(longest, gap), self%h)
       end if
       self%h = min(self%h, longest)
       landing = 1.01_wp*self%h >= gap .and. gap <= longest

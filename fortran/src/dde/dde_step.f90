@@ -40,8 +40,6 @@ module dde_step
       logical :: foresees = .false.
       !> How long from its start on the interpolant of the step serves, if longer than the step
       real(wp) :: serves = 0.0_wp
-      !> Degree up to which the coefficients of its interpolant are those of the solution
-      integer :: known = 0
       !> Whether step control should foresee the error from the last two (predictive control)
       logical :: predictive = .false.
       !> Length that such a method would have taken if nothing else had limited it; 0 where it knows
@@ -152,7 +150,7 @@ contains
    end subroutine restart
 
    !> Most methods take the length that they are given, and see from the error what it should be.
-   pure subroutine look_ahead(self, problem, past, t, relative, absolute, h)
+   pure subroutine look_ahead(self, problem, past, t, relative, absolute, longest, h)
       !> The step
       class(step_type), intent(inout) :: self
       !> The problem
@@ -165,6 +163,8 @@ contains
       real(wp), intent(in) :: relative
       !> Absolute tolerance
       real(wp), intent(in) :: absolute
+      !> Longest step of use
+      real(wp), intent(in) :: longest
       !> Length of the step: proposed, then possible
       real(wp), intent(inout) :: h
    end subroutine look_ahead

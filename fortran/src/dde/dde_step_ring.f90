@@ -23,8 +23,6 @@ module dde_step_ring
       real(wp), allocatable :: length(:)
       !> How long from its start on its interpolant serves, its length or longer, per slot
       real(wp), allocatable :: serves(:)
-      !> Degree up to which its coefficients are those of the solution, per slot
-      integer, allocatable :: known(:)
       !> Degree of the interpolant, per slot
       integer, allocatable :: degree(:)
       !> Newton nodes of the interpolant, shape (highest degree, slot), unused ones last
@@ -64,7 +62,7 @@ contains
       if (present(capacity)) slots = capacity
       ring%kept = kept
       allocate (ring%start(0:slots - 1), ring%length(0:slots - 1))
-      allocate (ring%serves(0:slots - 1), ring%known(0:slots - 1), ring%degree(0:slots - 1))
+      allocate (ring%serves(0:slots - 1), ring%degree(0:slots - 1))
       allocate (ring%nodes(highest_degree, 0:slots - 1), source=0.0_wp)
       allocate (ring%coefficients(0:highest_degree, size(kept), 0:slots - 1))
    end function new_ring
@@ -80,7 +78,7 @@ contains
    end function slot_of
 
    !> Take in the polynomial of the step from `start`, `length` long.
-   pure subroutine append(self, start, length, nodes, coefficients, serves, known)
+   pure subroutine append(self, start, length, nodes, coefficients, serves)
       !> The ring
       class(step_ring), intent(inout) :: self
       !> Start of the step
@@ -93,8 +91,6 @@ contains
       real(wp), intent(in) :: coefficients(0:, :)
       !> How long from the start on it serves; less than the length counts as the length
       real(wp), intent(in) :: serves
-      !> Degree up to which its coefficients are those of the solution
-      integer, intent(in) :: known
       integer :: slot
 
       if (self%newest - self%oldest + 1 == size(self%start)) call double_capacity(self)
@@ -103,7 +99,6 @@ contains
       self%start(slot) = start
       self%length(slot) = length
       self%serves(slot) = max(length, serves)
-      self%known(slot) = known
       self%degree(slot) = size(nodes)
       self%nodes(:size(nodes), slot) = nodes
       self%coefficients(:size(nodes), :, slot) = coefficients
@@ -176,7 +171,6 @@ contains
          wider%start(to) = self%start(from)
          wider%length(to) = self%length(from)
          wider%serves(to) = self%serves(from)
-         wider%known(to) = self%known(from)
          wider%degree(to) = self%degree(from)
          wider%nodes(:, to) = self%nodes(:, from)
          wider%coefficients(:, :, to) = self%coefficients(:, :, from)
@@ -184,7 +178,6 @@ contains
       call move_alloc(wider%start, self%start)
       call move_alloc(wider%length, self%length)
       call move_alloc(wider%serves, self%serves)
-      call move_alloc(wider%known, self%known)
       call move_alloc(wider%degree, self%degree)
       call move_alloc(wider%nodes, self%nodes)
       call move_alloc(wider%coefficients, self%coefficients)

@@ -1,6 +1,8 @@
 !> The choice between the explicit and the implicit method while a run goes on: by h times the
 !> stiffness, which each step measures at no cost in evaluations, and by what the last change gave.
 module dde_switch
+   use dde_problem, only: dde_problem_type
+   use dde_slow_series, only: least_balance
    use dde_step, only: step_type
    use kinds, only: int64, wp
    implicit none (type, external)
@@ -13,8 +15,9 @@ module dde_switch
    real(wp), parameter :: worth_returning = 8.0_wp
    !> Above this, in units of the shortest delay, the delay limits an explicit step.
    real(wp), parameter :: beyond_the_delay = 1.5_wp
-   !> Implicit steps in a row that must agree to a return.
-   integer, parameter :: steps_to_return = 3
+   !> Implicit steps in a row that must agree to a return: at first, how many more after a vain
+   !> one, and at most.
+   integer, parameter :: least_to_return = 3, less_returning = 4, most_to_return = 192
    !> Votes that it takes to leave the explicit method, two from each step that speaks for it and
    !> one back from each that does not: at first, how much more after a vain try, and at most.
    integer, parameter :: least_patience = 8, less_willing = 4, most_patience = 512
@@ -28,14 +31,18 @@ module dde_switch
       integer :: votes = 0
       !> Votes that it takes to leave the explicit method
       integer :: patience = least_patience
+      !> Implicit steps that it takes to return
+      integer :: steps_to_return = least_to_return
       !> Evaluations when that window began
       integer(int64) :: evaluations_then = 0
       !> Implicit steps since
       integer :: steps = 0
       !> Time gone in the present window
       real(wp) :: gone = 0.0_wp
-      !> Time per cost that the explicit method made before it was left
-      real(wp) :: explicit_pace = 0.0_wp
+      !> Time per cost that each method made before it was left
+      real(wp) :: explicit_pace = 0.0_wp, implicit_pace = 0.0_wp
+      !> Whether a return to a slow series is on trial
+      logical :: on_trial = .false.
    contains
       !> Whether the other method should take over
       procedure :: wanted
@@ -44,9 +51,11 @@ module dde_switch
 contains
 
    !> Whether the method other than that of the accepted `step` should take over.
-   pure subroutine wanted(self, step, shortest_delay, h_next, other)
+   pure subroutine wanted(self, problem, step, shortest_delay, h_next, other)
       !> Evidence so far
       class(switch_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
       !> The step, accepted and complete
       class(step_type), intent(in) :: step
       !> Shortest delay: an explicit step is no longer
@@ -55,47 +64,74 @@ contains
       real(wp), intent(in) :: h_next
       !> The answer
       logical, intent(out) :: other
+      logical :: delay_limits
       real(wp) :: measure, pace
 
       measure = step%h*step%stiffness()
+      delay_limits = h_next/beyond_the_delay > shortest_delay
       self%gone = self%gone + step%h
+      self%steps = self%steps + 1
+      pace = self%gone &
+             /(step%evaluation_cost*max(1_int64, step%evaluations - self%evaluations_then))
       if (step%implicit) then
-         self%steps = self%steps + 1
-         self%votes = merge(self%votes + 1, 0, measure < worth_returning &
-                            .and. h_next/beyond_the_delay < shortest_delay)
-         pace = self%gone/(step%evaluation_cost*(step%evaluations - self%evaluations_then))
-         other = self%votes >= steps_to_return
-         if (modulo(self%steps, window) == 0) then
-            if (self%steps > window) other = other .or. pace < self%explicit_pace
-            self%gone = 0.0_wp
-            self%evaluations_then = step%evaluations
-         end if
-         if (other) then
-            self%patience = merge(least_patience, min(less_willing*self%patience, most_patience), &
-                                  pace > self%explicit_pace)
+         call judge_implicit(self, measure < worth_returning .and. .not. delay_limits, &
+                             in_balance(problem, step) .and. .not. delay_limits, pace, other)
+      else if (self%on_trial) then
+         other = self%steps == window .and. pace < self%implicit_pace
+         self%on_trial = self%steps < window
+         if (.not. self%on_trial) then
+            self%steps_to_return = merge(min(less_returning*self%steps_to_return, most_to_return), &
+                                         least_to_return, other)
          end if
       else
-         if (measure > limited_by_stability .or. h_next/beyond_the_delay > shortest_delay) then
-            self%votes = self%votes + 2
-         else
-            self%votes = max(0, self%votes - 1)
-         end if
-         if (self%votes == 0) then
-            self%gone = 0.0_wp
-            self%evaluations_then = step%evaluations
-         end if
+         self%votes = merge(self%votes + 2, max(0, self%votes - 1), &
+                            measure > limited_by_stability .or. delay_limits)
          other = self%votes >= self%patience
-         if (other) then
-            self%explicit_pace = self%gone &
-                                 /(step%evaluation_cost*max(1_int64, step%evaluations &
-                                                            - self%evaluations_then))
-         end if
+         if (other) self%explicit_pace = pace
       end if
-      if (other) then
-         self%votes = 0
-         self%steps = 0
+      if (other) self%votes = 0
+      if (other) self%steps = 0
+      if (other .or. modulo(self%steps, window) == 0 .and. step%implicit &
+          .or. self%votes == 0 .and. .not. (step%implicit .or. self%on_trial)) then
          self%gone = 0.0_wp
          self%evaluations_then = step%evaluations
       end if
    end subroutine wanted
+
+   !> Whether a step of the implicit method is the last before a return: where a step of the other
+   !> may be as long, and where it makes less than the other did.
+   pure subroutine judge_implicit(self, mild, balanced, pace, other)
+      !> Evidence so far
+      class(switch_type), intent(inout) :: self
+      !> Whether the step is no longer than an explicit one might be
+      logical, intent(in) :: mild
+      !> Whether a slow series might serve it
+      logical, intent(in) :: balanced
+      !> Time per cost in the present window
+      real(wp), intent(in) :: pace
+      !> The answer
+      logical, intent(out) :: other
+
+      self%votes = merge(self%votes + 1, 0, mild .or. balanced)
+      other = self%votes >= merge(least_to_return, self%steps_to_return, mild)
+      self%on_trial = other .and. .not. mild
+      if (self%on_trial) self%implicit_pace = pace
+      if (modulo(self%steps, window) == 0 .and. self%steps > window) then
+         other = other .or. pace < self%explicit_pace
+      end if
+      if (other) then
+         self%patience = merge(least_patience, min(less_willing*self%patience, most_patience), &
+                               pace > self%explicit_pace)
+      end if
+   end subroutine judge_implicit
+
+   !> Whether fast components are in balance all along a step.
+   pure logical function in_balance(problem, step) result(value)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The step, accepted
+      class(step_type), intent(in) :: step
+
+      value = step%h*problem%relaxation_rate(step%t + step%h, step%y_new) > least_balance
+   end function in_balance
 end module dde_switch

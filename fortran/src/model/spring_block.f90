@@ -2,21 +2,13 @@
 !> docs/method.md, "What was corrected"). All quantities are nondimensional.
 module spring_block
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use block_series, only: series_of_block, slow_series_of_block
+   use block_state, only: index_of_ln_v, index_of_theta, index_of_u, largest_ln_v, least_ln_v
    use dde, only: dde_problem_type
    use kinds, only: wp
    implicit none (type, external)
    private
    public :: index_of_ln_v, index_of_theta, index_of_u, spring_block_type
-
-   !> Place of the friction state theta in the state vector.
-   integer, parameter :: index_of_theta = 1
-   !> Place of the displacement u.
-   integer, parameter :: index_of_u = 2
-   !> Place of w = ln v: in w no step can leave the domain v > 0.
-   integer, parameter :: index_of_ln_v = 3
-
-   !> Beyond these exp(w) or gamma^2 exp(-w), times the rest of (4), might overflow.
-   real(wp), parameter :: least_ln_v = -600.0_wp, largest_ln_v = 300.0_wp
 
    !> The block with its parameters; all nondimensional.
    type, extends(dde_problem_type) :: spring_block_type
@@ -35,6 +27,8 @@ module spring_block
       procedure :: jacobian => derivatives_of_4
       procedure :: series => series_of_4
       procedure :: past_series => constant_series
+      procedure :: relaxation_rate => relaxation_of_w
+      procedure :: slow_series => slow_series_of_4
    end type spring_block_type
 
    interface spring_block_type
@@ -166,8 +160,7 @@ contains
       end associate
    end subroutine derivatives_of_4
 
-   !> Taylor series of the solution of (4), with that of v beside it: v' = v w' is
-   !> -gamma^2 [u + (theta + w)/xi], linear in the state, and w' follows from it term by term.
+   !> Taylor series of the solution of (4).
    pure subroutine series_of_4(self, t, unit, degree, z, y)
       !> The block
       class(spring_block_type), intent(in) :: self
@@ -181,40 +174,43 @@ contains
       real(wp), intent(in) :: z(0:degree, size(self%lag))
       !> Coefficients of theta, u, w; y(0, :) is given
       real(wp), intent(inout) :: y(0:degree, self%n)
-      !> Coefficients of v, of theta + (1 + epsilon) w(t - tau), and of unit w'
-      real(wp), dimension(0:degree) :: v, relaxing, rate
-      real(wp) :: by_v, compliance, delayed_w, earlier, share, total, v_rate
-      integer :: j, k
 
-      if (y(0, index_of_ln_v) < least_ln_v .or. y(0, index_of_ln_v) > largest_ln_v) then
-         y(1:, :) = ieee_value(1.0_wp, ieee_quiet_nan)
-         return
-      end if
-      v(0) = exp(y(0, index_of_ln_v))
-      by_v = 1.0_wp/v(0)
-      compliance = 1.0_wp/self%xi
-      do k = 0, degree - 1
-         associate (theta => y(k, index_of_theta), u => y(k, index_of_u), &
-                    w => y(k, index_of_ln_v))
-            delayed_w = w
-            if (size(z, 2) > 0) delayed_w = z(k, 1)
-            relaxing(k) = theta + (1.0_wp + self%epsilon)*delayed_w
-            v_rate = -self%gamma**2*unit*(u + compliance*(theta + w))
-         end associate
-         total = v(k)*relaxing(0)
-         earlier = 0.0_wp
-         do j = 1, k
-            total = total + v(k - j)*relaxing(j)
-            earlier = earlier + v(k - j + 1)*rate(j - 1)
-         end do
-         rate(k) = by_v*(v_rate - earlier)
-         share = 1.0_wp/(k + 1)
-         v(k + 1) = share*v_rate
-         y(k + 1, index_of_theta) = -unit*share*total
-         y(k + 1, index_of_u) = unit*share*merge(v(0) - 1.0_wp, v(k), k == 0)
-         y(k + 1, index_of_ln_v) = share*rate(k)
-      end do
+      call series_of_block(self%epsilon, self%xi, self%gamma, unit, degree, size(z, 2), &
+                           z, y)
    end subroutine series_of_4
+
+   !> Rate at which w comes to -theta - xi u, by (4).
+   pure function relaxation_of_w(self, t, y) result(rate)
+      !> The block
+      class(spring_block_type), intent(in) :: self
+      !> Time, without influence
+      real(wp), intent(in) :: t
+      !> theta, u, w
+      real(wp), intent(in) :: y(self%n)
+      !> The rate
+      real(wp) :: rate
+
+      rate = self%gamma**2/self%xi*exp(-max(least_ln_v, y(index_of_ln_v)))
+   end function relaxation_of_w
+
+   !> A better Taylor series of the slow solution of (4).
+   pure subroutine slow_series_of_4(self, t, unit, degree, z, y)
+      !> The block
+      class(spring_block_type), intent(in) :: self
+      !> Time, without influence
+      real(wp), intent(in) :: t
+      !> Unit of time of the powers
+      real(wp), intent(in) :: unit
+      !> Degree of the series
+      integer, intent(in) :: degree
+      !> Coefficients of w(t - tau), or nothing
+      real(wp), intent(in) :: z(0:degree, size(self%lag))
+      !> Coefficients of theta, u, w as they were; better ones
+      real(wp), intent(inout) :: y(0:degree, self%n)
+
+      call slow_series_of_block(self%epsilon, self%xi, self%gamma, unit, degree, size(z, 2), &
+                           z, y)
+   end subroutine slow_series_of_4
 
    !> Series of the constant history.
    pure subroutine constant_series(self, t, component, unit, y)

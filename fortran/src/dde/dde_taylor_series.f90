@@ -1,0 +1,147 @@
+!> The Taylor series of the solution from the start of a step on, and how far it serves: that of the
+!> state, or that of a slow solution near it.
+module dde_taylor_series
+   use dde_interpolant, only: series_value
+   use dde_problem, only: dde_problem_type
+   use dde_series_reach, only: series_reach
+   use dde_slow_series, only: slow_series
+   use kinds, only: int64, wp
+   implicit none (type, external)
+   private
+   public :: taylor_series
+
+   !> The series of all components.
+   type :: taylor_series
+      !> Degree
+      integer :: degree = 0
+      !> Unit of time of its powers
+      real(wp) :: unit = 0.0_wp
+      !> Time that it serves; 0 where it is not finite
+      real(wp) :: reach = 0.0_wp
+      !> Coefficients of the solution and of its delayed values, shapes (0:degree, n) and
+      !> (0:degree, number of delayed values)
+      real(wp), allocatable :: coefficients(:, :), delayed(:, :)
+      !> Whether it is that of a slow solution, and when to look for one
+      type(slow_series) :: slow
+      !> All components
+      integer, allocatable, private :: all(:)
+   contains
+      !> The coefficients, delayed values and unit given
+      procedure :: expand
+      !> The state at a time
+      procedure :: state
+      !> Its slope there
+      procedure :: slope
+   end type taylor_series
+
+   interface taylor_series
+      module procedure :: new_series
+   end interface taylor_series
+
+contains
+
+   !> Storage.
+   pure function new_series(problem, degree) result(series)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Degree
+      integer, intent(in) :: degree
+      type(taylor_series) :: series
+      integer :: i
+
+      series%degree = degree
+      allocate (series%coefficients(0:degree, problem%n))
+      allocate (series%delayed(0:degree, size(problem%lag)))
+      series%all = [(i, i=1, problem%n)]
+   end function new_series
+
+   !> The slow series where it holds, which puts the state on the slow solution; else that of the
+   !> state as it is.
+   pure subroutine expand(self, problem, t, scale, evaluations, y)
+      !> The series
+      class(taylor_series), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Time
+      real(wp), intent(in) :: t
+      !> Tolerance of each component
+      real(wp), intent(in) :: scale(:)
+      !> Series evaluated so far
+      integer(int64), intent(inout) :: evaluations
+      !> State
+      real(wp), intent(inout) :: y(:)
+      real(wp) :: of_state(0:self%degree, problem%n), rate
+      logical :: steady, trying
+
+      rate = problem%relaxation_rate(t, y)
+      trying = self%slow%holds
+      if (trying) call find_slow(self, problem, t, scale, rate, evaluations, y)
+      if (self%slow%holds) return
+      self%coefficients(0, :) = y
+      call problem%series(t, self%unit, self%degree, self%delayed, self%coefficients)
+      evaluations = evaluations + 1
+      call series_reach(self%degree, self%coefficients, scale, self%all, self%reach, steady)
+      self%reach = self%unit*self%reach
+      if (trying) return
+      call self%slow%worth_a_try(rate*self%reach, trying)
+      if (.not. trying) return
+      of_state = self%coefficients
+      call find_slow(self, problem, t, scale, rate, evaluations, y)
+      if (.not. self%slow%holds) self%coefficients = of_state
+   end subroutine expand
+
+   !> Take the slow series where it holds.
+   pure subroutine find_slow(self, problem, t, scale, rate, evaluations, y)
+      !> The series
+      class(taylor_series), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Time
+      real(wp), intent(in) :: t
+      !> Tolerance of each component
+      real(wp), intent(in) :: scale(:)
+      !> Relaxation rate
+      real(wp), intent(in) :: rate
+      !> Series evaluated so far
+      integer(int64), intent(inout) :: evaluations
+      !> State; that on the slow solution
+      real(wp), intent(inout) :: y(:)
+
+      self%coefficients(0, :) = y
+      call self%slow%find(problem, t, self%unit, self%degree, self%delayed, scale, self%all, rate, &
+                          evaluations, self%coefficients)
+      if (.not. self%slow%holds) return
+      y = self%coefficients(0, :)
+      self%reach = self%unit*self%slow%reach
+   end subroutine find_slow
+
+   !> The state at a time.
+   pure function state(self, time) result(y)
+      !> The series
+      class(taylor_series), intent(in) :: self
+      !> Time since its start
+      real(wp), intent(in) :: time
+      real(wp) :: y(size(self%all))
+      integer :: i
+
+      do i = 1, size(y)
+         y(i) = series_value(self%degree, self%coefficients(:, i), time/self%unit)
+      end do
+   end function state
+
+   !> The slope at a time.
+   pure function slope(self, time) result(value)
+      !> The series
+      class(taylor_series), intent(in) :: self
+      !> Time since its start
+      real(wp), intent(in) :: time
+      real(wp) :: value(size(self%all))
+      integer :: k
+
+      value = 0.0_wp
+      do k = self%degree, 1, -1
+         value = k*self%coefficients(k, :) + (time/self%unit)*value
+      end do
+      value = value/self%unit
+   end function slope
+end module dde_taylor_series
