@@ -94,7 +94,7 @@ contains
       real(wp), intent(in) :: rate
       !> Series evaluated so far
       integer(int64), intent(inout) :: evaluations
-      !> Coefficients: y(0, :) is given, the state; the slow series if it holds
+      !> Coefficients, of which y(0, :) is given, the state; the slow series if it holds
       real(wp), intent(inout) :: y(0:degree, problem%n)
       real(wp) :: change(0:degree, problem%n), state(problem%n)
       real(wp) :: open

@@ -9,12 +9,14 @@ module dde_switch
    private
    public :: switch_type
 
-   !> Above this, stability limits an explicit step.
+   !> Above this, stability limits a step of the explicit pair; one along a series of degree p above
+   !> p/e, up to where that of exp(-x) is about right.
    real(wp), parameter :: limited_by_stability = 2.5_wp
    !> Below this, an explicit step may be as long as the implicit one is.
    real(wp), parameter :: worth_returning = 8.0_wp
-   !> Above this, in units of the shortest delay, the delay limits an explicit step.
-   real(wp), parameter :: beyond_the_delay = 1.5_wp
+   !> Above this, in units of the shortest delay, the delay limits an explicit step so far that an
+   !> implicit one is cheaper: of the pair, and along a series.
+   real(wp), parameter :: beyond_the_delay = 1.5_wp, beyond_with_series = 4.0_wp
    !> Implicit steps in a row that must agree to a return: at first, how many more after a vain
    !> one, and at most.
    integer, parameter :: least_to_return = 3, less_returning = 4, most_to_return = 192
@@ -65,10 +67,12 @@ contains
       !> The answer
       logical, intent(out) :: other
       logical :: delay_limits
-      real(wp) :: measure, pace
+      real(wp) :: limit, measure, pace
 
       measure = step%h*step%stiffness()
-      delay_limits = h_next/beyond_the_delay > shortest_delay
+      limit = merge(step%order/exp(1.0_wp), limited_by_stability, problem%analytic)
+      delay_limits = h_next/merge(beyond_with_series, beyond_the_delay, problem%analytic) &
+                     > shortest_delay
       self%gone = self%gone + step%h
       self%steps = self%steps + 1
       pace = self%gone &
@@ -85,7 +89,7 @@ contains
          end if
       else
          self%votes = merge(self%votes + 2, max(0, self%votes - 1), &
-                            measure > limited_by_stability .or. delay_limits)
+                            measure > limit .or. delay_limits)
          other = self%votes >= self%patience
          if (other) self%explicit_pace = pace
       end if
