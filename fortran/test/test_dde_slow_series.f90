@@ -33,7 +33,8 @@ contains
                    new_unittest("stiff blocks", test_blocks), &
                    new_unittest("the stick before a slip", test_stick), &
                    new_unittest("a block without", test_plain), &
-                   new_unittest("steps longer than the delay", test_short_delay)]
+                   new_unittest("steps longer than the delay", test_short_delay), &
+                   new_unittest("at rest", test_rest)]
    end subroutine collect_dde_slow_series
 
    !> Very small terms that grow do not reach as far as the tolerance would let them; one that
@@ -278,4 +279,23 @@ contains
       call expect_between(error, real(outcome%implicit_steps, wp), 10.0_wp, &
                           real(outcome%accepted, wp), "implicit steps")
    end subroutine test_short_delay
+
+   !> Where the block has come to rest, `auto` takes implicit steps without end.
+   subroutine test_rest(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      integer :: i, j
+
+      do i = 0, 1
+         do j = 4, 10, 2
+            call integrate(spring_block_type(10.0_wp*i, 0.2_wp, 0.8_wp, 0.8_wp, 0.0_wp, 0.0_wp, &
+                                             1.1_wp), &
+                           0.0_wp, 1.0e6_wp, at_tolerance(10.0_wp**(-j), "auto"), outcome, failure)
+            call expect_success(error, failure)
+            call expect_between(error, real(outcome%accepted, wp), 20.0_wp, 4000.0_wp, &
+                                "steps at 1e-"//text(j))
+         end do
+      end do
+   end subroutine test_rest
 end module test_dde_slow_series

@@ -9,9 +9,9 @@ module dde_switch
    private
    public :: switch_type
 
-   !> Above this, stability limits a step of the explicit pair; one along a series of degree p above
-   !> p/e, up to where that of exp(-x) is about right.
-   real(wp), parameter :: limited_by_stability = 2.5_wp
+   !> Above this, stability limits a step of the explicit pair; one along a series above this times
+   !> its degree, a little below 1/e, up to where the series of exp(-x) is about right.
+   real(wp), parameter :: limited_by_stability = 2.5_wp, limited_a_degree = 0.3_wp
    !> Below this, an explicit step may be as long as the implicit one is.
    real(wp), parameter :: worth_returning = 8.0_wp
    !> Above this, in units of the shortest delay, the delay limits an explicit step so far that an
@@ -69,8 +69,8 @@ contains
       logical :: delay_limits
       real(wp) :: limit, measure, pace
 
-      measure = step%h*step%stiffness()
-      limit = merge(step%order/exp(1.0_wp), limited_by_stability, problem%analytic)
+      measure = merge(step%ideal, step%h, step%foresees)*step%stiffness()
+      limit = merge(limited_a_degree*step%order, limited_by_stability, problem%analytic)
       delay_limits = h_next/merge(beyond_with_series, beyond_the_delay, problem%analytic) &
                      > shortest_delay
       self%gone = self%gone + step%h
