@@ -37,7 +37,7 @@ module dde_switch
       integer :: steps_to_return = least_to_return
       !> Evaluations when that window began
       integer(int64) :: evaluations_then = 0
-      !> Implicit steps since
+      !> Steps since the method began
       integer :: steps = 0
       !> Time gone in the present window
       real(wp) :: gone = 0.0_wp
@@ -129,13 +129,14 @@ contains
       end if
    end subroutine judge_implicit
 
-   !> Whether fast components are in balance all along a step.
+   !> Whether fast components are in balance all along a step, for a problem that gives its series.
    pure logical function in_balance(problem, step) result(value)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> The step, accepted
       class(step_type), intent(in) :: step
 
-      value = step%h*problem%relaxation_rate(step%t + step%h, step%y_new) > least_balance
+      value = problem%analytic .and. step%h*problem%relaxation_rate(step%t + step%h, step%y_new) &
+              > least_balance
    end function in_balance
 end module dde_switch
