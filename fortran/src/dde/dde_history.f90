@@ -179,7 +179,7 @@ contains
          if (self%before_origin(k) .or. self%found(k) == self%newest) cycle
          own = self%length(self%slot(k)) - self%offset(k)
          do while (h > own)
-            call look_ahead(self, k, h, actual)
+            call read_ahead(self, k, h, actual)
             difference = abs(series_value(ubound(z, 1), z(:, k), h/unit) - actual) &
                          /(agreement*(absolute + relative*abs(actual)))
             if (difference <= 1.0_wp) exit
@@ -190,7 +190,7 @@ contains
    end subroutine confirm
 
    !> One delayed value at one place ahead.
-   pure subroutine look_ahead(self, k, ahead, z)
+   pure subroutine read_ahead(self, k, ahead, z)
       !> The past
       class(history_type), intent(inout) :: self
       !> Which delayed value
@@ -212,7 +212,7 @@ contains
       z = newton_value(self%degree(slot), self%nodes(:, slot), &
                        self%coefficients(:, self%row(k), slot), &
                        (self%offset(k) + ahead)/self%length(slot))
-   end subroutine look_ahead
+   end subroutine read_ahead
 
    !> Let delayed value k read the step in which the current one's start is, less its delay, or the
    !> next where that is about to end.
@@ -231,5 +231,4 @@ contains
          call self%point_at(k, self%found(k) + 1)
       end do
    end subroutine point_at_start
-
 end module dde_history

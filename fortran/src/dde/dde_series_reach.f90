@@ -15,15 +15,13 @@ contains
 
    !> How far, in units of the powers, the last two terms are within the tolerance and terms do not
    !> grow: those left out of a series of very small terms that do would exceed it later.
-   pure subroutine series_reach(degree, coefficients, scale, components, reach, steady)
+   pure subroutine series_reach(degree, coefficients, scale, reach, steady)
       !> Degree of the series
       integer, intent(in) :: degree
       !> Coefficients, one series a component
       real(wp), intent(in) :: coefficients(0:, :)
       !> Tolerance of each component
       real(wp), intent(in) :: scale(:)
-      !> Which components count
-      integer, intent(in) :: components(:)
       !> How far; 0 where they are not finite
       real(wp), intent(out) :: reach
       !> Whether growth is the limit: all that changes is within the tolerance
@@ -33,9 +31,9 @@ contains
 
       reach = 0.0_wp
       steady = .false.
-      do i = 1, size(components)
+      do i = 1, size(scale)
          do k = 1, 2
-            reach = reach + abs(coefficients(degree - 2 + k, components(i)))
+            reach = reach + abs(coefficients(degree - 2 + k, i))
          end do
       end do
       if (.not. ieee_is_finite(reach)) then
@@ -43,12 +41,10 @@ contains
          return
       end if
       last = tiny(1.0_wp)
-      do i = 1, size(components)
-         associate (c => components(i))
-            do k = 0, 2
-               last(k) = max(last(k), abs(coefficients(degree - 2 + k, c))/scale(c))
-            end do
-         end associate
+      do i = 1, size(scale)
+         do k = 0, 2
+            last(k) = max(last(k), abs(coefficients(degree - 2 + k, i))/scale(i))
+         end do
       end do
       reach = exp(-max(log(last(1))/(degree - 1), log(last(2))/degree))
       growth = huge(1.0_wp)

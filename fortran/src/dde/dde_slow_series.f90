@@ -73,7 +73,7 @@ contains
 
    !> Iterate from the state; the series holds where it converges to the tolerance within what it
    !> reaches, and where the state is that near to it.
-   pure subroutine find(self, problem, t, unit, degree, z, scale, components, rate, evaluations, y)
+   pure subroutine find(self, problem, t, unit, degree, z, scale, rate, evaluations, y)
       !> The series
       class(slow_series), intent(inout) :: self
       !> The problem
@@ -88,8 +88,6 @@ contains
       real(wp), intent(in) :: z(0:degree, size(problem%lag))
       !> Tolerance of each component
       real(wp), intent(in) :: scale(problem%n)
-      !> All components
-      integer, intent(in) :: components(problem%n)
       !> Relaxation rate
       real(wp), intent(in) :: rate
       !> Series evaluated so far
@@ -107,7 +105,7 @@ contains
          change = y
          call problem%slow_series(t, unit, degree, z, y)
          evaluations = evaluations + 1
-         call series_reach(degree, y, scale, components, self%reach, self%steady)
+         call series_reach(degree, y, scale, self%reach, self%steady)
          if (.not. self%reach*unit*rate >= least_balance) return
          if (iteration == 1) then
             ! what the next iteration would change: y'/rate at most

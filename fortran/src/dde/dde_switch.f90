@@ -37,7 +37,7 @@ module dde_switch
       integer :: steps_to_return = least_to_return
       !> Evaluations when that window began
       integer(int64) :: evaluations_then = 0
-      !> Steps since the method began
+      !> Implicit steps, or those on trial, since the method began
       integer :: steps = 0
       !> Time gone in the present window
       real(wp) :: gone = 0.0_wp
@@ -74,7 +74,7 @@ contains
       delay_limits = h_next/merge(beyond_with_series, beyond_the_delay, problem%analytic) &
                      > shortest_delay
       self%gone = self%gone + step%h
-      self%steps = self%steps + 1
+      if (step%implicit .or. self%on_trial) self%steps = self%steps + 1
       pace = self%gone &
              /(step%evaluation_cost*max(1_int64, step%evaluations - self%evaluations_then))
       if (step%implicit) then

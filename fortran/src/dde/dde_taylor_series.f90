@@ -23,8 +23,6 @@ module dde_taylor_series
       real(wp), allocatable :: coefficients(:, :), delayed(:, :)
       !> Whether it is that of a slow solution, and when to look for one
       type(slow_series) :: slow
-      !> All components
-      integer, allocatable, private :: all(:)
    contains
       !> The coefficients, delayed values and unit given
       procedure :: expand
@@ -47,12 +45,10 @@ contains
       !> Degree
       integer, intent(in) :: degree
       type(taylor_series) :: series
-      integer :: i
 
       series%degree = degree
       allocate (series%coefficients(0:degree, problem%n))
       allocate (series%delayed(0:degree, size(problem%lag)))
-      series%all = [(i, i=1, problem%n)]
    end function new_series
 
    !> The slow series where it holds, which puts the state on the slow solution; else that of the
@@ -80,7 +76,7 @@ contains
       self%coefficients(0, :) = y
       call problem%series(t, self%unit, self%degree, self%delayed, self%coefficients)
       evaluations = evaluations + 1
-      call series_reach(self%degree, self%coefficients, scale, self%all, self%reach, steady)
+      call series_reach(self%degree, self%coefficients, scale, self%reach, steady)
       self%reach = self%unit*self%reach
       if (trying) return
       call self%slow%worth_a_try(rate*self%reach, trying)
@@ -108,7 +104,7 @@ contains
       real(wp), intent(inout) :: y(:)
 
       self%coefficients(0, :) = y
-      call self%slow%find(problem, t, self%unit, self%degree, self%delayed, scale, self%all, rate, &
+      call self%slow%find(problem, t, self%unit, self%degree, self%delayed, scale, rate, &
                           evaluations, self%coefficients)
       if (.not. self%slow%holds) return
       y = self%coefficients(0, :)
@@ -121,7 +117,7 @@ contains
       class(taylor_series), intent(in) :: self
       !> Time since its start
       real(wp), intent(in) :: time
-      real(wp) :: y(size(self%all))
+      real(wp) :: y(size(self%coefficients, 2))
       integer :: i
 
       do i = 1, size(y)
@@ -135,7 +131,7 @@ contains
       class(taylor_series), intent(in) :: self
       !> Time since its start
       real(wp), intent(in) :: time
-      real(wp) :: value(size(self%all))
+      real(wp) :: value(size(self%coefficients, 2))
       integer :: k
 
       value = 0.0_wp
