@@ -28,7 +28,8 @@ module dde_stage_systems
       !> Rows exchanged
       integer, allocatable, private :: real_pivot(:), complex_pivot(:, :)
       !> Delayed values of all stages, and those at the end of the step for the real system alone
-      type(coupling_type), private :: of_stages, of_end
+      !> (allocatable: of two components of one type, gfortran frees only the first with the step)
+      type(coupling_type), allocatable, private :: of_stages, of_end
    contains
       !> Factorise for a Jacobian and a length
       procedure :: prepare
