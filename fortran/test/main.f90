@@ -16,6 +16,7 @@ program tester
    use test_dde_implicit, only: collect_dde_implicit
    use test_dde_implicit_order, only: collect_dde_implicit_order
    use test_dde_order, only: collect_dde_order
+   use test_dde_past_series, only: collect_dde_past_series
    use test_dde_receivers, only: collect_dde_receivers
    use test_dde_reentrant, only: collect_dde_reentrant
    use test_dde_refusals, only: collect_dde_refusals
@@ -23,6 +24,7 @@ program tester
    use test_dde_solutions, only: collect_dde_solutions
    use test_dde_stiff, only: collect_dde_stiff
    use test_dde_stops, only: collect_dde_stops
+   use test_dde_switch, only: collect_dde_switch
    use test_dde_taylor, only: collect_dde_taylor
    use test_dde_time, only: collect_dde_time
    use test_exponents, only: collect_exponents
@@ -63,6 +65,7 @@ program tester
                              new_testsuite("dde_implicit", collect_dde_implicit), &
                              new_testsuite("dde_implicit_order", collect_dde_implicit_order), &
                              new_testsuite("dde_order", collect_dde_order), &
+                             new_testsuite("dde_past_series", collect_dde_past_series), &
                              new_testsuite("dde_receivers", collect_dde_receivers), &
                              new_testsuite("dde_reentrant", collect_dde_reentrant), &
                              new_testsuite("dde_refusals", collect_dde_refusals), &
@@ -70,6 +73,7 @@ program tester
                              new_testsuite("dde_solutions", collect_dde_solutions), &
                              new_testsuite("dde_stiff", collect_dde_stiff), &
                              new_testsuite("dde_stops", collect_dde_stops), &
+                             new_testsuite("dde_switch", collect_dde_switch), &
                              new_testsuite("dde_taylor", collect_dde_taylor), &
                              new_testsuite("dde_time", collect_dde_time), &
                              new_testsuite("exponents", collect_exponents), &

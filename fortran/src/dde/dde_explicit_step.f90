@@ -12,6 +12,9 @@ module dde_explicit_step
    private
    public :: explicit_step_type
 
+   !> Length times rate of change above which stability limits a step.
+   real(wp), parameter :: limited_by_stability = 2.5_wp
+
    !> Stages of the current step; components fill lane by lane, what is left of the last is zero.
    type, extends(step_type) :: explicit_step_type
       !> Slopes 1 to 13 of the step and 14 to 16 of its dense output, shape (lanes, blocks, 16)
@@ -29,7 +32,7 @@ module dde_explicit_step
       procedure :: complete
       procedure :: extend
       procedure :: interpolant
-      procedure :: stiffness
+      procedure :: held_back
       procedure :: advance
    end type explicit_step_type
 
@@ -124,18 +127,15 @@ contains
                     self%k(:, :, 13), self%evaluations, self%finite)
    end subroutine complete
 
-   !> |k13 - k12| over the distance of their arguments, both at the end of the step (Hairer and
-   !> Wanner 1996, sec. IV.2).
-   pure function stiffness(self) result(value)
+   !> Whether stability limits the step: its length times |k13 - k12| over the distance of their
+   !> arguments, both at the end of the step (Hairer and Wanner 1996, sec. IV.2).
+   pure logical function held_back(self) result(value)
       !> The step
       class(explicit_step_type), intent(in) :: self
-      real(wp) :: value
-      real(wp) :: distance
 
-      value = 0.0_wp
-      distance = norm2(self%finish - self%last_stage)
-      if (distance > 0.0_wp) value = norm2(self%k(:, :, 13) - self%k(:, :, 12))/distance
-   end function stiffness
+      value = self%h*norm2(self%k(:, :, 13) - self%k(:, :, 12)) &
+              > limited_by_stability*norm2(self%finish - self%last_stage)
+   end function held_back
 
    !> The end of the step becomes the start of the next; its last slope serves as the first.
    pure subroutine advance(self)
@@ -167,7 +167,7 @@ contains
       !> Which component
       integer, intent(in) :: i
       !> Newton coefficients over `nodes`
-      real(wp), intent(out) :: a(0:)
+      real(wp), contiguous, intent(out) :: a(0:)
 
       call dense_coefficients(self%k(1 + modulo(i - 1, lanes), 1 + (i - 1)/lanes, :), self%h, &
                               self%y(i), self%y_new(i), a(0:7))

@@ -62,7 +62,7 @@ contains
       !> length of a very short step must not overflow
       real(wp), intent(inout) :: unit
       !> Coefficients, shape (0:degree, size(problem%lag))
-      real(wp), intent(out) :: z(0:, :)
+      real(wp), contiguous, intent(out) :: z(0:, :)
       !> How long they serve
       real(wp), intent(out) :: serves
       real(wp) :: place
@@ -163,7 +163,7 @@ contains
       !> The past, facing this step
       class(history_type), intent(inout) :: self
       !> Coefficients of the series, as `series` gave them
-      real(wp), intent(in) :: z(0:, :)
+      real(wp), contiguous, intent(in) :: z(0:, :)
       !> Unit of time of the powers
       real(wp), intent(in) :: unit
       !> Relative tolerance

@@ -20,8 +20,10 @@ module dde_implicit_step
    real(wp), parameter :: good_contraction = 1.0e-3_wp
    !> Ratio of step lengths up to which it pays to keep length and factors.
    real(wp), parameter :: keep_length = 1.2_wp
+   !> Below this, an explicit step may be as long: times the norm of the Jacobian.
+   real(wp), parameter :: worth_returning = 8.0_wp
    !> Cost of an evaluation within this method over one within the explicit pair.
-   real(wp), parameter :: implicit_cost = 4.5_wp
+   real(wp), parameter :: implicit_cost = 3.2_wp
 
    !> Stages and factors of the current step.
    type, extends(step_type) :: implicit_step_type
@@ -48,7 +50,7 @@ module dde_implicit_step
       procedure :: factorisations
       procedure :: attempt
       procedure :: interpolant
-      procedure :: stiffness
+      procedure :: mild
       procedure :: advance
       procedure, private :: estimate, prepare
    end type implicit_step_type
@@ -241,21 +243,20 @@ contains
       !> Which component
       integer, intent(in) :: i
       !> Newton coefficients over `nodes`
-      real(wp), intent(out) :: a(0:)
+      real(wp), contiguous, intent(out) :: a(0:)
 
       a = self%method%real_eigenvalue*self%error_vector(i)/self%bump_slope*self%bump
       a(0:self%method%stages) = a(0:self%method%stages) + self%differences(:, i)
       a(0) = self%y(i)
    end subroutine interpolant
 
-   !> Norm of the Jacobian.
-   pure function stiffness(self) result(value)
+   !> Whether the step is short in units of one over the norm of the Jacobian.
+   pure logical function mild(self) result(value)
       !> The step
       class(implicit_step_type), intent(in) :: self
-      real(wp) :: value
 
-      value = maxval(sum(abs(self%by_y), dim=2))
-   end function stiffness
+      value = self%h*maxval(sum(abs(self%by_y), dim=2)) < worth_returning
+   end function mild
 
    !> The end becomes the start; polynomial, Jacobian and factors serve on as far as they are good.
    pure subroutine advance(self)

@@ -11,7 +11,7 @@ module dde_interpolant
    public :: taylor_coefficients, usual_degree
 
    !> Highest degree of an interpolant.
-   integer, parameter :: highest_degree = 18
+   integer, parameter :: highest_degree = 20
    !> Highest degree but that of Taylor series.
    integer, parameter :: usual_degree = 8
    !> Factorials, all of them exact (compilers disagree on those that they make of `gamma`), and one
@@ -20,7 +20,8 @@ module dde_interpolant
       1.0_wp, 1.0_wp, 2.0_wp, 6.0_wp, 24.0_wp, 120.0_wp, 720.0_wp, 5040.0_wp, 40320.0_wp, &
       362880.0_wp, 3628800.0_wp, 39916800.0_wp, 479001600.0_wp, &
       6227020800.0_wp, 87178291200.0_wp, 1307674368000.0_wp, &
-      20922789888000.0_wp, 355687428096000.0_wp, 6402373705728000.0_wp]
+      20922789888000.0_wp, 355687428096000.0_wp, 6402373705728000.0_wp, &
+      121645100408832000.0_wp, 2432902008176640000.0_wp]
    real(wp), parameter :: inverse_factorial(0:highest_degree) = 1.0_wp/factorial
 
 contains
@@ -84,7 +85,7 @@ contains
       first = i
    end subroutine newton_values
 
-   !> Value of a series of powers at s.
+   !> Value of a series of powers at s: even and odd terms do not wait for each other.
    pure function series_value(degree, coefficients, s) result(value)
       !> Degree
       integer, intent(in) :: degree
@@ -92,20 +93,26 @@ contains
       real(wp), intent(in) :: coefficients(0:degree)
       !> Place
       real(wp), intent(in) :: s
-      real(wp) :: value
-      integer :: k
+      real(wp) :: even, odd, square, value
+      integer :: k, last_odd
 
-      value = coefficients(degree)
-      do k = degree - 1, 0, -1
-         value = coefficients(k) + s*value
+      square = s*s
+      last_odd = degree - 1 + modulo(degree, 2)
+      even = 0.0_wp
+      if (last_odd < degree) even = coefficients(degree)
+      odd = 0.0_wp
+      do k = last_odd, 1, -2
+         odd = coefficients(k) + square*odd
+         even = coefficients(k - 1) + square*even
       end do
+      value = even + s*odd
    end function series_value
 
    !> Coefficients of p in powers of a unit of time from s on.
    pure subroutine taylor_coefficients(degree, nodes, coefficients, s, unit, taylor)
       !> Degree of p
       integer, intent(in) :: degree
-      !> Nodes x(1..degree); where the last two are 0 all are
+      !> Nodes x(1..degree); where the second is 0 all are
       real(wp), intent(in) :: nodes(degree)
       !> Coefficients a(0..degree)
       real(wp), intent(in) :: coefficients(0:degree)
@@ -114,12 +121,12 @@ contains
       !> The unit of time, in lengths of the step
       real(wp), intent(in) :: unit
       !> Coefficients of the powers, as many as there is place for
-      real(wp), intent(out) :: taylor(0:)
+      real(wp), contiguous, intent(out) :: taylor(0:)
       real(wp) :: power, rest(0:degree)
       integer :: i, j
 
       taylor(degree + 1:) = 0.0_wp
-      if (.not. any(abs(nodes(max(1, degree - 1):)) > 0.0_wp)) then
+      if (.not. abs(nodes(min(2, degree))) > 0.0_wp) then
          call shift(degree, coefficients, s, unit, taylor)
          return
       end if
@@ -149,7 +156,7 @@ contains
       !> Unit of x
       real(wp), intent(in) :: unit
       !> New coefficients, as many as there is place for
-      real(wp), intent(inout) :: b(0:)
+      real(wp), contiguous, intent(inout) :: b(0:)
       real(wp) :: derivatives(0:degree + 1), even, odd, power, weights(0:degree + 1)
       integer :: i, j
 

@@ -37,8 +37,7 @@ contains
       case ("radau13")
          allocate (step, source=implicit_step_type(problem, 7))
       case ("taylor")
-         allocate (step, source=taylor_step_type(problem, max(options%relative, options%absolute), &
-                                               measured=options%method == "auto"))
+         allocate (step, source=taylor_step_type(problem, max(options%relative, options%absolute)))
       case default
          allocate (step, source=explicit_step_type(problem))
       end select

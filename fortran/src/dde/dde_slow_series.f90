@@ -22,8 +22,6 @@ module dde_slow_series
    integer, parameter :: most_iterations = 6
    !> Limited steps that pass at most until the next try.
    integer, parameter :: most_patience = 7
-   !> Limited steps in a row after which a transient is not believed to end soon.
-   integer, parameter :: usual_transient = 30
 
    !> Whether there is a slow series near the solution, and when to look for it.
    type :: slow_series
@@ -31,15 +29,11 @@ module dde_slow_series
       logical :: holds = .false.
       !> How far it reaches, in units of its powers
       real(wp) :: reach = 0.0_wp
-      !> Whether growth of its terms, not the tolerance, says so
-      logical :: steady = .false.
-      !> Limited steps in a row, those since the last try, and how many pass until the next
-      integer, private :: limited_steps = 0, waited = 0, patience = 0
+      !> Limited steps since the last try, and how many pass until the next
+      integer, private :: waited = 0, patience = 0
    contains
       !> Whether a step is worth a try
       procedure :: worth_a_try
-      !> Whether the fast components are on their way to balance
-      procedure :: in_transient
       !> Find it for a state
       procedure :: find
    end type slow_series
@@ -56,20 +50,11 @@ contains
       logical, intent(out) :: value
 
       value = .false.
-      self%limited_steps = merge(self%limited_steps + 1, 0, measure > limited)
-      if (self%limited_steps == 0) return
+      if (measure <= limited) return
       value = self%waited >= self%patience
       self%waited = merge(0, self%waited + 1, value)
       if (value) self%patience = min(2*self%patience + 1, most_patience)
    end subroutine worth_a_try
-
-   !> Whether steps have been limited by a transient, and not for long.
-   pure logical function in_transient(self) result(value)
-      !> The series
-      class(slow_series), intent(in) :: self
-
-      value = self%limited_steps > 0 .and. self%limited_steps <= usual_transient
-   end function in_transient
 
    !> Iterate from the state; the series holds where it converges to the tolerance within what it
    !> reaches, and where the state is that near to it.
@@ -95,7 +80,7 @@ contains
       !> Coefficients, of which y(0, :) is given, the state; the slow series if it holds
       real(wp), intent(inout) :: y(0:degree, problem%n)
       real(wp) :: change(0:degree, problem%n), state(problem%n)
-      real(wp) :: open
+      real(wp) :: distance, open
       integer :: iteration, k
 
       self%holds = .false.
@@ -105,7 +90,7 @@ contains
          change = y
          call problem%slow_series(t, unit, degree, z, y)
          evaluations = evaluations + 1
-         call series_reach(degree, y, scale, self%reach, self%steady)
+         call series_reach(degree, y, scale, self%reach)
          if (.not. self%reach*unit*rate >= least_balance) return
          if (iteration == 1) then
             ! what the next iteration would change: y'/rate at most
@@ -117,12 +102,16 @@ contains
             change = y - change
          end if
          open = largest_term(degree, problem%n, change, scale, self%reach)
-         if (any(abs(y(0, :) - state) > (transient + 2*open)*scale)) return
+         distance = maxval(abs(y(0, :) - state)/scale)
+         if (distance > transient + 2*open) then
+            ! limited steps shorten it by this many e-foldings at least
+            self%patience = min(int(log(distance)/limited), self%patience)
+            return
+         end if
          if (open < left_open) exit
       end do
       self%holds = open < left_open
       if (.not. self%holds) return
-      self%limited_steps = 0
       self%waited = 0
       self%patience = 0
    end subroutine find

@@ -70,8 +70,10 @@ module dde_step
       procedure :: extend
       !> Interpolant of one component over an accepted, extended step
       procedure(dense_output), deferred :: interpolant
-      !> Estimate of the largest rate of change near the end of an accepted, complete step
-      procedure(rate), deferred :: stiffness
+      !> Whether more than the change of the solution limits an accepted, complete step
+      procedure :: held_back
+      !> Whether an explicit step might be as long
+      procedure :: mild
       !> Make the end of an accepted step the start of the next
       procedure(next_step), deferred :: advance
    end type step_type
@@ -109,17 +111,8 @@ module dde_step
          !> Which component
          integer, intent(in) :: i
          !> Newton coefficients over `nodes`
-         real(wp), intent(out) :: a(0:)
+         real(wp), contiguous, intent(out) :: a(0:)
       end subroutine dense_output
-
-      !> Estimate of the spectral radius of the Jacobian, free of evaluations.
-      pure function rate(self) result(value)
-         import :: step_type, wp
-         implicit none (type, external)
-         !> The step
-         class(step_type), intent(in) :: self
-         real(wp) :: value
-      end function rate
 
       !> The end of an accepted step becomes the start of the next.
       pure subroutine next_step(self)
@@ -203,6 +196,22 @@ contains
       !> The past, facing this step
       type(history_type), intent(inout) :: past
    end subroutine extend
+
+   !> An implicit method is not held back.
+   pure logical function held_back(self) result(value)
+      !> The step
+      class(step_type), intent(in) :: self
+
+      value = .false.
+   end function held_back
+
+   !> An explicit method need not ask.
+   pure logical function mild(self) result(value)
+      !> The step
+      class(step_type), intent(in) :: self
+
+      value = .true.
+   end function mild
 
    !> Only implicit methods factorise.
    pure function factorisations(self) result(count)

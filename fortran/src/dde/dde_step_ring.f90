@@ -86,9 +86,9 @@ contains
       !> Length of the step
       real(wp), intent(in) :: length
       !> Newton nodes of its interpolant
-      real(wp), intent(in) :: nodes(:)
+      real(wp), contiguous, intent(in) :: nodes(:)
       !> Interpolant of the kept components, shape (0:degree, kept)
-      real(wp), intent(in) :: coefficients(0:, :)
+      real(wp), contiguous, intent(in) :: coefficients(0:, :)
       !> How long from the start on it serves; less than the length counts as the length
       real(wp), intent(in) :: serves
       integer :: slot

@@ -1,5 +1,6 @@
-!> The choice between the explicit and the implicit method while a run goes on: by h times the
-!> stiffness, which each step measures at no cost in evaluations, and by what the last change gave.
+!> The choice between the explicit and the implicit method while a run goes on: by what holds
+!> explicit steps back, which each step tells at no cost in evaluations, and by what the last change
+!> gave.
 module dde_switch
    use dde_problem, only: dde_problem_type
    use dde_slow_series, only: least_balance
@@ -9,11 +10,6 @@ module dde_switch
    private
    public :: switch_type
 
-   !> Above this, stability limits a step of the explicit pair; one along a series above this times
-   !> its degree, a little below 1/e, up to where the series of exp(-x) is about right.
-   real(wp), parameter :: limited_by_stability = 2.5_wp, limited_a_degree = 0.3_wp
-   !> Below this, an explicit step may be as long as the implicit one is.
-   real(wp), parameter :: worth_returning = 8.0_wp
    !> Above this, in units of the shortest delay, the delay limits an explicit step so far that an
    !> implicit one is cheaper: of the pair, and along a series.
    real(wp), parameter :: beyond_the_delay = 1.5_wp, beyond_with_series = 4.0_wp
@@ -22,7 +18,7 @@ module dde_switch
    integer, parameter :: least_to_return = 3, less_returning = 4, most_to_return = 192
    !> Votes that it takes to leave the explicit method, two from each step that speaks for it and
    !> one back from each that does not: at first, how much more after a vain try, and at most.
-   integer, parameter :: least_patience = 8, less_willing = 4, most_patience = 512
+   integer, parameter :: least_patience = 8, less_willing = 2, most_patience = 128
    !> The pace of the implicit method is taken over this many steps, the first time after as many
    !> that it needs to grow them.
    integer, parameter :: window = 6
@@ -67,10 +63,8 @@ contains
       !> The answer
       logical, intent(out) :: other
       logical :: delay_limits
-      real(wp) :: limit, measure, pace
+      real(wp) :: pace
 
-      measure = merge(step%ideal, step%h, step%foresees)*step%stiffness()
-      limit = merge(limited_a_degree*step%order, limited_by_stability, problem%analytic)
       delay_limits = h_next/merge(beyond_with_series, beyond_the_delay, problem%analytic) &
                      > shortest_delay
       self%gone = self%gone + step%h
@@ -78,7 +72,7 @@ contains
       pace = self%gone &
              /(step%evaluation_cost*max(1_int64, step%evaluations - self%evaluations_then))
       if (step%implicit) then
-         call judge_implicit(self, measure < worth_returning .and. .not. delay_limits, &
+         call judge_implicit(self, step%mild() .and. .not. delay_limits, &
                              in_balance(problem, step) .and. .not. delay_limits, pace, other)
       else if (self%on_trial) then
          other = self%steps == window .and. pace < self%implicit_pace
@@ -89,7 +83,7 @@ contains
          end if
       else
          self%votes = merge(self%votes + 2, max(0, self%votes - 1), &
-                            measure > limit .or. delay_limits)
+                            step%held_back() .or. delay_limits)
          other = self%votes >= self%patience
          if (other) self%explicit_pace = pace
       end if
@@ -125,7 +119,7 @@ contains
       end if
       if (other) then
          self%patience = merge(least_patience, min(less_willing*self%patience, most_patience), &
-                               pace > self%explicit_pace)
+                               pace > self%explicit_pace .and. self%steps > window)
       end if
    end subroutine judge_implicit
 

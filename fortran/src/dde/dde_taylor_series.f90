@@ -10,6 +10,10 @@ module dde_taylor_series
    private
    public :: taylor_series
 
+   !> Longest unit for the series of a state, in units of one over the relaxation rate: its powers
+   !> must not overflow.
+   real(wp), parameter :: longest_unit = 1000.0_wp
+
    !> The series of all components.
    type :: taylor_series
       !> Degree
@@ -67,16 +71,17 @@ contains
       !> State
       real(wp), intent(inout) :: y(:)
       real(wp) :: of_state(0:self%degree, problem%n), rate
-      logical :: steady, trying
+      logical :: trying
 
       rate = problem%relaxation_rate(t, y)
       trying = self%slow%holds
       if (trying) call find_slow(self, problem, t, scale, rate, evaluations, y)
       if (self%slow%holds) return
+      if (self%unit*rate > longest_unit) call shorten_unit(self, longest_unit/rate)
       self%coefficients(0, :) = y
       call problem%series(t, self%unit, self%degree, self%delayed, self%coefficients)
       evaluations = evaluations + 1
-      call series_reach(self%degree, self%coefficients, scale, self%reach, steady)
+      call series_reach(self%degree, self%coefficients, scale, self%reach)
       self%reach = self%unit*self%reach
       if (trying) return
       call self%slow%worth_a_try(rate*self%reach, trying)
@@ -85,6 +90,23 @@ contains
       call find_slow(self, problem, t, scale, rate, evaluations, y)
       if (.not. self%slow%holds) self%coefficients = of_state
    end subroutine expand
+
+   !> Another unit for the series of delayed values.
+   pure subroutine shorten_unit(self, unit)
+      !> The series
+      class(taylor_series), intent(inout) :: self
+      !> The unit
+      real(wp), intent(in) :: unit
+      real(wp) :: power
+      integer :: k
+
+      power = 1.0_wp
+      do k = 1, self%degree
+         power = power*(unit/self%unit)
+         self%delayed(k, :) = power*self%delayed(k, :)
+      end do
+      self%unit = unit
+   end subroutine shorten_unit
 
    !> Take the slow series where it holds.
    pure subroutine find_slow(self, problem, t, scale, rate, evaluations, y)

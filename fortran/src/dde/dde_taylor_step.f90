@@ -15,8 +15,9 @@ module dde_taylor_step
 
    !> Degree = this - log10(tolerance), near the one with the least cost for an accuracy: Jorba and
    !> Zou 2005, "A software package for the numerical integration of ODEs by means of high-order
-   !> Taylor methods", sec. 3.2, have 1 - ln(tolerance)/2.
-   real(wp), parameter :: degree_at_one = 5.0_wp
+   !> Taylor methods", sec. 3.2, have 1 - ln(tolerance)/2; more, since a step here costs three times
+   !> its series.
+   real(wp), parameter :: degree_at_one = 7.0_wp
    !> Lowest degree.
    integer, parameter :: lowest_degree = 6
    !> How far the series is tried as the past, in units of the length it allows its own step.
@@ -27,30 +28,25 @@ module dde_taylor_step
    !> Cost of a series over that of a right-hand side, over its degree (instructions and time of the
    !> spring block).
    real(wp), parameter :: cost_of_degree = 0.75_wp
-   !> Steps that one measurement of stiffness serves.
-   integer, parameter :: steps_a_measurement = 2
+   !> Below this share of the first term the second is small.
+   real(wp), parameter :: small = 0.1_wp
+   !> The second term of exp(x) at the limit of stability, over the square of the degree.
+   real(wp), parameter :: stability = 0.1_wp
 
    !> A step along the series from its start on.
    type, extends(step_type) :: taylor_step_type
       !> The series
       type(taylor_series), private :: series
-      !> Whether the series is that of the step before the present state
-      logical, private :: passed = .false.
-      !> Whether its stiffness will be asked for
-      logical, private :: measured = .false.
-      !> Derivatives of the right-hand side at the start by y and z
-      real(wp), allocatable, private :: by_y(:, :), by_z(:, :)
-      !> Steps since they were evaluated
-      integer, private :: since = 0
-      !> Rate of change of the highest term by them
-      real(wp), private :: rate = 0.0_wp
+      !> Where along the series the present state is; before it where its slope was evaluated
+      real(wp), private :: place = -1.0_wp
+      !> Tolerance of each component
+      real(wp), allocatable, private :: scale(:)
    contains
       procedure :: reset
       procedure :: look_ahead
       procedure :: attempt
-      procedure :: complete
       procedure :: interpolant
-      procedure :: stiffness
+      procedure :: held_back
       procedure :: advance
       procedure :: slope_here
    end type taylor_step_type
@@ -62,13 +58,11 @@ module dde_taylor_step
 contains
 
    !> Storage, and the state at the first instant.
-   pure function new_step(problem, tolerance, measured) result(step)
+   pure function new_step(problem, tolerance) result(step)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Relative or absolute tolerance, the larger
       real(wp), intent(in) :: tolerance
-      !> Whether its stiffness will be asked for
-      logical, intent(in) :: measured
       type(taylor_step_type) :: step
       integer :: degree
 
@@ -77,12 +71,11 @@ contains
       step%order = degree
       step%error_order = degree
       step%foresees = .true.
-      step%measured = measured
       step%evaluation_cost = cost_of_degree*degree
       associate (n => problem%n, delays => size(problem%lag))
          allocate (step%nodes(degree), source=0.0_wp)
          allocate (step%y(n), step%y_new(n), step%slope(n), step%z(delays, 1))
-         allocate (step%by_y(n, n), step%by_z(n, delays))
+         allocate (step%scale(n))
       end associate
       step%series = taylor_series(problem, degree)
       call problem%initial(step%y)
@@ -93,8 +86,7 @@ contains
       !> The step
       class(taylor_step_type), intent(inout) :: self
 
-      self%passed = .false.
-      self%since = 0
+      self%place = -1.0_wp
    end subroutine reset
 
    !> The series, and how long the step may be: as the series allows, and as long as the past
@@ -116,25 +108,24 @@ contains
       real(wp), intent(in) :: longest
       !> Length of the step: proposed, then possible
       real(wp), intent(inout) :: h
-      real(wp) :: past_serves, possible, scale(problem%n), unit
+      real(wp) :: past_serves, possible, unit
       logical :: passing
 
       unit = merge(min(self%ideal, growth*self%h), h, self%ideal > 0.0_wp)
-      self%passed = .false.
-      scale = absolute + relative*abs(self%y)
+      self%scale = absolute + relative*abs(self%y)
       passing = .true.
       associate (series => self%series)
          do
             series%unit = unit
             call past%series(problem, passing, series%unit, series%delayed, past_serves)
-            call series%expand(problem, t, scale, self%evaluations, self%y)
+            call series%expand(problem, t, self%scale, self%evaluations, self%y)
             possible = min(series%reach, past_serves, longest)
             call past%confirm(series%delayed, series%unit, relative, absolute, possible)
             if (possible > 0.0_wp .or. .not. passing) exit
             passing = .false.
          end do
          self%ideal = series%reach
-         self%slope = series%coefficients(1, :)/series%unit
+         self%place = 0.0_wp
       end associate
       self%serves = beyond*self%ideal
       if (self%ideal > 0.0_wp) h = possible
@@ -169,31 +160,6 @@ contains
       if (all(ieee_is_finite(self%y_new))) error = 0.0_wp
    end subroutine attempt
 
-   !> Now and then the rate of change that the highest term shows: large eigenvalues rule it,
-   !> however little of them is in the solution.
-   pure subroutine complete(self, problem, past)
-      !> The step
-      class(taylor_step_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> The past, facing this step
-      type(history_type), intent(inout) :: past
-      real(wp) :: changed(problem%n)
-      integer :: i
-
-      if (self%series%slow%holds .or. .not. self%measured) return
-      self%since = modulo(self%since, steps_a_measurement) + 1
-      if (self%since > 1) return
-      associate (last => self%series%coefficients(self%order, :))
-         call problem%jacobian(self%t, self%y, self%series%delayed(0, :), self%by_y, self%by_z)
-         changed = 0.0_wp
-         do i = 1, problem%n
-            changed = changed + self%by_y(:, i)*last(i)
-         end do
-         self%rate = maxval(abs(changed))/max(tiny(1.0_wp), maxval(abs(last)))
-      end associate
-   end subroutine complete
-
    !> The series of component `i`.
    pure subroutine interpolant(self, i, a)
       !> The step
@@ -201,7 +167,7 @@ contains
       !> Which component
       integer, intent(in) :: i
       !> Newton coefficients over `nodes`, which are all 0
-      real(wp), intent(out) :: a(0:)
+      real(wp), contiguous, intent(out) :: a(0:)
 
       real(wp) :: power
       integer :: k
@@ -216,21 +182,26 @@ contains
       end associate
    end subroutine interpolant
 
-   !> The rate at which the highest term of the series would change; none where a transient will
-   !> end soon, and on a slow solution only that which limits the step where nothing else does.
-   pure function stiffness(self) result(value)
+   !> Whether the step is much shorter than the time on which the solution changes: its second term
+   !> is small beside the first, but for what truncation, at the level of the tolerance, makes of it
+   !> in a step at the limit of stability, or in a slow series by itself.
+   pure logical function held_back(self) result(value)
       !> The step
       class(taylor_step_type), intent(in) :: self
-      real(wp) :: value
+      real(wp) :: first, second
+      integer :: i
 
-      associate (slow => self%series%slow)
-         if (slow%holds) then
-            value = merge(self%order/self%ideal, 0.0_wp, slow%steady)
-         else
-            value = merge(0.0_wp, self%rate, slow%in_transient())
-         end if
+      first = 0.0_wp
+      second = 0.0_wp
+      associate (place => self%h/self%series%unit, c => self%series%coefficients)
+         do i = 1, size(self%scale)
+            first = max(first, place*abs(c(1, i))/self%scale(i))
+            second = max(second, place**2*abs(c(2, i))/self%scale(i))
+         end do
       end associate
-   end function stiffness
+      value = second < small*first &
+              + merge(1.0_wp, stability*self%order**2, self%series%slow%holds)
+   end function held_back
 
    !> The end becomes the start.
    pure subroutine advance(self)
@@ -238,16 +209,16 @@ contains
       class(taylor_step_type), intent(inout) :: self
 
       self%y = self%y_new
-      self%passed = .true.
+      self%place = self%h
    end subroutine advance
 
-   !> After a step the derivative of its series at the end.
+   !> Along a series its derivative.
    pure function slope_here(self) result(slope)
       !> The step
       class(taylor_step_type), intent(in) :: self
       real(wp) :: slope(size(self%y))
 
       slope = self%slope
-      if (self%passed) slope = self%series%slope(self%h)
+      if (self%place >= 0.0_wp) slope = self%series%slope(self%place)
    end function slope_here
 end module dde_taylor_step

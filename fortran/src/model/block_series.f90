@@ -34,37 +34,42 @@ contains
       real(wp), intent(inout) :: y(0:degree, 3)
       !> Coefficients of v, the last first, of theta + (1 + epsilon) w(t - tau), and of unit w'
       real(wp), dimension(0:degree) :: v_back, relaxing, rate
-      real(wp) :: by_v, compliance, delayed_w, earlier, share, total, v, v_rate
+      real(wp) :: by_v, compliance, delayed_w, earlier, pull, share, theta, total, u, v, v_rate, w
       integer :: j, k
 
       if (y(0, index_of_ln_v) < least_ln_v .or. y(0, index_of_ln_v) > largest_ln_v) then
          y(1:, :) = ieee_value(1.0_wp, ieee_quiet_nan)
          return
       end if
-      v = exp(y(0, index_of_ln_v))
+      theta = y(0, index_of_theta)
+      u = y(0, index_of_u)
+      w = y(0, index_of_ln_v)
+      v = exp(w)
       v_back(degree) = v
       by_v = 1.0_wp/v
       compliance = 1.0_wp/xi
+      pull = -gamma**2*unit
       do k = 0, degree - 1
-         associate (theta => y(k, index_of_theta), u => y(k, index_of_u), &
-                    w => y(k, index_of_ln_v))
-            delayed_w = w
-            if (delays > 0) delayed_w = z(k, 1)
-            relaxing(k) = theta + (1.0_wp + epsilon)*delayed_w
-            v_rate = -gamma**2*unit*(u + compliance*(theta + w))
-         end associate
-         total = v_back(degree)*relaxing(k)
+         ! first what has been known for long: the newest terms need not wait for it
+         total = 0.0_wp
          earlier = 0.0_wp
          do j = 0, k - 1
             total = total + v_back(degree - k + j)*relaxing(j)
             earlier = earlier + v_back(degree - k + j)*rate(j)
          end do
+         delayed_w = w
+         if (delays > 0) delayed_w = z(k, 1)
+         relaxing(k) = theta + (1.0_wp + epsilon)*delayed_w
+         v_rate = pull*(u + compliance*(theta + w))
          rate(k) = by_v*(v_rate - earlier)
          share = 1.0_wp/(k + 1)
-         y(k + 1, index_of_theta) = -unit*share*total
-         y(k + 1, index_of_u) = unit*share*merge(v - 1.0_wp, v, k == 0)
-         y(k + 1, index_of_ln_v) = share*rate(k)
+         theta = -unit*share*(total + v_back(degree)*relaxing(k))
+         u = unit*share*merge(v - 1.0_wp, v, k == 0)
+         w = share*rate(k)
          v = share*v_rate
+         y(k + 1, index_of_theta) = theta
+         y(k + 1, index_of_u) = u
+         y(k + 1, index_of_ln_v) = w
          v_back(degree - k - 1) = v
       end do
    end subroutine series_of_block

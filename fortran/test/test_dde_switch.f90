@@ -1,0 +1,128 @@
+!> When `auto` leaves explicit steps: whether one along a series is held back by more than the
+!> change of the solution.
+module test_dde_switch
+   use dde, only: integrate, integration_result
+   use dde_history, only: history_type
+   use dde_problem, only: dde_problem_type
+   use dde_taylor_step, only: taylor_step_type
+   use dde_time, only: instant_at
+   use errors, only: failure_type => error_type, text
+   use expectations, only: expect, expect_success
+   use fast_problems, only: plain_block
+   use kinds, only: wp
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use solving, only: at_tolerance
+   use spring_block, only: spring_block_type
+   use undelayed_problems, only: swing
+   implicit none (type, external)
+   private
+   public :: collect_dde_switch
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_dde_switch(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("an oscillation", test_oscillation), &
+                   new_unittest("at the limit of stability", test_stability), &
+                   new_unittest("at rest", test_rest), &
+                   new_unittest("a damped oscillation", test_damped), &
+                   new_unittest("a stiff block", test_stiff)]
+   end subroutine collect_dde_switch
+
+   !> The step that the tolerance allows is not held back, a hundredth of it is.
+   subroutine test_oscillation(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer :: digits
+
+      do digits = 3, 13, 2
+         call expect(error, .not. held_back(swing(), 10.0_wp**(-digits), 1.0_wp), &
+                     "free at 1e-"//text(digits))
+         call expect(error, held_back(swing(), 10.0_wp**(-digits), 0.01_wp), &
+                     "held back at 1e-"//text(digits))
+      end do
+   end subroutine test_oscillation
+
+   !> A block without slow series, on its way to balance and within the tolerance of it.
+   subroutine test_stability(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call expect(error, held_back(near_balance(1.0e-8_wp), 1.0e-6_wp, 1.0_wp), "near balance")
+      call expect(error, .not. held_back(near_balance(1.0e-2_wp), 1.0e-6_wp, 1.0_wp), &
+                  "on the way there")
+   end subroutine test_stability
+
+   !> Where all changes are below the tolerance any step is held back.
+   subroutine test_rest(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call expect(error, held_back(near_balance(0.0_wp), 1.0e-4_wp, 1.0_wp), "at rest")
+   end subroutine test_rest
+
+   !> As long as an oscillation that dies out can be seen no implicit step is tried: it is 1e-3 at
+   !> the end.
+   subroutine test_damped(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(spring_block_type) :: problem
+      integer :: digits
+
+      problem = spring_block_type(0.0_wp, 0.3_wp, 0.8_wp, 0.8_wp, 0.0_wp, 0.0_wp, 1.1_wp)
+      do digits = 5, 11, 2
+         call integrate(problem, 0.0_wp, 400.0_wp, at_tolerance(10.0_wp**(-digits), "auto"), &
+                        outcome, failure)
+         call expect_success(error, failure)
+         call expect(error, outcome%implicit_steps == 0, "1e-"//text(digits))
+      end do
+   end subroutine test_damped
+
+   !> A stiff block without slow series is left to implicit steps soon.
+   subroutine test_stiff(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      integer :: digits
+
+      do digits = 3, 11, 2
+         call integrate(near_balance(1.0e-2_wp), 0.0_wp, 100.0_wp, &
+                        at_tolerance(10.0_wp**(-digits), "auto"), outcome, failure)
+         call expect_success(error, failure)
+         call expect(error, outcome%accepted < 600, "1e-"//text(digits)//": " &
+                     //text(outcome%accepted)//" steps")
+         call expect(error, outcome%implicit_steps > outcome%accepted/2, "most are implicit")
+      end do
+   end subroutine test_stiff
+
+   !> Whether a step from the start is held back.
+   function held_back(problem, tolerance, share) result(value)
+      !> The problem, without delays
+      class(dde_problem_type), intent(in) :: problem
+      !> Absolute tolerance
+      real(wp), intent(in) :: tolerance
+      !> Its length over that which the series allows
+      real(wp), intent(in) :: share
+      logical :: value
+      type(history_type) :: past
+      type(taylor_step_type) :: step
+      real(wp) :: estimate, length
+
+      past = history_type(problem, instant_at(0.0_wp))
+      step = taylor_step_type(problem, tolerance)
+      length = 1.0e-6_wp
+      call step%look_ahead(problem, past, 0.0_wp, 0.0_wp, tolerance, 1.0e3_wp, length)
+      call step%attempt(problem, past, 0.0_wp, share*length, 0.0_wp, tolerance, estimate)
+      value = step%held_back()
+   end function held_back
+
+   !> A block at gamma = 1000 without delay and without slow series, its w a little above balance,
+   !> sliding at rest but for that.
+   pure type(plain_block) function near_balance(above) result(problem)
+      !> How much
+      real(wp), intent(in) :: above
+
+      problem%spring_block_type = spring_block_type(0.0_wp, 0.0_wp, 1.0_wp, 1.0e3_wp, 0.0_wp, &
+                                                    0.0_wp, exp(above))
+   end function near_balance
+end module test_dde_switch
