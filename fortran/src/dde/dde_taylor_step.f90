@@ -28,9 +28,9 @@ module dde_taylor_step
    !> Cost of a series over that of a right-hand side, over its degree (instructions and time of the
    !> spring block).
    real(wp), parameter :: cost_of_degree = 0.75_wp
-   !> Below this share of the first term the second is small.
-   real(wp), parameter :: small = 0.1_wp
-   !> The second term of exp(x) at the limit of stability, over the square of the degree.
+   !> Below this share of the first term the second is small, below its square the third.
+   real(wp), parameter :: small = 0.04_wp
+   !> Somewhat more than the second term of exp(x) at the limit of stability, over the squared degree.
    real(wp), parameter :: stability = 0.1_wp
 
    !> A step along the series from its start on.
@@ -182,25 +182,24 @@ contains
       end associate
    end subroutine interpolant
 
-   !> Whether the step is much shorter than the time on which the solution changes: its second term
-   !> is small beside the first, but for what truncation, at the level of the tolerance, makes of it
-   !> in a step at the limit of stability, or in a slow series by itself.
+   !> Whether the step is much shorter than the time on which the solution changes: its second and
+   !> third terms are small beside the first, but for what truncation, at the level of the tolerance,
+   !> makes of them in a step at the limit of stability, or in a slow series by itself.
    pure logical function held_back(self) result(value)
       !> The step
       class(taylor_step_type), intent(in) :: self
-      real(wp) :: first, second
+      real(wp) :: place, terms(3), truncation(2:3)
       integer :: i
 
-      first = 0.0_wp
-      second = 0.0_wp
-      associate (place => self%h/self%series%unit, c => self%series%coefficients)
-         do i = 1, size(self%scale)
-            first = max(first, place*abs(c(1, i))/self%scale(i))
-            second = max(second, place**2*abs(c(2, i))/self%scale(i))
-         end do
-      end associate
-      value = second < small*first &
-              + merge(1.0_wp, stability*self%order**2, self%series%slow%holds)
+      place = self%h/self%series%unit
+      terms = 0.0_wp
+      do i = 1, size(self%scale)
+         terms = max(terms, abs(self%series%coefficients(1:3, i))/self%scale(i))
+      end do
+      terms = terms*[place, place**2, place**3]
+      truncation = [1.0_wp, 1.0_wp]
+      if (.not. self%series%slow%holds) truncation = stability*self%order**[2, 3]/[1, 6]
+      value = all(terms(2:) < small**[1, 2]*terms(1) + truncation)
    end function held_back
 
    !> The end becomes the start.
