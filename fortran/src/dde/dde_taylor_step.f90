@@ -30,7 +30,7 @@ module dde_taylor_step
    real(wp), parameter :: cost_of_degree = 0.75_wp
    !> Below this share of the first term the second is small, below its square the third.
    real(wp), parameter :: small = 0.04_wp
-   !> Somewhat more than the second term of exp(x) at the limit of stability, over the squared degree.
+   !> A little more than the second term of exp(x) at the limit of stability, over degree squared.
    real(wp), parameter :: stability = 0.1_wp
 
    !> A step along the series from its start on.
@@ -183,8 +183,8 @@ contains
    end subroutine interpolant
 
    !> Whether the step is much shorter than the time on which the solution changes: its second and
-   !> third terms are small beside the first, but for what truncation, at the level of the tolerance,
-   !> makes of them in a step at the limit of stability, or in a slow series by itself.
+   !> third terms are small beside the first, but for what truncation, at the level of the
+   !> tolerance, makes of them in a step at the limit of stability, or in a slow series by itself.
    pure logical function held_back(self) result(value)
       !> The step
       class(taylor_step_type), intent(in) :: self
