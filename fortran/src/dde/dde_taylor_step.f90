@@ -188,18 +188,28 @@ contains
    pure logical function held_back(self) result(value)
       !> The step
       class(taylor_step_type), intent(in) :: self
-      real(wp) :: place, terms(3), truncation(2:3)
+      real(wp) :: first, of_second, of_third, place, second, third, weight
       integer :: i
 
       place = self%h/self%series%unit
-      terms = 0.0_wp
-      do i = 1, size(self%scale)
-         terms = max(terms, abs(self%series%coefficients(1:3, i))/self%scale(i))
-      end do
-      terms = terms*[place, place**2, place**3]
-      truncation = [1.0_wp, 1.0_wp]
-      if (.not. self%series%slow%holds) truncation = stability*self%order**[2, 3]/[1, 6]
-      value = all(terms(2:) < small**[1, 2]*terms(1) + truncation)
+      first = 0.0_wp
+      second = 0.0_wp
+      third = 0.0_wp
+      associate (c => self%series%coefficients)
+         do i = 1, size(self%scale)
+            weight = place/self%scale(i)
+            first = max(first, weight*abs(c(1, i)))
+            second = max(second, weight*place*abs(c(2, i)))
+            third = max(third, weight*place**2*abs(c(3, i)))
+         end do
+      end associate
+      of_second = 1.0_wp
+      of_third = 1.0_wp
+      if (.not. self%series%slow%holds) then
+         of_second = stability*self%order**2
+         of_third = of_second*self%order/6
+      end if
+      value = second < small*first + of_second .and. third < small**2*first + of_third
    end function held_back
 
    !> The end becomes the start.
