@@ -23,7 +23,7 @@ module dde_implicit_step
    !> Below this, an explicit step may be as long: times the norm of the Jacobian.
    real(wp), parameter :: worth_returning = 8.0_wp
    !> Cost of an evaluation within this method over one within the explicit pair.
-   real(wp), parameter :: implicit_cost = 3.2_wp
+   real(wp), parameter :: implicit_cost = 4.0_wp
 
    !> Stages and factors of the current step.
    type, extends(step_type) :: implicit_step_type
