@@ -99,7 +99,7 @@ def draw_errors(axes: Axes, rows: list[dict], methods: list[str]) -> None:
         xscale="log",
         yscale="log",
         xlim=(4e-10, None),
-        ylim=(1e-16, 10),
+        ylim=(1e-16, 1e3),
         xlabel=r"tolerance $\times$ amplification of a disturbance",
         ylabel="largest error",
     )
