@@ -1,10 +1,11 @@
 !> The method by Taylor series: its series, the length of its steps, the past it reads and leaves,
 !> and when `auto` takes it.
 module test_dde_taylor
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use dde, only: continuation_type, integrate, integration_options, integration_result, &
                   step_underflow, value_not_finite
    use dde_history, only: history_type
+   use dde_taylor_series, only: taylor_series
    use dde_taylor_step, only: taylor_step_type
    use dde_time, only: instant_at
    use errors, only: failure_type => error_type, text
@@ -32,6 +33,7 @@ contains
 
       testsuite = [new_unittest("order", test_order), &
                    new_unittest("length of a step", test_length), &
+                   new_unittest("slope", test_slope), &
                    new_unittest("series of the block", test_block_series), &
                    new_unittest("piecewise polynomials", test_polynomials), &
                    new_unittest("a history that varies", test_sine), &
@@ -80,6 +82,21 @@ contains
                            1.0e-12_wp, "length at degree "//text(degree))
       end do
    end subroutine test_length
+
+   !> 1 + 3 s - 2 s^2 in powers of half a unit of time; what later terms are does not matter at 0.
+   subroutine test_slope(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(taylor_series) :: series
+
+      series%degree = 3
+      series%unit = 0.5_wp
+      allocate (series%coefficients(0:3, 1))
+      series%coefficients(:, 1) = [1.0_wp, 3.0_wp, -2.0_wp, 0.0_wp]
+      call expect_close(error, series%slope(0.0_wp), [6.0_wp], 1.0e-15_wp, "at the start")
+      call expect_close(error, series%slope(0.25_wp), [2.0_wp], 1.0e-15_wp, "in the middle")
+      series%coefficients(3, 1) = ieee_value(1.0_wp, ieee_quiet_nan)
+      call expect_close(error, series%slope(0.0_wp), [6.0_wp], 1.0e-15_wp, "where one is no number")
+   end subroutine test_slope
 
    !> One step of y' = y^2 from y(0) = 1.
    subroutine take_step(tolerance, h, step, allowed)

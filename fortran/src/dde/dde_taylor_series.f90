@@ -156,6 +156,9 @@ contains
       real(wp) :: value(size(self%coefficients, 2))
       integer :: k
 
+      value = self%coefficients(1, :)/self%unit
+      ! at the start it is known even where later terms are not finite
+      if (.not. time > 0.0_wp) return
       value = 0.0_wp
       do k = self%degree, 1, -1
          value = k*self%coefficients(k, :) + (time/self%unit)*value
