@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import sys
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -87,6 +88,14 @@ class Project:
         return {n: timeless(path) for n, path in names.items() if not n.startswith(changing)}
 
 
+def wait_for(path: Path) -> None:
+    """Return when a file is there."""
+    end = time.monotonic() + 60
+    while not path.exists():
+        assert time.monotonic() < end
+        time.sleep(0.01)
+
+
 @dataclass
 class Programs:
     """The built programs, run by hand in one folder."""
@@ -108,6 +117,17 @@ class Programs:
             text=True,
             timeout=60,
         )
+
+    def start(self, program: str, **options) -> subprocess.Popen:
+        """A run in the background; the options are those of Popen."""
+        command = [self.binaries / program, "input.nml", self.output.name]
+        return subprocess.Popen(command, cwd=self.folder, **options)
+
+    def begin(self, program: str, **options) -> subprocess.Popen:
+        """A run in the background that has begun to write."""
+        run = self.start(program, **options)
+        wait_for(self.output.with_name(f"{self.output.name}.part"))
+        return run
 
     def run_with(self, program: str, values: dict) -> subprocess.CompletedProcess[str]:
         """Run a program with a namelist of these values."""

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from conftest import GROUPS, SMOKE, Programs, Project
+from conftest import GROUPS, SMOKE, Programs, Project, wait_for
 from write_namelist import write_namelist
 
 SNAKEMAKE = Path(sys.executable).parent / "snakemake"
@@ -26,31 +26,12 @@ def heed_interrupts() -> Iterator[None]:
     signal.signal(signal.SIGINT, before)
 
 
-def wait_for(path: Path) -> None:
-    """Return when a file is there."""
-    end = time.monotonic() + 60
-    while not path.exists():
-        assert time.monotonic() < end
-        time.sleep(0.01)
-
-
 @pytest.fixture
 def half_long(programs, good_inputs) -> Programs:
-    """Programs beside the namelist of a trajectory of less than a second."""
-    values = {**good_inputs["trajectory"], "t_end": 1e5}
+    """Programs beside the namelist of a trajectory of about a second."""
+    values = {**good_inputs["trajectory"], "t_end": 4e5}
     write_namelist(programs.folder / "input.nml", GROUPS["trajectory"], values)
     return programs
-
-
-def begun(programs: Programs) -> subprocess.Popen[bytes]:
-    """A program that has begun to write."""
-    run = subprocess.Popen(
-        [programs.binaries / "trajectory", "input.nml", "output.nc"],
-        cwd=programs.folder,
-        stderr=subprocess.DEVNULL,
-    )
-    wait_for(programs.folder / "output.nc.part")
-    return run
 
 
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGKILL])
@@ -59,13 +40,13 @@ def test_program_that_is_killed_at_any_moment(half_long, how):
     assert half_long.run("trajectory", "input.nml", "output.nc").returncode == 0
     whole = half_long.output.read_bytes()
     for seconds in (0.0, 0.03, 0.1):
-        run = begun(half_long)
+        run = half_long.begin("trajectory")
         time.sleep(seconds)
         run.send_signal(how)
         assert run.wait() == -how
         assert half_long.output.read_bytes() == whole
     half_long.output.unlink()
-    run = begun(half_long)
+    run = half_long.begin("trajectory")
     run.send_signal(how)
     assert run.wait() == -how
     assert not half_long.output.exists()
@@ -76,15 +57,9 @@ def test_program_that_is_killed_at_any_moment(half_long, how):
 
 def test_last_of_two_runs_wins(half_long):
     """The program of a workflow that was killed may still run: it gives way, in words."""
-    first = subprocess.Popen(
-        [half_long.binaries / "trajectory", "input.nml", "output.nc"],
-        cwd=half_long.folder,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-    wait_for(half_long.folder / "output.nc.part")
+    first = half_long.begin("trajectory", stderr=subprocess.PIPE, text=True)
     os.kill(first.pid, signal.SIGSTOP)
-    second = begun(half_long)
+    second = half_long.begin("trajectory")
     os.kill(first.pid, signal.SIGCONT)
     assert second.wait(timeout=60) == 0
     assert first.communicate(timeout=60)[1].splitlines()[-1] == (

@@ -3,7 +3,10 @@
 import os
 import pty
 import re
+import signal
 import subprocess
+import time
+from typing import IO
 
 import pytest
 from conftest import GROUPS, SMOKE, Programs
@@ -17,17 +20,26 @@ CLEARED = "\r\x1b[K"
 
 @pytest.fixture
 def long_run(programs, good_inputs) -> Programs:
-    """Programs beside the namelist of a trajectory of several seconds."""
+    """Programs beside the namelist of a trajectory of about a second."""
     long = {**good_inputs["trajectory"], "t_end": 1e6, "sample_interval": 0.5, "variables": ["v"]}
     write_namelist(programs.folder / "input.nml", GROUPS["trajectory"], long)
     return programs
 
 
-def on_a_terminal(programs: Programs, program: str) -> tuple[int, str]:
-    """Exit status of a program whose standard error is a terminal, and all that it receives."""
+def held_up_run(programs: Programs, stderr: int | IO[str]) -> subprocess.Popen[str]:
+    """A trajectory that was stopped until it has something to say, on a fast machine too."""
+    run = programs.begin("trajectory", stderr=stderr, text=True)
+    time.sleep(0.1)
+    run.send_signal(signal.SIGSTOP)
+    time.sleep(2.5)
+    run.send_signal(signal.SIGCONT)
+    return run
+
+
+def on_a_terminal(programs: Programs, *, held_up: bool) -> tuple[int, str]:
+    """Exit status of a trajectory whose standard error is a terminal, and what that receives."""
     ours, theirs = pty.openpty()
-    command = [programs.binaries / program, "input.nml", "output.nc"]
-    run = subprocess.Popen(command, cwd=programs.folder, stderr=theirs)
+    run = held_up_run(programs, theirs) if held_up else programs.start("trajectory", stderr=theirs)
     os.close(theirs)
     received = b""
     try:
@@ -48,9 +60,9 @@ def numbers_in(lines: list[str]) -> list[tuple[int, int, int]]:
 
 def test_log_gets_a_line_every_five_per_cent(long_run):
     """Done and total make the per cent; the last line says how long it took."""
-    run = long_run.run("trajectory", "input.nml", "output.nc")
-    assert (run.returncode, run.stdout) == (0, "")
-    lines = run.stderr.splitlines()
+    run = held_up_run(long_run, subprocess.PIPE)
+    lines = run.communicate(timeout=60)[1].splitlines()
+    assert run.returncode == 0
     told = numbers_in(lines)
     assert len(told) >= 2
     assert [percent // 5 for percent, *_ in told] == list(range(21 - len(told), 21))
@@ -61,7 +73,7 @@ def test_log_gets_a_line_every_five_per_cent(long_run):
 
 def test_terminal_gets_one_line_that_is_cleared(long_run):
     """Each text overwrites the one before and fits; at the end none is left."""
-    status, received = on_a_terminal(long_run, "trajectory")
+    status, received = on_a_terminal(long_run, held_up=True)
     assert status == 0
     assert received.endswith(CLEARED)
     assert "\n" not in received
@@ -75,15 +87,14 @@ def test_terminal_gets_one_line_that_is_cleared(long_run):
 def test_short_program_says_nothing(programs, good_inputs):
     """On a terminal either."""
     programs.made_by("trajectory", good_inputs["trajectory"])
-    assert on_a_terminal(programs, "trajectory") == (0, "")
+    assert on_a_terminal(programs, held_up=False) == (0, "")
 
 
 def test_standard_error_that_takes_nothing_does_not_stop_the_work(long_run):
     """A log on a full disk: the result is whole."""
-    command = [long_run.binaries / "trajectory", "input.nml", "output.nc"]
     with open("/dev/full", "w") as full:
-        run = subprocess.run(command, cwd=long_run.folder, stderr=full, timeout=60)
-    assert run.returncode == 0
+        run = held_up_run(long_run, full)
+    assert run.wait(timeout=60) == 0
     assert long_run.left_behind() == ["output.nc"]
 
 
