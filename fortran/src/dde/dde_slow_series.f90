@@ -92,15 +92,12 @@ contains
          evaluations = evaluations + 1
          call series_reach(degree, y, scale, self%reach)
          if (.not. self%reach*unit*rate >= least_balance) return
-         if (iteration == 1) then
-            ! what the next iteration would change: y'/rate at most
-            do k = 0, degree - 1
-               change(k, :) = (k + 1)/(unit*rate)*y(k + 1, :)
-            end do
-            change(degree, :) = 0.0_wp
-         else
-            change = y - change
-         end if
+         change = y - change
+         ! what the next iteration would change: by the last one's, w'/rate
+         do k = 0, degree - 1
+            change(k, :) = (k + 1)/(unit*rate)*change(k + 1, :)
+         end do
+         change(degree, :) = 0.0_wp
          open = largest_term(degree, problem%n, change, scale, self%reach)
          distance = maxval(abs(y(0, :) - state)/scale)
          if (distance > transient + 2*open) then

@@ -74,7 +74,7 @@ contains
       end do
    end subroutine series_of_block
 
-   !> A better series of the slow solution: w = -theta - xi u - (xi/gamma^2) v' with v' as it was,
+   !> A better series of the slow solution: w = -theta - xi u - (xi/gamma^2) v' with v as it was,
    !> and theta and u by (4).
    pure subroutine slow_series_of_block(epsilon, xi, gamma, unit, degree, delays, z, y)
       !> Sensitivity of the velocity relaxation
@@ -93,60 +93,73 @@ contains
       real(wp), intent(in) :: z(0:degree, delays)
       !> Coefficients of theta, u, w as they were; better ones
       real(wp), intent(inout) :: y(0:degree, 3)
-      !> Coefficients of w, of v, of theta + (1 + epsilon) w(t - tau), and of unit v' as it was
-      real(wp), dimension(0:degree) :: w, v, relaxing, v_rate
-      real(wp) :: inertia, share, total
+      !> Coefficients of v, the last first, of theta + (1 + epsilon) w(t - tau), of unit w', and of
+      !> unit v' as it was
+      real(wp), dimension(0:degree) :: v_back, relaxing, rate, v_rate
+      real(wp) :: delayed_w, earlier, inertia, share, theta, total, u, v, v_first, w
       integer :: j, k
 
-      w = y(:, index_of_ln_v)
-      v_rate = 0.0_wp
-      v(0) = exp(min(w(0), largest_ln_v))
-      do k = 1, degree
-         v(k) = term_of_exponential(k, w(1:k), v(:k - 1))
-         v_rate(k - 1) = k*v(k)
-      end do
+      call rate_as_it_was(unit, degree, y, v_rate)
       inertia = xi/(gamma**2*unit)
+      theta = y(0, index_of_theta)
+      u = y(0, index_of_u)
+      w = -theta - xi*u - inertia*v_rate(0)
+      if (.not. (w >= least_ln_v .and. w <= largest_ln_v)) then
+         y = ieee_value(1.0_wp, ieee_quiet_nan)
+         return
+      end if
+      v_first = exp(w)
+      v = v_first
       do k = 0, degree
-         w(k) = -y(k, index_of_theta) - xi*y(k, index_of_u) - inertia*v_rate(k)
-         if (k == 0) then
-            if (w(0) < least_ln_v .or. w(0) > largest_ln_v) exit
-            v(0) = exp(w(0))
-         else
-            v(k) = term_of_exponential(k, w(1:k), v(:k - 1))
-         end if
-         if (k == degree) then
-            y(:, index_of_ln_v) = w
-            return
-         end if
-         relaxing(k) = w(k)
-         if (delays > 0) relaxing(k) = z(k, 1)
-         relaxing(k) = y(k, index_of_theta) + (1.0_wp + epsilon)*relaxing(k)
+         ! first what has been known for long, as above
          total = 0.0_wp
-         do j = 0, k
-            total = total + v(k - j)*relaxing(j)
+         earlier = 0.0_wp
+         do j = 1, k - 1
+            total = total + v_back(degree - k + j)*relaxing(j)
+            earlier = earlier + v_back(degree - k + j)*rate(j - 1)
          end do
+         if (k > 0) then
+            w = -theta - xi*u - inertia*v_rate(k)
+            rate(k - 1) = k*w
+            v = (earlier + v_first*rate(k - 1))/k
+         end if
+         y(k, index_of_theta) = theta
+         y(k, index_of_u) = u
+         y(k, index_of_ln_v) = w
+         v_back(degree - k) = v
+         delayed_w = w
+         if (delays > 0) delayed_w = z(k, 1)
+         relaxing(k) = theta + (1.0_wp + epsilon)*delayed_w
+         total = total + v_first*relaxing(k)
+         if (k > 0) total = total + v*relaxing(0)
          share = unit/(k + 1)
-         y(k + 1, index_of_theta) = -share*total
-         y(k + 1, index_of_u) = share*merge(v(0) - 1.0_wp, v(k), k == 0)
+         theta = -share*total
+         u = share*merge(v - 1.0_wp, v, k == 0)
       end do
-      y = ieee_value(1.0_wp, ieee_quiet_nan)
    end subroutine slow_series_of_block
 
-   !> Coefficient k of v = exp(w): v' = w' v.
-   pure function term_of_exponential(k, w, v) result(term)
-      !> Which, > 0
-      integer, intent(in) :: k
-      !> Coefficients of w, the first left out
-      real(wp), intent(in) :: w(k)
-      !> Coefficients of v below k
-      real(wp), intent(in) :: v(0:k - 1)
-      real(wp) :: term
-      integer :: j
+   !> Coefficients of unit v', by u' = v - 1; the last that is known, for which those of u do not
+   !> suffice, by v' = w' v.
+   pure subroutine rate_as_it_was(unit, degree, y, v_rate)
+      !> Unit of time of the powers
+      real(wp), intent(in) :: unit
+      !> Degree of the series
+      integer, intent(in) :: degree
+      !> Coefficients of theta, u, w
+      real(wp), intent(in) :: y(0:degree, 3)
+      !> Those of unit v', the last 0
+      real(wp), intent(out) :: v_rate(0:degree)
+      integer :: k
 
-      term = 0.0_wp
-      do j = 1, k
-         term = term + j*w(j)*v(k - j)
+      v_rate(degree - 1:) = 0.0_wp
+      do k = 0, degree - 2
+         v_rate(k) = (k + 1)*(k + 2)/unit*y(k + 2, index_of_u)
       end do
-      term = term/k
-   end function term_of_exponential
+      associate (w => y(:, index_of_ln_v), last => v_rate(degree - 1))
+         last = degree*w(degree + 1)*exp(min(w(1), largest_ln_v))
+         do k = 1, degree - 1
+            last = last + k*w(k + 1)*v_rate(degree - k - 1)/(degree - k)
+         end do
+      end associate
+   end subroutine rate_as_it_was
 end module block_series
