@@ -28,7 +28,9 @@ contains
                    new_unittest("at the limit of stability", test_stability), &
                    new_unittest("at rest", test_rest), &
                    new_unittest("a damped oscillation", test_damped), &
-                   new_unittest("a stiff block", test_stiff)]
+                   new_unittest("a stiff block", test_stiff), &
+                   new_unittest("near the end", test_end), &
+                   new_unittest("vain tries", test_vain)]
    end subroutine collect_dde_switch
 
    !> The step that the tolerance allows is not held back, a hundredth of it is.
@@ -94,6 +96,42 @@ contains
          call expect(error, outcome%implicit_steps > outcome%accepted/2, "most are implicit")
       end do
    end subroutine test_stiff
+
+   !> Where few explicit steps are left no implicit one is tried, however much they are held back.
+   subroutine test_end(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      real(wp), parameter :: t_end(2) = [2.0e-4_wp, 2.0e-2_wp]
+      integer :: i
+
+      do i = 1, size(t_end)
+         call integrate(near_balance(1.0e-8_wp), 0.0_wp, t_end(i), &
+                        at_tolerance(1.0e-6_wp, "auto"), outcome, failure)
+         call expect_success(error, failure)
+         call expect(error, outcome%implicit_steps > 0 .eqv. i == 2, text(outcome%implicit_steps) &
+                     //" of "//text(outcome%accepted)//" steps to "//text(t_end(i)))
+      end do
+   end subroutine test_end
+
+   !> Between the slips of a block at gamma = 0.8 an implicit step is hardly longer than one along
+   !> the series: a try is given up after three or a few more.
+   subroutine test_vain(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      integer :: digits
+
+      do digits = 5, 7
+         call integrate(spring_block_type(0.0_wp, 0.7_wp, 0.5_wp, 0.8_wp, 0.0_wp, 0.0_wp, &
+                                          1.1_wp), 0.0_wp, 300.0_wp, &
+                        at_tolerance(10.0_wp**(-digits), "auto"), outcome, failure)
+         call expect_success(error, failure)
+         call expect(error, outcome%switches > 0, "a try at 1e-"//text(digits))
+         call expect(error, outcome%implicit_steps <= 2*outcome%switches, text(outcome%implicit_steps) &
+                     //" implicit steps, "//text(outcome%switches)//" changes of method")
+      end do
+   end subroutine test_vain
 
    !> Whether a step from the start is held back.
    function held_back(problem, tolerance, share) result(value)

@@ -13,7 +13,7 @@ module dde_integrator
    use dde_run, only: run_type
    use dde_sampler, only: sampler_type
    use dde_switch, only: switch_type
-   use dde_time, only: instant, later
+   use dde_time, only: elapsed, instant, later
    use errors, only: error_type
    use kinds, only: wp
    implicit none (type, external)
@@ -97,7 +97,8 @@ contains
          end if
          other = .false.
          if (automatic) then
-            call switch%wanted(problem, run%step, minval(problem%lag), h, other)
+            call switch%wanted(problem, run%step, minval(problem%lag), h, &
+                               elapsed(step_end, run%points(size(run%points))%at), other)
          end if
          call run%step%advance()
          run%now = step_end

@@ -19,9 +19,14 @@ module dde_switch
    !> Votes that it takes to leave the explicit method, two from each step that speaks for it and
    !> one back from each that does not: at first, how much more after a vain try, and at most.
    integer, parameter :: least_patience = 8, less_willing = 2, most_patience = 128
-   !> The pace of the implicit method is taken over this many steps, the first time after as many
-   !> that it needs to grow them.
+   !> It is left only if explicit steps as they are would cost more than this up to the end of the
+   !> run, twice what a vain try may cost.
+   real(wp), parameter :: worth_a_try = 700.0_wp
+   !> The pace of the implicit method is taken over this many steps; the first few grow.
    integer, parameter :: window = 6
+   !> They have grown once the next is no longer than this times the step, after so many at least.
+   real(wp), parameter :: growing = 1.2_wp
+   integer, parameter :: least_grown = 3
 
    !> Evidence for a change of method.
    type :: switch_type
@@ -33,7 +38,7 @@ module dde_switch
       integer :: steps_to_return = least_to_return
       !> Evaluations when that window began
       integer(int64) :: evaluations_then = 0
-      !> Implicit steps, or those on trial, since the method began
+      !> Steps since the method, or the present votes, began
       integer :: steps = 0
       !> Time gone in the present window
       real(wp) :: gone = 0.0_wp
@@ -49,7 +54,7 @@ module dde_switch
 contains
 
    !> Whether the method other than that of the accepted `step` should take over.
-   pure subroutine wanted(self, problem, step, shortest_delay, h_next, other)
+   pure subroutine wanted(self, problem, step, shortest_delay, h_next, left, other)
       !> Evidence so far
       class(switch_type), intent(inout) :: self
       !> The problem
@@ -60,6 +65,8 @@ contains
       real(wp), intent(in) :: shortest_delay
       !> Length that step control proposes for the next step
       real(wp), intent(in) :: h_next
+      !> Time left to the end of the run
+      real(wp), intent(in) :: left
       !> The answer
       logical, intent(out) :: other
       logical :: delay_limits
@@ -68,12 +75,13 @@ contains
       delay_limits = h_next/merge(beyond_with_series, beyond_the_delay, problem%analytic) &
                      > shortest_delay
       self%gone = self%gone + step%h
-      if (step%implicit .or. self%on_trial) self%steps = self%steps + 1
+      self%steps = self%steps + 1
       pace = self%gone &
              /(step%evaluation_cost*max(1_int64, step%evaluations - self%evaluations_then))
       if (step%implicit) then
          call judge_implicit(self, step%mild() .and. .not. delay_limits, &
-                             in_balance(problem, step) .and. .not. delay_limits, pace, other)
+                             in_balance(problem, step) .and. .not. delay_limits, &
+                             step%h, h_next, pace, other)
       else if (self%on_trial) then
          other = self%steps == window .and. pace < self%implicit_pace
          self%on_trial = self%steps < window
@@ -84,13 +92,14 @@ contains
       else
          self%votes = merge(self%votes + 2, max(0, self%votes - 1), &
                             step%held_back() .or. delay_limits)
-         other = self%votes >= self%patience
+         ! vain searches for a slow series are no cost of later steps
+         if (step%foresees) pace = self%gone/(step%evaluation_cost*self%steps)
+         other = self%votes >= self%patience .and. left > worth_a_try*pace
          if (other) self%explicit_pace = pace
       end if
       if (other) self%votes = 0
-      if (other) self%steps = 0
-      if (other .or. modulo(self%steps, window) == 0 .and. step%implicit &
-          .or. self%votes == 0 .and. .not. (step%implicit .or. self%on_trial)) then
+      if (other .or. self%votes == 0 .and. .not. (step%implicit .or. self%on_trial)) self%steps = 0
+      if (self%steps == 0 .or. step%implicit .and. modulo(self%steps, window) == 0) then
          self%gone = 0.0_wp
          self%evaluations_then = step%evaluations
       end if
@@ -98,25 +107,35 @@ contains
 
    !> Whether a step of the implicit method is the last before a return: where a step of the other
    !> may be as long, and where it makes less than the other did.
-   pure subroutine judge_implicit(self, mild, balanced, pace, other)
+   pure subroutine judge_implicit(self, mild, balanced, h, h_next, pace, other)
       !> Evidence so far
       class(switch_type), intent(inout) :: self
       !> Whether the step is no longer than an explicit one might be
       logical, intent(in) :: mild
       !> Whether a slow series might serve it
       logical, intent(in) :: balanced
+      !> Its length
+      real(wp), intent(in) :: h
+      !> Length proposed for the next
+      real(wp), intent(in) :: h_next
       !> Time per cost in the present window
       real(wp), intent(in) :: pace
       !> The answer
       logical, intent(out) :: other
+      logical :: slower
 
       self%votes = merge(self%votes + 1, 0, mild .or. balanced)
       other = self%votes >= merge(least_to_return, self%steps_to_return, mild)
       self%on_trial = other .and. .not. mild
       if (self%on_trial) self%implicit_pace = pace
-      if (modulo(self%steps, window) == 0 .and. self%steps > window) then
-         other = other .or. pace < self%explicit_pace
+      if (self%steps <= window) then
+         ! the pace that steps of the present length would make
+         slower = pace*h*self%steps/self%gone < self%explicit_pace &
+                  .and. self%steps >= least_grown .and. h_next <= growing*h
+      else
+         slower = pace < self%explicit_pace .and. modulo(self%steps, window) == 0
       end if
+      other = other .or. slower
       if (other) then
          self%patience = merge(least_patience, min(less_willing*self%patience, most_patience), &
                                pace > self%explicit_pace .and. self%steps > window)
