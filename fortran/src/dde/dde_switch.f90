@@ -76,14 +76,13 @@ contains
                      > shortest_delay
       self%gone = self%gone + step%h
       self%steps = self%steps + 1
-      pace = self%gone &
-             /(step%evaluation_cost*max(1_int64, step%evaluations - self%evaluations_then))
       if (step%implicit) then
          call judge_implicit(self, step%mild() .and. .not. delay_limits, &
                              in_balance(problem, step) .and. .not. delay_limits, &
-                             step%h, h_next, pace, other)
+                             step%h, h_next, pace_of(self, step), other)
       else if (self%on_trial) then
-         other = self%steps == window .and. pace < self%implicit_pace
+         other = self%steps == window
+         if (other) other = pace_of(self, step) < self%implicit_pace
          self%on_trial = self%steps < window
          if (.not. self%on_trial) then
             self%steps_to_return = merge(min(less_returning*self%steps_to_return, most_to_return), &
@@ -92,10 +91,14 @@ contains
       else
          self%votes = merge(self%votes + 2, max(0, self%votes - 1), &
                             step%held_back() .or. delay_limits)
-         ! vain searches for a slow series are no cost of later steps
-         if (step%foresees) pace = self%gone/(step%evaluation_cost*self%steps)
-         other = self%votes >= self%patience .and. left > worth_a_try*pace
-         if (other) self%explicit_pace = pace
+         other = self%votes >= self%patience
+         if (other) then
+            ! vain searches for a slow series are no cost of later steps
+            pace = merge(self%gone/(step%evaluation_cost*self%steps), pace_of(self, step), &
+                         step%foresees)
+            other = left > worth_a_try*pace
+            if (other) self%explicit_pace = pace
+         end if
       end if
       if (other) self%votes = 0
       if (other .or. self%votes == 0 .and. .not. (step%implicit .or. self%on_trial)) self%steps = 0
@@ -104,6 +107,17 @@ contains
          self%evaluations_then = step%evaluations
       end if
    end subroutine wanted
+
+   !> Time per cost in the present window.
+   pure real(wp) function pace_of(self, step) result(pace)
+      !> Evidence so far
+      class(switch_type), intent(in) :: self
+      !> The last step
+      class(step_type), intent(in) :: step
+
+      pace = self%gone &
+             /(step%evaluation_cost*max(1_int64, step%evaluations - self%evaluations_then))
+   end function pace_of
 
    !> Whether a step of the implicit method is the last before a return: where a step of the other
    !> may be as long, and where it makes less than the other did.
