@@ -128,8 +128,9 @@ contains
                         at_tolerance(10.0_wp**(-digits), "auto"), outcome, failure)
          call expect_success(error, failure)
          call expect(error, outcome%switches > 0, "a try at 1e-"//text(digits))
-         call expect(error, outcome%implicit_steps <= 2*outcome%switches, text(outcome%implicit_steps) &
-                     //" implicit steps, "//text(outcome%switches)//" changes of method")
+         call expect(error, outcome%implicit_steps <= 2*outcome%switches, &
+                     text(outcome%implicit_steps)//" implicit steps, " &
+                     //text(outcome%switches)//" changes of method")
       end do
    end subroutine test_vain
 
