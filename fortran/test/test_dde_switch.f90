@@ -1,7 +1,7 @@
 !> When `auto` leaves explicit steps: whether one along a series is held back by more than the
 !> change of the solution.
 module test_dde_switch
-   use dde, only: integrate, integration_result
+   use dde, only: continuation_type, integrate, integration_result
    use dde_history, only: history_type
    use dde_problem, only: dde_problem_type
    use dde_taylor_step, only: taylor_step_type
@@ -97,11 +97,13 @@ contains
       end do
    end subroutine test_stiff
 
-   !> Where few explicit steps are left no implicit one is tried, however much they are held back.
+   !> Where few explicit steps are left no implicit one is tried, however much they are held back,
+   !> unless the run may go on.
    subroutine test_end(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
+      type(continuation_type) :: kept
       real(wp), parameter :: t_end(2) = [2.0e-4_wp, 2.0e-2_wp]
       integer :: i
 
@@ -112,6 +114,10 @@ contains
          call expect(error, outcome%implicit_steps > 0 .eqv. i == 2, text(outcome%implicit_steps) &
                      //" of "//text(outcome%accepted)//" steps to "//text(t_end(i)))
       end do
+      call integrate(near_balance(1.0e-8_wp), 0.0_wp, t_end(1), at_tolerance(1.0e-6_wp, "auto"), &
+                     outcome, failure, continuation=kept)
+      call expect_success(error, failure)
+      call expect(error, outcome%implicit_steps > 0, "none in a run that may go on")
    end subroutine test_end
 
    !> Between the slips of a block at gamma = 0.8 an implicit step is hardly longer than one along

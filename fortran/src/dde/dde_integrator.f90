@@ -49,7 +49,7 @@ contains
       type(controller_type) :: control
       type(switch_type) :: switch
       type(instant) :: step_end
-      real(wp) :: error_estimate, h, longest
+      real(wp) :: error_estimate, h, left, longest
       logical :: automatic, ended, landing, other
 
       call check(problem, t_start, t_end, options, error, sampler, watcher, continuation)
@@ -97,8 +97,12 @@ contains
          end if
          other = .false.
          if (automatic) then
-            call switch%wanted(problem, run%step, minval(problem%lag), h, &
-                               elapsed(step_end, run%points(size(run%points))%at), other)
+            ! a run that may go on has no end yet
+            left = huge(1.0_wp)
+            if (.not. present(continuation)) then
+               left = elapsed(step_end, run%points(size(run%points))%at)
+            end if
+            call switch%wanted(problem, run%step, minval(problem%lag), h, left, other)
          end if
          call run%step%advance()
          run%now = step_end

@@ -65,7 +65,7 @@ contains
       real(wp), intent(in) :: shortest_delay
       !> Length that step control proposes for the next step
       real(wp), intent(in) :: h_next
-      !> Time left to the end of the run
+      !> Time left to the end of the run, as far as there is one
       real(wp), intent(in) :: left
       !> The answer
       logical, intent(out) :: other
