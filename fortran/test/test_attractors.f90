@@ -144,7 +144,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(attractor_type) :: found
 
-      call find(disturbed(7.0_wp, 0.7_wp, 0.5_wp), after(1000.0_wp, 2000.0_wp), chaos, found, error)
+      call find(disturbed(7.0_wp, 0.7_wp, 0.5_wp), after(1000.0_wp, 4000.0_wp), chaos, found, error)
       if (allocated(error)) return
       call expect_between(error, found%exponents(1)%value/found%exponents(1)%error, 3.0_wp, &
                           huge(1.0_wp), "leading exponent in error bars")

@@ -1,5 +1,5 @@
 !> Step control: bounds on the ratio of steps (those of Hairer, Norsett and Wanner's DOP853, 1/3 and
-!> 6), no growth after a rejection, and where the closed loop settles.
+!> 6), no growth after a rejection, few rejections at a near-jump, where the closed loop settles.
 module test_dde_controller
    use, intrinsic :: ieee_arithmetic, only: ieee_get_halting_mode, ieee_invalid, ieee_quiet_nan, &
                                             ieee_set_halting_mode, ieee_value
@@ -24,6 +24,7 @@ contains
       testsuite = [new_unittest("bounds", test_bounds), &
                    new_unittest("no growth after a rejection", test_after_rejection), &
                    new_unittest("an error without a number", test_not_finite), &
+                   new_unittest("a near-jump", test_jump), &
                    new_unittest("closed loop", test_closed_loop)]
    end subroutine collect_dde_controller
 
@@ -69,6 +70,30 @@ contains
       call ieee_set_halting_mode(ieee_invalid, trapping)
       call expect_between(error, ratio, 0.01_wp, 0.2_wp, "ratio")
    end subroutine test_not_finite
+
+   !> A near-jump in the past makes the error fall as a low power of the step: few rejections find
+   !> the step, and one that is not much too short.
+   subroutine test_jump(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: powers(3) = [0.6_wp, 1.0_wp, 2.0_wp]
+      type(controller_type) :: control
+      real(wp) :: estimate, h
+      integer :: i, rejected
+
+      do i = 1, size(powers)
+         control = controller_type()
+         h = 1.0_wp
+         rejected = 0
+         do
+            estimate = 1.0e6_wp*h**powers(i)
+            if (estimate <= 1.0_wp) exit
+            call control%reject(explicit_step(), h, estimate)
+            rejected = rejected + 1
+         end do
+         call expect_between(error, real(rejected, wp), 2.0_wp, 4.0_wp, "rejections")
+         call expect(error, estimate > 0.1_wp, "a step not much too short")
+      end do
+   end subroutine test_jump
 
    !> Where the error is (h/scale)**order, the step settles at an error that is neither wasteful nor
    !> near rejection, from far below and from far above.

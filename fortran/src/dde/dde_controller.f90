@@ -12,6 +12,10 @@ module dde_controller
    real(wp), parameter :: beta = 0.04_wp
    !> Bounds on the ratio of one step to the one before.
    real(wp), parameter :: least_ratio = 1.0_wp/3.0_wp, most_ratio = 6.0_wp
+   !> Where a step is rejected again the order seen between the two tries takes the place of the
+   !> method's (Gustafsson 1994, ACM Trans. Math. Softw. 20, 496): at least this, with this least
+   !> ratio.
+   real(wp), parameter :: least_order = 0.5_wp, least_ratio_again = 1.0e-4_wp
    !> Ratio after an evaluation that was not finite.
    real(wp), parameter :: ratio_after_failure = 0.1_wp
    !> Accepted errors count as at least this, in proportional and in predictive control.
@@ -25,6 +29,8 @@ module dde_controller
       real(wp) :: last_h = 0.0_wp
       !> Whether the last step was rejected
       logical :: rejected = .false.
+      !> Its error, 0 where that was not finite, and its length
+      real(wp), private :: rejected_error = 0.0_wp, rejected_h = 0.0_wp
    contains
       !> Length after an accepted step
       procedure :: accept
@@ -77,12 +83,24 @@ contains
       real(wp), intent(inout) :: h
       !> Error of the step in units of the tolerance, > 1 or not finite
       real(wp), intent(in) :: error
+      real(wp) :: least, order, taken
 
+      taken = h
       if (ieee_is_finite(error)) then
-         h = h*max(least_ratio, step%safety*error**(-1.0_wp/step%error_order))
+         order = step%error_order
+         least = least_ratio
+         if (self%rejected .and. self%rejected_error > error .and. self%rejected_h > h) then
+            ! a near-jump inside the step: its error falls by a low order of its length
+            order = log(self%rejected_error/error)/log(self%rejected_h/h)
+            order = max(least_order, min(order, real(step%error_order, wp)))
+            least = least_ratio_again
+         end if
+         h = h*max(least, step%safety*error**(-1.0_wp/order))
       else
          h = h*ratio_after_failure
       end if
+      self%rejected_error = merge(error, 0.0_wp, ieee_is_finite(error))
+      self%rejected_h = taken
       self%rejected = .true.
    end subroutine reject
 end module dde_controller
