@@ -1,12 +1,11 @@
 # Figures of attractors: the atlas on its coarse and on its fine grid, the true torus, the route.
-CLASS_DRAWING = ["scripts/class_map.py", "scripts/motion_rows.py", *DRAWING]
 
 
 rule atlas_coarse:
     input:
         table="results/tables/atlas-coarse.tsv",
         curves=curves_of_atlas(),
-        code=["scripts/hopf_plane.py", *CLASS_DRAWING],
+        code=code_of("atlas.py"),
     output:
         pdf="results/figures/atlas_coarse.pdf",
         png=report(
@@ -27,7 +26,7 @@ use rule atlas_coarse as atlas with:
     input:
         table="results/tables/atlas-fine.tsv",
         curves=curves_of_atlas(),
-        code=["scripts/hopf_plane.py", *CLASS_DRAWING],
+        code=code_of("atlas.py"),
     output:
         pdf="results/figures/atlas.pdf",
         png=report(
@@ -46,12 +45,7 @@ rule true_torus:
         trajectories=trajectories_of("true_torus"),
         attractors=attractors_of("true_torus"),
         spectra=spectra_of("true_torus"),
-        code=[
-            "scripts/exponents_table.py",
-            "scripts/spectrum_rows.py",
-            "scripts/trajectory_rows.py",
-            *DRAWING,
-        ],
+        code=code_of("true_torus.py"),
     output:
         pdf="results/figures/true_torus.pdf",
         png=report(
@@ -72,7 +66,7 @@ rule route_to_chaos:
     input:
         table="results/tables/route-to-chaos.tsv",
         runs=parts_of_route(),
-        code=CLASS_DRAWING,
+        code=code_of("route_to_chaos.py"),
     output:
         pdf="results/figures/route_to_chaos.pdf",
         png=report(

@@ -4,6 +4,8 @@
 
 
 rule attractors_namelist:
+    input:
+        code=code_of("write_study_namelists.py"),
     output:
         runs="results/namelists/attractors/{survey}/{part}.nml",
     log:
@@ -25,6 +27,9 @@ rule attractors_runs:
     benchmark:
         "results/benchmarks/attractors/{survey}/{part}.tsv"
     priority: 1
+    params:
+        groups=survey_groups,
+        sources=digest_of("attractors"),
     shell:
         "OMP_NUM_THREADS={threads} {input.program} {input.namelist} {output}"
         " 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
@@ -35,6 +40,7 @@ rule attractors_table:
         runs=expand(
             "results/attractors/scenes/{scene}.nc", scene=SCENES_WITH_ATTRACTORS
         ),
+        code=code_of("attractor_tables.py"),
     output:
         "results/tables/attractors.tsv",
     log:
@@ -48,6 +54,7 @@ rule attractors_table:
 rule route_table:
     input:
         runs=parts_of_route(),
+        code=code_of("attractor_tables.py"),
     output:
         "results/tables/route-to-chaos.tsv",
     log:
@@ -61,6 +68,7 @@ rule route_table:
 rule atlas_table:
     input:
         runs=parts_of_atlas,
+        code=code_of("attractor_tables.py"),
     output:
         "results/tables/atlas-{grid}.tsv",
     log:

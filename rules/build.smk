@@ -15,4 +15,4 @@ rule build:
         "(flock 9"
         " && cmake --preset release -S fortran"
         " && cmake --build build/release --parallel {threads} --target {wildcards.program}_program)"
-        " > {log} 2>&1 9> build/lock || {{ cat {log} >&2; exit 1; }}"
+        " > {log} 2>&1 9> build/lock || {{ setup/build_needs.sh && cat {log} >&2; exit 1; }}"

@@ -1,4 +1,6 @@
 # The configuration, checked, and what rules ask of it.
+import functools
+import hashlib
 import os
 import sys
 from pathlib import Path
@@ -6,14 +8,24 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 
 sys.path.insert(0, f"{workflow.basedir}/scripts")
+import packages
+
+try:
+    packages.refuse_missing()
+except packages.PackageError as problem:
+    raise WorkflowError(problem) from None
+
 import attractor_surveys
 import before_run
 import check_config
 import claims_config
 import git_commit
+import missing_files
 import page_assets
+import script_imports
 import study_cases
 
+missing_files.make_again()
 try:
     before_run.refuse_unwritable(Path.cwd())
     before_run.free_folder(Path.cwd())
@@ -99,15 +111,33 @@ def places_of_scenes():
     }
 
 
+def code_of(script):
+    """Modules that a script imports, as paths from the project's folder."""
+    modules = script_imports.modules_of(script)
+    return [os.path.relpath(path, workflow.basedir) for path in modules]
+
+
 def sources_of(wildcards):
-    """Sources that a program is built from: its own and all modules."""
+    """Sources that a program is built from."""
+    return sources_of_program(wildcards.program)
+
+
+@functools.cache
+def sources_of_program(program):
+    """Its own and all modules."""
     modules = glob_wildcards("fortran/src/{path}.{ending,f90|c|in}")
     return [
         "fortran/CMakeLists.txt",
         "fortran/CMakePresets.json",
-        f"fortran/app/{wildcards.program}.f90",
+        f"fortran/app/{program}.f90",
         *sorted(expand("fortran/src/{path}.{ending}", zip, **modules._asdict())),
     ]
+
+
+def digest_of(program):
+    """A digest of a program's sources: what it computes is stale once they change, built or not."""
+    paths = [Path(path) for path in sources_of_program(program)]
+    return hashlib.sha256(b"".join(map(Path.read_bytes, paths))).hexdigest()
 
 
 def documented_sources():
@@ -223,6 +253,13 @@ def family_groups(wildcards):
 def trust_groups_of(wildcards):
     """Namelists of a scene whose horizon of trust is sought."""
     return study_cases.trust_groups(config["work_precision"], wildcards.work_scene)
+
+
+def study_groups(wildcards):
+    """Namelists of a study: of a family of cases, or of a scene whose horizon of trust is sought."""
+    if wildcards.study == "stability":
+        return family_groups(wildcards)
+    return study_cases.trust_groups(config["work_precision"], wildcards.family)
 
 
 def references_of_families():

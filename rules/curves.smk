@@ -2,6 +2,8 @@
 
 
 rule hopf_namelist:
+    input:
+        code=code_of("write_namelist.py"),
     output:
         "results/namelists/hopf/{plane}.nml",
     log:
@@ -23,6 +25,9 @@ rule hopf_curves:
         "results/logs/hopf/{plane}.log",
     benchmark:
         "results/benchmarks/hopf/{plane}.tsv"
+    params:
+        values=plane_values,
+        sources=digest_of("hopf"),
     shell:
         "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
 
@@ -31,6 +36,7 @@ rule hopf_points:
     input:
         curves=expand("results/hopf/{plane}.nc", plane=config["hopf_curves"]),
         scenes=expand("results/linear_stability/{scene}.nc", scene=config["scenes"]),
+        code=code_of("hopf_points_table.py"),
     output:
         "results/tables/hopf-points.tsv",
     log:

@@ -2,6 +2,8 @@
 
 
 rule exponents_namelist:
+    input:
+        code=code_of("write_study_namelists.py"),
     output:
         runs="results/namelists/exponents/{scene}.nml",
     log:
@@ -23,6 +25,9 @@ rule exponents_runs:
     benchmark:
         "results/benchmarks/exponents/{scene}.tsv"
     priority: 1
+    params:
+        groups=exponents_groups,
+        sources=digest_of("exponents"),
     shell:
         "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
 
@@ -30,6 +35,7 @@ rule exponents_runs:
 rule exponents_table:
     input:
         runs=expand("results/exponents/{scene}.nc", scene=SCENES_WITH_EXPONENTS),
+        code=code_of("exponents_table.py"),
     output:
         "results/tables/exponents.tsv",
     log:
@@ -42,7 +48,7 @@ rule exponents:
     input:
         runs=expand("results/exponents/{scene}.nc", scene=SCENES_WITH_EXPONENTS),
         table="results/tables/exponents.tsv",
-        code=DRAWING,
+        code=code_of("exponents.py"),
     output:
         pdf="results/figures/exponents.pdf",
         png=report(

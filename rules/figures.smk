@@ -1,10 +1,9 @@
 # The paper's figures, each with its caption for the report.
-DRAWING = ["scripts/drawing.py", "scripts/outputs.py", "scripts/paper.mplstyle"]
 
 
 rule figure_1:
     input:
-        code=DRAWING,
+        code=code_of("figure_1.py"),
     output:
         pdf="results/figures/figure_1.pdf",
         png=report(
@@ -22,7 +21,7 @@ rule figure_1:
 rule figure_2:
     input:
         curves="results/hopf/tau_of_epsilon.nc",
-        code=["scripts/hopf_plane.py", *DRAWING],
+        code=code_of("figure_2.py"),
     output:
         pdf="results/figures/figure_2.pdf",
         png=report(
@@ -42,7 +41,7 @@ rule figure_2:
 rule figure_3:
     input:
         curves="results/hopf/xi_of_epsilon.nc",
-        code=["scripts/hopf_plane.py", *DRAWING],
+        code=code_of("figure_3.py"),
     output:
         pdf="results/figures/figure_3.pdf",
         png=report(
@@ -62,7 +61,7 @@ rule figure_3:
 rule figure_4:
     input:
         trajectories=trajectories_of("figure_4"),
-        code=["scripts/trajectory_rows.py", *DRAWING],
+        code=code_of("figure_4.py"),
     output:
         pdf="results/figures/figure_4.pdf",
         png=report(
@@ -83,7 +82,7 @@ rule figure_5:
     input:
         trajectories=trajectories_of("figure_5"),
         spectra=spectra_of("figure_5"),
-        code=["scripts/trajectory_rows.py", *DRAWING],
+        code=code_of("figure_5.py"),
     output:
         pdf="results/figures/figure_5.pdf",
         png=report(
@@ -103,7 +102,7 @@ rule figure_5:
 rule figure_6:
     input:
         spectra=spectra_of("figure_6"),
-        code=["scripts/spectrum_rows.py", *DRAWING],
+        code=code_of("figure_6.py"),
     output:
         pdf="results/figures/figure_6.pdf",
         png=report(
@@ -123,7 +122,7 @@ rule figure_6:
 rule figure_7:
     input:
         spectra=spectra_of("figure_7"),
-        code=["scripts/spectrum_rows.py", *DRAWING],
+        code=code_of("figure_7.py"),
     output:
         pdf="results/figures/figure_7.pdf",
         png=report(
@@ -143,7 +142,7 @@ rule figure_7:
 rule figure_8:
     input:
         response="results/friction/velocity_step.nc",
-        code=DRAWING,
+        code=code_of("figure_8.py"),
     output:
         pdf="results/figures/figure_8.pdf",
         png=report(

@@ -1,5 +1,7 @@
 # Response of friction to a velocity step.
 rule velocity_step_namelist:
+    input:
+        code=code_of("write_namelist.py"),
     output:
         "results/namelists/velocity_step.nml",
     log:
@@ -21,5 +23,8 @@ rule velocity_step:
         "results/logs/friction/velocity_step.log",
     benchmark:
         "results/benchmarks/friction/velocity_step.tsv"
+    params:
+        values=config["velocity_step"],
+        sources=digest_of("velocity_step"),
     shell:
         "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"

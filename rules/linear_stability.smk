@@ -2,6 +2,8 @@
 
 
 rule linear_stability_namelist:
+    input:
+        code=code_of("write_namelist.py"),
     output:
         "results/namelists/linear_stability/{scene}.nml",
     log:
@@ -23,13 +25,17 @@ rule linear_stability:
         "results/logs/linear_stability/{scene}.log",
     benchmark:
         "results/benchmarks/linear_stability/{scene}.tsv"
+    params:
+        values=linear_stability_values,
+        sources=digest_of("linear_stability"),
     shell:
         "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
 
 
 rule linear_stability_table:
     input:
-        expand("results/linear_stability/{scene}.nc", scene=config["scenes"]),
+        scenes=expand("results/linear_stability/{scene}.nc", scene=config["scenes"]),
+        code=code_of("linear_stability_table.py"),
     output:
         "results/tables/linear-stability.tsv",
     log:

@@ -12,13 +12,7 @@ rule page:
         readme="README.md",
         template="page/index.html.jinja",
         assets=list(page_assets.ASSETS.values()),
-        code=[
-            "scripts/captions.py",
-            "scripts/motion_rows.py",
-            "scripts/page_content.py",
-            "scripts/page_provenance.py",
-            "scripts/page_views.py",
-        ],
+        code=code_of("write_page.py"),
     output:
         page="results/index.html",
         assets=expand("results/page/{asset}", asset=page_assets.ASSETS),

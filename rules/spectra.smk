@@ -2,6 +2,8 @@
 
 
 rule spectrum_namelist:
+    input:
+        code=code_of("write_namelist.py"),
     output:
         "results/namelists/spectra/{scene}.nml",
     log:
@@ -24,5 +26,8 @@ rule spectrum:
         "results/logs/spectra/{scene}.log",
     benchmark:
         "results/benchmarks/spectra/{scene}.tsv"
+    params:
+        values=spectrum_values,
+        sources=digest_of("spectrum"),
     shell:
         "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"

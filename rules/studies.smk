@@ -3,6 +3,8 @@
 
 
 rule stability_namelists:
+    input:
+        code=code_of("write_study_namelists.py"),
     output:
         measurement="results/namelists/measurements/stability/{family}.nml",
         reference="results/namelists/references/stability/{family}.nml",
@@ -15,6 +17,8 @@ rule stability_namelists:
 
 
 rule trust_namelists:
+    input:
+        code=code_of("write_study_namelists.py"),
     output:
         measurement="results/namelists/measurements/trust/{work_scene}.nml",
         reference="results/namelists/references/trust/{work_scene}.nml",
@@ -37,6 +41,9 @@ rule reference:
     benchmark:
         "results/benchmarks/references/{study}/{family}.tsv"
     priority: 1
+    params:
+        groups=study_groups,
+        sources=digest_of("reference"),
     shell:
         "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
 
@@ -51,6 +58,9 @@ rule measurement:
         "results/logs/measurements/{study}/{family}.log",
     benchmark:
         "results/benchmarks/measurements/{study}/{family}.tsv"
+    params:
+        groups=study_groups,
+        sources=digest_of("measure"),
     shell:
         "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
 
@@ -61,6 +71,7 @@ rule stability_table:
             "results/measurements/stability/{family}.nc", family=FAMILIES
         ),
         references=references_of_families(),
+        code=code_of("stability_table.py"),
     output:
         "results/tables/stability.tsv",
     log:
@@ -77,7 +88,7 @@ rule stability_table:
 rule stability:
     input:
         table="results/tables/stability.tsv",
-        code=DRAWING,
+        code=code_of("stability.py"),
     output:
         pdf="results/figures/stability.pdf",
         png=report(
@@ -96,6 +107,7 @@ rule trusted_horizons:
     input:
         measurements=expand("results/measurements/trust/{scene}.nc", scene=WORK_SCENES),
         references=expand("results/references/trust/{scene}.tsv", scene=WORK_SCENES),
+        code=code_of("trusted_horizons.py"),
     output:
         "results/tables/trusted-horizons.tsv",
     log:
@@ -109,6 +121,7 @@ rule trusted_horizons:
 rule work_precision_namelist:
     input:
         horizons="results/tables/trusted-horizons.tsv",
+        code=code_of("write_measured_scene.py"),
     output:
         "results/namelists/measurements/work_precision/{work_scene}.nml",
     log:
@@ -131,6 +144,9 @@ rule work_precision_runs:
     benchmark:
         "results/benchmarks/measurements/work_precision/{work_scene}.tsv"
     priority: 1
+    params:
+        study=config["work_precision"],
+        sources=digest_of("measure"),
     shell:
         "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
 
@@ -141,6 +157,7 @@ rule work_precision_table:
             "results/measurements/work_precision/{scene}.nc", scene=WORK_SCENES
         ),
         references=expand("results/references/trust/{scene}.tsv", scene=WORK_SCENES),
+        code=code_of("work_precision_table.py"),
     output:
         errors="results/tables/work-precision.tsv",
         proportionality="results/tables/tolerance-proportionality.tsv",
@@ -154,7 +171,7 @@ rule work_precision:
     input:
         table="results/tables/work-precision.tsv",
         others=tables_of_others,
-        code=DRAWING,
+        code=code_of("work_precision.py"),
     output:
         pdf="results/figures/work_precision.pdf",
         png=report(

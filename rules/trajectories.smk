@@ -2,6 +2,8 @@
 
 
 rule scene_namelist:
+    input:
+        code=code_of("write_namelist.py"),
     output:
         "results/namelists/trajectories/{scene}.nml",
     log:
@@ -23,5 +25,8 @@ rule trajectory:
         "results/logs/trajectories/{scene}.log",
     benchmark:
         "results/benchmarks/trajectories/{scene}.tsv"
+    params:
+        values=scene_values,
+        sources=digest_of("trajectory"),
     shell:
         "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"

@@ -71,5 +71,5 @@ if __name__ == "__main__":
     with logged(snakemake.log[0]):
         write_table(
             snakemake.output[0],
-            [row_of(Path(path).stem, read(path)) for path in snakemake.input],
+            [row_of(Path(path).stem, read(path)) for path in snakemake.input.scenes],
         )

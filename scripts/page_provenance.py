@@ -3,14 +3,11 @@
 import csv
 import platform
 from collections import Counter
-from importlib import metadata
 from pathlib import Path
 
+import packages
 from inputs import read
 from snakemake.io import glob_wildcards
-
-PACKAGES = ["snakemake", "numpy", "scipy", "xarray", "netCDF4", "matplotlib", "jinja2", "docutils"]
-"""Python packages that results or the page go through."""
 
 
 def programs(files: list[str]) -> list[dict]:
@@ -25,11 +22,9 @@ def programs(files: list[str]) -> list[dict]:
     ]
 
 
-def packages() -> dict[str, str]:
+def python_packages() -> dict[str, str]:
     """Versions of Python and of its packages."""
-    return {"Python": platform.python_version()} | {
-        name: metadata.version(name) for name in PACKAGES
-    }
+    return {"Python": platform.python_version()} | packages.versions()
 
 
 def seconds(patterns: dict[str, str]) -> list[dict]:

@@ -45,7 +45,7 @@ def content(given, params) -> dict:
         "colours": COLOURS,
         "commit": params.commit,
         "programs": page_provenance.programs([p for p in data if p.endswith(".nc")]),
-        "packages": page_provenance.packages(),
+        "packages": page_provenance.python_packages(),
         "seconds": page_provenance.seconds(params.benchmarks),
     }
 

@@ -16,6 +16,7 @@ from write_namelist import write_namelist
 SNAKEMAKE = Path(sys.executable).parent / "snakemake"
 LONG = "results/references/stability/grid_fault.tsv"
 """A result that takes about a second."""
+NAMELIST = "results/namelists/trajectories/torus.nml"
 
 
 @pytest.fixture(autouse=True)
@@ -90,12 +91,18 @@ def workflow(scratch) -> Iterator[subprocess.Popen[bytes]]:
     run.wait()
 
 
+def processes_of(run: subprocess.Popen[bytes]) -> list[tuple[int, str, str]]:
+    """Number, program and command of each process of a run."""
+    command = ["ps", "-o", "pid=,comm=,args=", "-g", str(run.pid)]
+    listed = subprocess.run(command, capture_output=True, text=True).stdout
+    lines = [line.split(maxsplit=2) for line in listed.splitlines()]
+    return [(int(number), program, words) for number, program, words in lines]
+
+
 def program_of(run: subprocess.Popen[bytes]) -> int:
     """The process that makes the long result."""
-    listed = subprocess.run(["ps", "-o", "pid=,comm=", "-g", str(run.pid)], capture_output=True)
-    processes = [line.split() for line in listed.stdout.decode().splitlines()]
-    (program,) = [int(number) for number, name in processes if name == "reference"]
-    return program
+    (process,) = [number for number, program, _ in processes_of(run) if program == "reference"]
+    return process
 
 
 def assert_resumes(project: Project, before: dict[str, bytes]) -> None:
@@ -133,4 +140,62 @@ def test_workflow_resumes_where_snakemake_itself_was_killed(smoke, scratch, work
     end = time.monotonic() + 60
     while Path(f"/proc/{program}").exists() and time.monotonic() < end:
         time.sleep(0.01)
+    assert scratch.outputs() == smoke.outputs()
+
+
+def kill_while_writing(project: Project) -> None:
+    """A run whose namelist job is killed; it waits in vain for a reader of what it writes."""
+    unfinished = project.folder / f"{NAMELIST}.part"
+    os.mkfifo(unfinished)
+    run = subprocess.Popen(
+        [SNAKEMAKE, "--cores", "2", "figure_5", *SMOKE],
+        cwd=project.folder,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,
+    )
+    end = time.monotonic() + 60
+    while not (found := [n for n, _, words in processes_of(run) if "write_namelist.py" in words]):
+        assert time.monotonic() < end
+        time.sleep(0.01)
+    for process in found:
+        os.kill(process, signal.SIGKILL)
+    assert run.wait(timeout=60) != 0
+    unfinished.unlink()
+
+
+def fill_the_disk(project: Project) -> None:
+    """A run whose namelist job finds no room; the device that is always full stands in."""
+    (project.folder / f"{NAMELIST}.part").symlink_to("/dev/full")
+    run = project.snakemake("figure_5", *SMOKE)
+    assert run.returncode != 0
+    assert f"error: {NAMELIST}: cannot write: No space left" in run.stdout
+
+
+@pytest.mark.parametrize("end", [kill_while_writing, fill_the_disk])
+def test_nothing_stale_passes_as_current(smoke, scratch, end):
+    """Values are changed and changed back; the job that writes the latter down does not finish."""
+    (scratch.folder / "mine.yaml").write_text("scenes: { torus: { tau: 10.5 } }")
+    other = scratch.snakemake("figure_5", *SMOKE, "mine.yaml")
+    assert other.returncode == 0, other.stdout
+    shown = ("figures/figure_5.png", "spectra/torus.nc", "trajectories/torus.nc")
+    before, changed = smoke.outputs(), scratch.outputs()
+    assert all(changed[name] != before[name] for name in shown)
+    end(scratch)
+    assert not (scratch.folder / NAMELIST).exists()
+    again = scratch.snakemake("figure_5", *SMOKE)
+    assert again.returncode == 0, again.stdout
+    assert scratch.outputs() == before
+
+
+def test_run_with_other_values_loses_no_result(smoke, scratch):
+    """It ends at a full disk; the next plain run has all results of the values before."""
+    text = "scenes: { torus: { tau: 10.5 } }\nvelocity_step: { samples: 300 }"
+    (scratch.folder / "mine.yaml").write_text(text)
+    (scratch.folder / f"{NAMELIST}.part").symlink_to("/dev/full")
+    run = scratch.snakemake("--keep-going", *SMOKE, "mine.yaml")
+    assert run.returncode != 0
+    assert scratch.outputs() != smoke.outputs()
+    again = scratch.snakemake(*SMOKE)
+    assert again.returncode == 0, again.stdout
     assert scratch.outputs() == smoke.outputs()

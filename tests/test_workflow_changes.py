@@ -1,9 +1,116 @@
 """What a change makes anew, and that the rest stays."""
 
+import ast
+import re
 import shutil
+from collections.abc import Iterator
+from pathlib import Path
 
-from conftest import SMOKE, rules_in
+from conftest import ROOT, SMOKE, rules_in
 from expected_rules import FIGURES, outputs_in
+from snakemake_records import records_of
+
+COMPUTE = {
+    *("attractors_runs", "exponents_runs", "hopf_curves", "linear_stability", "measurement"),
+    *("reference", "spectrum", "trajectory", "velocity_step", "work_precision_runs"),
+}
+"""Rules that run a program."""
+
+
+def names_imported(script: str) -> Iterator[str]:
+    """Modules that a script names in its imports."""
+    for node in ast.walk(ast.parse((ROOT / "scripts" / script).read_text())):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            yield node.module
+
+
+def imports_of(script: str) -> set[str]:
+    """Scripts that a script imports, directly or not."""
+    found, unread = set(), {script}
+    while unread:
+        files = {f"{name}.py" for name in names_imported(unread.pop())}
+        new = {name for name in files - found if (ROOT / "scripts" / name).exists()}
+        unread |= new
+        found |= new
+    return found
+
+
+def test_results_of_scripts_depend_on_what_these_import(smoke):
+    """All of it, for every rule with a script; what draws depends on the style, too."""
+    records = records_of(smoke).values()
+    of_rule = {
+        record["rule"]: (Path(record["code"].strip(' "\n')).name, record["input"])
+        for record in records
+        if record["code"].strip(' "\n').endswith(".py")
+    }
+    written = "".join(path.read_text() for path in (ROOT / "rules").glob("*.smk"))
+    assert len(of_rule) == written.count("    script:\n")
+    fine = smoke.snakemake("--dry-run", "results/figures/atlas.pdf", *SMOKE).stdout
+    (given,) = re.findall(r"^ +input: (\S+atlas-fine.tsv.*)$", fine, flags=re.MULTILINE)
+    of_rule["atlas"] = ("atlas.py", given.split(", "))
+    for rule, (script, given) in of_rule.items():
+        expected = imports_of(script)
+        expected |= {"paper.mplstyle"} if "drawing.py" in expected else set()
+        assert {f"scripts/{name}" for name in expected} <= set(given), rule
+
+
+def test_changed_norm_of_errors_makes_three_tables_anew(scratch):
+    """And what is drawn from them; nothing is computed but the runs up to another horizon."""
+    with open(scratch.folder / "scripts" / "accuracy.py", "a") as norm:
+        norm.write("\n# another norm\n")
+    run = scratch.snakemake("--dry-run", *SMOKE)
+    tables = {"stability_table", "trusted_horizons", "work_precision_table"}
+    runs = {"work_precision_namelist", "work_precision_runs"}
+    shown = {"stability", "work_precision", "claims", "page", "all"}
+    assert rules_in(run.stdout) == tables | runs | shown
+
+
+def test_results_carry_the_values_that_they_were_made_with(smoke):
+    """All that their namelist holds, so that none is taken for current after a change."""
+    records = records_of(smoke)
+    seen = set()
+    for record in records.values():
+        for namelist in (path for path in record["input"] if path.endswith(".nml")):
+            values = {text for text in records[namelist]["params"] if text.startswith("{")}
+            assert values
+            assert values <= set(record["params"]), record["rule"]
+            seen.add(record["rule"])
+    assert seen == COMPUTE
+
+
+def test_results_of_an_older_program_are_computed_again(scratch):
+    """Also where the build of the new one was interrupted, which leaves no program."""
+    result = "results/friction/velocity_step.nc"
+    with open(scratch.folder / "fortran" / "src" / "kinds.f90", "a") as source:
+        source.write("! changed\n")
+    lock = scratch.folder / "build" / "lock"
+    lock.unlink()
+    lock.mkdir()
+    assert scratch.snakemake(result, *SMOKE).returncode != 0
+    assert not (scratch.folder / "build" / "release" / "bin" / "velocity_step").exists()
+    lock.rmdir()
+    run = scratch.snakemake("--dry-run", result, *SMOKE)
+    assert rules_in(run.stdout) == {"build", "velocity_step"}
+
+
+def test_what_was_removed_is_made_again(scratch):
+    """By a plain run or one for what depends on it, to the same bytes; programs where needed."""
+    before = scratch.outputs()
+    results = scratch.folder / "results"
+    for name in ("spectra/chaos.nc", "namelists/trajectories/torus.nml", "tables/claims.json"):
+        (results / name).unlink()
+    (results / "page" / "style.css").unlink()
+    (scratch.folder / "build" / "release" / "bin" / "measure").unlink()
+    run = scratch.snakemake("figure_5", *SMOKE)
+    assert run.returncode == 0, run.stdout
+    assert rules_in(run.stdout) == {"scene_namelist", "trajectory", "spectrum", "figure_5"}
+    run = scratch.snakemake(*SMOKE)
+    assert run.returncode == 0, run.stdout
+    assert {"claims", "page"} <= rules_in(run.stdout)
+    assert "build" not in rules_in(run.stdout)
+    assert scratch.outputs() == before
 
 
 def test_changed_scene_reruns_only_what_depends_on_it(scratch):
