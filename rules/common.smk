@@ -13,7 +13,7 @@ import packages
 try:
     packages.refuse_missing()
 except packages.PackageError as problem:
-    raise WorkflowError(problem) from None
+    raise SystemExit(f"error: {problem}") from None
 
 import attractor_surveys
 import before_run
@@ -325,6 +325,14 @@ def trajectories_on_page():
             path for path in drawn if path.startswith("results/trajectories/")
         )
     )
+
+
+def assets_of_page(wildcards):
+    """What lies beside the page; where some of it is missing, one line says so and ends the run."""
+    try:
+        return page_assets.sources()
+    except page_assets.AssetError as problem:
+        raise SystemExit(f"error: {problem}") from None
 
 
 def patterns_of_benchmarks():

@@ -11,7 +11,7 @@ rule page:
         captions=[figure["caption"] for figure in on_page(*FIGURES)],
         readme="README.md",
         template="page/index.html.jinja",
-        assets=list(page_assets.ASSETS.values()),
+        assets=assets_of_page,
         code=code_of("write_page.py"),
     output:
         page="results/index.html",

@@ -1,5 +1,7 @@
 """Files that lie beside the page, and where they come from."""
 
+from pathlib import Path
+
 LIBRARY = "/usr/share/javascript/dygraphs"
 """Where Debian's libjs-dygraphs is."""
 ASSETS = {
@@ -10,3 +12,18 @@ ASSETS = {
     "dygraph-licence.txt": "/usr/share/doc/libjs-dygraphs/copyright",
 }
 """Each file by its name in results/page/."""
+
+
+class AssetError(ValueError):
+    """Files that the page needs and that are not there."""
+
+
+def sources() -> list[str]:
+    """Where the files come from; raise AssetError where one is missing."""
+    missing = [path for path in ASSETS.values() if not Path(path).exists()]
+    if missing:
+        raise AssetError(
+            f"the page needs {', '.join(missing)} (Debian's libjs-dygraphs); run ./reproduce, which"
+            " sets up what is missing"
+        )
+    return list(ASSETS.values())
