@@ -143,12 +143,11 @@ def test_workflow_resumes_where_snakemake_itself_was_killed(smoke, scratch, work
     assert scratch.outputs() == smoke.outputs()
 
 
-def kill_while_writing(project: Project) -> None:
-    """A run whose namelist job is killed; it waits in vain for a reader of what it writes."""
-    unfinished = project.folder / f"{NAMELIST}.part"
-    os.mkfifo(unfinished)
+def begin_to_write(project: Project, *arguments: str) -> tuple[subprocess.Popen[bytes], int]:
+    """A run of the workflow and its namelist job, which waits in vain for a reader."""
+    os.mkfifo(project.folder / f"{NAMELIST}.part")
     run = subprocess.Popen(
-        [SNAKEMAKE, "--cores", "2", "figure_5", *SMOKE],
+        [SNAKEMAKE, "--cores", "2", "figure_5", *SMOKE, *arguments],
         cwd=project.folder,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
@@ -158,10 +157,15 @@ def kill_while_writing(project: Project) -> None:
     while not (found := [n for n, _, words in processes_of(run) if "write_namelist.py" in words]):
         assert time.monotonic() < end
         time.sleep(0.01)
-    for process in found:
-        os.kill(process, signal.SIGKILL)
+    return run, found[0]
+
+
+def kill_while_writing(project: Project) -> None:
+    """A run whose namelist job is killed."""
+    run, process = begin_to_write(project)
+    os.kill(process, signal.SIGKILL)
     assert run.wait(timeout=60) != 0
-    unfinished.unlink()
+    (project.folder / f"{NAMELIST}.part").unlink()
 
 
 def fill_the_disk(project: Project) -> None:
@@ -189,15 +193,13 @@ def test_nothing_stale_passes_as_current(smoke, scratch, end):
 
 
 def test_run_with_other_values_loses_no_result(smoke, scratch):
-    """It ends at a full disk; the next run without them has all results as before."""
-    text = "scenes: { fixed_point: { sample_interval: 0.2 } }\nvelocity_step: { samples: 300 }"
-    (scratch.folder / "mine.yaml").write_text(text)
-    namelist = scratch.folder / "results/namelists/trajectories/fixed_point.nml"
-    namelist.with_suffix(".nml.part").symlink_to("/dev/full")
-    targets = ["figure_4", "figure_8", *SMOKE]
-    assert scratch.snakemake("--keep-going", *targets, "mine.yaml").returncode != 0
-    assert not namelist.exists()
-    assert scratch.outputs()["figures/figure_8.png"] != smoke.outputs()["figures/figure_8.png"]
-    again = scratch.snakemake(*targets)
+    """It is killed, Snakemake included; the next run without them has all results as before."""
+    (scratch.folder / "mine.yaml").write_text("scenes: { torus: { tau: 10.5 } }")
+    run, _ = begin_to_write(scratch, "mine.yaml")
+    os.killpg(run.pid, signal.SIGKILL)
+    run.wait()
+    (scratch.folder / f"{NAMELIST}.part").unlink()
+    assert not (scratch.folder / NAMELIST).exists()
+    again = scratch.snakemake("figure_5", *SMOKE)
     assert again.returncode == 0, again.stdout
     assert scratch.outputs() == smoke.outputs()

@@ -3,20 +3,24 @@
 import os
 import subprocess
 import sys
+from importlib.metadata import packages_distributions
 from pathlib import Path
 
 import pytest
 import snakemake
-from conftest import Project, rules_in
+from conftest import ROOT, Project, rules_in
+from packages import PACKAGES
+from test_workflow_changes import names_imported
 
-PACKAGES = Path(snakemake.__file__).parent.parent
+INSTALLED = Path(snakemake.__file__).parent.parent
+BUILD_NEEDS = ROOT / "setup" / "build_needs.sh"
 
 
 def python_without(folder: Path, *lacking: str) -> Path:
     """A Python of the user's own with all our packages but some."""
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", folder], check=True)
     (site,) = folder.glob("lib/python3.*/site-packages")
-    for entry in PACKAGES.iterdir():
+    for entry in INSTALLED.iterdir():
         if not entry.name.lower().startswith(lacking):
             (site / entry.name).symlink_to(entry)
     return folder / "bin" / "python"
@@ -33,6 +37,17 @@ def run_with(python: Path, project: Project, *targets: str) -> subprocess.Comple
         text=True,
         timeout=120,
     )
+
+
+def test_packages_are_those_that_scripts_import():
+    """And the one by which xarray reads NetCDF."""
+    scripts = [path.name for path in (ROOT / "scripts").glob("*.py")]
+    named = {name.partition(".")[0] for script in scripts for name in names_imported(script)}
+    outside = named - sys.stdlib_module_names - {Path(script).stem for script in scripts}
+    found = packages_distributions()
+    assert {found[name][0].lower() for name in outside} | {"netcdf4"} == {
+        name.lower() for name in PACKAGES
+    }
 
 
 def test_packages_that_are_missing_are_named(project, tmp_path):
@@ -89,8 +104,7 @@ def test_other_missing_tools_are_named(tmp_path, lacking, named):
         if tool.name not in lacking:
             (tmp_path / tool.name).symlink_to(tool)
     environment = {"PATH": str(tmp_path)}
-    script = Path(__file__).parent.parent / "setup" / "build_needs.sh"
-    run = subprocess.run([script], env=environment, capture_output=True, text=True)
+    run = subprocess.run([BUILD_NEEDS], env=environment, capture_output=True, text=True)
     assert run.returncode == 1
     assert run.stderr == (
         f"error: no program can be built without {named}; run ./reproduce, which sets up what is"
@@ -100,8 +114,7 @@ def test_other_missing_tools_are_named(tmp_path, lacking, named):
 
 def test_nothing_is_missing_here():
     """Where all is set up."""
-    script = Path(__file__).parent.parent / "setup" / "build_needs.sh"
-    run = subprocess.run([script], capture_output=True, text=True)
+    run = subprocess.run([BUILD_NEEDS], capture_output=True, text=True)
     assert (run.returncode, run.stdout, run.stderr) == (0, "", "")
 
 

@@ -10,6 +10,7 @@ SCRIPTS = [
     "reproduce",
     "test",
     "setup/setup.sh",
+    "setup/build_needs.sh",
     ".ci/run",
     "benchmarks/run",
     "compilers/run",
