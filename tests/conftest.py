@@ -88,10 +88,15 @@ class Project:
         return {n: timeless(path) for n, path in names.items() if not n.startswith(changing)}
 
 
-def wait_for(path: Path) -> None:
-    """Return when a file is there."""
+def unfinished(path: Path) -> set[Path]:
+    """What runs are writing that will become `path`."""
+    return set(path.parent.glob(f"{path.name}.*.part"))
+
+
+def wait_for_another(path: Path, before: frozenset[Path] | set[Path] = frozenset()) -> None:
+    """Return when a run has begun to write `path`, beside those there were before."""
     end = time.monotonic() + 60
-    while not path.exists():
+    while not unfinished(path) - before:
         assert time.monotonic() < end
         time.sleep(0.01)
 
@@ -125,8 +130,9 @@ class Programs:
 
     def begin(self, program: str, **options) -> subprocess.Popen:
         """A run in the background that has begun to write."""
+        before = unfinished(self.output)
         run = self.start(program, **options)
-        wait_for(self.output.with_name(f"{self.output.name}.part"))
+        wait_for_another(self.output, before)
         return run
 
     def run_with(self, program: str, values: dict) -> subprocess.CompletedProcess[str]:

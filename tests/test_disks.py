@@ -2,6 +2,7 @@
 
 import shutil
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -40,6 +41,22 @@ def test_program_on_such_a_disk(programs, good_inputs, program, disk):
     assert run.stderr.startswith("error: disk/output: cannot write")
     assert run.stderr.endswith(REMEDY)
     assert run.stderr.count("\n") == 1
+    assert run.stdout == ""
+
+
+def test_disk_that_fills_up_ends_a_trajectory(programs, good_inputs):
+    """At once: all of it would take minutes."""
+    values = {**good_inputs["trajectory"], "t_end": 1e8}
+    write_groups(programs.folder / "input.nml", {GROUPS["trajectory"]: values})
+    binary = programs.binaries / "trajectory"
+    begun = time.monotonic()
+    disk = FULL.replace("4k", "1m")
+    run = on_disk(disk, "disk", programs.folder, binary, "input.nml", "disk/output")
+    assert time.monotonic() - begun < 20
+    assert run.returncode == 1
+    last = run.stderr.splitlines(keepends=True)[-1]
+    assert last.startswith("error: disk/output: cannot write")
+    assert last.endswith(REMEDY)
     assert run.stdout == ""
 
 

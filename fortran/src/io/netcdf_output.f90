@@ -52,12 +52,10 @@ contains
       character(len=*), intent(in) :: path
       !> What it holds
       character(len=*), intent(in) :: title
-      integer :: status
 
-      self%place = unfinished_type(path)
-      status = nf90_create(self%place%other_path(), ior(nf90_netcdf4, nf90_clobber), self%id)
-      call self%place%created()
-      call self%note(status)
+      call self%place%begin(path, self%error)
+      if (allocated(self%error)) return
+      call self%note(nf90_create(self%place%other_path, ior(nf90_netcdf4, nf90_clobber), self%id))
       call self%attribute("title", title)
       call self%attribute("program_version", project_version)
       call self%attribute("compiler", compiler_version())
