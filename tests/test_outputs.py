@@ -57,12 +57,14 @@ def test_failure_leaves_the_older_file_and_nothing_else(tmp_path):
 def test_full_disk_is_told(tmp_path):
     """The device that is always full stands in."""
     path = tmp_path / "table.tsv"
-    with (
-        pytest.raises(FileError, match=r"table.tsv: cannot write: No space left .*; see that its"),
-        written(path) as unfinished,
-    ):
-        unfinished.symlink_to("/dev/full")
-        unfinished.write_text("a")
+
+    def write_to_full_disk():
+        with written(path) as unfinished:
+            unfinished.symlink_to("/dev/full")
+            unfinished.write_text("a")
+
+    with pytest.raises(FileError, match=r"table.tsv: cannot write: No space left .*; see that its"):
+        write_to_full_disk()
     assert list(tmp_path.iterdir()) == []
 
 

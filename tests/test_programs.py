@@ -302,7 +302,9 @@ def test_output_that_is_no_file_is_refused(programs, program):
         else:
             path = Path("/dev/null")
         line = refusal(programs, programs.run(program, "nowhere.nml", path))
-        assert line.startswith(f"error: {path}: cannot write: a folder, a device or a link is there")
+        assert line.startswith(
+            f"error: {path}: cannot write: a folder, a device or a link is there"
+        )
         assert stat.S_IFMT(path.lstat().st_mode) != stat.S_IFREG
         assert [left.name for left in place.iterdir()] == [name][: name != "device"]
         shutil.rmtree(place)

@@ -33,17 +33,10 @@ int file_is_same(const char *one, const char *other)
            a.st_ino == b.st_ino;
 }
 
-/* Make an empty file where nothing is. */
-int file_create(const char *path)
+/* Write all of a file: one that is there, or one where nothing is yet. */
+int file_write(const char *path, const char *content, size_t length, int there)
 {
-    int file = open(path, O_WRONLY | O_CREAT | O_EXCL, 0666);
-    return file >= 0 && close(file) == 0 ? 0 : reason();
-}
-
-/* Write all of a file that is there. */
-int file_write(const char *path, const char *content, size_t length)
-{
-    FILE *file = fopen(path, "r+b");
+    FILE *file = fopen(path, there ? "r+b" : "wbx");
     if (!file)
         return reason();
     if (fwrite(content, 1, length, file) == length)

@@ -4,8 +4,8 @@ module files
    use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_null_char, c_ptr, c_size_t
    implicit none (type, external)
    private
-   public :: create_file, is_same_file, missing, occupied, place_of_file, reason_of, &
-             remove_file, remove_marked, rename_file, write_file
+   public :: is_same_file, missing, occupied, place_of_file, reason_of, remove_file, &
+             remove_marked, rename_file, write_file
 
    !> Answers beside 0 (done) and the numbers of errors: there is no such path; there is something
    !> that is no regular file.
@@ -24,18 +24,13 @@ module files
          character(kind=c_char), intent(in) :: one(*), other(*)
       end function c_is_same
 
-      integer(c_int) function c_create(path) result(value) bind(c, name="file_create")
-         import :: c_char, c_int
-         implicit none (type, external)
-         character(kind=c_char), intent(in) :: path(*)
-      end function c_create
-
-      integer(c_int) function c_write(path, content, length) result(value) &
+      integer(c_int) function c_write(path, content, length, there) result(value) &
          bind(c, name="file_write")
          import :: c_char, c_int, c_size_t
          implicit none (type, external)
          character(kind=c_char), intent(in) :: path(*), content(*)
          integer(c_size_t), value :: length
+         integer(c_int), value :: there
       end function c_write
 
       integer(c_int) function c_rename(from, to) result(value) bind(c, name="file_rename")
@@ -89,22 +84,18 @@ contains
       value = c_is_same(one//c_null_char, other//c_null_char) == 1
    end function is_same_file
 
-   !> Make an empty file where nothing is: 0, `missing` (its folder) or an error.
-   integer function create_file(path) result(answer)
-      !> Its path
-      character(len=*), intent(in) :: path
-
-      answer = c_create(path//c_null_char)
-   end function create_file
-
-   !> Write a file that is there, and is not longer than this: 0, `missing` or an error.
-   integer function write_file(path, content) result(answer)
+   !> Write a file that is there, and is not longer than this, or a new one where nothing is: 0,
+   !> `missing` (the file, or its folder) or an error.
+   integer function write_file(path, content, there) result(answer)
       !> Its path
       character(len=*), intent(in) :: path
       !> All of it
       character(len=*), intent(in) :: content
+      !> Whether it is there
+      logical, intent(in) :: there
 
-      answer = c_write(path//c_null_char, content, len(content, kind=c_size_t))
+      answer = c_write(path//c_null_char, content, len(content, kind=c_size_t), &
+                       merge(1_c_int, 0_c_int, there))
    end function write_file
 
    !> Give a file another name, replacing what had it, all or nothing: 0, `missing` or an error.

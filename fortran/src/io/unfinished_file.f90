@@ -5,8 +5,8 @@
 !> finds nothing to rename, whenever it ends.
 module unfinished_file
    use errors, only: error_type, raise, text
-   use files, only: create_file, missing, occupied, place_of_file, reason_of, remove_file, &
-                    remove_marked, rename_file, write_file
+   use files, only: missing, occupied, place_of_file, reason_of, remove_file, remove_marked, &
+                    rename_file, write_file
    use kinds, only: int64
    use process, only: number_of_process
    implicit none (type, external)
@@ -25,8 +25,10 @@ module unfinished_file
       character(len=:), allocatable :: path
       !> Path until then
       character(len=:), allocatable :: other_path
+      !> Whether it was written once
+      logical, private :: there = .false.
    contains
-      !> Make an empty file under the other path; earlier runs for the same file lose theirs
+      !> Choose the other path; earlier runs for the same file lose theirs
       procedure :: begin
       !> Write all of the file
       procedure :: write => write_all
@@ -71,13 +73,14 @@ contains
       end select
    end subroutine explain
 
-   !> Make an empty file under the other path; earlier runs for the same file lose theirs.
+   !> Choose the other path; earlier runs for the same file lose theirs. The file is to be made at
+   !> once, and not once more: one that is gone belongs to a later run.
    subroutine begin(self, path, error)
       !> The file
       class(unfinished_type), intent(inout) :: self
       !> Path of the complete file
       character(len=*), intent(in) :: path
-      !> It cannot be made
+      !> It cannot be written there
       type(error_type), allocatable, intent(out) :: error
       integer(int64) :: now
 
@@ -86,19 +89,20 @@ contains
       ! the clock tells processes of the same number on two computers apart
       self%other_path = path//"."//text(number_of_process())//"-"//text(now)//ending
       call remove_marked(path, ending)
-      call explain(path, create_file(self%other_path), error)
+      call check_place(path, error)
    end subroutine begin
 
    !> Write all of the file; on an error nothing is left behind.
    subroutine write_all(self, content, error)
       !> The file
-      class(unfinished_type), intent(in) :: self
+      class(unfinished_type), intent(inout) :: self
       !> All of it, not shorter than before
       character(len=*), intent(in) :: content
       !> It cannot be written, or another run has begun to write it
       type(error_type), allocatable, intent(out) :: error
 
-      call self%conclude(write_file(self%other_path, content), error)
+      call self%conclude(write_file(self%other_path, content, self%there), error)
+      self%there = .true.
    end subroutine write_all
 
    !> Give the complete file its name; on an error nothing is left behind.
