@@ -11,9 +11,8 @@ from pathlib import Path
 
 import pytest
 import xarray as xr
-import yaml
 from check_config import checked
-from snakemake.utils import update_config
+from read_config import merged, read
 from write_namelist import write_namelist
 
 ROOT = Path(__file__).parent.parent
@@ -180,7 +179,7 @@ def copy_of_project(folder: Path) -> Project:
 @pytest.fixture(scope="session")
 def default_config() -> dict:
     """The config as it stands in the file; not to be changed."""
-    return yaml.safe_load((ROOT / "config" / "config.yaml").read_text())
+    return read(ROOT / "config" / "config.yaml")
 
 
 @pytest.fixture
@@ -190,11 +189,9 @@ def config(default_config) -> dict:
 
 
 @pytest.fixture(scope="session")
-def smoke_config(default_config) -> dict:
+def smoke_config() -> dict:
     """The config of the smoke run, with its defaults; not to be changed."""
-    config = copy.deepcopy(default_config)
-    update_config(config, yaml.safe_load((ROOT / "config" / "smoke.yaml").read_text()))
-    return checked(config)
+    return checked(merged([ROOT / "config" / name for name in ("config.yaml", "smoke.yaml")], []))
 
 
 @pytest.fixture
