@@ -139,6 +139,12 @@ drop_moved_builds() {
     done
 }
 
+refuse() { say "$*" && exit 1; }
+
+# CMake and Ninja give some characters of a path a meaning of their own.
+case $PWD in
+    *[\$\;\"\\\|\<]*) refuse "cannot build in '$PWD': a path without \$ ; \" \\ | < is expected; move the project" ;;
+esac
 drop_moved_builds
 missing=$(missing_packages)
 if [[ -z $missing ]] && venv_is_ready; then
@@ -146,6 +152,7 @@ if [[ -z $missing ]] && venv_is_ready; then
 fi
 [[ -z $missing ]] || become_root || ask_for_packages "$missing"
 
+[[ -w . ]] || refuse "nothing can be written in $PWD; see that it is on no read-only disk and belongs to you, then run again"
 exec 9>>.setup.lock
 flock --nonblock 9 || { say "waiting for another set-up of this folder" && flock 9; }
 missing=$(missing_packages)

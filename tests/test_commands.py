@@ -264,6 +264,32 @@ def test_packages_of_a_profile_are_added(bare):
     assert (scripts.parent / "common" / "configfile.py").read_text() == mended
 
 
+@pytest.mark.parametrize("character", list('$;"\\|<'))
+def test_folder_in_which_nothing_can_be_built_is_refused(tmp_path, character):
+    """At once: CMake and Ninja give the character a meaning of their own."""
+    folder = tmp_path / f"a{character}b"
+    shutil.copytree(ROOT / "setup", folder / "setup")
+    run = subprocess.run([folder / "setup" / "setup.sh"], capture_output=True, text=True)
+    assert run.returncode == 1
+    (line,) = run.stderr.splitlines()
+    assert line.startswith(f"set-up: cannot build in '{folder}': a path without ")
+    assert [path.name for path in folder.iterdir()] == ["setup"]
+
+
+def test_read_only_folder_is_told(bare):
+    """Before anything is installed."""
+    pretend_installed(bare, debian_packages())
+    bare.chmod(0o555)
+    nobody = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
+    run = set_up_in(bare, *(nobody if os.geteuid() == 0 else []))
+    bare.chmod(0o755)
+    assert run.returncode == 1
+    (line,) = run.stderr.splitlines()
+    assert line.startswith(
+        f"set-up: nothing can be written in {bare}; see that it is on no read-only"
+    )
+
+
 def test_only_missing_packages_are_installed(bare):
     """As root or with sudo, without what is only recommended."""
     wanted = debian_packages()

@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 
 import pytest
-from conftest import GROUPS, SMOKE
+from conftest import GROUPS, SMOKE, rules_in
 from disks import FULL, READ_ONLY, on_disk
 from test_measure import CASES, GROUP_OF
 from write_namelist import write_groups
@@ -71,6 +71,16 @@ def test_script_on_a_full_disk(scratch):
     )
     assert 'figure_1.py", line' not in run.stderr
     assert run.stdout == ""
+
+
+def test_home_that_cannot_be_written_is_not_needed(scratch, monkeypatch):
+    """Snakemake keeps a cache there, and Matplotlib another."""
+    monkeypatch.setenv("HOME", "/dev/null")
+    for name in ("XDG_CACHE_HOME", "XDG_CONFIG_HOME"):
+        monkeypatch.delenv(name, raising=False)
+    run = scratch.snakemake("figure_1", "--force", *SMOKE)
+    assert run.returncode == 0, run.stdout
+    assert "figure_1" in rules_in(run.stdout)
 
 
 @pytest.mark.parametrize("place", ["results", "results/logs"])

@@ -57,9 +57,9 @@ def test_program_that_is_killed_at_any_moment(half_long, how):
 
 
 def groups_of(program: str, t_end: float, good_inputs: dict) -> dict[str, dict]:
-    """Namelist groups of a run of some tenths of a second, in which `t_end` makes a difference."""
+    """Namelist groups of a run of about a second, in which `t_end` makes a difference."""
     if program == "trajectory":
-        return {GROUPS[program]: {**good_inputs[program], "t_end": 1000 * t_end}}
+        return {GROUPS[program]: {**good_inputs[program], "t_end": 2000 * t_end}}
     group, values = GROUP_OF[program]
     return {"cases_list": {**CASES, "t_end": [t_end, 5.0]}, group: values}
 
@@ -76,18 +76,15 @@ def test_last_of_two_runs_wins(programs, good_inputs, program, first_to_end):
         os.kill(run.pid, signal.SIGSTOP)
         return run
 
-    def end(run: subprocess.Popen[str]) -> tuple[int, list[str]]:
-        os.kill(run.pid, signal.SIGCONT)
-        said = run.communicate(timeout=60)[1].splitlines()
-        return run.returncode, said[-1:]
-
-    older = begin(150.0)
-    newer = begin(200.0)
-    ends = {}
+    runs = {"older": begin(150.0), "newer": begin(200.0)}
+    said = {}
     for name in ("older", "newer") if first_to_end == "older" else ("newer", "older"):
-        ends[name] = end({"older": older, "newer": newer}[name])
+        os.kill(runs[name].pid, signal.SIGCONT)
+        said[name] = runs[name].communicate(timeout=60)[1]
+    assert runs["newer"].returncode == 0, said["newer"]
+    assert runs["older"].returncode == 1
     given_way = "error: output.nc: another run began to write it; only the last one does"
-    assert ends == {"older": (1, [given_way]), "newer": (0, [])}
+    assert said["older"].splitlines()[-1] == given_way
     assert programs.left_behind() == ["output.nc"]
     whole = programs.output.read_bytes()
     assert programs.run(program, "input.nml", "output.nc").returncode == 0

@@ -51,11 +51,11 @@ def test_one_key_of_a_scene_can_be_changed(smoke, scratch, tmp_path):
     (tmp_path / "last.yaml").write_text("scenes: { torus: { tau: 010, history: { v: 1.5 } } }")
     namelist = "results/namelists/trajectories/torus.nml"
     overlays = ("--configfile", str(tmp_path / "first.yaml"), str(tmp_path / "last.yaml"))
-    given = ("--config", "scenes={ torus: { xi: 8e-1, t_end: 0900.5 } }")
+    given = ("--config", "scenes={ torus: { xi: 8e-1, t_end: 09000.5 } }")
     run = scratch.snakemake(namelist, *overlays, *given)
     assert run.returncode == 0, run.stdout
     scene = f90nml.read(scratch.folder / namelist)["scene"].todict()
-    changed = {"tau": 10, "tolerance": 1e-10, "xi": 0.8, "t_end": 900.5}
+    changed = {"tau": 10, "tolerance": 1e-10, "xi": 0.8, "t_end": 9000.5}
     assert {key: scene[key] for key in changed} == changed
     assert scene["history"] == {"theta": 0.0, "u": 0.0, "v": 1.5}
     before = f90nml.read(smoke.folder / namelist)["scene"].todict()
