@@ -68,15 +68,18 @@ def groups_of(program: str, t_end: float, good_inputs: dict) -> dict[str, dict]:
 @pytest.mark.parametrize("program", ["trajectory", "reference"])
 def test_last_of_two_runs_wins(programs, good_inputs, program, first_to_end):
     """The program of a workflow that was killed may still run: it gives way, in words."""
+    for name, t_end in (("older", 150.0), ("newer", 200.0)):
+        write_groups(programs.folder / f"{name}.nml", groups_of(program, t_end, good_inputs))
 
-    def begin(t_end: float) -> subprocess.Popen[str]:
-        groups = groups_of(program, t_end, good_inputs)
-        write_groups(programs.folder / "input.nml", groups)
+    def begin(name: str) -> subprocess.Popen[str]:
+        # in place: a new file would take the inode that a removed one leaves to the next
+        namelist = (programs.folder / f"{name}.nml").read_text()
+        (programs.folder / "input.nml").write_text(namelist)
         run = programs.begin(program, stderr=subprocess.PIPE, text=True)
         os.kill(run.pid, signal.SIGSTOP)
         return run
 
-    runs = {"older": begin(150.0), "newer": begin(200.0)}
+    runs = {"older": begin("older"), "newer": begin("newer")}
     said = {}
     for name in ("older", "newer") if first_to_end == "older" else ("newer", "older"):
         os.kill(runs[name].pid, signal.SIGCONT)
