@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -92,10 +93,10 @@ def unfinished(path: Path) -> set[Path]:
     return set(path.parent.glob(f"{path.name}.*.part"))
 
 
-def wait_for_another(path: Path, before: frozenset[Path] | set[Path] = frozenset()) -> None:
-    """Return when a run has begun to write `path`, beside those there were before."""
+def wait_for(done: Callable[[], bool]) -> None:
+    """Return when something is so."""
     end = time.monotonic() + 60
-    while not unfinished(path) - before:
+    while not done():
         assert time.monotonic() < end
         time.sleep(0.01)
 
@@ -131,7 +132,7 @@ class Programs:
         """A run in the background that has begun to write."""
         before = unfinished(self.output)
         run = self.start(program, **options)
-        wait_for_another(self.output, before)
+        wait_for(lambda: bool(unfinished(self.output) - before))
         return run
 
     def run_with(self, program: str, values: dict) -> subprocess.CompletedProcess[str]:

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from conftest import GROUPS, SMOKE, Programs, Project, wait_for_another
+from conftest import GROUPS, SMOKE, Programs, Project, unfinished, wait_for
 from test_measure import CASES, GROUP_OF
 from write_namelist import write_groups, write_namelist
 
@@ -76,6 +76,7 @@ def test_last_of_two_runs_wins(programs, good_inputs, program, first_to_end):
         namelist = (programs.folder / f"{name}.nml").read_text()
         (programs.folder / "input.nml").write_text(namelist)
         run = programs.begin(program, stderr=subprocess.PIPE, text=True)
+        wait_for(lambda: any(path.stat().st_size for path in unfinished(programs.output)))
         os.kill(run.pid, signal.SIGSTOP)
         return run
 
@@ -119,7 +120,7 @@ def workflow(scratch) -> Iterator[subprocess.Popen[bytes]]:
         stderr=subprocess.DEVNULL,
         start_new_session=True,
     )
-    wait_for_another(scratch.folder / LONG)
+    wait_for(lambda: bool(unfinished(scratch.folder / LONG)))
     os.kill(program_of(run), signal.SIGSTOP)
     yield run
     with contextlib.suppress(ProcessLookupError):
