@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import yaml
 from accuracy import Reference, distances, read_references
 from check_config import checked
+from read_config import read
 from study_cases import case_of_scene
 from tables import read_table
 from write_measured_scene import horizon_of
@@ -37,8 +37,7 @@ class Scene:
 
 def read_study() -> dict:
     """Section work_precision of the project's configuration, with its defaults."""
-    config = yaml.safe_load((ROOT / "config" / "config.yaml").read_text())
-    return checked(config)["work_precision"]
+    return checked(read(ROOT / "config" / "config.yaml"))["work_precision"]
 
 
 def reference_path(name: str) -> Path:

@@ -22,15 +22,28 @@ import claims_config
 import git_commit
 import missing_files
 import page_assets
+import read_config
 import script_imports
 import study_cases
 
 missing_files.make_again()
+
+
+def merged_config():
+    """The configuration, read anew by the project's rules: files and entries as Snakemake has them."""
+    given = workflow.config_settings
+    overlays = list(given.configfiles)
+    defaults = workflow.configfiles[len(overlays) :]
+    if given.replace_workflow_config and (overlays or given.config_args):
+        defaults = []
+    return read_config.merged([*defaults, *overlays], given.config_args or [])
+
+
 try:
     before_run.refuse_unwritable(Path.cwd())
     before_run.free_folder(Path.cwd())
-    config = check_config.checked(config)
-except (before_run.FolderError, check_config.ConfigError) as problems:
+    config = check_config.checked(merged_config())
+except (before_run.FolderError, read_config.ConfigError) as problems:
     raise WorkflowError(problems) from None
 
 
@@ -283,7 +296,7 @@ def claims_listed():
     shown = {*FIGURES, *(Path(table).name for table in LEDGER_TABLES.values())}
     try:
         return claims_config.checked(claims_config.listed(), config, shown)
-    except check_config.ConfigError as problems:
+    except read_config.ConfigError as problems:
         raise WorkflowError(problems) from None
 
 

@@ -1,12 +1,14 @@
 """Check a configuration against its schema, in words, and fill in the defaults."""
 
+import copy
 import math
 from difflib import get_close_matches
+from functools import cache
 from pathlib import Path
 
 import check_attractors
 import jsonschema
-import yaml
+from read_config import ConfigError, parsed, read
 from study_cases import cases_of_family
 
 SCHEMA = Path(__file__).parent.parent / "config" / "schema.yaml"
@@ -31,16 +33,11 @@ LONG = 1e4
 """Time after which a decaying case counts as stationary."""
 
 
-class ConfigError(ValueError):
-    """All that is wrong with a configuration, one line each."""
-
-
 def checked(config: dict) -> dict:
     """Return `config` with its defaults; raise ConfigError naming place, key, value and range."""
     problems = list(_names_that_are_no_text(config))
     if not problems:
-        validator = validator_with_defaults(yaml.safe_load(SCHEMA.read_text()))
-        problems = [in_words(error) for error in validator.iter_errors(config)]
+        problems = [in_words(error) for error in validator_of(SCHEMA).iter_errors(config)]
     if not problems:
         _fill_in_variables(config)
         _fill_in_ends_of_exponents(config)
@@ -59,12 +56,13 @@ def variables_used(config: dict, scene: str) -> set[str]:
     return used
 
 
-def validator_with_defaults(schema: dict):
+@cache
+def validator_of(schema: Path):
     """A validator for which NaN and infinity are no numbers and which sets missing keys."""
     base = jsonschema.Draft202012Validator
 
     def is_finite_number(_, value):
-        return isinstance(value, int | float) and not isinstance(value, bool) and _is_finite(value)
+        return _is_finite_number(value)
 
     def is_whole_number(_, value):
         return isinstance(value, int) and not isinstance(value, bool)
@@ -73,8 +71,7 @@ def validator_with_defaults(schema: dict):
         if validator.is_type(instance, "object"):
             for key, rules in properties.items():
                 if "default" in rules:
-                    default = rules["default"]
-                    instance.setdefault(key, {} if default == {} else default)
+                    instance.setdefault(key, copy.deepcopy(rules["default"]))
         yield from base.VALIDATORS["properties"](validator, properties, instance, subschema)
 
     types = base.TYPE_CHECKER.redefine_many(
@@ -83,11 +80,13 @@ def validator_with_defaults(schema: dict):
     extended = jsonschema.validators.extend(
         base, {"properties": fill_then_check}, type_checker=types
     )
-    return extended(schema)
+    return extended(read(schema))
 
 
-def _is_finite(value: int | float) -> bool:
-    """Whether a double can hold the number."""
+def _is_finite_number(value) -> bool:
+    """Whether it is a number that a double can hold."""
+    if not isinstance(value, int | float) or isinstance(value, bool):
+        return False
     try:
         return math.isfinite(value)
     except OverflowError:
@@ -134,19 +133,17 @@ def in_words(error: jsonschema.ValidationError) -> str:
 
 def _value_in_words(path: list[str], value, expected: str) -> str:
     line = f"{_place(path[:-1])}: {path[-1] if path else 'value'} = {value!r}; expected {expected}"
-    if isinstance(value, str):
-        try:
-            number = _with_dot(float(value))
-            line += f" (this is text; write {number}, with a dot, for the number)"
-        except ValueError:
-            pass
+    if isinstance(value, str) and _is_number(value):
+        line += f" (this is text; write {value} without quotes for the number)"
     return line
 
 
-def _with_dot(number: float) -> str:
-    """A number as YAML takes it for one."""
-    mantissa, *exponent = repr(number).split("e")
-    return "e".join([mantissa if "." in mantissa else f"{mantissa}.0", *exponent])
+def _is_number(text: str) -> bool:
+    """Whether a text would be a finite number without quotes."""
+    try:
+        return _is_finite_number(parsed(text))
+    except ConfigError:
+        return False
 
 
 def _place(path: list[str]) -> str:

@@ -1,7 +1,6 @@
 """The ledger: a verdict on every claim of the paper, by tests of files in results/ alone."""
 
 import json
-import os
 from pathlib import Path
 
 import claims_of_attractors
@@ -10,7 +9,7 @@ import claims_of_formulas
 import claims_of_runs
 from claims_config import named_test
 from claims_results import NOT_TESTABLE, Finding, Results, read_results
-from outputs import logged
+from outputs import logged, written
 from tables import write_table
 
 TESTS = {
@@ -58,9 +57,8 @@ def path_of(shown: str) -> str:
 
 def write_json(path: str | Path, rows: list[dict]) -> None:
     """The rows as JSON; the file is whole or absent."""
-    unfinished = f"{path}.part"
-    Path(unfinished).write_text(json.dumps(rows, indent=2) + "\n")
-    os.replace(unfinished, path)
+    with written(path) as unfinished:
+        unfinished.write_text(json.dumps(rows, indent=2) + "\n")
 
 
 if __name__ == "__main__":

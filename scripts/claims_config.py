@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-import yaml
-from check_config import ConfigError, in_words, validator_with_defaults
+from check_config import in_words, validator_of
+from read_config import ConfigError, read
 
 FOLDER = Path(__file__).parent.parent / "config"
 CLAIMS = FOLDER / "claims.yaml"
@@ -12,7 +12,7 @@ SCHEMA = FOLDER / "claims-schema.yaml"
 
 def listed() -> dict:
     """What the file says, unchecked."""
-    return yaml.safe_load(CLAIMS.read_text())
+    return read(CLAIMS)
 
 
 def checked(said: dict, config: dict, shown: set[str]) -> dict:
@@ -21,8 +21,7 @@ def checked(said: dict, config: dict, shown: set[str]) -> dict:
     `config` is the configuration whose scenes and planes they name, `shown` what they may tell
     the reader to look at.
     """
-    validator = validator_with_defaults(yaml.safe_load(SCHEMA.read_text()))
-    problems = [in_words(error) for error in validator.iter_errors(said)]
+    problems = [in_words(error) for error in validator_of(SCHEMA).iter_errors(said)]
     if not problems:
         for name, claim in said["claims"].items():
             problems += [f"config claims {name}{line}" for line in _wrong(claim, config, shown)]

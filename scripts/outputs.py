@@ -2,6 +2,8 @@
 
 import contextlib
 import os
+import re
+import time
 import traceback
 from collections.abc import Iterator
 from pathlib import Path
@@ -15,10 +17,20 @@ class FileError(Exception):
 
 @contextlib.contextmanager
 def written(path: str | Path) -> Iterator[Path]:
-    """The path to write to: what is there at the end becomes `path`, of a failure nothing stays."""
-    unfinished = Path(f"{path}.part")
+    """The path to write to: what is there at the end becomes `path`, of a failure nothing stays.
+
+    Each run has another one, and removes those of earlier runs, as the Fortran programs do: the
+    last of several runs to begin writes the file.
+    """
+    path = Path(path)
+    unfinished = path.with_name(f"{path.name}.{os.getpid()}-{time.monotonic_ns()}.part")
     try:
+        for name in os.listdir(path.parent):
+            if re.fullmatch(rf"{re.escape(path.name)}\.[0-9-]+\.part", name):
+                path.with_name(name).unlink(missing_ok=True)
         yield unfinished
+        if not unfinished.exists():
+            raise FileError(f"{path}: another run began to write it; only the last one does")
         os.replace(unfinished, path)
     except OSError as problem:
         raise FileError(f"{path}: cannot write: {problem.strerror}; {REMEDY}") from problem

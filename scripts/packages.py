@@ -5,7 +5,7 @@ from importlib import metadata
 
 PACKAGES = [
     "snakemake",
-    "pyyaml",
+    "ruamel.yaml",
     "jsonschema",
     "f90nml",
     "numpy",

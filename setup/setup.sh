@@ -65,7 +65,7 @@ ask_for_packages() {
 # What the virtual environment must have been made from: the locked packages, the interpreter,
 # and the folder, since the scripts of a virtual environment hold its path.
 venv_source() {
-    sha256sum "$lock"
+    sha256sum setup/requirements.lock "$lock"
     /usr/bin/python3 --version
     pwd
 }
@@ -79,23 +79,54 @@ make_venv() {
     # settings that would send the packages elsewhere or change their versions
     unset PYTHONHOME PYTHONPATH PIP_CONSTRAINT PIP_PREFIX PIP_ROOT PIP_TARGET PIP_USER
     [[ $made_from != "$venv/made-from" ]] || /usr/bin/python3 -m venv --clear "$venv"
-    "$venv/bin/python" -W ignore:DEPRECATION -m pip install --quiet --no-input --no-user \
-        --disable-pip-version-check --require-hashes -r "$lock"
-    [[ $venv != .venv ]] || quote_interpreter
+    # what comes as source is built by the locked build tool, not by one that pip would look for
+    install_locked setup/requirements.lock
+    install_locked "$lock" --no-build-isolation --use-pep517
+    [[ $venv != .venv ]] || mend_snakemake
     venv_source >"$made_from"
+}
+
+install_locked() {
+    "$venv/bin/python" -m pip install --quiet --no-input --no-user --disable-pip-version-check \
+        "${@:2}" --require-hashes -r "$1"
+}
+
+mend_snakemake() {
+    cd .venv/lib/python3.*/site-packages
+    quote_interpreter
+    read_as_the_project
+    cd - >/dev/null
 }
 
 # Snakemake leaves its interpreter unquoted, so that scripts, and jobs on a cluster, fail in a folder
 # whose name holds a space (snakemake issue 2645, open).
 quote_interpreter() {
     local jobs quoted='__import__("shlex").quote(sys.executable)'
-    cd .venv/lib/python3.*/site-packages
     sed -i 's/"{py_exec} {fname:q}"/"{py_exec:q} {fname:q}"/' snakemake/script/__init__.py
     for jobs in snakemake_interface_executor_plugins/executors/remote.py \
         snakemake_executor_plugin_slurm_jobstep/__init__.py; do
         [[ ! -e $jobs ]] || sed -i -E "s/^( +|.* return )sys\.executable$/\1$quoted/" "$jobs"
     done
-    cd - >/dev/null
+}
+
+# Snakemake does not name the line at which a configuration file is broken, and ends with a traceback
+# where there is none. It is to read them as the Snakefile does, which reads them once more.
+read_as_the_project() {
+    ! grep -q read_config snakemake/common/configfile.py || return 0
+    cat >>snakemake/common/configfile.py <<'END'
+
+
+def load_configfile(configpath):
+    import sys
+
+    sys.path.append(str(Path(sys.prefix).parent / "scripts"))
+    import read_config
+
+    try:
+        return read_config.read(configpath)
+    except read_config.ConfigError as problem:
+        raise WorkflowError(str(problem)) from None
+END
 }
 
 # A build, too, holds the path of its folder: drop those made before a move.
@@ -108,6 +139,12 @@ drop_moved_builds() {
     done
 }
 
+refuse() { say "$*" && exit 1; }
+
+# CMake and Ninja give some characters of a path a meaning of their own.
+case $PWD in
+    *[\$\;\"\\\|\<]*) refuse "cannot build in '$PWD': a path without \$ ; \" \\ | < is expected; move the project" ;;
+esac
 drop_moved_builds
 missing=$(missing_packages)
 if [[ -z $missing ]] && venv_is_ready; then
@@ -115,6 +152,7 @@ if [[ -z $missing ]] && venv_is_ready; then
 fi
 [[ -z $missing ]] || become_root || ask_for_packages "$missing"
 
+[[ -w . ]] || refuse "nothing can be written in $PWD; see that it is on no read-only disk and belongs to you, then run again"
 exec 9>>.setup.lock
 flock --nonblock 9 || { say "waiting for another set-up of this folder" && flock 9; }
 missing=$(missing_packages)

@@ -6,14 +6,14 @@ import shutil
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 import xarray as xr
-import yaml
 from check_config import checked
-from snakemake.utils import update_config
+from read_config import merged, read
 from write_namelist import write_namelist
 
 ROOT = Path(__file__).parent.parent
@@ -88,10 +88,15 @@ class Project:
         return {n: timeless(path) for n, path in names.items() if not n.startswith(changing)}
 
 
-def wait_for(path: Path) -> None:
-    """Return when a file is there."""
+def unfinished(path: Path) -> set[Path]:
+    """What runs are writing that will become `path`."""
+    return set(path.parent.glob(f"{path.name}.*.part"))
+
+
+def wait_for(done: Callable[[], bool]) -> None:
+    """Return when something is so."""
     end = time.monotonic() + 60
-    while not path.exists():
+    while not done():
         assert time.monotonic() < end
         time.sleep(0.01)
 
@@ -125,8 +130,9 @@ class Programs:
 
     def begin(self, program: str, **options) -> subprocess.Popen:
         """A run in the background that has begun to write."""
+        before = unfinished(self.output)
         run = self.start(program, **options)
-        wait_for(self.output.with_name(f"{self.output.name}.part"))
+        wait_for(lambda: bool(unfinished(self.output) - before))
         return run
 
     def run_with(self, program: str, values: dict) -> subprocess.CompletedProcess[str]:
@@ -174,7 +180,7 @@ def copy_of_project(folder: Path) -> Project:
 @pytest.fixture(scope="session")
 def default_config() -> dict:
     """The config as it stands in the file; not to be changed."""
-    return yaml.safe_load((ROOT / "config" / "config.yaml").read_text())
+    return read(ROOT / "config" / "config.yaml")
 
 
 @pytest.fixture
@@ -184,11 +190,9 @@ def config(default_config) -> dict:
 
 
 @pytest.fixture(scope="session")
-def smoke_config(default_config) -> dict:
+def smoke_config() -> dict:
     """The config of the smoke run, with its defaults; not to be changed."""
-    config = copy.deepcopy(default_config)
-    update_config(config, yaml.safe_load((ROOT / "config" / "smoke.yaml").read_text()))
-    return checked(config)
+    return checked(merged([ROOT / "config" / name for name in ("config.yaml", "smoke.yaml")], []))
 
 
 @pytest.fixture

@@ -2,8 +2,8 @@
 
 import re
 
-import yaml
 from conftest import ROOT
+from read_config import read
 
 
 def data_of(*scenes: str) -> set[str]:
@@ -13,7 +13,7 @@ def data_of(*scenes: str) -> set[str]:
 
 def settings(*path: str) -> dict:
     """A section of the config as it stands in the file."""
-    section = yaml.safe_load((ROOT / "config" / "config.yaml").read_text())
+    section = read(ROOT / "config" / "config.yaml")
     for key in path:
         section = section[key]
     return section

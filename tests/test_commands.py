@@ -182,7 +182,7 @@ def debian_packages(folder: str = "setup") -> list[str]:
 
 def made_from(folder: Path) -> str:
     """What the set-up notes of the .venv that it made there."""
-    command = "sha256sum requirements.lock; /usr/bin/python3 --version; pwd"
+    command = "sha256sum setup/requirements.lock requirements.lock; /usr/bin/python3 --version; pwd"
     run = subprocess.run(["bash", "-c", command], cwd=folder, capture_output=True, text=True)
     return run.stdout
 
@@ -245,16 +245,49 @@ def test_packages_of_a_profile_are_added(bare):
     scripts = bare / ".venv" / "lib" / "python3.11" / "site-packages" / "snakemake" / "script"
     scripts.mkdir(parents=True)
     (scripts / "__init__.py").touch()
+    (scripts.parent / "common").mkdir()
+    (scripts.parent / "common" / "configfile.py").touch()
     (bare / ".venv" / "made-from").write_text(made_from(bare))
     for _ in range(2):
         run = set_up_in(bare, part=("profiles/slurm",))
         assert run.returncode == 0, run.stderr
-    (call,) = (bare / "calls").read_text().splitlines()
-    assert "pip install" in call
-    assert call.endswith("--require-hashes -r profiles/slurm/requirements.lock")
+    build_tool, added = (bare / "calls").read_text().splitlines()
+    assert "pip install" in added
+    assert build_tool.endswith("--require-hashes -r setup/requirements.lock")
+    assert added.endswith("--require-hashes -r profiles/slurm/requirements.lock")
+    assert "--no-build-isolation" in added
+    mended = (scripts.parent / "common" / "configfile.py").read_text()
+    assert mended.count("read_config.read(") == 1
     (bare / ".venv" / "made-from-slurm").unlink()
     assert set_up_in(bare, part=("profiles/slurm",)).returncode == 0
-    assert len((bare / "calls").read_text().splitlines()) == 2
+    assert len((bare / "calls").read_text().splitlines()) == 4
+    assert (scripts.parent / "common" / "configfile.py").read_text() == mended
+
+
+@pytest.mark.parametrize("character", list('$;"\\|<'))
+def test_folder_in_which_nothing_can_be_built_is_refused(tmp_path, character):
+    """At once: CMake and Ninja give the character a meaning of their own."""
+    folder = tmp_path / f"a{character}b"
+    shutil.copytree(ROOT / "setup", folder / "setup")
+    run = subprocess.run([folder / "setup" / "setup.sh"], capture_output=True, text=True)
+    assert run.returncode == 1
+    (line,) = run.stderr.splitlines()
+    assert line.startswith(f"set-up: cannot build in '{folder}': a path without ")
+    assert [path.name for path in folder.iterdir()] == ["setup"]
+
+
+def test_read_only_folder_is_told(bare):
+    """Before anything is installed."""
+    pretend_installed(bare, debian_packages())
+    bare.chmod(0o555)
+    nobody = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
+    run = set_up_in(bare, *(nobody if os.geteuid() == 0 else []))
+    bare.chmod(0o755)
+    assert run.returncode == 1
+    (line,) = run.stderr.splitlines()
+    assert line.startswith(
+        f"set-up: nothing can be written in {bare}; see that it is on no read-only"
+    )
 
 
 def test_only_missing_packages_are_installed(bare):

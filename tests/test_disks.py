@@ -2,10 +2,11 @@
 
 import shutil
 import sys
+import time
 from pathlib import Path
 
 import pytest
-from conftest import GROUPS, SMOKE
+from conftest import GROUPS, SMOKE, rules_in
 from disks import FULL, READ_ONLY, on_disk
 from test_measure import CASES, GROUP_OF
 from write_namelist import write_groups
@@ -43,6 +44,22 @@ def test_program_on_such_a_disk(programs, good_inputs, program, disk):
     assert run.stdout == ""
 
 
+def test_disk_that_fills_up_ends_a_trajectory(programs, good_inputs):
+    """At once: all of it would take minutes."""
+    values = {**good_inputs["trajectory"], "t_end": 1e8}
+    write_groups(programs.folder / "input.nml", {GROUPS["trajectory"]: values})
+    binary = programs.binaries / "trajectory"
+    begun = time.monotonic()
+    disk = FULL.replace("4k", "1m")
+    run = on_disk(disk, "disk", programs.folder, binary, "input.nml", "disk/output")
+    assert time.monotonic() - begun < 20
+    assert run.returncode == 1
+    last = run.stderr.splitlines(keepends=True)[-1]
+    assert last.startswith("error: disk/output: cannot write")
+    assert last.endswith(REMEDY)
+    assert run.stdout == ""
+
+
 def test_script_on_a_full_disk(scratch):
     """The same from the workflow, without a traceback of the script."""
     place = "results/figures"
@@ -54,6 +71,16 @@ def test_script_on_a_full_disk(scratch):
     )
     assert 'figure_1.py", line' not in run.stderr
     assert run.stdout == ""
+
+
+def test_home_that_cannot_be_written_is_not_needed(scratch, monkeypatch):
+    """Snakemake keeps a cache there, and Matplotlib another."""
+    monkeypatch.setenv("HOME", "/dev/null")
+    for name in ("XDG_CACHE_HOME", "XDG_CONFIG_HOME"):
+        monkeypatch.delenv(name, raising=False)
+    run = scratch.snakemake("figure_1", "--force", *SMOKE)
+    assert run.returncode == 0, run.stdout
+    assert "figure_1" in rules_in(run.stdout)
 
 
 @pytest.mark.parametrize("place", ["results", "results/logs"])

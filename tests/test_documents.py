@@ -10,10 +10,10 @@ from functools import cache
 from pathlib import PurePath
 
 import pytest
-import yaml
 from check_config import checked
 from claims_config import checked as checked_claims
 from conftest import ROOT, project_files
+from read_config import parsed, read
 from snakemake.utils import update_config
 
 DOCUMENTS = [
@@ -195,10 +195,10 @@ def test_commands_that_are_named_exist(document):
 def test_examples_of_config_are_accepted(document, default_config):
     """Merged over the config, as Snakemake does it; claims over the claims."""
     for block in blocks_of(document, "yaml"):
-        mine = yaml.safe_load(block)
+        mine = parsed(block)
         config = copy.deepcopy(default_config)
         # examples build on the scene that the first one adds
-        scene = yaml.safe_load(blocks_of("config/README.md", "yaml")[0])
+        scene = parsed(blocks_of("config/README.md", "yaml")[0])
         update_config(config, scene)
         if "claims" in mine:
             checked_claims(mine, checked(config), {c["look_at"] for c in mine["claims"].values()})
@@ -212,7 +212,7 @@ def test_keys_of_a_scene_are_those_of_the_schema():
     table = text_of("config/README.md").partition("## Keys of a scene")[2].partition("\n## ")[0]
     rows = re.findall(r"^\| (`.*?) \|", table, re.MULTILINE)
     named = {key for row in rows for key in re.findall(r"`(\w+)`", row)}
-    schema = yaml.safe_load((ROOT / "config" / "schema.yaml").read_text())
+    schema = read(ROOT / "config" / "schema.yaml")
     scene = schema["properties"]["scenes"]["additionalProperties"]
     if "$ref" in scene:
         for step in scene["$ref"].removeprefix("#/").split("/"):
@@ -258,7 +258,7 @@ def test_every_picture_is_shown_and_has_its_command():
 
 def test_catalog_file_is_what_the_catalog_reads():
     """The keys that the Snakemake workflow catalog knows; Snakemake itself is told nothing more."""
-    usage = yaml.safe_load((ROOT / ".snakemake-workflow-catalog.yml").read_text())["usage"]
+    usage = read(ROOT / ".snakemake-workflow-catalog.yml")["usage"]
     assert set(usage) == {"mandatory-flags", "software-stack-deployment"}
     assert usage["mandatory-flags"]["flags"] == []
     stack = usage["software-stack-deployment"]

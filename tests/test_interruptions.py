@@ -10,8 +10,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from conftest import GROUPS, SMOKE, Programs, Project, wait_for
-from write_namelist import write_namelist
+from conftest import GROUPS, SMOKE, Programs, Project, unfinished, wait_for
+from test_measure import CASES, GROUP_OF
+from write_namelist import write_groups, write_namelist
 
 SNAKEMAKE = Path(sys.executable).parent / "snakemake"
 LONG = "results/references/stability/grid_fault.tsv"
@@ -56,20 +57,57 @@ def test_program_that_is_killed_at_any_moment(half_long, how):
     assert half_long.left_behind() == ["output.nc"]
 
 
-def test_last_of_two_runs_wins(half_long):
+def groups_of(program: str, t_end: float, good_inputs: dict) -> dict[str, dict]:
+    """Namelist groups of a run of about a second, in which `t_end` makes a difference."""
+    if program == "trajectory":
+        return {GROUPS[program]: {**good_inputs[program], "t_end": 2000 * t_end}}
+    group, values = GROUP_OF[program]
+    return {"cases_list": {**CASES, "t_end": [t_end, 5.0]}, group: values}
+
+
+@pytest.mark.parametrize("first_to_end", ["older", "newer"])
+@pytest.mark.parametrize("program", ["trajectory", "reference"])
+def test_last_of_two_runs_wins(programs, good_inputs, program, first_to_end):
     """The program of a workflow that was killed may still run: it gives way, in words."""
-    first = half_long.begin("trajectory", stderr=subprocess.PIPE, text=True)
-    os.kill(first.pid, signal.SIGSTOP)
-    second = half_long.begin("trajectory")
-    os.kill(first.pid, signal.SIGCONT)
-    assert second.wait(timeout=60) == 0
-    assert first.communicate(timeout=60)[1].splitlines()[-1] == (
-        "error: output.nc: another run began to write it; only the last one does"
-    )
-    assert first.returncode == 1
-    whole = half_long.output.read_bytes()
+    for name, t_end in (("older", 150.0), ("newer", 200.0)):
+        write_groups(programs.folder / f"{name}.nml", groups_of(program, t_end, good_inputs))
+
+    def begin(name: str) -> subprocess.Popen[str]:
+        # in place: a new file would take the inode that a removed one leaves to the next
+        namelist = (programs.folder / f"{name}.nml").read_text()
+        (programs.folder / "input.nml").write_text(namelist)
+        run = programs.begin(program, stderr=subprocess.PIPE, text=True)
+        wait_for(lambda: any(path.stat().st_size for path in unfinished(programs.output)))
+        os.kill(run.pid, signal.SIGSTOP)
+        return run
+
+    runs = {"older": begin("older"), "newer": begin("newer")}
+    said = {}
+    for name in ("older", "newer") if first_to_end == "older" else ("newer", "older"):
+        os.kill(runs[name].pid, signal.SIGCONT)
+        said[name] = runs[name].communicate(timeout=60)[1]
+    assert runs["newer"].returncode == 0, said["newer"]
+    assert runs["older"].returncode == 1
+    given_way = "error: output.nc: another run began to write it; only the last one does"
+    assert said["older"].splitlines()[-1] == given_way
+    assert programs.left_behind() == ["output.nc"]
+    whole = programs.output.read_bytes()
+    assert programs.run(program, "input.nml", "output.nc").returncode == 0
+    assert programs.output.read_bytes() == whole
+
+
+def test_runs_that_were_killed_leave_no_more_than_one_file(half_long):
+    """And none once a run has begun the same file; files of other outputs stay."""
+    others = ["output.nc.nc.1-2.part", "output.nc.1-2.part.nc", "output.1-2.part"]
+    for name in others:
+        (half_long.folder / name).touch()
+    for _ in range(3):
+        run = half_long.begin("trajectory")
+        run.kill()
+        run.wait()
+        assert len(set(half_long.left_behind()) - set(others)) == 1
     assert half_long.run("trajectory", "input.nml", "output.nc").returncode == 0
-    assert half_long.output.read_bytes() == whole
+    assert half_long.left_behind() == sorted(["output.nc", *others])
 
 
 @pytest.fixture
@@ -83,7 +121,7 @@ def workflow(scratch) -> Iterator[subprocess.Popen[bytes]]:
         stderr=subprocess.DEVNULL,
         start_new_session=True,
     )
-    wait_for(scratch.folder / f"{LONG}.part")
+    wait_for(lambda: bool(unfinished(scratch.folder / LONG)))
     os.kill(program_of(run), signal.SIGSTOP)
     yield run
     with contextlib.suppress(ProcessLookupError):
@@ -107,8 +145,8 @@ def program_of(run: subprocess.Popen[bytes]) -> int:
 
 def assert_resumes(project: Project, before: dict[str, bytes]) -> None:
     """No other result has changed, and the same command completes with the same bytes."""
-    present = project.outputs()
-    present.pop(f"{LONG}.part".removeprefix("results/"), None)
+    unfinished = LONG.removeprefix("results/") + "."
+    present = {k: v for k, v in project.outputs().items() if not k.startswith(unfinished)}
     assert present == {name: before[name] for name in before if not LONG.endswith(name)}
     again = project.snakemake(LONG, *SMOKE)
     assert again.returncode == 0, again.stdout

@@ -4,18 +4,38 @@ import pytest
 import xarray as xr
 from inputs import read
 from outputs import FileError, logged, written
-from tables import write_table
 
 
 def test_file_is_there_when_complete(tmp_path):
     """And not before; what an earlier run left unfinished is no hindrance."""
     path = tmp_path / "table.tsv"
-    (tmp_path / "table.tsv.part").write_text("left by a run that was killed")
+    (tmp_path / "table.tsv.123-456.part").write_text("left by a run that was killed")
+    (tmp_path / "a.table.tsv.123-456.part").write_text("of another file")
     with written(path) as unfinished:
         unfinished.write_text("whole")
         assert not path.exists()
-    assert [file.name for file in tmp_path.iterdir()] == ["table.tsv"]
+    assert sorted(file.name for file in tmp_path.iterdir()) == [
+        "a.table.tsv.123-456.part",
+        "table.tsv",
+    ]
     assert path.read_text() == "whole"
+
+
+@pytest.mark.parametrize("first_to_end", ["older", "newer"])
+def test_last_of_two_writers_wins(tmp_path, first_to_end):
+    """The older one gives way, in words, whichever of the two ends first."""
+    path = tmp_path / "table.tsv"
+    older, newer = written(path), written(path)
+    older.__enter__().write_text("older")
+    newer.__enter__().write_text("newer")
+    if first_to_end == "newer":
+        newer.__exit__(None, None, None)
+    with pytest.raises(FileError, match=r"table.tsv: another run began to write it; only the last"):
+        older.__exit__(None, None, None)
+    if first_to_end == "older":
+        newer.__exit__(None, None, None)
+    assert path.read_text() == "newer"
+    assert [file.name for file in tmp_path.iterdir()] == ["table.tsv"]
 
 
 def test_failure_leaves_the_older_file_and_nothing_else(tmp_path):
@@ -37,9 +57,14 @@ def test_failure_leaves_the_older_file_and_nothing_else(tmp_path):
 def test_full_disk_is_told(tmp_path):
     """The device that is always full stands in."""
     path = tmp_path / "table.tsv"
-    (tmp_path / "table.tsv.part").symlink_to("/dev/full")
+
+    def write_to_full_disk():
+        with written(path) as unfinished:
+            unfinished.symlink_to("/dev/full")
+            unfinished.write_text("a")
+
     with pytest.raises(FileError, match=r"table.tsv: cannot write: No space left .*; see that its"):
-        write_table(path, [{"a": 1}])
+        write_to_full_disk()
     assert list(tmp_path.iterdir()) == []
 
 

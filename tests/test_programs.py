@@ -3,6 +3,9 @@
 import math
 import os
 import re
+import shutil
+import stat
+from pathlib import Path
 
 import pytest
 import xarray as xr
@@ -280,18 +283,59 @@ def test_output_in_a_missing_folder_is_refused(programs, good_inputs, program):
     programs.made_by(program, good_inputs[program])
     programs.output.unlink()
     line = refusal(programs, programs.run(program, "input.nml", "nowhere/output.nc"))
-    assert "nowhere/output.nc" in line
+    assert line.startswith("error: nowhere/output.nc: cannot write: there is no such folder; see")
 
 
 @pytest.mark.parametrize("program", GROUPS)
-def test_output_that_is_a_folder_is_refused(programs, good_inputs, program):
-    """The line names the output, the folder stays, nothing unfinished is left."""
-    programs.output.mkdir()
-    run = programs.run_with(program, good_inputs[program])
-    assert run.returncode == 1
-    assert "output.nc" in run.stderr
-    assert programs.left_behind() == ["output.nc"]
-    assert list(programs.output.iterdir()) == []
+def test_output_that_is_no_file_is_refused(programs, program):
+    """A folder, a device, a pipe or a link, before anything is read; it stays, nothing is left."""
+    place = programs.folder / "of each kind.nml"
+    for name in ("folder", "pipe", "link", "device"):
+        place.mkdir()
+        path = place / name
+        if name == "folder":
+            path.mkdir()
+        elif name == "pipe":
+            os.mkfifo(path)
+        elif name == "link":
+            path.symlink_to("/dev/null")
+        else:
+            path = Path("/dev/null")
+        line = refusal(programs, programs.run(program, "nowhere.nml", path))
+        assert line.startswith(
+            f"error: {path}: cannot write: a folder, a device or a link is there"
+        )
+        assert stat.S_IFMT(path.lstat().st_mode) != stat.S_IFREG
+        assert [left.name for left in place.iterdir()] == [name][: name != "device"]
+        shutil.rmtree(place)
+
+
+@pytest.mark.parametrize("program", GROUPS)
+def test_output_that_is_the_input_is_refused(programs, good_inputs, program):
+    """By its own name or another; the namelist stays."""
+    programs.made_by(program, good_inputs[program])
+    programs.output.unlink()
+    namelist = programs.folder / "input.nml"
+    before = namelist.read_bytes()
+    other = programs.folder / "another name.nml"
+    other.hardlink_to(namelist)
+    for path in (namelist, other):
+        line = refusal(programs, programs.run(program, "input.nml", path))
+        assert line.startswith(f"error: {path}: cannot write: it is the input input.nml; expected")
+    assert namelist.read_bytes() == before
+
+
+def test_spectrum_does_not_replace_its_trajectory(programs, good_inputs):
+    """Which the namelist names."""
+    trajectory = programs.folder / "trajectory.nml"
+    shutil.copy(good_inputs["spectrum"]["trajectory"], trajectory)
+    before = trajectory.read_bytes()
+    good_inputs["spectrum"]["trajectory"] = "trajectory.nml"
+    programs.made_by("spectrum", good_inputs["spectrum"])
+    programs.output.unlink()
+    line = refusal(programs, programs.run("spectrum", "input.nml", "trajectory.nml"))
+    assert "trajectory.nml: cannot write: it is the input trajectory.nml; expected" in line
+    assert trajectory.read_bytes() == before
 
 
 @pytest.mark.parametrize("program", GROUPS)

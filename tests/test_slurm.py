@@ -4,14 +4,14 @@ import ast
 import re
 
 import pytest
-import yaml
 from conftest import ROOT
+from read_config import read
 from scaling import Run, projected_hours, report, start_up
 
 
 def profile() -> dict:
     """Settings of the profile."""
-    return yaml.safe_load((ROOT / "profiles" / "slurm" / "config.yaml").read_text())
+    return read(ROOT / "profiles" / "slurm" / "config.yaml")
 
 
 def long_rules() -> set[str]:

@@ -1,5 +1,6 @@
 """Scenes of a user's own in the workflow, and what goes wrong there."""
 
+import f90nml
 import numpy as np
 import pytest
 import xarray as xr
@@ -44,11 +45,21 @@ def test_scene_of_ones_own(scratch):
     assert torus.attrs["t_end"] == 8000.0
 
 
-def test_one_key_of_a_scene_can_be_changed(project, tmp_path):
-    """The others keep their values."""
-    (tmp_path / "mine.yaml").write_text("scenes: { torus: { history: { v: 1.5 } } }")
-    run = project.snakemake("--dry-run", "figure_5", "--configfile", str(tmp_path / "mine.yaml"))
+def test_one_key_of_a_scene_can_be_changed(smoke, scratch, tmp_path):
+    """The others keep their values; numbers are read by YAML 1.2, in files and in `--config`."""
+    (tmp_path / "first.yaml").write_text("scenes: { torus: { tau: 7, tolerance: 1e-10 } }")
+    (tmp_path / "last.yaml").write_text("scenes: { torus: { tau: 010, history: { v: 1.5 } } }")
+    namelist = "results/namelists/trajectories/torus.nml"
+    overlays = ("--configfile", str(tmp_path / "first.yaml"), str(tmp_path / "last.yaml"))
+    given = ("--config", "scenes={ torus: { xi: 8e-1, t_end: 09000.5 } }")
+    run = scratch.snakemake(namelist, *overlays, *given)
     assert run.returncode == 0, run.stdout
+    scene = f90nml.read(scratch.folder / namelist)["scene"].todict()
+    changed = {"tau": 10, "tolerance": 1e-10, "xi": 0.8, "t_end": 9000.5}
+    assert {key: scene[key] for key in changed} == changed
+    assert scene["history"] == {"theta": 0.0, "u": 0.0, "v": 1.5}
+    before = f90nml.read(smoke.folder / namelist)["scene"].todict()
+    assert scene["epsilon"] == before["epsilon"]
 
 
 @pytest.mark.parametrize(
@@ -56,7 +67,11 @@ def test_one_key_of_a_scene_can_be_changed(project, tmp_path):
     [
         ("scenes: { torus: { tau: -1.0 } }", "scene 'torus': tau = -1.0; expected "),
         ("scenes: { torus: { taus: 1.0 } }", "scene 'torus': unknown key ['taus']"),
-        ("scenes: { torus: { tolerance: 1e-9 } }", "tolerance = '1e-9'"),
+        ("scenes: { torus: { tau: 1:30 } }", "scene 'torus': tau = '1:30'; expected "),
+        ("scenes:\n  torus:\n    tau: 1\n    tau: 2", "mine.yaml, line 4: found duplicate key"),
+        ("scenes:\n  torus: [\n\nx: 1", "mine.yaml, line 4: expected ',' or ']'"),
+        ("- scenes", "mine.yaml: ['scenes']; expected keys"),
+        (None, "mine.yaml: cannot be read: No such file or directory"),
         ("scenes: { mine: { tau: 1.0 } }", "scene 'mine': key ['epsilon'"),
         ("scenes: { Mine: {} }", "config scenes: name 'Mine'"),
         ("scenes: { torus: }", "torus = None"),
@@ -67,7 +82,8 @@ def test_one_key_of_a_scene_can_be_changed(project, tmp_path):
 )
 def test_bad_file_of_ones_own_is_refused_in_words(smoke, tmp_path, text, words):
     """No traceback, a status other than 0, and nothing made."""
-    (tmp_path / "mine.yaml").write_text(text)
+    if text is not None:
+        (tmp_path / "mine.yaml").write_text(text)
     before = smoke.outputs()
     run = smoke.snakemake(
         "results/trajectories/torus.nc", "--configfile", str(tmp_path / "mine.yaml")

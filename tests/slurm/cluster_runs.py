@@ -18,9 +18,9 @@ from pathlib import Path
 
 import psutil
 import pytest
-import yaml
 from conftest import ROOT, Project, copy_of_project, rules_in
 from job_watch import GONE, MemoryWatch, Program, running_program
+from read_config import read
 from scaling import Run, report
 from slurm_cluster import Cluster, until
 
@@ -108,7 +108,7 @@ def counted(log: str, rule: str) -> int:
 
 def limits() -> dict:
     """What the profile asks Slurm for, for a part of the atlas."""
-    profile = yaml.safe_load((ROOT / "profiles" / "slurm" / "config.yaml").read_text())
+    profile = read(ROOT / "profiles" / "slurm" / "config.yaml")
     return profile["set-resources"]["attractors_runs"]
 
 

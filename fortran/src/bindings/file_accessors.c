@@ -1,9 +1,70 @@
-/* The layout of struct stat is known to C alone. */
+/* What C alone knows of files: error numbers, and the layout of struct stat and struct dirent. */
+#define _POSIX_C_SOURCE 200809L
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
-/* Number of the file that has this path, 0 where there is none. */
-long long number_of_file(const char *path)
+/* Answers beside 0 (done) and error numbers; `files` has the same. */
+enum { missing = -1, occupied = -2 };
+
+static int reason(void)
+{
+    return errno == ENOENT ? missing : errno;
+}
+
+/* Whether a file can be made at `path` in `folder`, or replaced there. */
+int file_place(const char *folder, const char *path)
 {
     struct stat found;
-    return stat(path, &found) == 0 ? (long long)found.st_ino : 0;
+    if (lstat(path, &found) == 0 && !S_ISREG(found.st_mode))
+        return occupied;
+    return access(folder, W_OK | X_OK) == 0 ? 0 : reason();
+}
+
+/* 1 where both paths lead to one file. */
+int file_is_same(const char *one, const char *other)
+{
+    struct stat a, b;
+    return stat(one, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev &&
+           a.st_ino == b.st_ino;
+}
+
+/* Write all of a file: one that is there, or one where nothing is yet. */
+int file_write(const char *path, const char *content, size_t length, int there)
+{
+    FILE *file = fopen(path, there ? "r+b" : "wbx");
+    if (!file)
+        return reason();
+    if (fwrite(content, 1, length, file) == length)
+        return fclose(file) == 0 ? 0 : reason();
+    int why = reason();
+    fclose(file);
+    return why;
+}
+
+int file_rename(const char *from, const char *to)
+{
+    return rename(from, to) == 0 ? 0 : reason();
+}
+
+/* Remove the files of `folder` named `name`, a point, digits and hyphens, and `ending`. */
+void file_remove_marked(const char *folder, const char *name, const char *ending)
+{
+    DIR *listed = opendir(folder);
+    if (!listed)
+        return;
+    size_t length = strlen(name);
+    for (struct dirent *entry = readdir(listed); entry; entry = readdir(listed)) {
+        const char *mark = entry->d_name + length + 1;
+        if (strncmp(entry->d_name, name, length) != 0 || entry->d_name[length] != '.')
+            continue;
+        size_t digits = strspn(mark, "0123456789-");
+        if (digits > 0 && strcmp(mark + digits, ending) == 0)
+            unlinkat(dirfd(listed), entry->d_name, 0);
+    }
+    closedir(listed);
 }

@@ -1,41 +1,43 @@
 !> Writing, renaming and removing files, by the C library: gfortran's own formatted output does not
-!> tell of a full disk.
+!> report a full disk, and no Fortran reports why a file cannot be written.
 module files
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_long_long, c_null_char, &
-                                          c_ptr, c_size_t
-   use errors, only: error_type, raise
-   use kinds, only: int64
+   use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_null_char, c_ptr, c_size_t
    implicit none (type, external)
    private
-   public :: number_of_file, remove_file, rename_file, write_file
+   public :: is_same_file, missing, occupied, place_of_file, reason_of, remove_file, &
+             remove_marked, rename_file, write_file
+
+   !> Answers beside 0 (done) and the numbers of errors: there is no such path; there is something
+   !> that is no regular file.
+   integer, parameter :: missing = -1, occupied = -2
 
    interface
-      integer(c_int) function c_rename(from, to) result(value) bind(c, name="rename")
+      integer(c_int) function c_place(folder, path) result(value) bind(c, name="file_place")
+         import :: c_char, c_int
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: folder(*), path(*)
+      end function c_place
+
+      integer(c_int) function c_is_same(one, other) result(value) bind(c, name="file_is_same")
+         import :: c_char, c_int
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: one(*), other(*)
+      end function c_is_same
+
+      integer(c_int) function c_write(path, content, length, there) result(value) &
+         bind(c, name="file_write")
+         import :: c_char, c_int, c_size_t
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: path(*), content(*)
+         integer(c_size_t), value :: length
+         integer(c_int), value :: there
+      end function c_write
+
+      integer(c_int) function c_rename(from, to) result(value) bind(c, name="file_rename")
          import :: c_char, c_int
          implicit none (type, external)
          character(kind=c_char), intent(in) :: from(*), to(*)
       end function c_rename
-
-      type(c_ptr) function c_open(path, mode) result(stream) bind(c, name="fopen")
-         import :: c_char, c_ptr
-         implicit none (type, external)
-         character(kind=c_char), intent(in) :: path(*), mode(*)
-      end function c_open
-
-      integer(c_size_t) function c_write(content, size, count, stream) result(written) &
-         bind(c, name="fwrite")
-         import :: c_char, c_ptr, c_size_t
-         implicit none (type, external)
-         character(kind=c_char), intent(in) :: content(*)
-         integer(c_size_t), value :: size, count
-         type(c_ptr), value :: stream
-      end function c_write
-
-      integer(c_int) function c_close(stream) result(value) bind(c, name="fclose")
-         import :: c_int, c_ptr
-         implicit none (type, external)
-         type(c_ptr), value :: stream
-      end function c_close
 
       integer(c_int) function c_remove(path) result(value) bind(c, name="remove")
          import :: c_char, c_int
@@ -43,53 +45,68 @@ module files
          character(kind=c_char), intent(in) :: path(*)
       end function c_remove
 
-      integer(c_long_long) function c_number(path) result(value) bind(c, name="number_of_file")
-         import :: c_char, c_long_long
+      subroutine c_remove_marked(folder, name, ending) bind(c, name="file_remove_marked")
+         import :: c_char
          implicit none (type, external)
-         character(kind=c_char), intent(in) :: path(*)
-      end function c_number
+         character(kind=c_char), intent(in) :: folder(*), name(*), ending(*)
+      end subroutine c_remove_marked
+
+      type(c_ptr) function c_strerror(number) result(words) bind(c, name="strerror")
+         import :: c_int, c_ptr
+         implicit none (type, external)
+         integer(c_int), value :: number
+      end function c_strerror
+
+      integer(c_size_t) function c_strlen(words) result(length) bind(c, name="strlen")
+         import :: c_ptr, c_size_t
+         implicit none (type, external)
+         type(c_ptr), value :: words
+      end function c_strlen
    end interface
 
 contains
 
-   !> Write a file of text, replacing what was there.
-   subroutine write_file(path, content, error)
+   !> Whether a file can be made or replaced: 0, `missing` (its folder), `occupied` or an error.
+   integer function place_of_file(path) result(answer)
+      !> Its path
+      character(len=*), intent(in) :: path
+
+      answer = c_place(folder_of(path)//c_null_char, path//c_null_char)
+   end function place_of_file
+
+   !> Whether two paths lead to one file.
+   logical function is_same_file(one, other) result(value)
+      !> One path
+      character(len=*), intent(in) :: one
+      !> The other
+      character(len=*), intent(in) :: other
+
+      value = c_is_same(one//c_null_char, other//c_null_char) == 1
+   end function is_same_file
+
+   !> Write a file that is there, and is not longer than this, or a new one where nothing is: 0,
+   !> `missing` (the file, or its folder) or an error.
+   integer function write_file(path, content, there) result(answer)
       !> Its path
       character(len=*), intent(in) :: path
       !> All of it
       character(len=*), intent(in) :: content
-      !> It could not be opened or not be written to the end
-      type(error_type), allocatable, intent(out) :: error
-      type(c_ptr) :: stream
-      integer(c_size_t) :: length, written
-      integer(c_int) :: closed
+      !> Whether it is there
+      logical, intent(in) :: there
 
-      length = len(content, kind=c_size_t)
-      written = 0
-      closed = 0
-      stream = c_open(path//c_null_char, "wb"//c_null_char)
-      if (c_associated(stream)) then
-         written = c_write(content, 1_c_size_t, length, stream)
-         closed = c_close(stream)
-      end if
-      if (.not. c_associated(stream) .or. written < length .or. closed /= 0) then
-         call raise(error, path//": cannot write")
-      end if
-   end subroutine write_file
+      answer = c_write(path//c_null_char, content, len(content, kind=c_size_t), &
+                       merge(1_c_int, 0_c_int, there))
+   end function write_file
 
-   !> Give a file another name, replacing what had it: all or nothing.
-   subroutine rename_file(from, to, error)
+   !> Give a file another name, replacing what had it, all or nothing: 0, `missing` or an error.
+   integer function rename_file(from, to) result(answer)
       !> Present path
       character(len=*), intent(in) :: from
       !> New path on the same file system
       character(len=*), intent(in) :: to
-      !> It could not be done
-      type(error_type), allocatable, intent(out) :: error
 
-      if (c_rename(from//c_null_char, to//c_null_char) /= 0) then
-         call raise(error, "cannot rename '"//from//"' to '"//to//"'")
-      end if
-   end subroutine rename_file
+      answer = c_rename(from//c_null_char, to//c_null_char)
+   end function rename_file
 
    !> Remove a file if it is there.
    subroutine remove_file(path)
@@ -100,11 +117,42 @@ contains
       status = c_remove(path//c_null_char)
    end subroutine remove_file
 
-   !> The number that tells a file from all others of its file system; 0 where there is none.
-   integer(int64) function number_of_file(path) result(value)
-      !> Its path
+   !> Remove the files whose path is `path`, a point, digits and hyphens, and `ending`.
+   subroutine remove_marked(path, ending)
+      !> How their paths begin
       character(len=*), intent(in) :: path
+      !> How they end
+      character(len=*), intent(in) :: ending
 
-      value = c_number(path//c_null_char)
-   end function number_of_file
+      call c_remove_marked(folder_of(path)//c_null_char, &
+                           path(index(path, "/", back=.true.) + 1:)//c_null_char, &
+                           ending//c_null_char)
+   end subroutine remove_marked
+
+   !> The folder of a path, with a slash at its end.
+   pure function folder_of(path) result(folder)
+      !> The path
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: folder
+
+      folder = path(:index(path, "/", back=.true.))
+      if (folder == "") folder = "./"
+   end function folder_of
+
+   !> What the system says of the number of an error.
+   function reason_of(answer) result(words)
+      !> The number
+      integer, intent(in) :: answer
+      character(len=:), allocatable :: words
+      character(kind=c_char), pointer :: letters(:)
+      type(c_ptr) :: said
+      integer :: i
+
+      said = c_strerror(int(answer, c_int))
+      call c_f_pointer(said, letters, [c_strlen(said)])
+      allocate (character(len=size(letters)) :: words)
+      do i = 1, size(letters)
+         words(i:i) = letters(i)
+      end do
+   end function reason_of
 end module files

@@ -1,9 +1,9 @@
-!> The program as a process: who reads what it says, and its end.
+!> The program as a process: its number, who reads what it says, and its end.
 module process
    use, intrinsic :: iso_c_binding, only: c_int
    implicit none (type, external)
    private
-   public :: end_at_once, standard_error_is_terminal
+   public :: end_at_once, number_of_process, standard_error_is_terminal
 
    interface
       integer(c_int) function c_isatty(descriptor) result(value) bind(c, name="isatty")
@@ -11,6 +11,11 @@ module process
          implicit none (type, external)
          integer(c_int), value :: descriptor
       end function c_isatty
+
+      integer(c_int) function c_getpid() result(value) bind(c, name="getpid")
+         import :: c_int
+         implicit none (type, external)
+      end function c_getpid
 
       subroutine c_exit(status) bind(c, name="_Exit")
          import :: c_int
@@ -26,6 +31,12 @@ contains
 
       value = c_isatty(2_c_int) == 1
    end function standard_error_is_terminal
+
+   !> The number that tells the process from all others of its computer.
+   integer function number_of_process() result(value)
+
+      value = c_getpid()
+   end function number_of_process
 
    !> End the program without what libraries do at its end: after a write that failed HDF5 tries to
    !> write once more there, and crashes.

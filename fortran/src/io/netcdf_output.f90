@@ -3,8 +3,8 @@ module netcdf_output
    use, intrinsic :: iso_fortran_env, only: compiler_version
    use errors, only: error_type, raise
    use kinds, only: int64, wp
-   use netcdf, only: nf90_char, nf90_clobber, nf90_close, nf90_create, nf90_def_dim, &
-                     nf90_def_var, nf90_double, nf90_global, nf90_int, nf90_netcdf4, nf90_noerr, &
+   use netcdf, only: nf90_char, nf90_close, nf90_create, nf90_def_dim, nf90_def_var, nf90_double, &
+                     nf90_global, nf90_int, nf90_netcdf4, nf90_noclobber, nf90_noerr, &
                      nf90_put_att, nf90_put_var, nf90_strerror
    use unfinished_file, only: remedy, unfinished_type
    use version, only: project_version
@@ -52,12 +52,10 @@ contains
       character(len=*), intent(in) :: path
       !> What it holds
       character(len=*), intent(in) :: title
-      integer :: status
 
-      self%place = unfinished_type(path)
-      status = nf90_create(self%place%other_path(), ior(nf90_netcdf4, nf90_clobber), self%id)
-      call self%place%created()
-      call self%note(status)
+      call self%place%begin(path, self%error)
+      if (allocated(self%error)) return
+      call self%note(nf90_create(self%place%other_path, ior(nf90_netcdf4, nf90_noclobber), self%id))
       call self%attribute("title", title)
       call self%attribute("program_version", project_version)
       call self%attribute("compiler", compiler_version())

@@ -2,10 +2,12 @@
 module program_arguments
    use, intrinsic :: iso_fortran_env, only: error_unit
    use errors, only: error_type, raise
+   use files, only: is_same_file
    use process, only: end_at_once
+   use unfinished_file, only: check_place
    implicit none (type, external)
    private
-   public :: get_paths, stop_on
+   public :: get_paths, refuse_input, stop_on
 
 contains
 
@@ -15,15 +17,33 @@ contains
       character(len=:), allocatable, intent(out) :: namelist_path
       !> Second argument
       character(len=:), allocatable, intent(out) :: output_path
-      !> There are not two
+      !> There are not two, or the output cannot be written
       type(error_type), allocatable, intent(out) :: error
 
       namelist_path = argument(1)
       output_path = argument(2)
       if (command_argument_count() /= 2) then
          call raise(error, "usage: "//argument(0)//" NAMELIST OUTPUT")
+      else
+         call check_place(output_path, error)
+         if (.not. allocated(error)) call refuse_input(namelist_path, output_path, error)
       end if
    end subroutine get_paths
+
+   !> Refuse to replace what the program reads.
+   subroutine refuse_input(input_path, output_path, error)
+      !> What it reads
+      character(len=*), intent(in) :: input_path
+      !> What it is to write
+      character(len=*), intent(in) :: output_path
+      !> They are the same file
+      type(error_type), allocatable, intent(out) :: error
+
+      if (is_same_file(input_path, output_path)) then
+         call raise(error, output_path//": cannot write: it is the input "//input_path &
+                    //"; expected another path")
+      end if
+   end subroutine refuse_input
 
    !> One word of the command line.
    function argument(i) result(word)

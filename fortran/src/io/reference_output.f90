@@ -1,12 +1,11 @@
 !> Reference files: tables of text with 20 digits, more than a number in double precision holds.
 !> They are whole or absent.
 module reference_output
-   use errors, only: error_type, raise
-   use files, only: write_file
+   use errors, only: error_type
    use kinds, only: wp
    use measured_case, only: case_type
    use measured_run, only: run_type
-   use unfinished_file, only: remedy, unfinished_type
+   use unfinished_file, only: unfinished_type
    implicit none (type, external)
    private
    public :: reference_file
@@ -30,7 +29,6 @@ module reference_output
       procedure :: put
       !> Complete the file
       procedure :: finish
-      procedure, private :: save => save_unfinished
    end type reference_file
 
 contains
@@ -44,10 +42,11 @@ contains
       !> It cannot be written
       type(error_type), allocatable, intent(out) :: error
 
-      self%place = unfinished_type(path)
+      call self%place%begin(path, error)
+      if (allocated(error)) return
       self%content = "case"//tab//"status"//tab//"time"//tab//"theta"//tab//"u"//tab//"ln_v" &
                      //tab//"uncertainty"//tab//"amplification"//line_end
-      call self%save(error)
+      call self%place%write(self%content, error)
    end subroutine create
 
    !> A case at its sample times: the state, how far the state at a larger tolerance is from it, and
@@ -102,23 +101,7 @@ contains
       !> It could not be written
       type(error_type), allocatable, intent(out) :: error
 
-      call self%place%check(error)
-      if (.not. allocated(error)) call self%save(error)
+      call self%place%write(self%content, error)
       if (.not. allocated(error)) call self%place%publish(error)
    end subroutine finish
-
-   !> Write what there is under the other name.
-   subroutine save_unfinished(self, error)
-      !> The file
-      class(reference_file), intent(inout) :: self
-      !> It could not be written
-      type(error_type), allocatable, intent(out) :: error
-      type(error_type), allocatable :: failure
-
-      call write_file(self%place%other_path(), self%content, failure)
-      call self%place%created()
-      if (.not. allocated(failure)) return
-      call self%place%discard()
-      call raise(error, self%place%path//": cannot write"//remedy)
-   end subroutine save_unfinished
 end module reference_output

@@ -5,6 +5,7 @@ module trajectory_output
    use errors, only: error_type
    use kinds, only: int64, wp
    use netcdf_output, only: output_file
+   use program_arguments, only: stop_on
    use progress, only: progress_type
    use scene_input, only: scene_type
    use spring_block, only: index_of_ln_v, index_of_theta, index_of_u
@@ -91,6 +92,11 @@ contains
       integer :: taken
 
       if (self%held == block_length) call self%flush()
+      if (allocated(self%file%error)) then
+         ! a sampler cannot end the integration
+         call self%progress%finish()
+         call stop_on(self%file%error)
+      end if
       self%held = self%held + 1
       self%block(self%held, 0) = self%next
       self%block(self%held, 1:) = merge(exp(y), y, self%wanted == index_of_ln_v)

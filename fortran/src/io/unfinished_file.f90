@@ -1,113 +1,145 @@
-!> Files that are whole or absent: written under another name, renamed when complete. What a killed
-!> run left under that name is removed. Of several runs that write the same file, as when a workflow
-!> was killed and its programs live on, the last to begin does so; the others end with an error.
+!> Files that are whole or absent: written under another name, renamed when complete. Each run has
+!> another name of its own, and removes those of earlier runs for the same file when it begins. So
+!> nothing is left of runs that were killed. And of several runs that write the same file at once,
+!> as when a workflow was killed and its programs live on, the last to begin does so: an older one
+!> finds nothing to rename, whenever it ends.
 module unfinished_file
-   use errors, only: error_type, raise
-   use files, only: number_of_file, remove_file, rename_file
+   use errors, only: error_type, raise, text
+   use files, only: missing, occupied, place_of_file, reason_of, remove_file, remove_marked, &
+                    rename_file, write_file
    use kinds, only: int64
+   use process, only: number_of_process
    implicit none (type, external)
    private
-   public :: remedy, unfinished_type
+   public :: check_place, remedy, unfinished_type
 
    !> What to do where a file cannot be written; the end of a message.
    character(len=*), parameter :: remedy = &
       "; see that its folder is there, can be written and has room, then run again"
+   !> End of the other name.
+   character(len=*), parameter :: ending = ".part"
 
    !> A file that is not complete.
    type :: unfinished_type
-      private
       !> Path of the complete file
-      character(len=:), allocatable, public :: path
-      !> Number of the file under the other name; 0 before it is there
-      integer(int64) :: number = 0
+      character(len=:), allocatable :: path
+      !> Path until then
+      character(len=:), allocatable :: other_path
+      !> Whether it was written once
+      logical, private :: there = .false.
    contains
-      !> Path until the file is complete
-      procedure :: other_path
-      !> The file was created under its other path; a second call does nothing
-      procedure :: created
-      !> Refuse to go on where another run has begun to write the file
-      procedure :: check
+      !> Choose the other path; earlier runs for the same file lose theirs
+      procedure :: begin
+      !> Write all of the file
+      procedure :: write => write_all
       !> Give the complete file its name
       procedure :: publish
       !> Leave nothing behind
       procedure :: discard
-      procedure, private :: is_ours
+      procedure, private :: conclude
    end type unfinished_type
-
-   interface unfinished_type
-      module procedure :: new_unfinished
-   end interface unfinished_type
 
 contains
 
-   !> Nothing is there under the other name.
-   function new_unfinished(path) result(file)
+   !> Refuse a path at which no file can be written.
+   subroutine check_place(path, error)
       !> Path of the complete file
       character(len=*), intent(in) :: path
-      type(unfinished_type) :: file
-
-      file%path = path
-      call remove_file(file%other_path())
-   end function new_unfinished
-
-   !> Path until the file is complete.
-   pure function other_path(self) result(path)
-      !> The file
-      class(unfinished_type), intent(in) :: self
-      character(len=:), allocatable :: path
-
-      path = self%path//".part"
-   end function other_path
-
-   !> Remember which file was created under the other path, the first time.
-   subroutine created(self)
-      !> The file
-      class(unfinished_type), intent(inout) :: self
-
-      if (self%number == 0) self%number = number_of_file(self%other_path())
-   end subroutine created
-
-   !> Refuse to go on where another run has begun to write the file.
-   subroutine check(self, error)
-      !> The file
-      class(unfinished_type), intent(in) :: self
-      !> The other run has the file
+      !> Why it cannot
       type(error_type), allocatable, intent(out) :: error
 
-      if (self%is_ours()) return
-      call raise(error, self%path//": another run began to write it; only the last one does")
-   end subroutine check
+      call explain(path, place_of_file(path), error)
+   end subroutine check_place
+
+   !> The error of an answer that is not 0.
+   subroutine explain(path, answer, error)
+      !> Path of the complete file
+      character(len=*), intent(in) :: path
+      !> The answer
+      integer, intent(in) :: answer
+      !> What it means
+      type(error_type), allocatable, intent(out) :: error
+
+      select case (answer)
+      case (0)
+         return
+      case (missing)
+         call raise(error, path//": cannot write: there is no such folder"//remedy)
+      case (occupied)
+         call raise(error, path//": cannot write: a folder, a device or a link is there; " &
+                    //"expected a file, or nothing")
+      case default
+         call raise(error, path//": cannot write: "//reason_of(answer)//remedy)
+      end select
+   end subroutine explain
+
+   !> Choose the other path; earlier runs for the same file lose theirs. The file is to be made at
+   !> once, and not once more: one that is gone belongs to a later run.
+   subroutine begin(self, path, error)
+      !> The file
+      class(unfinished_type), intent(inout) :: self
+      !> Path of the complete file
+      character(len=*), intent(in) :: path
+      !> It cannot be written there
+      type(error_type), allocatable, intent(out) :: error
+      integer(int64) :: now
+
+      call system_clock(now)
+      self%path = path
+      ! the clock tells processes of the same number on two computers apart
+      self%other_path = path//"."//text(number_of_process())//"-"//text(now)//ending
+      call remove_marked(path, ending)
+      call check_place(path, error)
+   end subroutine begin
+
+   !> Write all of the file; on an error nothing is left behind.
+   subroutine write_all(self, content, error)
+      !> The file
+      class(unfinished_type), intent(inout) :: self
+      !> All of it, not shorter than before
+      character(len=*), intent(in) :: content
+      !> It cannot be written, or another run has begun to write it
+      type(error_type), allocatable, intent(out) :: error
+
+      call self%conclude(write_file(self%other_path, content, self%there), error)
+      self%there = .true.
+   end subroutine write_all
 
    !> Give the complete file its name; on an error nothing is left behind.
    subroutine publish(self, error)
       !> The file
-      class(unfinished_type), intent(inout) :: self
-      !> It cannot be renamed
+      class(unfinished_type), intent(in) :: self
+      !> It cannot be renamed, or another run has begun to write it
       type(error_type), allocatable, intent(out) :: error
-      type(error_type), allocatable :: failure
 
-      call self%check(error)
-      if (allocated(error)) return
-      call rename_file(self%other_path(), self%path, failure)
-      if (.not. allocated(failure)) return
-      call raise(error, failure%message//"; remove what is there, then run again")
-      call self%discard()
+      call self%conclude(rename_file(self%other_path, self%path), error)
    end subroutine publish
 
-   !> Leave nothing behind, but for what another run writes.
+   !> Leave nothing behind.
    subroutine discard(self)
-      !> The file
-      class(unfinished_type), intent(inout) :: self
-
-      if (self%is_ours()) call remove_file(self%other_path())
-   end subroutine discard
-
-   !> Whether the file under the other path is still the one that was created.
-   logical function is_ours(self) result(value)
       !> The file
       class(unfinished_type), intent(in) :: self
 
-      value = number_of_file(self%other_path()) == self%number
-      if (self%number == 0) value = .false.
-   end function is_ours
+      call remove_file(self%other_path)
+   end subroutine discard
+
+   !> The error of an answer that is not 0, after which nothing is left behind.
+   subroutine conclude(self, answer, error)
+      !> The file
+      class(unfinished_type), intent(in) :: self
+      !> The answer
+      integer, intent(in) :: answer
+      !> What it means
+      type(error_type), allocatable, intent(out) :: error
+
+      if (answer == 0) return
+      call self%discard()
+      call check_place(self%path, error)
+      if (allocated(error)) return
+      if (answer == missing) then
+         call raise(error, self%path//": another run began to write it; only the last one does")
+      else
+         call explain(self%path, answer, error)
+      end if
+   end subroutine conclude
 end module unfinished_file
