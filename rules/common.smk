@@ -12,6 +12,9 @@ import packages
 
 try:
     packages.refuse_missing()
+    import missing_files
+
+    missing_files.make_again()
 except packages.PackageError as problem:
     raise SystemExit(f"error: {problem}") from None
 
@@ -20,13 +23,10 @@ import before_run
 import check_config
 import claims_config
 import git_commit
-import missing_files
 import page_assets
 import read_config
 import script_imports
 import study_cases
-
-missing_files.make_again()
 
 
 def merged_config():

@@ -4,7 +4,9 @@ Snakemake remakes only the missing files that are targets (its issue 1978, open)
 leaves its outputs missing, so that figures made from older ones would pass as current.
 """
 
+import snakemake.api  # first: the workflow and it import each other
 import snakemake.workflow
+from packages import PackageError
 from snakemake.dag import DAG
 
 PROGRAMS = "build"
@@ -24,5 +26,10 @@ class CompleteDAG(DAG):
 
 
 def make_again() -> None:
-    """Let Snakemake judge by such a graph."""
+    """Let Snakemake judge by such a graph; raise PackageError where it has no such graph."""
+    if snakemake.workflow.DAG not in (DAG, CompleteDAG) or "check_incomplete" not in vars(DAG):
+        raise PackageError(
+            f"Snakemake {snakemake.__version__} does not judge by DAG.check_incomplete, so that"
+            " missing files would stay missing; run ./reproduce, which sets up one that does"
+        )
     snakemake.workflow.DAG = CompleteDAG

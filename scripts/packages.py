@@ -18,7 +18,7 @@ PACKAGES = [
 
 
 class PackageError(ValueError):
-    """Packages that are not installed."""
+    """Packages that are not installed, or not as they are expected."""
 
 
 def versions() -> dict[str, str]:

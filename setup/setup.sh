@@ -98,25 +98,32 @@ mend_snakemake() {
     cd - >/dev/null
 }
 
+# In a file of Snakemake's, puts one text in place of another; end where it holds neither.
+mend() {
+    local file=$1 old=$2 new=$3 text
+    text=$(<"$file")
+    [[ $text != *"$new"* ]] || return 0
+    [[ $text == *"$old"* ]] ||
+        refuse "cannot mend $file in .venv: it does not hold ${old@Q}; see mend_snakemake in setup/setup.sh"
+    printf '%s\n' "${text/"$old"/"$new"}" >"$file"
+}
+
 # Snakemake leaves its interpreter unquoted, so that scripts, and jobs on a cluster, fail in a folder
 # whose name holds a space (snakemake issue 2645, open).
 quote_interpreter() {
-    local jobs quoted='__import__("shlex").quote(sys.executable)'
-    sed -i 's/"{py_exec} {fname:q}"/"{py_exec:q} {fname:q}"/' snakemake/script/__init__.py
-    for jobs in snakemake_interface_executor_plugins/executors/remote.py \
-        snakemake_executor_plugin_slurm_jobstep/__init__.py; do
-        [[ ! -e $jobs ]] || sed -i -E "s/^( +|.* return )sys\.executable$/\1$quoted/" "$jobs"
-    done
+    local quoted='__import__("shlex").quote(sys.executable)'
+    local jobstep=snakemake_executor_plugin_slurm_jobstep/__init__.py
+    mend snakemake/script/__init__.py '"{py_exec} {fname:q}"' '"{py_exec:q} {fname:q}"'
+    mend snakemake_interface_executor_plugins/executors/remote.py $'(\n            sys.executable\n' \
+        $'(\n            '"$quoted"$'\n'
+    [[ ! -e $jobstep ]] || mend "$jobstep" 'return sys.executable' "return $quoted"
 }
 
 # Snakemake does not name the line at which a configuration file is broken, and ends with a traceback
 # where there is none. It is to read them as the Snakefile does, which reads them once more.
 read_as_the_project() {
-    ! grep -q read_config snakemake/common/configfile.py || return 0
-    cat >>snakemake/common/configfile.py <<'END'
-
-
-def load_configfile(configpath):
+    local name='def load_configfile(configpath):'
+    local body='
     import sys
 
     sys.path.append(str(Path(sys.prefix).parent / "scripts"))
@@ -126,7 +133,10 @@ def load_configfile(configpath):
         return read_config.read(configpath)
     except read_config.ConfigError as problem:
         raise WorkflowError(str(problem)) from None
-END
+
+
+def replaced_load_configfile(configpath):'
+    mend snakemake/common/configfile.py "$name" "$name$body"
 }
 
 # A build, too, holds the path of its folder: drop those made before a move.

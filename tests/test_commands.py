@@ -236,18 +236,32 @@ def test_packages_of_slurm_are_asked_for(bare):
     assert (run.returncode, run.stderr) == (0, "")
 
 
-def test_packages_of_a_profile_are_added(bare):
-    """To .venv as it is, once; a .venv made anew gets them again."""
+UNMENDED = {
+    "snakemake/script/__init__.py": 'run("{py_exec} {fname:q}")\n',
+    "snakemake/common/configfile.py": "def load_configfile(configpath):\n    return {}\n",
+    "snakemake_interface_executor_plugins/executors/remote.py": "(\n            sys.executable\n)",
+    "snakemake_executor_plugin_slurm_jobstep/__init__.py": "    return sys.executable\n",
+}
+"""What the set-up mends, by file."""
+
+
+@pytest.fixture
+def to_mend(bare) -> Path:
+    """The installed packages of a folder where the set-up is to add those of a profile."""
     pretend_installed(bare, debian_packages())
     (bare / "profiles" / "slurm").mkdir(parents=True)
     shutil.copy(ROOT / "profiles" / "slurm" / "requirements.lock", bare / "profiles" / "slurm")
     write_script(bare / ".venv" / "bin" / "python", f"echo \"$*\" >>'{bare}/calls'")
-    scripts = bare / ".venv" / "lib" / "python3.11" / "site-packages" / "snakemake" / "script"
-    scripts.mkdir(parents=True)
-    (scripts / "__init__.py").touch()
-    (scripts.parent / "common").mkdir()
-    (scripts.parent / "common" / "configfile.py").touch()
     (bare / ".venv" / "made-from").write_text(made_from(bare))
+    site = bare / ".venv" / "lib" / "python3.11" / "site-packages"
+    for name, text in UNMENDED.items():
+        (site / name).parent.mkdir(parents=True, exist_ok=True)
+        (site / name).write_text(text)
+    return site
+
+
+def test_packages_of_a_profile_are_added(bare, to_mend):
+    """To .venv as it is, once, and Snakemake is mended; a .venv made anew gets them again."""
     for _ in range(2):
         run = set_up_in(bare, part=("profiles/slurm",))
         assert run.returncode == 0, run.stderr
@@ -256,12 +270,24 @@ def test_packages_of_a_profile_are_added(bare):
     assert build_tool.endswith("--require-hashes -r setup/requirements.lock")
     assert added.endswith("--require-hashes -r profiles/slurm/requirements.lock")
     assert "--no-build-isolation" in added
-    mended = (scripts.parent / "common" / "configfile.py").read_text()
-    assert mended.count("read_config.read(") == 1
+    mended = {name: (to_mend / name).read_text() for name in UNMENDED}
+    assert mended["snakemake/common/configfile.py"].count("read_config.read(") == 1
+    assert [name for name, text in mended.items() if text == UNMENDED[name]] == []
     (bare / ".venv" / "made-from-slurm").unlink()
     assert set_up_in(bare, part=("profiles/slurm",)).returncode == 0
     assert len((bare / "calls").read_text().splitlines()) == 4
-    assert (scripts.parent / "common" / "configfile.py").read_text() == mended
+    assert {name: (to_mend / name).read_text() for name in UNMENDED} == mended
+
+
+@pytest.mark.parametrize("file", UNMENDED)
+def test_snakemake_that_cannot_be_mended_is_told(bare, to_mend, file):
+    """Another version may have other text there."""
+    (to_mend / file).write_text("other\n")
+    run = set_up_in(bare, part=("profiles/slurm",))
+    assert run.returncode == 1
+    assert f"set-up: cannot mend {file} in .venv: it does not hold " in run.stderr.splitlines()[-1]
+    assert not (bare / ".venv" / "made-from-slurm").exists()
+    assert (to_mend / file).read_text() == "other\n"
 
 
 @pytest.mark.parametrize("character", list('$;"\\|<'))

@@ -6,10 +6,11 @@ import sys
 from importlib.metadata import packages_distributions
 from pathlib import Path
 
+import missing_files
 import pytest
 import snakemake
 from conftest import ROOT, Project, rules_in
-from packages import PACKAGES
+from packages import PACKAGES, PackageError
 from test_workflow_changes import names_imported
 
 INSTALLED = Path(snakemake.__file__).parent.parent
@@ -62,6 +63,18 @@ def test_packages_that_are_missing_are_named(project, tmp_path):
         " missing, or . .venv/bin/activate where it did so before"
     )
     assert not (project.folder / "results").exists()
+
+
+@pytest.mark.parametrize("gone", ["check_incomplete", "DAG"])
+def test_snakemake_that_judges_otherwise_is_refused(monkeypatch, gone):
+    """Missing files would stay missing in silence."""
+    if gone == "DAG":
+        monkeypatch.setattr(snakemake.workflow, "DAG", object)
+    else:
+        monkeypatch.delattr(snakemake.dag.DAG, gone)
+        monkeypatch.setattr(snakemake.workflow, "DAG", snakemake.dag.DAG)
+    with pytest.raises(PackageError, match=r"^Snakemake 9\S+ does not judge by"):
+        missing_files.make_again()
 
 
 def test_it_works_where_the_packages_are(project, tmp_path):
