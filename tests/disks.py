@@ -5,10 +5,19 @@ from pathlib import Path
 
 import pytest
 
-NAMESPACE = ["unshare", "--map-root-user", "--mount", "sh", "-c"]
+NAMESPACE = ["unshare", "--map-root-user", "--mount"]
 FULL = "mount -t tmpfs -o size=4k none {0}"
 """A disk of one page, on which no NetCDF file has room."""
 READ_ONLY = "mount --bind {0} {0} && mount -o remount,ro,bind {0}"
+
+
+def need_namespaces() -> None:
+    """Skip the test where namespaces are not allowed, as in some containers."""
+    tried = subprocess.run(
+        [*NAMESPACE, "mount", "-t", "tmpfs", "none", "/mnt"], capture_output=True, text=True
+    )
+    if tried.returncode != 0:
+        pytest.skip(f"no disk can be mounted here: {tried.stderr.strip()}")
 
 
 def on_disk(
@@ -16,16 +25,13 @@ def on_disk(
 ) -> subprocess.CompletedProcess[str]:
     """Run a command in `folder`, with a disk of this kind at `place` below it.
 
-    What the command says is in stderr; stdout lists the files on the disk afterwards. Skip the test
-    where namespaces are not allowed, as in some containers.
+    What the command says is in stderr; stdout lists the files on the disk afterwards.
     """
-    tried = subprocess.run([*NAMESPACE, "mount -t tmpfs none /mnt"], capture_output=True, text=True)
-    if tried.returncode != 0:
-        pytest.skip(f"no disk can be mounted here: {tried.stderr.strip()}")
+    need_namespaces()
     (folder / place).mkdir(exist_ok=True)
     mounted = f'{kind.format(place)} && {{ "$@" >&2; status=$?; ls -A {place}; exit $status; }}'
     return subprocess.run(
-        [*NAMESPACE, mounted, "sh", *command],
+        [*NAMESPACE, "sh", "-c", mounted, "sh", *command],
         cwd=folder,
         capture_output=True,
         text=True,

@@ -6,11 +6,12 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import pytest
 from conftest import GROUPS, SMOKE, Programs, Project, unfinished, wait_for
+from disks import NAMESPACE, need_namespaces
 from test_measure import CASES, GROUP_OF
 from write_namelist import write_groups, write_namelist
 
@@ -175,43 +176,70 @@ def test_workflow_resumes_where_snakemake_itself_was_killed(smoke, scratch, work
     workflow.wait()
     assert_resumes(scratch, smoke.outputs())
     os.kill(program, signal.SIGCONT)
-    end = time.monotonic() + 60
-    while Path(f"/proc/{program}").exists() and time.monotonic() < end:
-        time.sleep(0.01)
+    wait_for(lambda: not Path(f"/proc/{program}").exists())
     assert scratch.outputs() == smoke.outputs()
 
 
-def begin_to_write(project: Project, *arguments: str) -> tuple[subprocess.Popen[bytes], int]:
-    """A run of the workflow and its namelist job, which waits in vain for a reader."""
-    os.mkfifo(project.folder / f"{NAMELIST}.part")
-    run = subprocess.Popen(
-        [SNAKEMAKE, "--cores", "2", "figure_5", *SMOKE, *arguments],
+WAIT = """
+import sys
+
+if any("write_namelist.py" in word for word in sys.orig_argv):
+    open({0!r}).close()
+"""
+"""What Python does before a script: that of the namelist waits until somebody writes to a pipe."""
+
+
+@contextlib.contextmanager
+def about_to_write(
+    project: Project, *arguments: str, prefix: Sequence[str] = ()
+) -> Iterator[tuple[subprocess.Popen[str], Path]]:
+    """A run of the workflow whose namelist job waits, and the pipe that it waits for."""
+    folder = project.folder.parent / "waiting"
+    folder.mkdir()
+    pipe = folder / "pipe"
+    os.mkfifo(pipe)
+    (folder / "sitecustomize.py").write_text(WAIT.format(str(pipe)))
+    with subprocess.Popen(
+        [*prefix, SNAKEMAKE, "--cores", "2", "figure_5", *SMOKE, *arguments],
         cwd=project.folder,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
+        env={**os.environ, "PYTHONPATH": str(folder)},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
         start_new_session=True,
-    )
-    end = time.monotonic() + 60
-    while not (found := [n for n, _, words in processes_of(run) if "write_namelist.py" in words]):
-        assert time.monotonic() < end
-        time.sleep(0.01)
-    return run, found[0]
+    ) as run:
+        try:
+            wait_for(lambda: bool(namelist_job(run)))
+            yield run, pipe
+            assert run.wait(timeout=60) != 0
+        finally:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(run.pid, signal.SIGKILL)
+    assert not (project.folder / NAMELIST).exists()
+
+
+def namelist_job(run: subprocess.Popen[str]) -> list[int]:
+    """The processes that are to write the namelist."""
+    return [number for number, _, words in processes_of(run) if "write_namelist.py" in words]
 
 
 def kill_while_writing(project: Project) -> None:
     """A run whose namelist job is killed."""
-    run, process = begin_to_write(project)
-    os.kill(process, signal.SIGKILL)
-    assert run.wait(timeout=60) != 0
-    (project.folder / f"{NAMELIST}.part").unlink()
+    with about_to_write(project) as (run, _):
+        for process in namelist_job(run):
+            os.kill(process, signal.SIGKILL)
 
 
 def fill_the_disk(project: Project) -> None:
-    """A run whose namelist job finds no room; the device that is always full stands in."""
-    (project.folder / f"{NAMELIST}.part").symlink_to("/dev/full")
-    run = project.snakemake("figure_5", *SMOKE)
-    assert run.returncode != 0
-    assert f"error: {NAMELIST}: cannot write: No space left" in run.stdout
+    """A run whose namelist job finds no room: a disk without any is mounted before it writes."""
+    need_namespaces()
+    with about_to_write(project, prefix=NAMESPACE) as (run, pipe):
+        place = (project.folder / NAMELIST).parent
+        enter = ["nsenter", f"--target={run.pid}", "--user", "--mount", "--preserve-credentials"]
+        disk = ["mount", "-t", "tmpfs", "-o", "nr_inodes=1", "none", place]
+        subprocess.run([*enter, *disk], check=True)
+        pipe.write_text("")
+        assert f"error: {NAMELIST}: cannot write: No space left" in run.communicate(timeout=60)[0]
 
 
 @pytest.mark.parametrize("end", [kill_while_writing, fill_the_disk])
@@ -224,7 +252,6 @@ def test_nothing_stale_passes_as_current(smoke, scratch, end):
     before, changed = smoke.outputs(), scratch.outputs()
     assert all(changed[name] != before[name] for name in shown)
     end(scratch)
-    assert not (scratch.folder / NAMELIST).exists()
     again = scratch.snakemake("figure_5", *SMOKE)
     assert again.returncode == 0, again.stdout
     assert scratch.outputs() == before
@@ -233,11 +260,8 @@ def test_nothing_stale_passes_as_current(smoke, scratch, end):
 def test_run_with_other_values_loses_no_result(smoke, scratch):
     """It is killed, Snakemake included; the next run without them has all results as before."""
     (scratch.folder / "mine.yaml").write_text("scenes: { torus: { tau: 10.5 } }")
-    run, _ = begin_to_write(scratch, "mine.yaml")
-    os.killpg(run.pid, signal.SIGKILL)
-    run.wait()
-    (scratch.folder / f"{NAMELIST}.part").unlink()
-    assert not (scratch.folder / NAMELIST).exists()
+    with about_to_write(scratch, "mine.yaml") as (run, _):
+        os.killpg(run.pid, signal.SIGKILL)
     again = scratch.snakemake("figure_5", *SMOKE)
     assert again.returncode == 0, again.stdout
     assert scratch.outputs() == smoke.outputs()
