@@ -1,6 +1,7 @@
 """A Snakemake of the user's own: it works, or one line says what is missing and how to get it."""
 
 import os
+import shutil
 import subprocess
 import sys
 from importlib.metadata import packages_distributions
@@ -18,12 +19,19 @@ BUILD_NEEDS = ROOT / "setup" / "build_needs.sh"
 
 
 def python_without(folder: Path, *lacking: str) -> Path:
-    """A Python of the user's own with all our packages but some."""
+    """A Python of the user's own with all our packages but some; its Snakemake is not mended."""
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", folder], check=True)
     (site,) = folder.glob("lib/python3.*/site-packages")
     for entry in INSTALLED.iterdir():
-        if not entry.name.lower().startswith(lacking):
+        if not entry.name.lower().startswith((*lacking, "snakemake")):
             (site / entry.name).symlink_to(entry)
+    for entry in INSTALLED.glob("snakemake*"):
+        shutil.copytree(entry, site / entry.name)
+    reader = site / "snakemake" / "common" / "configfile.py"
+    before, name, rest = reader.read_text().partition("def load_configfile(")
+    _, mended, body = rest.partition("def replaced_load_configfile(")
+    assert mended
+    reader.write_text(before + name + body)
     return folder / "bin" / "python"
 
 
@@ -53,14 +61,14 @@ def test_packages_are_those_that_scripts_import():
 
 def test_packages_that_are_missing_are_named(project, tmp_path):
     """In one line, with both ways to get them; nothing is made."""
-    python = python_without(tmp_path / "own", "numpy", "netcdf4", "f90nml")
+    python = python_without(tmp_path / "own", "numpy", "netcdf4", "f90nml", "ruamel")
     run = run_with(python, project)
     assert run.returncode != 0
     profile, said = run.stdout.splitlines()
     assert profile.startswith("Using workflow specific profile")
     assert said == (
-        f"error: {python} lacks f90nml, numpy, netCDF4; run ./reproduce, which sets up what is"
-        " missing, or . .venv/bin/activate where it did so before"
+        f"error: {python} lacks ruamel.yaml, f90nml, numpy, netCDF4; run ./reproduce, which sets up"
+        " what is missing, or . .venv/bin/activate where it did so before"
     )
     assert not (project.folder / "results").exists()
 
