@@ -47,8 +47,8 @@ def code_of(text: str) -> str:
 
 def floor_of(path: Path) -> str:
     """Name of the floor that a file lives on."""
-    folder = path.relative_to(FORTRAN).parts[:-1]
-    return folder[-1] if folder[-1] != "src" else "base"
+    *folder, _ = path.relative_to(FORTRAN).parts
+    return "base" if folder == ["src"] else folder[:2][-1]
 
 
 SOURCES = {
