@@ -19,14 +19,18 @@ BUILD_NEEDS = ROOT / "setup" / "build_needs.sh"
 
 
 def python_without(folder: Path, *lacking: str) -> Path:
-    """A Python of the user's own with all our packages but some; its Snakemake is not mended."""
+    """A Python of the user's own with all our packages but some.
+
+    Its Snakemake is not mended, and has no plugins that a profile may have brought.
+    """
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", folder], check=True)
     (site,) = folder.glob("lib/python3.*/site-packages")
     for entry in INSTALLED.iterdir():
         if not entry.name.lower().startswith((*lacking, "snakemake")):
             (site / entry.name).symlink_to(entry)
     for entry in INSTALLED.glob("snakemake*"):
-        shutil.copytree(entry, site / entry.name)
+        if "executor_plugin_" not in entry.name:
+            shutil.copytree(entry, site / entry.name)
     reader = site / "snakemake" / "common" / "configfile.py"
     before, name, rest = reader.read_text().partition("def load_configfile(")
     _, mended, body = rest.partition("def replaced_load_configfile(")
