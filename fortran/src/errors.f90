@@ -44,19 +44,22 @@ contains
       words = written_real(value)
    end function text_of_real
 
-   !> The same, filled up with blanks.
+   !> The same, filled up with blanks: 15 digits, as many as any decimal keeps in double precision,
+   !> without the zeros at their end.
    pure function written_real(value) result(words)
       !> Number to write
       real(wp), intent(in) :: value
       character(len=32) :: words
-      integer :: exponent_at, last
+      character(len=16) :: form
+      integer :: exponent_at, last, power
 
       if (ieee_is_finite(value)) then
-         if (value >= 1.0e7_wp .or. value <= -1.0e7_wp .or. &
-             (value > -1.0e-3_wp .and. value < 1.0e-3_wp .and. abs(value) > 0.0_wp)) then
-            write (words, "(es32.6e3)") value
-         else
-            write (words, "(f32.6)") value
+         write (words, "(es32.14e3)") value
+         exponent_at = index(words, "E")
+         read (words(exponent_at + 1:), *) power
+         if (power >= -3 .and. power < 7) then
+            write (form, "(a, i0, a)") "(f32.", 14 - power, ")"
+            write (words, form) value
          end if
          words = adjustl(words)
          exponent_at = scan(trim(words)//"E", "E")

@@ -6,6 +6,7 @@ program tester
    use test_attractors, only: collect_attractors
    use test_base_frequencies, only: collect_base_frequencies
    use test_dde_behaviour, only: collect_dde_behaviour
+   use test_dde_breaks, only: collect_dde_breaks
    use test_dde_continuation, only: collect_dde_continuation
    use test_dde_controller, only: collect_dde_controller
    use test_dde_convergence, only: collect_dde_convergence
@@ -15,11 +16,13 @@ program tester
    use test_dde_history, only: collect_dde_history
    use test_dde_implicit, only: collect_dde_implicit
    use test_dde_implicit_order, only: collect_dde_implicit_order
+   use test_dde_large, only: collect_dde_large
    use test_dde_order, only: collect_dde_order
    use test_dde_past_series, only: collect_dde_past_series
    use test_dde_receivers, only: collect_dde_receivers
    use test_dde_reentrant, only: collect_dde_reentrant
    use test_dde_refusals, only: collect_dde_refusals
+   use test_dde_sizes, only: collect_dde_sizes
    use test_dde_slow_series, only: collect_dde_slow_series
    use test_dde_solutions, only: collect_dde_solutions
    use test_dde_stiff, only: collect_dde_stiff
@@ -55,6 +58,7 @@ program tester
                              new_testsuite("attractors", collect_attractors), &
                              new_testsuite("base_frequencies", collect_base_frequencies), &
                              new_testsuite("dde_behaviour", collect_dde_behaviour), &
+                             new_testsuite("dde_breaks", collect_dde_breaks), &
                              new_testsuite("dde_continuation", collect_dde_continuation), &
                              new_testsuite("dde_controller", collect_dde_controller), &
                              new_testsuite("dde_convergence", collect_dde_convergence), &
@@ -64,11 +68,13 @@ program tester
                              new_testsuite("dde_history", collect_dde_history), &
                              new_testsuite("dde_implicit", collect_dde_implicit), &
                              new_testsuite("dde_implicit_order", collect_dde_implicit_order), &
+                             new_testsuite("dde_large", collect_dde_large), &
                              new_testsuite("dde_order", collect_dde_order), &
                              new_testsuite("dde_past_series", collect_dde_past_series), &
                              new_testsuite("dde_receivers", collect_dde_receivers), &
                              new_testsuite("dde_reentrant", collect_dde_reentrant), &
                              new_testsuite("dde_refusals", collect_dde_refusals), &
+                             new_testsuite("dde_sizes", collect_dde_sizes), &
                              new_testsuite("dde_slow_series", collect_dde_slow_series), &
                              new_testsuite("dde_solutions", collect_dde_solutions), &
                              new_testsuite("dde_stiff", collect_dde_stiff), &

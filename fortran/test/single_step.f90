@@ -4,6 +4,7 @@ module single_step
    use dde_interpolant, only: newton_value
    use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
+   use dde_tolerance, only: tolerance_type
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -35,7 +36,7 @@ contains
       if (present(absolute)) a = absolute
       if (present(relative)) r = relative
       call step%restart(problem, past, t)
-      call step%attempt(problem, past, t, h, r, a, estimate)
+      call step%attempt(problem, past, t, h, tolerance_type(problem%n, r, a), estimate)
       call step%complete(problem, past)
       call step%extend(problem, past)
    end subroutine take_step

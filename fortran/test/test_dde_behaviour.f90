@@ -62,7 +62,7 @@ contains
       type(integration_result) :: outcome
       type(table_sampler) :: table
 
-      table = table_sampler([1], [-1.0_wp, 0.5_wp, 1.0_wp, nearest(1.0_wp, 1.0_wp), 3.0_wp])
+      table = table_sampler([1], [0.0_wp, 0.5_wp, 1.0_wp, nearest(1.0_wp, 1.0_wp), 3.0_wp])
       call integrate(swing(), 0.0_wp, 1.0_wp, at_tolerance(1.0e-12_wp), outcome, failure, table)
       call expect_success(error, failure)
       call expect(error, table%received == 3, "3 samples, but "//text(table%received))
@@ -86,29 +86,29 @@ contains
       end do
    end subroutine test_end_at_sample
 
-   !> A kink is landed on 8 times, a jump 9 times, as far as the multiples of the delay lie before
-   !> the end.
+   !> A method of order 8 needs a continuous eighth derivative: a kink is landed on 7 times, a jump
+   !> 8 times, as far as the multiples of the delay lie before the end.
    subroutine test_one_delay(error)
       type(error_type), allocatable, intent(out) :: error
 
-      call expect_points(error, decay(past=1.0_wp), 30.0_wp, 8)
-      call expect_points(error, decay(past=0.0_wp), 30.0_wp, 9)
+      call expect_points(error, decay(past=1.0_wp), 30.0_wp, 7)
+      call expect_points(error, decay(past=0.0_wp), 30.0_wp, 8)
       call expect_points(error, decay(past=1.0_wp), 3.5_wp, 3)
       call expect_points(error, decay(past=0.0_wp), 3.5_wp, 3)
       call expect_points(error, decay(past=1.0_wp), 3.0_wp, 2)
       call expect_points(error, decay(past=1.0_wp), 1.0_wp, 0)
       call expect_points(error, decay(past=0.0_wp), 8.5_wp, 8)
-      call expect_points(error, decay(past=1.0_wp), 8.5_wp, 8)
+      call expect_points(error, decay(past=1.0_wp), 8.5_wp, 7)
    end subroutine test_one_delay
 
    !> Two delays, counted by hand. Delays 1 and 0.2 to t = 2.1: 0.2, 0.4, .. 2.0, where many sums
-   !> meet. Delays 1 and 0.1 to t = 1.85: 0.1 .. 0.8, 1.0 .. 1.7, for 0.9 and 1.8 are sums of nine.
+   !> meet. Delays 1 and 0.1 to t = 1.85: 0.1 .. 0.7, 1.0 .. 1.6, for 0.8 and 1.7 are sums of eight.
    !> Delays 1 and sqrt 2 to t = 4.5: 4, 4, 2 and 1 with 0, 1, 2 and 3 times the root.
    subroutine test_two_delays(error)
       type(error_type), allocatable, intent(out) :: error
 
       call expect_points(error, pair(1.0_wp, 0.2_wp), 2.1_wp, 10)
-      call expect_points(error, pair(1.0_wp, 0.1_wp), 1.85_wp, 16)
+      call expect_points(error, pair(1.0_wp, 0.1_wp), 1.85_wp, 14)
       call expect_points(error, pair(1.0_wp, sqrt(2.0_wp)), 4.5_wp, 11)
    end subroutine test_two_delays
 

@@ -88,7 +88,7 @@ contains
                       1.0e-14_wp, "jump")
    end subroutine test_kink
 
-   !> Eight passages of a kink and nine of a jump are landed on, three in the run before t = 3.5.
+   !> Seven passages of a kink and eight of a jump are landed on, three in the run before t = 3.5.
    subroutine test_passages(error)
       type(error_type), allocatable, intent(out) :: error
       type(continuation_type) :: continuation
@@ -105,7 +105,7 @@ contains
                         second, failure, continuation=continuation)
          call expect_success(error, failure)
          call expect(error, first%breaking_points == 3, "three in the first run")
-         call expect(error, second%breaking_points == 5 + jump, text(5 + jump) &
+         call expect(error, second%breaking_points == 4 + jump, text(4 + jump) &
                      //" in the second, but "//text(second%breaking_points))
       end do
    end subroutine test_passages

@@ -17,6 +17,12 @@ module test_dde_events
    !> Half a turn.
    real(wp), parameter :: pi = acos(-1.0_wp)
 
+   !> Passages of sin 50 t.
+   type, extends(event_table) :: fast_function
+   contains
+      procedure :: values => fast_values
+   end type fast_function
+
    !> A table of the events of a function of its own.
    type, extends(event_table) :: partial_function
    contains
@@ -38,6 +44,7 @@ contains
                    new_unittest("a zero at the start", test_zero_at_start), &
                    new_unittest("a zero where steps meet", test_zero_at_step_end), &
                    new_unittest("a value that is not finite", test_not_finite), &
+                   new_unittest("a fast function of time", test_fast), &
                    new_unittest("work", test_work)]
    end subroutine collect_dde_events
 
@@ -237,6 +244,34 @@ contains
       if (t < 0.25_wp .or. t > 0.5_wp) g = ieee_value(t, ieee_quiet_nan)
    end subroutine partial_values
 
+   !> A function of time that changes much faster than the solution, 1 + t: all of its
+   !> zeros k pi/50 up to t = 100, looked at five times between two of them, at no further step.
+   subroutine test_fast(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(fast_function) :: table
+      type(integration_result) :: outcome, unwatched
+      type(quadrature) :: problem
+      integer :: i, k
+
+      problem = quadrature(n=1, past=[1.0_wp], first=[1.0_wp])
+      call without_delays(problem)
+      do i = 1, size(methods)
+         table = fast_function(direction=[0], terminal=[.false.])
+         table%look_every = 0.0125_wp
+         call integrate(problem, 0.0_wp, 100.0_wp, at_tolerance(1.0e-6_wp, methods(i)), unwatched, &
+                        failure)
+         call expect_success(error, failure)
+         call integrate(problem, 0.0_wp, 100.0_wp, at_tolerance(1.0e-6_wp, methods(i)), outcome, &
+                        failure, watcher=table)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         call expect_close(error, table%time(:table%received)%hi, [(k*pi/50, k=1, 1591)], &
+                           1.0e-9_wp, methods(i))
+         call expect(error, outcome%accepted == unwatched%accepted, "as many steps")
+      end do
+   end subroutine test_fast
+
    !> A watcher costs three evaluations a step of the explicit method, and changes no state.
    subroutine test_work(error)
       type(error_type), allocatable, intent(out) :: error
@@ -285,6 +320,15 @@ contains
          allocate (times, source=pack(table%time(:rows)%hi, table%which(:rows) == which))
       end associate
    end function times_of
+
+   !> sin 50 t.
+   pure subroutine fast_values(self, t, y, slope, g)
+      class(fast_function), intent(in) :: self
+      real(wp), intent(in) :: t, y(:), slope(:)
+      real(wp), intent(out) :: g(:)
+
+      g = sin(50.0_wp*t)
+   end subroutine fast_values
 
    !> y' = (power + 1) t^power.
    pure type(quadrature) function power_of_time(power, first) result(problem)

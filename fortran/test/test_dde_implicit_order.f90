@@ -2,6 +2,7 @@
 module test_dde_implicit_order
    use dde_collocation, only: combine, lagrange_weights
    use dde_implicit_step, only: implicit_step_type
+   use dde_jacobian, only: jacobian_type
    use dde_linear, only: factorise, solve
    use dde_radau_tableau, only: radau_iia, radau_tableau
    use dde_stage_systems, only: stage_systems
@@ -48,7 +49,7 @@ contains
 
       do i = 1, size(stages)
          method = radau_iia(stages(i))
-         systems = stage_systems(method, 1, 0)
+         systems = stage_systems(method, 1)
          a = inverse(systems%a_inverse(:stages(i), :))
          b = a(stages(i), :)
          associate (c => method%c, s => stages(i))
@@ -73,12 +74,12 @@ contains
       !> The matrix
       real(wp), intent(in) :: matrix(:, :)
       real(wp) :: columns(size(matrix, 1), size(matrix, 1))
-      real(wp) :: factors(size(matrix, 1), size(matrix, 1))
+      real(wp) :: factors(size(matrix, 1), size(matrix, 1)), row_scale(size(matrix, 1))
       integer :: i, pivot(size(matrix, 1))
       logical :: singular
 
       factors = matrix
-      call factorise(factors, pivot, singular)
+      call factorise(factors, pivot, row_scale, singular)
       columns = 0.0_wp
       do i = 1, size(pivot)
          columns(i, i) = 1.0_wp
@@ -192,23 +193,22 @@ contains
       type(stage_systems) :: systems
       real(wp), parameter :: h = 2.8e-4_wp, stiffness = 1.0e23_wp
       real(wp), allocatable, dimension(:, :) :: change, correction, own_place, slopes
-      real(wp) :: by_y(3, 3), by_z(3, 1)
+      type(jacobian_type) :: jacobian
       integer :: i, lag
       logical :: singular
 
-      by_y = 0.0_wp
-      by_y(3, :) = -stiffness*[2.0_wp, 1.0_wp, 2.0_wp - 2.0e-8_wp]
-      by_z = 0.0_wp
+      allocate (jacobian%by_y(3, 3), jacobian%by_z(3, 1), source=0.0_wp)
+      jacobian%by_y(3, :) = -stiffness*[2.0_wp, 1.0_wp, 2.0_wp - 2.0e-8_wp]
       do i = 1, size(stages)
          do lag = 0, 1
             method = radau_iia(stages(i))
-            systems = stage_systems(method, 3, 1)
+            systems = stage_systems(method, 3)
             allocate (own_place, source=reshape(method%c - (0.35_wp + lag), [1, stages(i)]))
             allocate (slopes(3, stages(i)))
             slopes(1, :) = 0.0_wp
             slopes(2, :) = -1.0_wp
             slopes(3, :) = -2.0e-8_wp*stiffness
-            call systems%prepare(method, h, by_y, by_z, [3], own_place, &
+            call systems%prepare(method, h, jacobian, [3], own_place, &
                                  weights_at(method, own_place), singular)
             allocate (change(3, stages(i)), correction(3, stages(i)))
             call systems%correct(method, slopes, 0.0_wp*slopes, correction)
@@ -226,6 +226,7 @@ contains
    subroutine test_coupling(error)
       type(error_type), allocatable, intent(out) :: error
       type(radau_tableau) :: method
+      type(jacobian_type) :: jacobian
       type(stage_systems) :: systems
       real(wp), parameter :: h = 0.7_wp, lags(2, 3) = reshape([0.01_wp, 0.3_wp, 0.5_wp, 0.02_wp, &
                                                                0.4_wp, 0.9_wp], [2, 3])
@@ -238,18 +239,20 @@ contains
 
       by_y = reshape(uniform(1, n*n, -2.0_wp, 2.0_wp), [n, n])
       by_z = reshape(uniform(2, n*2, -2.0_wp, 2.0_wp), [n, 2])
+      jacobian%by_y = by_y
+      jacobian%by_z = by_z
       vector = uniform(3, n, -1.0_wp, 1.0_wp)
       do i = 1, size(stages)
          method = radau_iia(stages(i))
          do lag = 1, size(lags, 2)
-            systems = stage_systems(method, n, 2)
+            systems = stage_systems(method, n)
             allocate (own_place(2, stages(i)), change(n, stages(i)), correction(n, stages(i)))
             do j = 1, stages(i)
                own_place(:, j) = method%c(j) - lags(:, lag)/h
             end do
             slopes = reshape(uniform(4, n*stages(i), -1.0_wp, 1.0_wp), [n, stages(i)])
             weights = weights_at(method, own_place)
-            call systems%prepare(method, h, by_y, by_z, component, own_place, weights, singular)
+            call systems%prepare(method, h, jacobian, component, own_place, weights, singular)
             call systems%correct(method, slopes, 0.0_wp*slopes, correction)
             call combine(n, stages(i), systems%t, correction, change)
             left = matmul(change, transpose(systems%a_inverse(:stages(i), :)))/h &

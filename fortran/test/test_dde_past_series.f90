@@ -3,6 +3,7 @@ module test_dde_past_series
    use dde_history, only: history_type
    use dde_interpolant, only: taylor_coefficients
    use dde_time, only: instant_at
+   use dde_tolerance, only: tolerance_type
    use errors, only: text
    use expectations, only: expect_close
    use kinds, only: wp
@@ -23,6 +24,7 @@ contains
 
       testsuite = [new_unittest("taylor series", test_series), &
                    new_unittest("zeros above the degree", test_padded), &
+                   new_unittest("a second node at 0", test_second_node), &
                    new_unittest("series of the next step", test_next), &
                    new_unittest("series beyond its step", test_disagreement), &
                    new_unittest("series behind a layer", test_layer)]
@@ -63,18 +65,41 @@ contains
       end do
    end subroutine test_series
 
-   !> A polynomial that a continuation gives back has zeros above its degree, nodes among them: it
-   !> is not taken for one of powers.
+   !> A polynomial that a continuation gives back has zeros above its degree, nodes among them.
    subroutine test_padded(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: series(0:12), wider(0:12)
       real(wp), parameter :: coefficients(0:3) = [1.0_wp, 0.8125_wp, -0.1875_wp, 0.0625_wp]
       real(wp), parameter :: none(9) = 0.0_wp
 
-      call taylor_coefficients(3, nodes, coefficients, 0.3_wp, 0.5_wp, series)
-      call taylor_coefficients(12, [nodes, none], [coefficients, none], 0.3_wp, 0.5_wp, wider)
+      call taylor_coefficients(3, nodes, .false., coefficients, 0.3_wp, 0.5_wp, series)
+      call taylor_coefficients(12, [nodes, none], .false., [coefficients, none], 0.3_wp, &
+                               0.5_wp, wider)
       call expect_close(error, wider, series, 1.0e-15_wp, "series")
    end subroutine test_padded
+
+   !> The same polynomial over nodes of which the second is 0 has the same series: it is not one of
+   !> powers.
+   subroutine test_second_node(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: first(2) = [0.0_wp, 0.5_wp], second(2) = [0.5_wp, 0.0_wp]
+      type(history_type) :: past
+      type(wille_baker) :: problem
+      real(wp) :: series(0:2, 1, 2), serves, unit
+      integer :: order
+
+      problem = delayed()
+      do order = 1, 2
+         past = history_type(problem, instant_at(0.0_wp))
+         ! 1 + s (s - 1/2), of which the slope at 0 is -1/2
+         call past%append(instant_at(0.0_wp), 1.0_wp, merge(first, second, order == 1), &
+                          reshape([1.0_wp, 0.0_wp, 1.0_wp], [3, 1]), serves=1.0_wp)
+         call past%face(problem, instant_at(2.25_wp), 0.5_wp)
+         unit = 1.0_wp
+         call past%series(problem, .false., unit, series(:, :, order), serves)
+      end do
+      call expect_close(error, series(:, 1, 2), series(:, 1, 1), 1.0e-15_wp, "series")
+   end subroutine test_second_node
 
    !> Where the next step begins nearer, its series is read, unless there is a kink between them;
    !> what it departs from the past before it begins must not count.
@@ -91,9 +116,9 @@ contains
       call past%series(problem, .true., unit, z, serves)
       call expect_close(error, z(:, 1), [1.751_wp, 0.5_wp, 0.0_wp], 1.0e-15_wp, "the next, back")
       h = 0.5_wp
-      call past%confirm(z, unit, 0.0_wp, 1.0e-2_wp, h)
+      call past%confirm(z, unit, tolerance_type(problem%n, 0.0_wp, 1.0e-2_wp), h)
       call expect_close(error, h, 0.5_wp, 0.0_wp, "a departure of 0.1 tolerances")
-      call past%confirm(z, unit, 0.0_wp, 1.0e-4_wp, h)
+      call past%confirm(z, unit, tolerance_type(problem%n, 0.0_wp, 1.0e-4_wp), h)
       call expect_close(error, h, 0.0_wp, 0.0_wp, "a departure of 10 tolerances")
       unit = 0.5_wp
       call past%series(problem, .false., unit, z, serves)
@@ -122,7 +147,7 @@ contains
          call past%series(problem, .true., unit, z, serves)
          call expect_close(error, z(:, 1), [1.25_wp, 1.0_wp, 0.0_wp], 1.0e-15_wp, "the step itself")
          h = 1.0_wp
-         call past%confirm(z, unit, 0.0_wp, tolerances(i), h)
+         call past%confirm(z, unit, tolerance_type(problem%n, 0.0_wp, tolerances(i)), h)
          call expect_close(error, h, lengths(i), 1.0e-15_wp, "length at "//text(tolerances(i)))
       end do
    end subroutine test_disagreement
@@ -168,9 +193,9 @@ contains
       call past%series(problem, .true., unit, z, serves)
       call expect_close(error, z(:, 1), [1.0_wp, 0.0_wp, 0.0_wp], 1.0e-15_wp, "behind the layer")
       h = 0.5_wp
-      call past%confirm(z, unit, 0.0_wp, 1.0e-3_wp, h)
+      call past%confirm(z, unit, tolerance_type(problem%n, 0.0_wp, 1.0e-3_wp), h)
       call expect_close(error, h, 0.5_wp, 0.0_wp, "a layer that does not count")
-      call past%confirm(z, unit, 0.0_wp, 1.0e-5_wp, h)
+      call past%confirm(z, unit, tolerance_type(problem%n, 0.0_wp, 1.0e-5_wp), h)
       call expect_close(error, h, 0.0_wp, 0.0_wp, "a layer that counts")
       unit = 1.0e-3_wp
       call past%series(problem, .true., unit, z, serves)

@@ -1,5 +1,6 @@
 !> Receivers and continuations that the solver refuses before it starts.
 module test_dde_receivers
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use dde, only: continuation_type, dde_problem_type, event_table, integrate, &
                   integration_options, integration_result, refused, table_sampler
    use errors, only: failure_type => error_type
@@ -20,6 +21,8 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("samplers", test_samplers), &
+                   new_unittest("times of samples", test_times), &
+                   new_unittest("used tables", test_used_tables), &
                    new_unittest("watchers", test_watchers), &
                    new_unittest("tables of events", test_tables), &
                    new_unittest("continuations", test_continuations)]
@@ -40,6 +43,61 @@ contains
       call expect(error, outcome%reason == refused .and. table%received == 0, "no sample is taken")
    end subroutine test_samplers
 
+   !> Times of samples ascend, from the first instant on.
+   subroutine test_times(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call refuse_times(error, [0.5_wp, 2.0_wp, 1.0_wp], &
+                        "time(3) = 1.0 of the table of samples after time(2) = 2.0")
+      call refuse_times(error, [ieee_value(1.0_wp, ieee_quiet_nan), 0.5_wp], &
+                        "next = NaN of the sampler; a time from 0.0 (t_start) on expected")
+      call refuse_times(error, [0.5_wp, ieee_value(1.0_wp, ieee_quiet_nan)], &
+                        "time(2) of the table of samples is NaN")
+      call refuse_times(error, [-1.0_wp, 0.5_wp], &
+                        "next = -1.0 of the sampler; a time from 0.0 (t_start) on expected")
+   end subroutine test_times
+
+   !> A run that goes on fills a table further, a new one refuses it; what no run reached is not a
+   !> number.
+   subroutine test_used_tables(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(continuation_type) :: state
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(table_sampler) :: table
+
+      table = table_sampler([1], [0.0_wp, 0.5_wp, 1.0_wp, 1.5_wp, 3.0_wp])
+      call integrate(sine(), 0.0_wp, 1.0_wp, integration_options(), outcome, failure, table, &
+                     continuation=state)
+      call expect_success(error, failure)
+      call integrate(sine(), 1.0_wp, 2.0_wp, integration_options(), outcome, failure, table, &
+                     continuation=state)
+      call expect_success(error, failure)
+      call expect_close(error, table%values(1, :4), sin(table%time(:4)), 1.0e-7_wp, "samples")
+      call expect(error, table%received == 4 .and. ieee_is_nan(table%values(1, 5)), &
+                  "the last is not a number")
+      call integrate(sine(), 0.0_wp, 1.0_wp, integration_options(), outcome, failure, table)
+      call expect_failure(error, failure, "the table of samples holds 4 samples of an earlier run")
+   end subroutine test_used_tables
+
+   !> Samples at these times are refused in these words.
+   subroutine refuse_times(error, time, words)
+      !> The first failure of the test
+      type(error_type), allocatable, intent(inout) :: error
+      !> The times
+      real(wp), intent(in) :: time(:)
+      !> Part of the message
+      character(len=*), intent(in) :: words
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(table_sampler) :: table
+
+      table = table_sampler([1], time)
+      call integrate(sine(), 0.0_wp, 3.0_wp, integration_options(), outcome, failure, table)
+      call expect_failure(error, failure, words)
+      call expect(error, table%received == 0, "no sample is taken")
+   end subroutine refuse_times
+
    !> Directions and marks that cannot be.
    subroutine test_watchers(error)
       type(error_type), allocatable, intent(out) :: error
@@ -54,6 +112,9 @@ contains
       table = event_table([1], [0.5_wp], [1])
       table%terminal = [.true., .false.]
       call refuse_watcher(error, table, "1 directions for 2 marks `terminal`")
+      table = event_table([1], [0.5_wp], [1])
+      table%look_every = 0.0_wp
+      call refuse_watcher(error, table, "look_every = 0.0 of the watcher; a time > 0 expected")
    end subroutine test_watchers
 
    !> Components and levels that cannot be.

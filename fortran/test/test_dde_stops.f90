@@ -1,13 +1,16 @@
 !> Why an integration ends, and that time and state say how far it came.
 module test_dde_stops
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde, only: integrate, integration_options, integration_result, reached_end, &
-                  step_underflow, too_many_steps, value_not_finite
-   use errors, only: failure_type => error_type
+                  step_underflow, table_sampler, too_many_steps, value_not_finite
+   use errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use piecewise_problems, only: jumping_history
    use solving, only: at_tolerance
-   use undelayed_problems, only: blow_up, falls_out, swing, without_delays
+   use test_problems, only: fill
+   use undelayed_problems, only: blow_up, decay, falls_out, swing, without_delays
    implicit none (type, external)
    private
    public :: collect_dde_stops
@@ -23,7 +26,10 @@ contains
                    new_unittest("too many steps", test_too_many_steps), &
                    new_unittest("just enough steps", test_enough_steps), &
                    new_unittest("value not finite", test_value_not_finite), &
-                   new_unittest("value not finite from the start", test_not_finite_at_start)]
+                   new_unittest("value not finite from the start", test_not_finite_at_start), &
+                   new_unittest("history not finite", test_not_finite_history), &
+                   new_unittest("no length", test_no_length), &
+                   new_unittest("below the spacing of times", test_unresolved)]
    end subroutine collect_dde_stops
 
    !> A good end: t_end itself, the state there, no error.
@@ -51,7 +57,7 @@ contains
       call without_delays(problem)
       call integrate(problem, 0.0_wp, 2.0_wp, at_tolerance(1.0e-9_wp), outcome, failure)
       call expect(error, outcome%reason == step_underflow, "the reason is `step_underflow`")
-      call expect_failure(error, failure, "stopped at t = 1.0 of 2.0")
+      call expect_failure(error, failure, "stopped at t = 1.0000")
       call expect_failure(error, failure, "the step had to shrink")
       call expect_close(error, outcome%t, 1.0_wp, 1.0e-8_wp, "t")
       call expect_between(error, outcome%y(1), 1.0e15_wp, huge(1.0_wp), "y")
@@ -103,7 +109,7 @@ contains
       call integrate(edge(first=0.0_wp), 0.0_wp, 2.0_wp, at_tolerance(1.0e-9_wp), outcome, failure)
       call expect(error, outcome%reason == value_not_finite, "the reason is `value_not_finite`")
       call expect_failure(error, failure, "stopped at t = 1.0 of 2.0")
-      call expect_failure(error, failure, "not finite")
+      call expect_failure(error, failure, "f(1) is NaN at t = 1.0")
       call expect_close(error, outcome%t, 1.0_wp, 1.0e-12_wp, "t")
       call expect_close(error, outcome%y, [outcome%t], 1.0e-12_wp, "y")
    end subroutine test_value_not_finite
@@ -120,6 +126,62 @@ contains
       call expect_close(error, outcome%t, 3.0_wp, 0.0_wp, "t")
       call expect_close(error, outcome%y, [5.0_wp], 0.0_wp, "y")
    end subroutine test_not_finite_at_start
+
+   !> A history that is no number is named with its component and time.
+   subroutine test_not_finite_history(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(jumping_history) :: problem
+      character(len=8), parameter :: methods(2) = [character(len=8) :: "explicit", "radau9"]
+      integer :: i
+
+      call fill(problem, 1, [0.0_wp], [0.0_wp], [1.0_wp], [1])
+      problem%before = ieee_value(1.0_wp, ieee_quiet_nan)
+      do i = 1, size(methods)
+         call integrate(problem, 0.0_wp, 2.0_wp, at_tolerance(1.0e-6_wp, methods(i)), outcome, &
+                        failure)
+         call expect(error, outcome%reason == value_not_finite, "the reason is `value_not_finite`")
+         call expect_failure(error, failure, "the history of component 1 is NaN at t = -1.0")
+      end do
+   end subroutine test_not_finite_history
+
+   !> A run of no length gives the first state and the sample there.
+   subroutine test_no_length(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(table_sampler) :: table
+
+      table = table_sampler([1], [1.0_wp])
+      call integrate(edge(first=5.0_wp), 1.0_wp, 1.0_wp, at_tolerance(1.0e-9_wp), outcome, &
+                     failure, table)
+      call expect_success(error, failure)
+      call expect(error, outcome%reason == reached_end, "the reason is `reached_end`")
+      call expect_close(error, outcome%y, [5.0_wp], 0.0_wp, "y")
+      call expect_close(error, table%values(1, :), [5.0_wp], 0.0_wp, "the sample")
+   end subroutine test_no_length
+
+   !> Steps below the spacing of times are counted: 1e-10 at t = 1e6, 1e-17 near 0.1.
+   subroutine test_unresolved(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: starts(2) = [0.0_wp, 1.0e6_wp]
+      type(failure_type), allocatable :: failure
+      type(decay) :: problem
+      type(integration_result) :: outcome
+      integer :: i
+
+      problem = decay(n=1, past=[1.0_wp], first=[1.0_wp])
+      problem%rate = 1.0e12_wp
+      call without_delays(problem)
+      do i = 1, size(starts)
+         call integrate(problem, starts(i), starts(i) + 1.0e-9_wp, at_tolerance(1.0e-9_wp), &
+                        outcome, failure)
+         call expect_success(error, failure)
+         call expect(error, outcome%unresolved > 100 .eqv. i == 2, text(outcome%unresolved) &
+                     //" from t = "//text(starts(i)))
+      end do
+   end subroutine test_unresolved
 
    !> y' = 1 up to t = 1, no number after.
    pure type(falls_out) function edge(first) result(problem)

@@ -5,14 +5,19 @@ module test_dde_switch
    use dde_history, only: history_type
    use dde_problem, only: dde_problem_type
    use dde_taylor_step, only: taylor_step_type
+   use dde_tolerance, only: tolerance_type
    use dde_time, only: instant_at
    use errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_success
    use fast_problems, only: plain_block
    use kinds, only: wp
+   use lines_of_cells, only: cells
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use piecewise_problems, only: switching, switching_kinds
+   use published_problems, only: enzyme, infection, mackey_glass
    use solving, only: at_tolerance
    use spring_block, only: spring_block_type
+   use test_problems, only: fill
    use undelayed_problems, only: swing
    implicit none (type, external)
    private
@@ -30,7 +35,8 @@ contains
                    new_unittest("a damped oscillation", test_damped), &
                    new_unittest("a stiff block", test_stiff), &
                    new_unittest("near the end", test_end), &
-                   new_unittest("vain tries", test_vain)]
+                   new_unittest("failed tries", test_vain), &
+                   new_unittest("cost of changes", test_cost)]
    end subroutine collect_dde_switch
 
    !> The step that the tolerance allows is not held back, a hundredth of it is.
@@ -140,6 +146,75 @@ contains
       end do
    end subroutine test_vain
 
+   !> On problems that jump, change their stiffness or have many delays, and on published ones,
+   !> `auto` takes at most twice the work of the better method, and what two failed tries take.
+   subroutine test_cost(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer :: kind, power
+
+      do kind = 1, switching_kinds
+         do power = 1, 4, 3
+            call compare_work(error, switch(kind, 10.0_wp**power), 30.0_wp, &
+                              "switching "//text(kind)//", k = 1e"//text(power))
+         end do
+      end do
+      call compare_work(error, infection(n=3, lag=[1.0_wp, 10.0_wp], component=[2, 2], &
+                                         past=[5.0_wp, 0.1_wp, 1.0_wp], &
+                                         first=[5.0_wp, 0.1_wp, 1.0_wp]), 40.0_wp, "infection")
+      call compare_work(error, enzyme(n=4, lag=[4.0_wp], component=[4], &
+                                      past=[60.0_wp, 10.0_wp, 10.0_wp, 20.0_wp], &
+                                      first=[60.0_wp, 10.0_wp, 10.0_wp, 20.0_wp]), 160.0_wp, &
+                        "enzyme")
+      call compare_work(error, mackey_glass(n=1, lag=[17.0_wp], component=[1], past=[1.2_wp], &
+                                            first=[1.2_wp]), 200.0_wp, "mackey-glass")
+      call compare_work(error, cells(60, 100.0_wp, delayed=.true.), 5.0_wp, "cells")
+   end subroutine test_cost
+
+   !> The work of `auto` and of the methods that it chooses from.
+   subroutine compare_work(error, problem, t_end, name)
+      !> The first failure of the test
+      type(error_type), allocatable, intent(inout) :: error
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Last instant
+      real(wp), intent(in) :: t_end
+      !> Its name
+      character(len=*), intent(in) :: name
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: auto, explicit, implicit
+      integer :: digits
+
+      do digits = 3, 6, 3
+         call integrate(problem, 0.0_wp, t_end, at_tolerance(10.0_wp**(-digits), "auto"), auto, &
+                        failure)
+         call expect_success(error, failure)
+         call integrate(problem, 0.0_wp, t_end, at_tolerance(10.0_wp**(-digits), "explicit"), &
+                        explicit, failure)
+         call expect_success(error, failure)
+         call integrate(problem, 0.0_wp, t_end, &
+                        at_tolerance(10.0_wp**(-digits), merge("radau5", "radau9", digits < 5)), &
+                        implicit, failure)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         call expect(error, auto%work <= 2.0_wp*min(explicit%work, implicit%work) + 1000.0_wp, &
+                     name//" at 1e-"//text(digits)//": "//text(auto%work)//" by auto, " &
+                     //text(explicit%work)//" by explicit, "//text(implicit%work)//" by radau, " &
+                     //text(auto%switches)//" changes")
+      end do
+   end subroutine compare_work
+
+   !> A problem that switches.
+   type(switching) function switch(kind, k) result(problem)
+      !> Which one
+      integer, intent(in) :: kind
+      !> Its fast rate
+      real(wp), intent(in) :: k
+
+      call fill(problem, 2, [0.5_wp, 0.5_wp], [0.5_wp, 0.5_wp], [1.0_wp, 1.0_wp], [1, 2])
+      problem%kind = kind
+      problem%k = k
+   end function switch
+
    !> Whether a step from the start is held back.
    function held_back(problem, tolerance, share) result(value)
       !> The problem, without delays
@@ -156,8 +231,10 @@ contains
       past = history_type(problem, instant_at(0.0_wp))
       step = taylor_step_type(problem, tolerance)
       length = 1.0e-6_wp
-      call step%look_ahead(problem, past, 0.0_wp, 0.0_wp, tolerance, 1.0e3_wp, length)
-      call step%attempt(problem, past, 0.0_wp, share*length, 0.0_wp, tolerance, estimate)
+      call step%look_ahead(problem, past, 0.0_wp, &
+                           tolerance_type(problem%n, 0.0_wp, tolerance), 1.0e3_wp, length)
+      call step%attempt(problem, past, 0.0_wp, share*length, &
+                        tolerance_type(problem%n, 0.0_wp, tolerance), estimate)
       value = step%held_back()
    end function held_back
 

@@ -7,6 +7,7 @@ module test_dde_taylor
    use dde_history, only: history_type
    use dde_taylor_series, only: taylor_series
    use dde_taylor_step, only: taylor_step_type
+   use dde_tolerance, only: tolerance_type
    use dde_time, only: instant_at
    use errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
@@ -117,9 +118,11 @@ contains
       past = history_type(problem, instant_at(0.0_wp))
       step = taylor_step_type(problem, tolerance)
       length = 0.5_wp*h
-      call step%look_ahead(problem, past, 0.0_wp, 0.0_wp, tolerance, 1.0_wp, length)
+      call step%look_ahead(problem, past, 0.0_wp, &
+                           tolerance_type(problem%n, 0.0_wp, tolerance), 1.0_wp, length)
       if (present(allowed)) allowed = length
-      call step%attempt(problem, past, 0.0_wp, h, 0.0_wp, tolerance, estimate)
+      call step%attempt(problem, past, 0.0_wp, h, tolerance_type(problem%n, 0.0_wp, tolerance), &
+                        estimate)
       call step%extend(problem, past)
    end subroutine take_step
 

@@ -205,7 +205,7 @@ contains
       problem%mackey_glass = mackey_glass(n=1, lag=[tau], component=[1], past=[1.2_wp], &
                                           first=[1.2_wp])
       call solve(problem, &
-                 growth_settings(exponents=4, t_begin=1000.0_wp, t_end=13000.0_wp, &
+                 growth_settings(exponents=4, t_begin=1000.0_wp, t_end=25000.0_wp, &
                                  t_turning=700.0_wp, interval=20.0_wp, blocks=4), &
                  at_tolerance(1.0e-5_wp), exponents, error)
       if (allocated(error)) return

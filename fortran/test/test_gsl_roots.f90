@@ -95,7 +95,8 @@ contains
       real(wp) :: root
 
       call find_root(cosine_less_line(), 1.0_wp, 2.0_wp, root, failure)
-      call expect_failure(error, failure, "f(1.0) = -0.459698 and f(2.0) = -2.416147")
+      call expect_failure(error, failure, &
+                          "f(1.0) = -0.45969769413186 and f(2.0) = -2.41614683654714")
       call expect_failure(error, failure, "opposite signs expected")
       call find_root(cosine_less_line(), -1.0_wp, 0.5_wp, root, failure)
       call expect_failure(error, failure, "opposite signs expected")

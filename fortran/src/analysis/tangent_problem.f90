@@ -7,7 +7,7 @@
 !> itself: those by differences are not accurate enough.
 module tangent_problem
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
-   use dde, only: dde_problem_type
+   use dde, only: dde_problem_type, find_jacobian
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -95,7 +95,7 @@ contains
             dydt = ieee_value(1.0_wp, ieee_quiet_nan)
             return
          end if
-         call base%jacobian(t, y(:n), z(:delays), by_y, by_z)
+         call find_jacobian(base, t, y(:n), z(:delays), by_y, by_z)
          dydt(n + 1:) = 0.0_wp
          do j = 1, self%vectors
             associate (slope => dydt(j*n + 1:(j + 1)*n))
@@ -131,7 +131,7 @@ contains
       by_y = 0.0_wp
       by_z = 0.0_wp
       associate (n => self%base%n, delays => size(self%base%lag))
-         call self%base%jacobian(t, y(:n), z(:delays), by_y(:n, :n), by_z(:n, :delays))
+         call find_jacobian(self%base, t, y(:n), z(:delays), by_y(:n, :n), by_z(:n, :delays))
          do j = 1, self%vectors
             by_y(j*n + 1:(j + 1)*n, j*n + 1:(j + 1)*n) = by_y(:n, :n)
             by_z(j*n + 1:(j + 1)*n, j*delays + 1:(j + 1)*delays) = by_z(:n, :delays)

@@ -3,6 +3,7 @@ module dde
    use dde_continuation, only: continuation_type
    use dde_events, only: event_table, event_watcher_type
    use dde_integrator, only: integrate
+   use dde_jacobian, only: find_jacobian
    use dde_outcome, only: event_met, integration_result, reached_end, refused, step_underflow, &
                           too_many_steps, value_not_finite
    use dde_problem, only: dde_problem_type
@@ -11,7 +12,7 @@ module dde
    use dde_time, only: elapsed, instant
    implicit none (type, external)
    private
-   public :: dde_problem_type
+   public :: dde_problem_type, find_jacobian
    public :: elapsed, instant
    public :: continuation_type
    public :: event_table, event_watcher_type

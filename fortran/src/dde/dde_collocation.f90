@@ -3,8 +3,8 @@ module dde_collocation
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: combine, divide_differences, in_lanes, lagrange_weights, shape_bump, stage_lanes
-   public :: weighted_sum
+   public :: add_up, combine, difference_increments, in_lanes, lagrange_weights, shape_bump
+   public :: stage_lanes
 
    !> Rows of matrices over stages, those above the number of stages zero: a number that the
    !> compiler knows, so that it makes vector instructions of them.
@@ -92,19 +92,20 @@ contains
 
    !> Sum over j of weight(j) times vector j, in this order and without the fused multiply-adds that
    !> gfortran's library for `matmul` takes where the processor has them.
-   pure function weighted_sum(weights, vectors) result(total)
+   pure subroutine add_up(weights, vectors, total)
       !> Weights
       real(wp), intent(in) :: weights(:)
       !> One vector a weight
       real(wp), intent(in) :: vectors(:, :)
-      real(wp) :: total(size(vectors, 1))
+      !> The sum
+      real(wp), intent(out) :: total(:)
       integer :: j
 
       total = weights(1)*vectors(:, 1)
       do j = 2, size(weights)
          total = total + weights(j)*vectors(:, j)
       end do
-   end function weighted_sum
+   end subroutine add_up
 
    !> Replace values at x by their divided differences.
    pure subroutine divide_differences(x, values)
@@ -120,6 +121,23 @@ contains
          end do
       end do
    end subroutine divide_differences
+
+   !> Newton coefficients of the collocation polynomial's increments.
+   pure subroutine difference_increments(x, increments, differences)
+      !> Nodes (0, c)
+      real(wp), intent(in) :: x(0:)
+      !> Increments at c, shape (n, stages)
+      real(wp), intent(in) :: increments(:, :)
+      !> The coefficients, shape (0:stages, n)
+      real(wp), intent(out) :: differences(0:, :)
+      integer :: k
+
+      do k = 1, size(differences, 2)
+         differences(0, k) = 0.0_wp
+         differences(1:, k) = increments(k, :)
+         call divide_differences(x, differences(:, k))
+      end do
+   end subroutine difference_increments
 
    !> Weights of the stage increments in the collocation polynomial at s; that of 0 is left out.
    pure function lagrange_weights(x, s) result(weights)

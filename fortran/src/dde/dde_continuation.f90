@@ -1,9 +1,10 @@
 !> A run that can go on: all that a later run needs to carry on where one ended, in plain arrays
 !> that a caller can write to a file and read back.
 module dde_continuation
-   use dde_breaking_points, only: kink_type
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_history, only: history_type
    use dde_interpolant, only: highest_degree
+   use dde_kinks, only: kink_type
    use dde_problem, only: dde_problem_type
    use dde_time, only: elapsed, instant, later
    use errors, only: error_type, raise, text
@@ -21,12 +22,13 @@ module dde_continuation
       real(wp) :: origin(2) = 0.0_wp
       !> State, shape (n)
       real(wp), allocatable :: y(:)
-      !> Its time derivative by dense output, shape (n): what event functions saw last
+      !> Its time derivative by dense output, shape (n): what event functions saw last; of size 0
+      !> after a change of the state
       real(wp), allocatable :: slope(:)
       !> Right-hand side, shape (n): a problem that gives another one makes a kink; of size 0 where
       !> a caller changed the solution smoothly, all of its past with it: then there is none
       real(wp), allocatable :: rate(:)
-      !> Length of the next step
+      !> Length of the next step; chosen by the solver when 0
       real(wp) :: next_step = 0.0_wp
       !> Name of the method in use
       character(len=8) :: method = ""
@@ -34,6 +36,8 @@ module dde_continuation
       real(wp), allocatable :: kink(:, :)
       !> Passages through a delay that each has made; -1 for a jump of the solution
       integer, allocatable :: passages(:)
+      !> Passages through a delay since its cause that each has made; 0 for the cause
+      integer, allocatable :: generation(:)
       !> Components of y that are kept
       integer, allocatable :: kept(:)
       !> Start of each step kept, shape (2, steps), ascending
@@ -45,8 +49,12 @@ module dde_continuation
       !> Newton coefficients, shape (1 + degree, kept, steps), 0 above the degree of the step
       real(wp), allocatable :: coefficients(:, :, :)
    contains
+      !> Change the state: a dose, a bounce
+      procedure :: change_state
       !> Refuse a problem that cannot go on from here
       procedure :: check
+      !> Whether a right-hand side is that of the end of the run
+      procedure :: has_rate
       !> Keep the past
       procedure :: store
       !> Give the past back
@@ -54,6 +62,41 @@ module dde_continuation
    end type continuation_type
 
 contains
+
+   !> Change the state: a dose, a bounce. The solution jumps here, and the jump comes back after
+   !> each delay.
+   pure subroutine change_state(self, y, error)
+      !> The continuation, filled by a run
+      class(continuation_type), intent(inout) :: self
+      !> New state, shape (n)
+      real(wp), intent(in) :: y(:)
+      !> No run has ended here, or y is no state
+      type(error_type), allocatable, intent(out) :: error
+      integer :: i
+
+      if (.not. allocated(self%y)) then
+         call raise(error, "change_state: the continuation is empty; one filled by a run expected")
+         return
+      end if
+      if (size(y) /= size(self%y)) then
+         call raise(error, "change_state: "//text(size(y))//" components for " &
+                    //text(size(self%y))//" equations; as many expected")
+         return
+      end if
+      do i = 1, size(y)
+         if (ieee_is_finite(y(i))) cycle
+         call raise(error, "change_state: y("//text(i)//") = "//text(y(i)) &
+                    //"; a finite number expected")
+         return
+      end do
+      self%kink = reshape([self%kink, self%time], [2, size(self%kink, 2) + 1])
+      self%passages = [self%passages, -1]
+      self%generation = [self%generation, 0]
+      self%y = y
+      deallocate (self%slope)
+      allocate (self%slope(0))
+      self%next_step = 0.0_wp
+   end subroutine change_state
 
    !> Refuse a problem that cannot go on from here, or numbers that do not fit each other.
    pure subroutine check(self, problem, t_start, error)
@@ -107,13 +150,16 @@ contains
       integer :: steps
 
       value = allocated(self%slope) .and. allocated(self%rate) .and. allocated(self%kink) &
-              .and. allocated(self%passages) .and. allocated(self%kept) &
+              .and. allocated(self%passages) .and. allocated(self%generation) &
+              .and. allocated(self%kept) &
               .and. allocated(self%step_start) .and. allocated(self%step_length) &
               .and. allocated(self%nodes) .and. allocated(self%coefficients)
       if (.not. value) return
       steps = size(self%step_length)
-      value = size(self%slope) == size(self%y) .and. any(size(self%rate) == [0, size(self%y)]) &
+      value = any(size(self%slope) == [0, size(self%y)]) &
+              .and. any(size(self%rate) == [0, size(self%y)]) &
               .and. all(shape(self%kink) == [2, size(self%passages)]) &
+              .and. size(self%generation) == size(self%passages) &
               .and. all(shape(self%step_start) == [2, steps]) &
               .and. size(self%nodes, 1) <= highest_degree .and. size(self%nodes, 2) == steps &
               .and. all(shape(self%coefficients) &
@@ -147,7 +193,7 @@ contains
       if (size(numbers) == 0) words = " none"
    end subroutine list
 
-   !> Keep the steps that the past keeps, and the kinks in them.
+   !> Keep the steps that the past keeps, and the kinks that delays may bring back.
    pure subroutine store(self, past, kinks)
       !> The continuation
       class(continuation_type), intent(inout) :: self
@@ -155,7 +201,6 @@ contains
       type(history_type), intent(in) :: past
       !> Kinks up to now, ascending
       type(kink_type), intent(in) :: kinks(:)
-      type(kink_type), allocatable :: near(:)
       type(instant) :: start
       integer(int64) :: step
       integer :: degree, i, steps
@@ -165,19 +210,18 @@ contains
       steps = int(past%newest - past%oldest + 1)
       allocate (self%step_start(2, steps), self%step_length(steps))
       allocate (self%nodes(degree, steps), self%coefficients(1 + degree, size(past%kept), steps))
-      near = pack(kinks, size(past%kept) > 0)
       i = 0
       do step = past%oldest, past%newest
          i = i + 1
          call past%recall(step, start, self%step_length(i), self%nodes(:, i), &
                           self%coefficients(:, :, i))
-         if (i == 1) near = pack(kinks, elapsed(start, kinks%at) >= 0.0_wp)
          self%step_start(:, i) = [start%hi, start%lo]
       end do
-      allocate (self%kink(2, size(near)))
-      self%kink(1, :) = near%at%hi
-      self%kink(2, :) = near%at%lo
-      self%passages = near%passages
+      allocate (self%kink(2, size(kinks)))
+      self%kink(1, :) = kinks%at%hi
+      self%kink(2, :) = kinks%at%lo
+      self%passages = kinks%passages
+      self%generation = kinks%generation
    end subroutine store
 
    !> Give the past back.
@@ -199,5 +243,19 @@ contains
       kinks%at%hi = self%kink(1, :)
       kinks%at%lo = self%kink(2, :)
       kinks%passages = self%passages
+      kinks%generation = self%generation
    end subroutine restore
+
+   !> Whether a right-hand side is that of the end of the run, or need not be.
+   pure logical function has_rate(self, slope) result(value)
+      !> The continuation
+      class(continuation_type), intent(in) :: self
+      !> The right-hand side, shape (n)
+      real(wp), intent(in) :: slope(:)
+
+      value = size(self%rate) == 0
+      if (value) return
+      value = all(ieee_is_finite(slope)) .and. all(ieee_is_finite(self%rate))
+      if (value) value = .not. any(abs(slope - self%rate) > 0.0_wp)
+   end function has_rate
 end module dde_continuation

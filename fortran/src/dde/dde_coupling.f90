@@ -15,8 +15,12 @@ module dde_coupling
       real(wp), allocatable :: replies(:, :)
       !> Factors of the system for q
       real(wp), allocatable, private :: factors(:, :)
+      !> One over the largest element of each of its rows
+      real(wp), allocatable, private :: row_scale(:)
       !> Rows exchanged
       integer, allocatable, private :: pivot(:)
+      !> The unknowns
+      real(wp), allocatable, private :: q(:)
    contains
       !> No coupling
       procedure :: clear
@@ -42,6 +46,7 @@ contains
 
       allocate (coupling%weights(n, unknowns), coupling%replies(n, unknowns))
       allocate (coupling%factors(unknowns, unknowns), coupling%pivot(unknowns))
+      allocate (coupling%row_scale(unknowns), coupling%q(unknowns))
    end function new_coupling
 
    !> All weights and replies are zero.
@@ -67,22 +72,23 @@ contains
          end do
          self%factors(j, j) = 1.0_wp + self%factors(j, j)
       end do
-      call factorise(self%factors, self%pivot, singular)
+      call factorise(self%factors, self%pivot, self%row_scale, singular)
    end subroutine prepare
 
    !> Replace the solution of A x = r by that with q.
    pure subroutine complete(self, x)
       !> The coupling, prepared
-      class(coupling_type), intent(in) :: self
+      class(coupling_type), intent(inout) :: self
       !> Solution
       real(wp), intent(inout) :: x(size(self%weights, 1))
-      real(wp) :: q(size(self%pivot))
       integer :: i
 
-      q = [(sum(self%weights(:, i)*x), i=1, size(q))]
-      call solve(self%factors, self%pivot, q)
-      do i = 1, size(q)
-         x = x + q(i)*self%replies(:, i)
+      do i = 1, size(self%q)
+         self%q(i) = sum(self%weights(:, i)*x)
+      end do
+      call solve(self%factors, self%pivot, self%q)
+      do i = 1, size(self%q)
+         x = x + self%q(i)*self%replies(:, i)
       end do
    end subroutine complete
 end module dde_coupling

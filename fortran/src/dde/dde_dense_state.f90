@@ -22,7 +22,7 @@ module dde_dense_state
       !> Start and end of the step
       type(instant), private :: start, finish
       !> Its length
-      real(wp), private :: h = 0.0_wp
+      real(wp) :: h = 0.0_wp
       !> State at its end, shape (n)
       real(wp), allocatable, private :: y_end(:)
       !> Newton nodes of its dense output, shape (degree)

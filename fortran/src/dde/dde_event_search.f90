@@ -10,8 +10,12 @@ module dde_event_search
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: event_search
+   public :: endless, event_search, most_places
 
+   !> Most places that a watcher's `look_every` may ask for in a step: a longer step is not taken.
+   real(wp), parameter :: most_places = 1.0e5_wp
+   !> A time that is longer than any run.
+   real(wp), parameter :: endless = 1.0e200_wp
    !> Events are located to this share of the step.
    real(wp), parameter :: accuracy = epsilon(1.0_wp)
 
@@ -104,10 +108,12 @@ contains
       real(wp), allocatable, intent(out) :: places(:)
       !> Event functions there, shape (functions, places)
       real(wp), allocatable, intent(out) :: g(:, :)
-      real(wp) :: grid(size(self%g), 0:self%here%degree + 1), bend, half_rise, place
+      real(wp), allocatable :: grid(:, :)
+      real(wp) :: bend, half_rise, place
       integer :: i, k, last
 
-      last = self%here%degree + 1
+      last = max(self%here%degree + 1, ceiling(self%here%h/watcher%look_every))
+      allocate (grid(size(self%g), 0:last))
       do k = 0, last
          call self%go_to(watcher, k*1.0_wp/last)
          grid(:, k) = self%g

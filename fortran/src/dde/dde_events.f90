@@ -22,6 +22,9 @@ module dde_events
       integer, allocatable :: direction(:)
       !> Whether an event of each function ends the run
       logical, allocatable :: terminal(:)
+      !> Longest time between two looks at the functions, besides those that each step takes: for
+      !> functions that change faster than the solution
+      real(wp) :: look_every = huge(1.0_wp)
    contains
       !> Refuse what cannot be watched
       procedure :: check => check_directions
@@ -144,6 +147,9 @@ contains
                     //" of the watcher; -1 (falling), 1 (rising) or 0 (both) expected")
          return
       end do
+      if (self%look_every > 0.0_wp) return
+      call raise(error, "integrate: look_every = "//text(self%look_every) &
+                 //" of the watcher; a time > 0 expected")
    end subroutine check_directions
 
    !> Refuse levels of components that are not there.

@@ -29,7 +29,7 @@ module dde_explicit_stages
 contains
 
    !> Stages 2 to 12 and the state at the end of the step.
-   pure subroutine take_stages(problem, t, h, blocks, y, z, k, stage, last_stage, y_new, &
+   pure subroutine take_stages(problem, t, h, t_end, blocks, y, z, k, stage, last_stage, y_new, &
                                evaluations, finite)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
@@ -37,6 +37,8 @@ contains
       real(wp), intent(in) :: t
       !> Length of the step
       real(wp), intent(in) :: h
+      !> End of the step
+      real(wp), intent(in) :: t_end
       !> Number of blocks of lanes
       integer, intent(in) :: blocks
       !> State at the start
@@ -90,7 +92,7 @@ contains
       stage = y + h*(a12_1*k(:, :, 1) + a12_4*k(:, :, 4) + a12_5*k(:, :, 5) + a12_6*k(:, :, 6) &
                      + a12_7*k(:, :, 7) + a12_8*k(:, :, 8) + a12_9*k(:, :, 9) &
                      + a12_10*k(:, :, 10))
-      call add(problem, t + h, stage, h*a12_11, k(:, :, 11), z(:, 11), k(:, :, 12), &
+      call add(problem, t_end, stage, h*a12_11, k(:, :, 11), z(:, 11), k(:, :, 12), &
                evaluations, finite)
       last_stage = stage
       y_new = y + h*(b1*k(:, :, 1) + b6*k(:, :, 6) + b7*k(:, :, 7) + b8*k(:, :, 8) &
@@ -188,19 +190,23 @@ contains
    !> tolerance (Hairer, Norsett and Wanner 1993, eq. (II.10.17)). It supposes that e3 is of size
    !> h^4 and e5 of size h^6; a step far too long for that can have a large e3 and by chance a small
    !> e5, and a small estimate with them, so each is also asked for by itself.
-   pure function error_853(n, k, h, scale, tolerance) result(error)
+   pure subroutine error_853(n, blocks, k, h, scale, tolerance, e3, e5, error)
       !> Number of equations
       integer, intent(in) :: n
+      !> Number of blocks of lanes
+      integer, intent(in) :: blocks
       !> Slopes
-      real(wp), intent(in) :: k(lanes, (n + lanes - 1)/lanes, slope_count)
+      real(wp), intent(in) :: k(lanes, blocks, slope_count)
       !> Length of the step
       real(wp), intent(in) :: h
       !> Tolerance of each component, shape (n)
       real(wp), intent(in) :: scale(n)
-      !> Relative or absolute tolerance, the larger
+      !> Digits that are asked for
       real(wp), intent(in) :: tolerance
-      real(wp) :: error
-      real(wp), dimension(lanes, (n + lanes - 1)/lanes) :: e3, e5
+      !> Errors of the embedded methods
+      real(wp), intent(out) :: e3(lanes, blocks), e5(lanes, blocks)
+      !> Estimated error in units of the tolerance
+      real(wp), intent(out) :: error
       real(wp) :: norm3, norm5
 
       e3 = h*((b1 - bhh1)*k(:, :, 1) + b6*k(:, :, 6) + b7*k(:, :, 7) + b8*k(:, :, 8) &
@@ -220,7 +226,7 @@ contains
       else
          error = 0.0_wp
       end if
-   end function error_853
+   end subroutine error_853
 
    !> Newton coefficients of one component's dense output over the nodes 0, 1, 0, 1, 0, 1, 0.
    pure subroutine dense_coefficients(k, h, y, y_new, a)

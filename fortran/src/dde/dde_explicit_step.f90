@@ -7,6 +7,7 @@ module dde_explicit_step
    use dde_history, only: history_type
    use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
+   use dde_tolerance, only: tolerance_type
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -25,6 +26,8 @@ module dde_explicit_step
       real(wp), allocatable :: stage(:, :), last_stage(:, :)
       !> Delayed values at `places` and `dense_places`
       real(wp), allocatable :: delayed(:, :), dense_delayed(:, :)
+      !> Errors of the embedded methods of orders 3 and 5, shape (lanes, blocks)
+      real(wp), allocatable :: e3(:, :), e5(:, :)
       !> Whether all slopes so far are finite
       logical :: finite = .true.
    contains
@@ -57,7 +60,9 @@ contains
       allocate (step%k(lanes, blocks, slope_count), source=0.0_wp)
       allocate (step%start(lanes, blocks), step%finish(lanes, blocks), source=0.0_wp)
       allocate (step%stage(lanes, blocks), step%last_stage(lanes, blocks), source=0.0_wp)
+      allocate (step%e3(lanes, blocks), step%e5(lanes, blocks))
       allocate (step%y(problem%n), step%y_new(problem%n), step%slope(problem%n))
+      allocate (step%scale(problem%n))
       allocate (step%z(size(problem%lag), 1))
       allocate (step%delayed(size(problem%lag), size(places)))
       allocate (step%dense_delayed(size(problem%lag), size(dense_places)))
@@ -66,7 +71,7 @@ contains
 
    !> Try the step of length `h` from t; `error` is the 853 estimate in units of the tolerance
    !> (step good when <= 1), or not finite where an evaluation was not.
-   pure subroutine attempt(self, problem, past, t, h, relative, absolute, error)
+   pure subroutine attempt(self, problem, past, t, h, tolerance, error)
       !> The step
       class(explicit_step_type), intent(inout) :: self
       !> The problem
@@ -77,10 +82,8 @@ contains
       real(wp), intent(in) :: t
       !> Length of the step
       real(wp), intent(in) :: h
-      !> Relative tolerance
-      real(wp), intent(in) :: relative
-      !> Absolute tolerance
-      real(wp), intent(in) :: absolute
+      !> Tolerance of each component
+      type(tolerance_type), intent(in) :: tolerance
       !> Estimated error in units of the tolerance
       real(wp), intent(out) :: error
 
@@ -91,15 +94,16 @@ contains
       call past%values(problem, h*places, self%delayed)
       self%finite = all(ieee_is_finite(self%slope))
       if (self%finite) then
-         call take_stages(problem, t, h, size(self%k, 2), self%start, self%delayed, self%k, &
-                          self%stage, self%last_stage, self%finish, self%evaluations, self%finite)
+         call take_stages(problem, self%inside(t), h, self%inside(t + h), size(self%k, 2), &
+                          self%start, self%delayed, self%k, self%stage, self%last_stage, &
+                          self%finish, self%evaluations, self%finite)
       end if
       call copy(problem%n, self%finish, self%y_new)
       error = ieee_value(1.0_wp, ieee_quiet_nan)
       if (.not. (self%finite .and. all(ieee_is_finite(self%y_new)))) return
-      error = error_853(problem%n, self%k, h, &
-                        absolute + relative*max(abs(self%y), abs(self%y_new)), &
-                        max(relative, absolute))
+      self%scale = tolerance%absolute + tolerance%relative*max(abs(self%y), abs(self%y_new))
+      call error_853(problem%n, size(self%k, 2), self%k, h, self%scale, tolerance%level, self%e3, &
+                     self%e5, error)
    end subroutine attempt
 
    !> Copy n numbers; either side may be stored in lanes.
@@ -123,18 +127,29 @@ contains
       !> The past, facing this step
       type(history_type), intent(inout) :: past
 
-      call evaluate(problem, self%t + self%h, self%y_new, self%delayed(:, size(places)), &
-                    self%k(:, :, 13), self%evaluations, self%finite)
+      call evaluate(problem, self%inside(self%t + self%h), self%y_new, &
+                    self%delayed(:, size(places)), self%k(:, :, 13), self%evaluations, self%finite)
    end subroutine complete
 
    !> Whether stability limits the step: its length times |k13 - k12| over the distance of their
-   !> arguments, both at the end of the step (Hairer and Wanner 1996, sec. IV.2).
+   !> arguments, both at the end of the step (Hairer and Wanner 1996, sec. IV.2), in units of the
+   !> tolerance.
    pure logical function held_back(self) result(value)
       !> The step
       class(explicit_step_type), intent(in) :: self
+      real(wp) :: distance, rise
+      integer :: block, i, lane
 
-      value = self%h*norm2(self%k(:, :, 13) - self%k(:, :, 12)) &
-              > limited_by_stability*norm2(self%finish - self%last_stage)
+      distance = 0.0_wp
+      rise = 0.0_wp
+      do i = 1, size(self%scale)
+         lane = 1 + modulo(i - 1, lanes)
+         block = 1 + (i - 1)/lanes
+         rise = max(rise, abs(self%k(lane, block, 13) - self%k(lane, block, 12))/self%scale(i))
+         distance = max(distance, abs(self%finish(lane, block) - self%last_stage(lane, block)) &
+                                  /self%scale(i))
+      end do
+      value = self%h*rise > limited_by_stability*distance
    end function held_back
 
    !> The end of the step becomes the start of the next; its last slope serves as the first.
@@ -168,8 +183,9 @@ contains
       integer, intent(in) :: i
       !> Newton coefficients over `nodes`
       real(wp), contiguous, intent(out) :: a(0:)
+      real(wp) :: slopes(slope_count)
 
-      call dense_coefficients(self%k(1 + modulo(i - 1, lanes), 1 + (i - 1)/lanes, :), self%h, &
-                              self%y(i), self%y_new(i), a(0:7))
+      slopes = self%k(1 + modulo(i - 1, lanes), 1 + (i - 1)/lanes, :)
+      call dense_coefficients(slopes, self%h, self%y(i), self%y_new(i), a(0:7))
    end subroutine interpolant
 end module dde_explicit_step

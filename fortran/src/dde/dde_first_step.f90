@@ -3,8 +3,8 @@ module dde_first_step
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_history, only: history_type
    use dde_problem, only: dde_problem_type
-   use dde_request, only: integration_options
    use dde_step, only: step_type
+   use dde_tolerance, only: tolerance_type
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -17,7 +17,7 @@ contains
 
    !> First step length: about a hundredth of |y|/|y'|, refined by the second derivative (Hairer,
    !> Norsett and Wanner 1993, sec. II.4).
-   pure subroutine choose_first_step(problem, past, step, t_start, span, options, h)
+   pure subroutine choose_first_step(problem, past, step, t_start, longest, tolerance, h)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> The past, facing the first step
@@ -26,23 +26,25 @@ contains
       class(step_type), intent(inout) :: step
       !> First instant
       real(wp), intent(in) :: t_start
-      !> Length of the integration
-      real(wp), intent(in) :: span
-      !> Tolerances and limits
-      type(integration_options), intent(in) :: options
+      !> Time to the end of the run, or the longest step allowed, the shorter
+      real(wp), intent(in) :: longest
+      !> Tolerance of each component
+      type(tolerance_type), intent(in) :: tolerance
       !> Length of the first step
       real(wp), intent(out) :: h
-      real(wp) :: scale(size(step%y)), slope_ahead(size(step%y)), slope, bend
+      real(wp), allocatable :: scale(:), slope_ahead(:)
+      real(wp) :: bend, slope
 
-      scale = options%absolute + options%relative*abs(step%y)
-      h = 1.0e-6_wp*span
+      allocate (scale(problem%n), slope_ahead(problem%n))
+      call tolerance%scale(step%y, scale)
+      h = 1.0e-6_wp*longest
       slope = length_of(step%slope, scale)
       if (slope > hopeless) return
       h = 1.0e-6_wp
       if (slope > 1.0e-5_wp .and. length_of(step%y, scale) > 1.0e-5_wp) then
          h = 0.01_wp*length_of(step%y, scale)/slope
       end if
-      h = min(h, options%longest_step, span)
+      h = min(h, longest)
       if (size(problem%lag) > 0) h = min(h, minval(problem%lag))
       call past%values(problem, [h], step%z)
       call problem%rhs(t_start + h, step%y + h*step%slope, step%z, slope_ahead)

@@ -6,6 +6,7 @@ module dde_history
    use dde_past_values, only: past_values
    use dde_problem, only: dde_problem_type
    use dde_time, only: elapsed, instant
+   use dde_tolerance, only: tolerance_type
    use kinds, only: int64, wp
    implicit none (type, external)
    private
@@ -25,6 +26,8 @@ module dde_history
    type, extends(past_values) :: history_type
       !> What the series of each delayed value passed over: time times difference
       real(wp), allocatable, private :: passed_over(:)
+      !> Step that each delayed value would be read from if none were passed over
+      integer(int64), allocatable, private :: first(:)
    contains
       !> Taylor series of the delayed values from the start of the current step on
       procedure :: series
@@ -47,7 +50,7 @@ contains
       type(history_type) :: past
 
       past%past_values = past_values(problem, origin)
-      allocate (past%passed_over(size(problem%lag)))
+      allocate (past%passed_over(size(problem%lag)), past%first(size(problem%lag)))
    end function new_history
 
    !> Taylor series of the delayed values from the start of the current step on.
@@ -66,14 +69,13 @@ contains
       !> How long they serve
       real(wp), intent(out) :: serves
       real(wp) :: place
-      integer(int64) :: first(size(problem%lag))
       integer :: k, slot
 
       serves = huge(1.0_wp)
       do k = 1, size(z, 2)
          if (self%before_origin(k)) cycle
          call point_at_start(self, k)
-         first(k) = self%found(k)
+         self%first(k) = self%found(k)
          if (passing) call look_beyond(self, k, thin*unit)
          serves = min(serves, self%serves(self%slot(k)) - self%offset(k))
       end do
@@ -81,16 +83,17 @@ contains
       do k = 1, size(z, 2)
          self%passed_over(k) = 0.0_wp
          if (self%before_origin(k)) then
-            call problem%past_series(self%now - problem%lag(k), problem%component(k), unit, z(:, k))
+            call problem%past_series(self%time_before(problem%lag(k), 0.0_wp), &
+                                     problem%component(k), unit, z(:, k))
          else
             slot = self%slot(k)
             place = self%offset(k)/self%length(slot)
             if (abs(place) < hidden) place = 0.0_wp
-            call taylor_coefficients(self%degree(slot), self%nodes(:, slot), &
+            call taylor_coefficients(self%degree(slot), self%nodes(:, slot), self%powers(slot), &
                                      self%coefficients(:, self%row(k), slot), place, &
                                      unit/self%length(slot), z(:, k))
-            if (self%found(k) > first(k)) then
-               self%passed_over(k) = integral_passed(self, k, first(k), z(0, k))
+            if (self%found(k) > self%first(k)) then
+               self%passed_over(k) = integral_passed(self, k, self%first(k), z(0, k))
             end if
          end if
       end do
@@ -159,17 +162,15 @@ contains
    !> How long the series of delayed values are used: as far as they agree with the past. A step
    !> reads its past from one series, though other steps than the one this comes from may have
    !> followed. No use at all of those that passed over a layer whose integral counts.
-   pure subroutine confirm(self, z, unit, relative, absolute, h)
+   pure subroutine confirm(self, z, unit, tolerance, h)
       !> The past, facing this step
       class(history_type), intent(inout) :: self
       !> Coefficients of the series, as `series` gave them
       real(wp), contiguous, intent(in) :: z(0:, :)
       !> Unit of time of the powers
       real(wp), intent(in) :: unit
-      !> Relative tolerance
-      real(wp), intent(in) :: relative
-      !> Absolute tolerance
-      real(wp), intent(in) :: absolute
+      !> Tolerance of each component
+      type(tolerance_type), intent(in) :: tolerance
       !> Length of the step: proposed, then possible
       real(wp), intent(inout) :: h
       real(wp) :: actual, difference, own
@@ -181,12 +182,15 @@ contains
          do while (h > own)
             call read_ahead(self, k, h, actual)
             difference = abs(series_value(ubound(z, 1), z(:, k), h/unit) - actual) &
-                         /(agreement*(absolute + relative*abs(actual)))
+                         /(agreement*tolerance%of_component(self%kept(self%row(k)), actual))
             if (difference <= 1.0_wp) exit
             h = max(own, 0.9_wp*h/difference**(1.0_wp/ubound(z, 1)))
          end do
       end do
-      if (any(self%passed_over > agreement*(absolute + relative*abs(z(0, :)))*h)) h = 0.0_wp
+      do k = 1, size(z, 2)
+         actual = agreement*tolerance%of_component(self%kept(self%row(k)), z(0, k))
+         if (self%passed_over(k) > actual*h) h = 0.0_wp
+      end do
    end subroutine confirm
 
    !> One delayed value at one place ahead.

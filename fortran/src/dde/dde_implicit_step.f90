@@ -3,18 +3,21 @@
 !> the history.
 module dde_implicit_step
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
-   use dde_collocation, only: shape_bump, weighted_sum
+   use dde_collocation, only: add_up, difference_increments, shape_bump
    use dde_history, only: history_type
-   use dde_implicit_checks, only: confirmed, error_inside
+   use dde_implicit_checks, only: confirm, find_error_inside
+   use dde_jacobian, only: jacobian_type
    use dde_norm, only: scaled_norm
    use dde_problem, only: dde_problem_type
    use dde_radau_tableau, only: radau_iia, radau_tableau
    use dde_stage_iteration, only: stage_iteration
    use dde_step, only: step_type
+   use dde_systems, only: real_system
+   use dde_tolerance, only: tolerance_type
    use kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: implicit_step_type
+   public :: implicit_cost, implicit_step_type, operations_of_evaluation
 
    !> Contraction below which the Jacobian serves another step.
    real(wp), parameter :: good_contraction = 1.0e-3_wp
@@ -24,6 +27,8 @@ module dde_implicit_step
    real(wp), parameter :: worth_returning = 8.0_wp
    !> Cost of an evaluation within this method over one within the explicit pair.
    real(wp), parameter :: implicit_cost = 4.0_wp
+   !> Additions and multiplications worth an evaluation of the explicit pair, for each equation.
+   real(wp), parameter :: operations_of_evaluation = 200.0_wp
 
    !> Stages and factors of the current step.
    type, extends(step_type) :: implicit_step_type
@@ -33,19 +38,24 @@ module dde_implicit_step
       real(wp), allocatable :: bump(:)
       !> Its derivative at 0
       real(wp) :: bump_slope = 0.0_wp
-      !> Derivatives of the right-hand side by y and z, shapes (n, n) and (n, delayed values)
-      real(wp), allocatable :: by_y(:, :), by_z(:, :)
+      !> Derivatives of the right-hand side, and their norm
+      type(jacobian_type) :: jacobian
+      real(wp) :: stiffness = 0.0_wp
       !> Stages of the step and the iteration that finds them
       type(stage_iteration) :: stages
       !> Newton coefficients of the increments over this and the last accepted step, (0:stages, n)
       real(wp), allocatable :: differences(:, :), last_differences(:, :)
       !> Length of the last accepted step; 0 when its polynomial says nothing on this one
       real(wp) :: last_h = 0.0_wp
-      !> Error of the embedded method, filtered and not, shape (n)
-      real(wp), allocatable :: error_vector(:), unfiltered(:)
+      !> Error of the embedded method, filtered and not, and without the slope, shape (n)
+      real(wp), allocatable :: error_vector(:), unfiltered(:), raw(:)
+      !> The Jacobian at the end of the step, and its real system
+      type(jacobian_type), allocatable, private :: jacobian_at_end
+      type(real_system), allocatable, private :: system_at_end
       !> Whether the last Jacobian still serves
       logical :: jacobian_serves = .false.
    contains
+      procedure :: work
       procedure :: reset
       procedure :: factorisations
       procedure :: attempt
@@ -80,13 +90,23 @@ contains
       step%nodes = [0.0_wp, step%method%c]
       associate (n => problem%n, delays => size(problem%lag))
          allocate (step%y(n), step%y_new(n), step%slope(n), step%z(delays, 1))
-         allocate (step%error_vector(n), step%by_y(n, n), step%by_z(n, delays))
+         allocate (step%scale(n), step%error_vector(n), step%raw(n), step%unfiltered(n))
+         allocate (step%jacobian_at_end, step%system_at_end)
          allocate (step%differences(0:stages, n), step%last_differences(0:stages, n))
          step%stages = stage_iteration(step%method, n, delays)
       end associate
       call shape_bump(step%method%c, step%bump, step%bump_slope)
       call problem%initial(step%y)
    end function new_step
+
+   !> Evaluations, and the linear systems beside them.
+   pure real(wp) function work(self) result(done)
+      !> The step
+      class(implicit_step_type), intent(in) :: self
+
+      done = self%earlier_work + self%evaluation_cost*self%evaluations &
+             + self%stages%systems%operations/(operations_of_evaluation*size(self%y))
+   end function work
 
    !> Polynomial, Jacobian and factors from before do not serve.
    pure subroutine reset(self)
@@ -108,7 +128,7 @@ contains
    end function factorisations
 
    !> Try the step of length `h` from t.
-   pure subroutine attempt(self, problem, past, t, h, relative, absolute, error)
+   pure subroutine attempt(self, problem, past, t, h, tolerance, error)
       !> The step
       class(implicit_step_type), intent(inout) :: self
       !> The problem
@@ -119,35 +139,36 @@ contains
       real(wp), intent(in) :: t
       !> Length of the step
       real(wp), intent(in) :: h
-      !> Relative tolerance
-      real(wp), intent(in) :: relative
-      !> Absolute tolerance
-      real(wp), intent(in) :: absolute
+      !> Tolerance of each component
+      type(tolerance_type), intent(in) :: tolerance
       !> Estimated error in units of the tolerance
       real(wp), intent(out) :: error
-      real(wp) :: scale(size(self%y)), asked
+      real(wp) :: asked, inside
       logical :: converged, finite, singular
 
       self%t = t
       self%h = h
       ! the estimate has order s, the method of steps s + 1 inside and more at the ends: asked for
       ! this, errors come out near the tolerance, as they do with the explicit method
-      asked = max(relative, absolute)**((self%method%stages + 1.0_wp)/(self%method%stages + 2.0_wp))
-      scale = asked/max(relative, absolute)*(absolute + relative*abs(self%y))
+      asked = tolerance%level**((self%method%stages + 1.0_wp)/(self%method%stages + 2.0_wp))
+      call tolerance%scale(self%y, self%scale)
+      self%scale = asked/tolerance%level*self%scale
       call self%stages%place_delays(problem, past, self%method, h)
       error = ieee_value(1.0_wp, ieee_quiet_nan)
       do
          if (.not. self%last_h > 0.0_wp) call past%values(problem, [0.0_wp], self%z)
          call self%stages%start(self%method, self%last_differences, self%last_h, h)
-         call self%prepare(problem, singular)
+         call self%prepare(problem, tolerance, singular)
          converged = .false.
          if (.not. singular) then
-            call self%stages%iterate(problem, self%method, t, h, self%y, scale, asked, &
-                                     self%safety, self%evaluations, converged, finite)
+            call self%stages%iterate(problem, self%method, self%inside(t), h, self%inside(t + h), &
+                                     self%y, self%scale, asked, self%safety, self%evaluations, &
+                                     converged, finite)
          end if
          if (converged) then
-            self%evaluations = self%evaluations + 1
-            converged = confirmed(problem, self%method, self%stages, t, h, self%y, scale)
+            call confirm(problem, self%method, self%stages, h, self%inside(t + h), self%y, &
+                         self%scale, tolerance, self%evaluations, self%jacobian_at_end, &
+                         self%system_at_end, self%unfiltered, converged)
          end if
          if (converged .or. .not. self%last_h > 0.0_wp) exit
          ! the polynomial carried on may be too far off, the Jacobian too old: once more anew
@@ -155,12 +176,12 @@ contains
          self%jacobian_serves = .false.
       end do
       if (converged) then
-         call self%estimate(problem, scale, error)
-         call self%stages%difference(self%differences)
+         call self%estimate(problem, error)
+         call difference_increments(self%stages%x, self%stages%increments, self%differences)
          if (ieee_is_finite(error)) then
-            error = max(error, error_inside(self%method, h, self%differences, self%unfiltered, &
-                                            self%error_vector, scale, asked, &
-                                            max(relative, absolute)))
+            call find_error_inside(self%method, h, self%differences, self%unfiltered, &
+                                   self%error_vector, self%scale, asked, tolerance%level, inside)
+            error = max(error, inside)
             if (error <= 1.0_wp) return
          end if
       else if (.not. singular) then
@@ -171,64 +192,69 @@ contains
 
    !> Jacobian and factors, as far as the last ones do not serve. The Jacobian is that of the middle
    !> stage as it is expected, which is nearer to all stages than the start of the step.
-   pure subroutine prepare(self, problem, singular)
+   pure subroutine prepare(self, problem, tolerance, singular)
       !> The step
       class(implicit_step_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
+      !> Tolerance of each component
+      type(tolerance_type), intent(in) :: tolerance
       !> Whether there is no Jacobian or a system has no solution
       logical, intent(out) :: singular
 
+      logical :: coupled, finite
+
       singular = .false.
-      if (.not. self%jacobian_serves) then
+      coupled = any(self%stages%own_place > 0.0_wp)
+      if (.not. self%jacobian_serves .or. coupled .and. .not. self%jacobian%knows_delays) then
          call self%stages%expect_delayed(problem, self%y)
          associate (middle => (self%method%stages + 1)/2)
-            call problem%jacobian(self%t + self%method%c(middle)*self%h, &
-                                  self%y + self%stages%increments(:, middle), &
-                                  self%stages%delayed(:, middle), self%by_y, self%by_z)
+            call self%jacobian%evaluate(problem, self%t + self%method%c(middle)*self%h, &
+                                        self%y + self%stages%increments(:, middle), &
+                                        self%stages%delayed(:, middle), tolerance, coupled, &
+                                        self%evaluations, finite)
          end associate
          self%stages%systems%h = 0.0_wp
-         singular = .not. (all(ieee_is_finite(self%by_y)) .and. all(ieee_is_finite(self%by_z)))
+         singular = .not. finite
          if (singular) return
+         call self%jacobian%find_norm(self%stiffness)
          self%jacobian_serves = .true.
       end if
-      associate (systems => self%stages%systems)
-         if (abs(systems%h - self%h) > 0.0_wp) then
-            call systems%prepare(self%method, self%h, self%by_y, self%by_z, problem%component, &
-                                 self%stages%own_place, self%stages%own_weights, singular)
-         end if
-      end associate
+      if (.not. abs(self%stages%systems%h - self%h) > 0.0_wp) return
+      call self%stages%systems%prepare(self%method, self%h, self%jacobian, problem%component, &
+                                       self%stages%own_place, self%stages%own_weights, singular)
    end subroutine prepare
 
    !> Error of the embedded method of order s, filtered by the real system so that stiff components
    !> do not drown it (Hairer and Wanner 1996, eq. (IV.8.20)).
-   pure subroutine estimate(self, problem, scale, error)
+   pure subroutine estimate(self, problem, error)
       !> The step
       class(implicit_step_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Scale of each component
-      real(wp), intent(in) :: scale(:)
       !> Estimated error in units of the tolerance
       real(wp), intent(out) :: error
-      real(wp), dimension(size(scale)) :: raw, slope
+      real(wp), allocatable :: slope(:)
 
-      raw = weighted_sum(self%method%e, self%stages%increments)/self%h
-      self%error_vector = self%slope + raw
+      call add_up(self%method%e, self%stages%increments, self%raw)
+      self%raw = self%raw/self%h
+      self%error_vector = self%slope + self%raw
       self%unfiltered = self%error_vector
       call self%stages%systems%filter(self%error_vector)
-      error = scaled_norm(problem%n, self%error_vector, scale)
+      error = scaled_norm(problem%n, self%error_vector, self%scale)
       if (error >= 1.0_wp .and. .not. self%last_h > 0.0_wp) then
          ! at a start, once more through the filter; the slope of an earlier polynomial is not that
          ! of the state, and only what the error changes of it counts
-         call problem%rhs(self%t, self%y, self%z, slope)
-         call problem%rhs(self%t, self%y + self%error_vector, self%z, self%error_vector)
+         allocate (slope(problem%n))
+         call problem%rhs(self%inside(self%t), self%y, self%z, slope)
+         call problem%rhs(self%inside(self%t), self%y + self%error_vector, self%z, &
+                          self%error_vector)
          self%evaluations = self%evaluations + 2
          if (all(ieee_is_finite(self%error_vector)) .and. all(ieee_is_finite(slope))) then
-            self%error_vector = (self%error_vector - slope) + (self%slope + raw)
+            self%error_vector = (self%error_vector - slope) + (self%slope + self%raw)
             self%unfiltered = self%error_vector
             call self%stages%systems%filter(self%error_vector)
-            error = scaled_norm(problem%n, self%error_vector, scale)
+            error = scaled_norm(problem%n, self%error_vector, self%scale)
          end if
       end if
       self%y_new = self%y + self%stages%increments(:, self%method%stages)
@@ -255,7 +281,7 @@ contains
       !> The step
       class(implicit_step_type), intent(in) :: self
 
-      value = self%h*maxval(sum(abs(self%by_y), dim=2)) < worth_returning
+      value = self%h*self%stiffness < worth_returning
    end function mild
 
    !> The end becomes the start; polynomial, Jacobian and factors serve on as far as they are good.
@@ -263,7 +289,7 @@ contains
       !> The step
       class(implicit_step_type), intent(inout) :: self
 
-      self%slope = self%stages%slope_at_end(self%h)
+      call self%stages%slope_at_end(self%h, self%slope)
       self%y = self%y_new
       self%last_differences = self%differences
       self%last_h = self%h

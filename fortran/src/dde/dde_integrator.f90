@@ -4,9 +4,12 @@ module dde_integrator
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_continuation, only: continuation_type
    use dde_controller, only: controller_type
+   use dde_diagnosis, only: not_finite
+   use dde_event_search, only: endless, most_places
    use dde_events, only: event_watcher_type
-   use dde_methods, only: change_method, longest_step
-   use dde_outcome, only: event_met, explain, integration_result, limit_met, reached_end
+   use dde_methods, only: change_method, limiting_delay, longest_step, price_of_try
+   use dde_outcome, only: event_met, explain, integration_result, limit_met, reached_end, &
+                          value_not_finite
    use dde_output, only: hand_over, sample_start
    use dde_problem, only: dde_problem_type
    use dde_request, only: check, integration_options
@@ -22,7 +25,7 @@ module dde_integrator
 
 contains
 
-   !> Integrate `problem` from t_start to t_end > t_start, or to an event that ends the run.
+   !> Integrate `problem` from t_start to t_end >= t_start, or to an event that ends the run.
    !> Without sampler, watcher and continuation nothing is stored but the history that the delays
    !> need. On an error `outcome` still tells how far it came.
    subroutine integrate(problem, t_start, t_end, options, outcome, error, sampler, watcher, &
@@ -49,27 +52,36 @@ contains
       type(controller_type) :: control
       type(switch_type) :: switch
       type(instant) :: step_end
-      real(wp) :: error_estimate, h, left, longest
-      logical :: automatic, ended, landing, other
+      real(wp) :: error_estimate, h, left, longest, longest_of_all, shortest_delay
+      character(len=:), allocatable :: culprit
+      integer :: goal
+      logical :: automatic, ended, landing, last, other
 
       call check(problem, t_start, t_end, options, error, sampler, watcher, continuation)
       if (allocated(error)) return
       call run%begin(problem, t_start, t_end, options, continuation)
       if (present(sampler)) call sample_start(sampler, run%now, run%step%y)
       if (present(watcher)) call run%search%begin(watcher, run%now, run%step%y, run%first_slope)
-      longest = longest_step(problem, run%step, options)
+      longest_of_all = options%longest_step
+      if (present(watcher)) then
+         longest_of_all = min(longest_of_all, most_places*min(watcher%look_every, endless))
+      end if
+      longest = longest_step(problem, run%step, longest_of_all)
       automatic = options%method == "auto"
+      if (automatic) switch%price = price_of_try(problem, run%tolerance)
+      shortest_delay = limiting_delay(problem)
       error_estimate = 0.0_wp
 
-      do
-         call run%plan(problem, options, longest, h, landing)
+      outcome%reason = reached_end
+      last = .not. run%points%left(run%now) > 0.0_wp
+      do while (.not. last)
+         call run%plan(problem, longest, h, goal, landing)
          outcome%reason = limit_met(outcome, error_estimate, options, h, &
                                     max(abs(t_start), abs(t_end)))
          if (outcome%reason /= reached_end) exit
          if (run%fresh) call run%step%restart(problem, run%past, run%now%hi)
          run%fresh = .false.
-         call run%step%attempt(problem, run%past, run%now%hi, h, options%relative, &
-                               options%absolute, error_estimate)
+         call run%step%attempt(problem, run%past, run%now%hi, h, run%tolerance, error_estimate)
          if (.not. accepted(error_estimate)) then
             outcome%rejected = outcome%rejected + 1
             run%h = h
@@ -81,11 +93,12 @@ contains
          if (run%step%implicit) outcome%implicit_steps = outcome%implicit_steps + 1
          call run%step%complete(problem, run%past)
          step_end = later(run%now, h)
-         if (landing) step_end = run%points(run%next_point)%at
+         if (landing) step_end = run%points%at(goal)
+         if (.not. run%now%hi + h > run%now%hi) outcome%unresolved = outcome%unresolved + 1
          call hand_over(problem, run%step, run%past, run%search, run%now, step_end, &
-                        run%points(run%next_point)%at, ended, sampler, watcher)
+                        run%points%smooth(run%now), ended, sampler, watcher)
          if (ended) then
-            run%now = step_end
+            call run%arrive(goal, .false., step_end)
             run%step%y = run%search%here%y
             outcome%reason = event_met
             exit
@@ -99,26 +112,20 @@ contains
          if (automatic) then
             ! a run that may go on has no end yet
             left = huge(1.0_wp)
-            if (.not. present(continuation)) then
-               left = elapsed(step_end, run%points(size(run%points))%at)
-            end if
-            call switch%wanted(problem, run%step, minval(problem%lag), h, left, other)
+            if (.not. present(continuation)) left = run%points%left(step_end)
+            call switch%judge(problem, run%step, shortest_delay, h, left, other)
          end if
          call run%step%advance()
-         run%now = step_end
+         last = landing .and. run%points%is_end(goal)
+         call run%arrive(goal, landing, step_end)
          ! a step cut short to land says nothing against the length proposed before
          run%h = merge(max(run%h, h), h, landing)
-         if (landing) then
-            if (run%next_point == size(run%points)) exit
-            run%next_point = run%next_point + 1
-            outcome%breaking_points = outcome%breaking_points + 1
-            run%fresh = .true.
-         end if
+         if (landing .and. .not. last) outcome%breaking_points = outcome%breaking_points + 1
          if (other) then
-            call change_method(problem, options, run%step)
+            call change_method(problem, run%tolerance, run%step)
             control = controller_type()
             outcome%switches = outcome%switches + 1
-            longest = longest_step(problem, run%step, options)
+            longest = longest_step(problem, run%step, longest_of_all)
          end if
       end do
 
@@ -126,9 +133,14 @@ contains
       outcome%y = run%step%y
       if (present(continuation)) call run%keep(problem, options, continuation)
       outcome%evaluations = run%step%evaluations
+      outcome%work = run%step%work()
       outcome%factorisations = run%step%factorisations()
       if (all(outcome%reason /= [reached_end, event_met])) then
-         call explain(outcome, t_end, h, options, error)
+         culprit = ""
+         if (outcome%reason == value_not_finite) then
+            culprit = not_finite(problem, run%step, run%past, run%now, h)
+         end if
+         call explain(outcome, t_end, h, options, culprit, error)
       end if
    end subroutine integrate
 

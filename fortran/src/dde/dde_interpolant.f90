@@ -109,11 +109,13 @@ contains
    end function series_value
 
    !> Coefficients of p in powers of a unit of time from s on.
-   pure subroutine taylor_coefficients(degree, nodes, coefficients, s, unit, taylor)
+   pure subroutine taylor_coefficients(degree, nodes, powers, coefficients, s, unit, taylor)
       !> Degree of p
       integer, intent(in) :: degree
-      !> Nodes x(1..degree); where the second is 0 all are
+      !> Nodes x(1..degree)
       real(wp), intent(in) :: nodes(degree)
+      !> Whether all of them are 0
+      logical, intent(in) :: powers
       !> Coefficients a(0..degree)
       real(wp), intent(in) :: coefficients(0:degree)
       !> Place in the step
@@ -122,15 +124,15 @@ contains
       real(wp), intent(in) :: unit
       !> Coefficients of the powers, as many as there is place for
       real(wp), contiguous, intent(out) :: taylor(0:)
-      real(wp) :: power, rest(0:degree)
+      real(wp) :: power, rest(0:highest_degree)
       integer :: i, j
 
       taylor(degree + 1:) = 0.0_wp
-      if (.not. abs(nodes(min(2, degree))) > 0.0_wp) then
+      if (powers) then
          call shift(degree, coefficients, s, unit, taylor)
          return
       end if
-      rest = coefficients
+      rest(:degree) = coefficients
       ! with each node s brought to the front of the others one more coefficient stands
       do i = 0, degree - 1
          do j = degree - 1, i, -1
@@ -157,7 +159,8 @@ contains
       real(wp), intent(in) :: unit
       !> New coefficients, as many as there is place for
       real(wp), contiguous, intent(inout) :: b(0:)
-      real(wp) :: derivatives(0:degree + 1), even, odd, power, weights(0:degree + 1)
+      real(wp), dimension(0:highest_degree + 1) :: derivatives, weights
+      real(wp) :: even, odd, power
       integer :: i, j
 
       power = 1.0_wp

@@ -1,6 +1,7 @@
 !> Small dense linear systems by Gaussian elimination, real and complex. Pivots are the largest of
 !> their column relative to their rows: in a stiff system a row of huge numbers must not serve as
-!> pivot for the others. LAPACK pivots without that, and in double precision only.
+!> pivot for the others. LAPACK pivots without that, and is
+!> slower for a few equations (dde_systems).
 module dde_linear
    use kinds, only: wp
    implicit none (type, external)
@@ -22,15 +23,17 @@ module dde_linear
 contains
 
    !> Factors of a real matrix.
-   pure subroutine factorise_real(a, pivot, singular)
+   pure subroutine factorise_real(a, pivot, row_scale, singular)
       !> Rows exchanged, shape (n)
       integer, intent(out) :: pivot(:)
       !> Matrix, replaced by its factors
       real(wp), intent(inout) :: a(size(pivot), size(pivot))
+      !> One over the largest element of each row, shape (n)
+      real(wp), intent(out) :: row_scale(size(pivot))
       !> Whether a pivot vanished
       logical, intent(out) :: singular
       real(wp) :: moved
-      real(wp) :: best, row_scale(size(pivot)), share
+      real(wp) :: best, share
       integer :: i, j, k, n
 
       n = size(pivot)
@@ -76,15 +79,17 @@ contains
    end subroutine factorise_real
 
    !> Factors of a complex matrix.
-   pure subroutine factorise_complex(a, pivot, singular)
+   pure subroutine factorise_complex(a, pivot, row_scale, singular)
       !> Rows exchanged, shape (n)
       integer, intent(out) :: pivot(:)
       !> Matrix, replaced by its factors
       complex(wp), intent(inout) :: a(size(pivot), size(pivot))
+      !> One over the largest element of each row, shape (n)
+      real(wp), intent(out) :: row_scale(size(pivot))
       !> Whether a pivot vanished
       logical, intent(out) :: singular
       complex(wp) :: moved
-      real(wp) :: best, row_scale(size(pivot)), share
+      real(wp) :: best, share
       integer :: i, j, k, n
 
       n = size(pivot)

@@ -31,8 +31,11 @@ module dde_outcome
       integer(int64) :: accepted = 0
       !> Steps rejected
       integer(int64) :: rejected = 0
-      !> Right-hand sides evaluated
+      !> Right-hand sides, or Taylor series, evaluated, those for differences included
       integer(int64) :: evaluations = 0
+      !> Work as `auto` counts it, in evaluations of the explicit pair: evaluations as they cost in
+      !> each method, and linear systems
+      real(wp) :: work = 0.0_wp
       !> Matrices factorised
       integer(int64) :: factorisations = 0
       !> Accepted steps that were implicit
@@ -41,6 +44,9 @@ module dde_outcome
       integer(int64) :: switches = 0
       !> Breaking points landed on
       integer :: breaking_points = 0
+      !> Accepted steps that were shorter than the spacing of times: f was asked for at one time all
+      !> along
+      integer(int64) :: unresolved = 0
    end type integration_result
 
 contains
@@ -68,7 +74,7 @@ contains
    end function limit_met
 
    !> Say where and why an integration ended before its time.
-   pure subroutine explain(outcome, t_end, h, options, error)
+   pure subroutine explain(outcome, t_end, h, options, culprit, error)
       !> What was done
       type(integration_result), intent(in) :: outcome
       !> Where it should have ended
@@ -77,6 +83,8 @@ contains
       real(wp), intent(in) :: h
       !> Limits
       type(integration_options), intent(in) :: options
+      !> Which value is not finite
+      character(len=*), intent(in) :: culprit
       !> The error to set
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: why
@@ -87,7 +95,7 @@ contains
       case (too_many_steps)
          why = text(options%most_steps)//" steps (most_steps) were used up"
       case default
-         why = "a value that is not finite was met at every step length down to "//text(h)
+         why = "a value is not finite at every step length down to "//text(h)//": "//culprit
       end select
       call raise(error, "integrate: stopped at t = "//text(outcome%t)//" of "//text(t_end) &
                  //" after "//text(outcome%accepted)//" steps ("//text(outcome%rejected) &

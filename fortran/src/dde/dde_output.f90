@@ -4,7 +4,7 @@ module dde_output
    use dde_event_search, only: event_search
    use dde_events, only: event_watcher_type
    use dde_history, only: history_type
-   use dde_interpolant, only: newton_value
+   use dde_interpolant, only: highest_degree, newton_value
    use dde_problem, only: dde_problem_type
    use dde_sampler, only: sampler_type
    use dde_step, only: step_type
@@ -18,7 +18,7 @@ contains
 
    !> Hand over the dense output of an accepted step, as far as it is wanted; without anyone who
    !> wants it, it is not made.
-   subroutine hand_over(problem, step, past, search, start, step_end, next_kink, ended, sampler, &
+   subroutine hand_over(problem, step, past, search, start, step_end, smooth, ended, sampler, &
                         watcher)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
@@ -32,8 +32,8 @@ contains
       type(instant), intent(in) :: start
       !> Its end; the event that ends the run, if one does
       type(instant), intent(inout) :: step_end
-      !> The next breaking point: no interpolant serves beyond it
-      type(instant), intent(in) :: next_kink
+      !> Time from the start without a kink: no interpolant serves beyond it
+      real(wp), intent(in) :: smooth
       !> Whether an event ends the run
       logical, intent(out) :: ended
       !> Receiver of samples
@@ -54,7 +54,7 @@ contains
       end if
       if (sampled) call sample(sampler, step, start, step_end)
       if (delayed .and. share > 0.0_wp) then
-         call remember(past, step, start, elapsed(start, next_kink), share)
+         call remember(past, step, start, smooth, share)
          call past%forget(later(step_end, -maxval(problem%lag)))
       end if
    end subroutine hand_over
@@ -71,20 +71,21 @@ contains
       real(wp), intent(in) :: smooth
       !> Share of the step that belongs to the run, > 0
       real(wp), intent(in) :: share
-      real(wp) :: coefficients(0:size(step%nodes), size(past%kept))
-      integer :: i, j
+      integer :: i, j, slot
 
-      do i = 1, size(past%kept)
-         call step%interpolant(past%kept(i), coefficients(:, i))
-      end do
       if (share < 1.0_wp) then
          ! the same polynomial over a shorter step
-         do j = 1, size(step%nodes)
-            coefficients(j, :) = share**j*coefficients(j, :)
-         end do
-         call past%append(start, share*step%h, step%nodes/share, coefficients, serves=0.0_wp)
+         call past%open_slot(start, share*step%h, step%nodes/share, step%powers, 0.0_wp, slot)
       else
-         call past%append(start, step%h, step%nodes, coefficients, min(step%serves, smooth))
+         call past%open_slot(start, step%h, step%nodes, step%powers, min(step%serves, smooth), slot)
+      end if
+      do i = 1, size(past%kept)
+         call step%interpolant(past%kept(i), past%coefficients(:size(step%nodes), i, slot))
+      end do
+      if (share < 1.0_wp) then
+         do j = 1, size(step%nodes)
+            past%coefficients(j, :, slot) = share**j*past%coefficients(j, :, slot)
+         end do
       end if
    end subroutine remember
 
@@ -112,19 +113,23 @@ contains
       type(instant), intent(in) :: start
       !> Where the run stands after it
       type(instant), intent(in) :: step_end
-      real(wp) :: coefficients(0:size(step%nodes), size(sampler%wanted))
-      real(wp) :: values(size(sampler%wanted)), s
-      integer :: i
+      real(wp) :: s
+      integer :: degree, i
 
-      do i = 1, size(values)
-         call step%interpolant(sampler%wanted(i), coefficients(:, i))
+      degree = size(step%nodes)
+      if (.not. allocated(sampler%values_here)) then
+         allocate (sampler%values_here(size(sampler%wanted)))
+         allocate (sampler%dense(0:highest_degree, size(sampler%wanted)))
+      end if
+      do i = 1, size(sampler%wanted)
+         call step%interpolant(sampler%wanted(i), sampler%dense(:degree, i))
       end do
       do while (elapsed(instant_at(sampler%next), step_end) >= 0.0_wp)
          s = elapsed(start, instant_at(sampler%next))/step%h
-         do i = 1, size(values)
-            values(i) = newton_value(size(step%nodes), step%nodes, coefficients(:, i), s)
+         do i = 1, size(sampler%wanted)
+            sampler%values_here(i) = newton_value(degree, step%nodes, sampler%dense(:, i), s)
          end do
-         call sampler%take(values)
+         call sampler%take(sampler%values_here)
       end do
    end subroutine sample
 end module dde_output

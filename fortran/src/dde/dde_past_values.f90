@@ -10,6 +10,14 @@ module dde_past_values
    private
    public :: past_values
 
+   !> A step reads what lies between its ends: pieces of the past that overlap it by less than this
+   !> share of it are not read, since the solution may jump where it starts and ends.
+   real(wp), parameter :: overlap = 4.0_wp*epsilon(1.0_wp)
+   !> Places that a method looks at at once: no more than these.
+   integer, parameter :: most_places = 16
+   !> The same overlap for the problem's history, in units of the spacing of times.
+   real(wp), parameter :: spacings = 4.0_wp
+
    !> Where each delayed value was found.
    type, extends(step_ring) :: past_values
       !> First instant of the integration
@@ -28,7 +36,13 @@ module dde_past_values
       logical, allocatable :: before_origin(:)
       !> Start of the current step as an ordinary number
       real(wp) :: now = 0.0_wp
+      !> Length of the current step
+      real(wp), private :: length_now = 0.0_wp
+      !> Whether the problem's history may jump where a step starts or ends
+      logical :: history_jumps = .false.
    contains
+      !> A time in the problem's history
+      procedure :: time_before
       !> Turn to the step that starts at a given instant
       procedure :: face
       !> All delayed values at places of the current step
@@ -50,13 +64,16 @@ contains
       !> First instant of the integration
       type(instant), intent(in) :: origin
       type(past_values) :: past
+      integer, allocatable :: row_of(:)
       integer :: i, k, terms
 
       terms = size(problem%lag)
       past%origin = origin
-      past%step_ring = step_ring(pack([(i, i=1, problem%n)], &
-                                      [(any(problem%component == i), i=1, problem%n)]))
-      past%row = [(findloc(past%kept, problem%component(k), dim=1), k=1, terms)]
+      allocate (row_of(problem%n), source=0)
+      row_of(problem%component) = 1
+      past%step_ring = step_ring(pack([(i, i=1, problem%n)], row_of > 0))
+      row_of(past%kept) = [(i, i=1, size(past%kept))]
+      past%row = [(row_of(problem%component(k)), k=1, terms)]
       allocate (past%found(terms), source=0_int64)
       allocate (past%slot(terms), source=0)
       allocate (past%delayed_start(terms), past%offset(terms), past%before_origin(terms))
@@ -76,6 +93,7 @@ contains
       integer :: k
 
       self%now = start%hi
+      self%length_now = length
       do k = 1, size(self%offset)
          self%delayed_start(k) = later(start, -problem%lag(k))
          self%before_origin(k) = elapsed(self%origin, self%delayed_start(k)) < -0.5_wp*length
@@ -89,23 +107,41 @@ contains
       class(past_values), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Times since the start of the current step, ascending, 0..length
-      real(wp), intent(in) :: ahead(:)
+      !> Times since the start of the current step, ascending, 0..length, at most `most_places`
+      real(wp), contiguous, intent(in) :: ahead(:)
       !> Delayed values, shape (size(problem%lag), size(ahead))
       real(wp), intent(out) :: z(:, :)
+      real(wp) :: found(most_places)
       integer :: i, k
 
       do k = 1, size(z, 1)
          if (self%before_origin(k)) then
             do i = 1, size(ahead)
-               z(k, i) = problem%history(self%now + (ahead(i) - problem%lag(k)), &
+               z(k, i) = problem%history(self%time_before(problem%lag(k), ahead(i)), &
                                          problem%component(k))
             end do
          else
-            call look_up(self, k, ahead, z(k, :))
+            call look_up(self, k, ahead, found)
+            z(k, :) = found(:size(ahead))
          end if
       end do
    end subroutine values
+
+   !> A time in the problem's history: where that may jump, one between those of the step's ends.
+   pure real(wp) function time_before(self, lag, ahead) result(time)
+      !> The past
+      class(past_values), intent(in) :: self
+      !> The delay
+      real(wp), intent(in) :: lag
+      !> Time since the start of the current step
+      real(wp), intent(in) :: ahead
+      real(wp) :: margin
+
+      time = self%now + (ahead - lag)
+      if (.not. self%history_jumps) return
+      margin = spacings*spacing(max(abs(self%now), lag))
+      time = max(min(time, self%now + (self%length_now - lag) - margin), self%now - lag + margin)
+   end function time_before
 
    !> One delayed value at several places, ascending: step by step of the past.
    pure subroutine look_up(self, k, ahead, z)
@@ -114,19 +150,25 @@ contains
       !> Which delayed value
       integer, intent(in) :: k
       !> Times since the start of the current step, ascending
-      real(wp), intent(in) :: ahead(:)
+      real(wp), contiguous, intent(in) :: ahead(:)
       !> The delayed value there
-      real(wp), intent(out) :: z(:)
-      real(wp) :: limit
+      real(wp), intent(inout) :: z(most_places)
+      real(wp) :: first_place, limit, margin
       integer :: first, slot
 
-      do while (self%offset(k) + ahead(1) < 0.0_wp .and. self%found(k) > self%oldest)
+      margin = overlap*self%length_now
+      first_place = max(ahead(1), margin)
+      do while (self%offset(k) + first_place < 0.0_wp .and. self%found(k) > self%oldest)
          call self%point_at(k, self%found(k) - 1)
+      end do
+      do while (self%offset(k) + first_place > self%length(self%slot(k)) &
+                .and. self%found(k) < self%newest)
+         call self%point_at(k, self%found(k) + 1)
       end do
       first = 1
       do
          slot = self%slot(k)
-         limit = merge(huge(1.0_wp), self%length(slot), self%found(k) == self%newest)
+         limit = merge(huge(1.0_wp), self%length(slot) + margin, self%found(k) == self%newest)
          call newton_values(self%degree(slot), self%nodes(:, slot), &
                             self%coefficients(:, self%row(k), slot), self%offset(k), &
                             self%length(slot), limit, size(ahead), ahead, first, z)

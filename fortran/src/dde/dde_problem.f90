@@ -4,15 +4,19 @@
 !>
 !> Extend `dde_problem_type`, fill `n`, `lag` and `component`, and write the three procedures.
 !> Without delays leave `lag` and `component` of size zero: no history is kept then.
-!> Optional are `jacobian`, for the implicit methods, and `analytic` with `series` and
-!> `past_series`, without which there is no method `taylor`; beside these `relaxation_rate` and
-!> `slow_series`, with which it takes long steps where fast components are in balance.
+!> Optional are `jacobian`, or `lower` and `upper`, for the implicit methods, and `analytic` with
+!> `series` and `past_series`, without which there is no method `taylor`; beside these
+!> `relaxation_rate` and `slow_series`, with which it takes long steps where fast components are in
+!> balance.
 module dde_problem
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: dde_problem_type
+   public :: dde_problem_type, not_given
+
+   !> What stands in a Jacobian that is not given.
+   real(wp), parameter :: not_given = -huge(1.0_wp)
 
    !> A system of delay differential equations; its parameters are components of the extension.
    type, abstract :: dde_problem_type
@@ -22,6 +26,9 @@ module dde_problem
       real(wp), allocatable :: lag(:)
       !> Which component of y each delayed value z(k) is, 1..n
       integer, allocatable :: component(:)
+      !> Where the Jacobian by y is banded: its diagonals below and above the main one; it is then
+      !> found by differences
+      integer :: lower = -1, upper = -1
       !> Whether the extension gives `series` and `past_series`
       logical :: analytic = .false.
    contains
@@ -32,7 +39,7 @@ module dde_problem
       !> Right-hand side f(t, y, z)
       procedure(right_hand_side), deferred :: rhs
       !> Derivatives of f by y and z; by differences unless the extension gives them
-      procedure :: jacobian => difference_jacobian
+      procedure :: jacobian => no_jacobian
       !> Taylor series of the solution
       procedure :: series => no_series
       !> Taylor series of one component before the first instant
@@ -86,8 +93,8 @@ module dde_problem
 
 contains
 
-   !> Derivatives of the right-hand side by y and z, by forward differences.
-   pure subroutine difference_jacobian(self, t, y, z, by_y, by_z)
+   !> Derivatives of the right-hand side by y and z: `not_given` where the extension gives none.
+   pure subroutine no_jacobian(self, t, y, z, by_y, by_z)
       !> The problem
       class(dde_problem_type), intent(in) :: self
       !> Time
@@ -100,25 +107,10 @@ contains
       real(wp), intent(out) :: by_y(self%n, self%n)
       !> Derivatives by z, shape (n, size(lag))
       real(wp), intent(out) :: by_z(self%n, size(self%lag))
-      real(wp) :: f(self%n), moved_y(self%n), moved_z(size(self%lag)), step
-      integer :: j
 
-      call self%rhs(t, y, z, f)
-      do j = 1, self%n
-         moved_y = y
-         moved_y(j) = y(j) + sqrt(epsilon(1.0_wp))*max(1.0e-5_wp, abs(y(j)))
-         step = moved_y(j) - y(j)
-         call self%rhs(t, moved_y, z, by_y(:, j))
-         by_y(:, j) = (by_y(:, j) - f)/step
-      end do
-      do j = 1, size(z)
-         moved_z = z
-         moved_z(j) = z(j) + sqrt(epsilon(1.0_wp))*max(1.0e-5_wp, abs(z(j)))
-         step = moved_z(j) - z(j)
-         call self%rhs(t, y, moved_z, by_z(:, j))
-         by_z(:, j) = (by_z(:, j) - f)/step
-      end do
-   end subroutine difference_jacobian
+      by_y = not_given
+      by_z = not_given
+   end subroutine no_jacobian
 
    !> Taylor series of the solution in powers of s = (t' - t)/unit: since dy/ds = unit f,
    !> coefficient k + 1 of y is unit/(k + 1) times coefficient k of f. Not a number where the

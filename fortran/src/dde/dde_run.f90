@@ -1,21 +1,25 @@
 !> The state of a run between two steps: how it begins, what the next step may be, and what is kept
 !> when it ends.
 module dde_run
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use dde_breaking_points, only: breaking_points, kink_type
+   use dde_breaking_points, only: breaking_points, stretch
    use dde_continuation, only: continuation_type
    use dde_event_search, only: event_search
    use dde_first_step, only: choose_first_step
    use dde_history, only: history_type
+   use dde_kinks, only: kink_type
    use dde_methods, only: choose_method, longest_step, matching_method
    use dde_problem, only: dde_problem_type
-   use dde_request, only: integration_options
+   use dde_request, only: causes, implicit_methods, integration_options, tolerance_of
    use dde_step, only: step_type
    use dde_time, only: elapsed, instant, instant_at
+   use dde_tolerance, only: tolerance_type
    use kinds, only: wp
    implicit none (type, external)
    private
    public :: run_type
+
+   !> How far beside a jump the right-hand side is asked for, in units of the spacing of times.
+   real(wp), parameter :: beside = 4.0_wp
 
    !> Where a run stands.
    type :: run_type
@@ -31,12 +35,12 @@ module dde_run
       real(wp) :: h = 0.0_wp
       !> Whether the slope at the start of the step is yet to be evaluated
       logical :: fresh = .false.
-      !> Kinks that the run began with, ascending
-      type(kink_type), allocatable :: kinks(:)
-      !> Breaking points of the run, and its end
-      type(kink_type), allocatable :: points(:)
-      !> The next of them
-      integer :: next_point = 1
+      !> Breaking points and the end
+      type(breaking_points) :: points
+      !> Tolerance of each component
+      type(tolerance_type) :: tolerance
+      !> Whether the right-hand side may jump somewhere, and now
+      logical, private :: may_jump = .false., at_cause = .false.
       !> First instant of the first run
       type(instant) :: origin
       !> Time derivative of the state at the start of the run, as event functions see it, shape (n)
@@ -48,7 +52,9 @@ module dde_run
       procedure :: plan
       !> Keep what a later run needs to go on
       procedure :: keep
-      procedure, private :: start_anew, go_on, find_points
+      !> Stand at the end of an accepted step
+      procedure :: arrive
+      procedure, private :: start_anew, go_on
    end type run_type
 
 contains
@@ -71,6 +77,7 @@ contains
 
       goes_on = .false.
       if (present(continuation)) goes_on = allocated(continuation%y)
+      self%tolerance = tolerance_of(problem, options)
       if (goes_on) then
          call self%go_on(problem, instant_at(t_end), options, continuation)
       else
@@ -78,9 +85,9 @@ contains
       end if
       if (options%first_step > 0.0_wp) then
          self%h = options%first_step
-      else if (.not. goes_on) then
-         call choose_first_step(problem, self%past, self%step, t_start, t_end - t_start, options, &
-                                self%h)
+      else if (.not. self%h > 0.0_wp .and. t_end > t_start) then
+         call choose_first_step(problem, self%past, self%step, t_start, &
+                                min(t_end - t_start, options%longest_step), self%tolerance, self%h)
       end if
    end subroutine begin
 
@@ -97,21 +104,23 @@ contains
       type(instant), intent(in) :: finish
       !> Method, tolerances and limits
       type(integration_options), intent(in) :: options
+      type(kink_type) :: first
       integer :: k
 
       self%now = start
       self%origin = start
-      call choose_method(problem, options%method, options, self%step)
+      call choose_method(problem, options%method, self%tolerance, self%step)
       self%past = history_type(problem, start)
-      self%kinks = [kink_type(start)]
+      first = kink_type(start)
       do k = 1, size(problem%lag)
          associate (component => problem%component(k))
             if (abs(problem%history(start%hi, component) - self%step%y(component)) > 0.0_wp) then
-               self%kinks%passages = -1
+               first%passages = -1
             end if
          end associate
       end do
-      call self%find_points(problem, finish)
+      call self%points%begin([first, causes(options, start)], start, start, finish, problem%lag, &
+                             self%step%order - 1)
       call look(self, problem, options)
       self%first_slope = self%step%slope
    end subroutine start_anew
@@ -130,40 +139,29 @@ contains
       !> Where the earlier run ended
       type(continuation_type), intent(in) :: continuation
       character(len=8) :: method
+      type(kink_type), allocatable :: kinks(:)
 
       self%now = instant(continuation%time(1), continuation%time(2))
       self%origin = instant(continuation%origin(1), continuation%origin(2))
       self%h = continuation%next_step
       method = options%method
       if (method == "auto") then
-         method = matching_method(problem, options, &
-                                  implicit=index(continuation%method, "radau") == 1)
+         method = matching_method(problem, self%tolerance, &
+                                  implicit=any(continuation%method == implicit_methods))
       end if
-      call choose_method(problem, method, options, self%step)
+      call choose_method(problem, method, self%tolerance, self%step)
       self%step%y = continuation%y
       self%first_slope = continuation%slope
       self%past = history_type(problem, self%origin)
-      call continuation%restore(self%past, self%kinks)
-      call self%find_points(problem, finish)
+      call continuation%restore(self%past, kinks)
+      call self%points%begin([kinks, causes(options, self%origin)], self%origin, self%now, finish, &
+                             problem%lag, self%step%order - 1)
       call look(self, problem, options)
-      if (.not. same(self%step%slope, continuation%rate)) then
-         self%kinks = [self%kinks, kink_type(self%now)]
-         call self%find_points(problem, finish)
+      if (size(self%first_slope) == 0) self%first_slope = self%step%slope
+      if (.not. continuation%has_rate(self%step%slope)) then
+         call self%points%add(kink_type(self%now))
       end if
    end subroutine go_on
-
-   !> The breaking points ahead, and the end.
-   pure subroutine find_points(self, problem, finish)
-      !> The run
-      class(run_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> Last instant
-      type(instant), intent(in) :: finish
-
-      self%points = [breaking_points(self%kinks, self%now, finish, problem%lag, self%step%order), &
-                     kink_type(finish)]
-   end subroutine find_points
 
    !> Face the first step and evaluate the slope at its start.
    subroutine look(self, problem, options)
@@ -174,44 +172,101 @@ contains
       !> Limits
       type(integration_options), intent(in) :: options
 
+      self%may_jump = allocated(options%break_at)
+      if (self%may_jump) then
+         self%past%history_jumps = any(options%break_at < self%origin%hi)
+         self%at_cause = any(.not. abs(elapsed(self%now, instant_at(options%break_at))) > 0.0_wp)
+      end if
       if (size(problem%lag) > 0) then
          call self%past%face(problem, self%now, &
-                             minval([longest_step(problem, self%step, options), problem%lag, &
-                                     elapsed(self%now, self%points(self%next_point)%at)]))
+                             minval([longest_step(problem, self%step, options%longest_step), &
+                                     problem%lag, self%points%smooth(self%now)]))
       end if
+      call bound_times(self)
       call self%step%restart(problem, self%past, self%now%hi)
    end subroutine look
 
-   !> Length of the step to try; where the next breaking point (or the end) is near, it is landed
-   !> on, or two steps share the way. The past faces it on return.
-   pure subroutine plan(self, problem, options, longest, h, landing)
+   !> The right-hand side is not asked for at an instant where it may jump, but beside it.
+   pure subroutine bound_times(self, goal)
+      !> The run
+      class(run_type), intent(inout) :: self
+      !> Number of the point that the step lands on, if it lands on one
+      integer, intent(in), optional :: goal
+      real(wp) :: time
+
+      if (.not. self%may_jump) return
+      self%step%earliest = -huge(1.0_wp)
+      self%step%latest = huge(1.0_wp)
+      if (self%at_cause) self%step%earliest = self%now%hi + beside*spacing(self%now%hi)
+      if (.not. present(goal)) return
+      if (.not. self%points%is_cause(goal)) return
+      time = self%now%hi + elapsed(self%now, self%points%at(goal))
+      self%step%latest = time - beside*spacing(time)
+   end subroutine bound_times
+
+   !> Length of the step to try; where the point that it heads for is near, it is landed on, or two
+   !> steps share the way. The past faces it on return.
+   pure subroutine plan(self, problem, longest, h, goal, landing)
       !> The run
       class(run_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Tolerances
-      type(integration_options), intent(in) :: options
       !> Longest step allowed
       real(wp), intent(in) :: longest
       !> Length of the step
       real(wp), intent(out) :: h
-      !> Whether it ends at the next point
+      !> Number of the point that it heads for
+      integer, intent(out) :: goal
+      !> Whether it ends there
       logical, intent(out) :: landing
       real(wp) :: gap
 
-      gap = elapsed(self%now, self%points(self%next_point)%at)
+      goal = self%points%goal(self%now, min(self%h, longest))
+      gap = elapsed(self%now, self%points%at(goal))
       if (self%step%foresees) then
          if (size(problem%lag) > 0) call self%past%face(problem, self%now, min(longest, gap))
-         call self%step%look_ahead(problem, self%past, self%now%hi, options%relative, &
-                                   options%absolute, min(longest, gap), self%h)
+         call bound_times(self)
+         call self%step%look_ahead(problem, self%past, self%now%hi, self%tolerance, &
+                                   min(longest, gap), self%h)
       end if
       self%h = min(self%h, longest)
-      landing = 1.01_wp*self%h >= gap .and. gap <= longest
+      landing = stretch*self%h >= gap .and. gap <= longest
       h = merge(gap, merge(0.5_wp*gap, self%h, 2.0_wp*self%h > gap), landing)
+      if (landing) then
+         call bound_times(self, goal)
+      else
+         call bound_times(self)
+      end if
       if (.not. self%step%foresees .and. size(problem%lag) > 0) then
          call self%past%face(problem, self%now, h)
       end if
    end subroutine plan
+
+   !> Stand at the end of an accepted step.
+   pure subroutine arrive(self, goal, landing, step_end)
+      !> The run
+      class(run_type), intent(inout) :: self
+      !> Number of the point that it headed for
+      integer, intent(in) :: goal
+      !> Whether it ends there
+      logical, intent(in) :: landing
+      !> Its end
+      type(instant), intent(in) :: step_end
+      type(instant) :: horizon
+
+      self%now = step_end
+      self%at_cause = .false.
+      if (.not. landing) then
+         call self%points%pass(step_end)
+         return
+      end if
+      self%at_cause = self%points%is_cause(goal)
+      self%fresh = .true.
+      call self%points%land(goal, self%h, self%step%h)
+      if (self%past%newest < self%past%oldest) return
+      horizon = self%past%start(self%past%slot_of(self%past%oldest))
+      if (elapsed(self%origin, horizon) > 0.0_wp) call self%points%forget(horizon)
+   end subroutine arrive
 
    !> Keep what a later run needs to go on from here.
    subroutine keep(self, problem, options, continuation)
@@ -223,7 +278,6 @@ contains
       type(integration_options), intent(in) :: options
       !> What is kept
       type(continuation_type), intent(out) :: continuation
-      type(kink_type), allocatable :: met(:)
 
       continuation%time = [self%now%hi, self%now%lo]
       continuation%origin = [self%origin%hi, self%origin%lo]
@@ -234,22 +288,6 @@ contains
       continuation%rate = self%step%slope
       continuation%next_step = self%h
       continuation%method = self%step%name
-      associate (points => self%points(:size(self%points) - 1))
-         met = [self%kinks, pack(points, elapsed(points%at, self%now) >= 0.0_wp)]
-      end associate
-      call continuation%store(self%past, met)
+      call continuation%store(self%past, self%points%met)
    end subroutine keep
-
-   !> Whether two lists hold the same finite numbers, or the other none at all.
-   pure logical function same(one, other) result(value)
-      !> One
-      real(wp), intent(in) :: one(:)
-      !> The other, as long or empty
-      real(wp), intent(in) :: other(:)
-
-      value = size(other) == 0
-      if (value) return
-      value = all(ieee_is_finite(one)) .and. all(ieee_is_finite(other))
-      if (value) value = .not. any(abs(one - other) > 0.0_wp)
-   end function same
 end module dde_run

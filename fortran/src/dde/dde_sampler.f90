@@ -1,6 +1,7 @@
 !> Where samples of a trajectory go: the integrator hands over the wanted components at the wanted
 !> times, taken from dense output; what is done with them is the sampler's.
 module dde_sampler
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use errors, only: error_type, raise, text
    use kinds, only: wp
    implicit none (type, external)
@@ -13,6 +14,9 @@ module dde_sampler
       integer, allocatable :: wanted(:)
       !> Time of the next sample; beyond the end of the integration when none is wanted
       real(wp) :: next = huge(1.0_wp)
+      !> Dense output of the wanted components over a step, and their values at a sample: the
+      !> integrator's
+      real(wp), allocatable :: dense(:, :), values_here(:)
    contains
       !> Refuse components that are not there
       procedure :: check => check_wanted
@@ -36,11 +40,12 @@ module dde_sampler
    type, extends(sampler_type) :: table_sampler
       !> Times, ascending
       real(wp), allocatable :: time(:)
-      !> Samples, shape (wanted, times)
+      !> Samples, shape (wanted, times); not a number where none was received
       real(wp), allocatable :: values(:, :)
       !> Number of samples received
       integer :: received = 0
    contains
+      procedure :: check => check_table
       procedure :: take => take_row
    end type table_sampler
 
@@ -50,12 +55,16 @@ module dde_sampler
 
 contains
 
-   !> Refuse components that are not there.
-   pure subroutine check_wanted(self, n, error)
+   !> Refuse components that are not there, and samples before the run.
+   pure subroutine check_wanted(self, n, t_start, goes_on, error)
       !> The sampler
       class(sampler_type), intent(in) :: self
       !> Number of equations
       integer, intent(in) :: n
+      !> First instant of the run
+      real(wp), intent(in) :: t_start
+      !> Whether the run goes on from an earlier one
+      logical, intent(in) :: goes_on
       !> What is wrong
       type(error_type), allocatable, intent(out) :: error
       integer :: i
@@ -71,7 +80,48 @@ contains
                     //" of the sampler; 1.."//text(n)//" expected")
          return
       end do
+      if (.not. ieee_is_nan(self%next)) then
+         if (self%next >= t_start) return
+      end if
+      call raise(error, "integrate: next = "//text(self%next)//" of the sampler; a time from " &
+                 //text(t_start)//" (t_start) on expected")
    end subroutine check_wanted
+
+   !> Refuse times in another order, and a table that an earlier run filled.
+   pure subroutine check_table(self, n, t_start, goes_on, error)
+      !> The table
+      class(table_sampler), intent(in) :: self
+      !> Number of equations
+      integer, intent(in) :: n
+      !> First instant of the run
+      real(wp), intent(in) :: t_start
+      !> Whether the run goes on from an earlier one
+      logical, intent(in) :: goes_on
+      !> What is wrong
+      type(error_type), allocatable, intent(out) :: error
+      integer :: i
+
+      call check_wanted(self, n, t_start, goes_on, error)
+      if (allocated(error) .or. .not. allocated(self%time)) return
+      if (self%received > 0 .and. .not. goes_on) then
+         call raise(error, "integrate: the table of samples holds "//text(self%received) &
+                    //" samples of an earlier run; a new table expected, or a continuation")
+         return
+      end if
+      do i = 1, size(self%time)
+         if (ieee_is_nan(self%time(i))) then
+            call raise(error, "integrate: time("//text(i)//") of the table of samples is NaN; a " &
+                       //"number expected")
+            return
+         end if
+         if (i == 1) cycle
+         if (self%time(i) >= self%time(i - 1)) cycle
+         call raise(error, "integrate: time("//text(i)//") = "//text(self%time(i)) &
+                    //" of the table of samples after time("//text(i - 1)//") = " &
+                    //text(self%time(i - 1))//"; ascending times expected")
+         return
+      end do
+   end subroutine check_table
 
    !> An empty table for components `wanted` at times `time`.
    pure function new_table(wanted, time) result(table)
@@ -84,6 +134,7 @@ contains
       allocate (table%wanted, source=wanted)
       allocate (table%time, source=time)
       allocate (table%values(size(wanted), size(time)))
+      table%values = ieee_value(1.0_wp, ieee_quiet_nan)
       if (size(time) > 0) table%next = time(1)
    end function new_table
 

@@ -25,7 +25,7 @@ contains
       !> How far; 0 where they are not finite
       real(wp), intent(out) :: reach
       real(wp) :: growth, last(0:2)
-      integer :: i
+      integer :: i, k
 
       reach = 0.0_wp
       do i = 1, size(scale)
@@ -37,7 +37,9 @@ contains
       end if
       last = tiny(1.0_wp)
       do i = 1, size(scale)
-         last = max(last, abs(coefficients(degree - 2:, i))/scale(i))
+         do k = 0, 2
+            last(k) = max(last(k), abs(coefficients(degree - 2 + k, i))/scale(i))
+         end do
       end do
       reach = exp(-max(log(last(1))/(degree - 1), log(last(2))/degree))
       growth = huge(1.0_wp)

@@ -31,6 +31,9 @@ module dde_slow_series
       real(wp) :: reach = 0.0_wp
       !> Limited steps since the last try, and how many pass until the next
       integer, private :: waited = 0, patience = 0
+      !> What an iteration changes of the coefficients, shape (0:degree, n), and the state, shape
+      !> (n)
+      real(wp), allocatable, private :: change(:, :), state(:)
    contains
       !> Whether a step is worth a try
       procedure :: worth_a_try
@@ -79,27 +82,29 @@ contains
       integer(int64), intent(inout) :: evaluations
       !> Coefficients, of which y(0, :) is given, the state; the slow series if it holds
       real(wp), intent(inout) :: y(0:degree, problem%n)
-      real(wp) :: change(0:degree, problem%n), state(problem%n)
       real(wp) :: distance, open
       integer :: iteration, k
 
       self%holds = .false.
-      state = y(0, :)
+      if (.not. allocated(self%state)) then
+         allocate (self%change(0:degree, problem%n), self%state(problem%n))
+      end if
+      self%state = y(0, :)
       y(1:, :) = 0.0_wp
       do iteration = 1, most_iterations
-         change = y
+         self%change = y
          call problem%slow_series(t, unit, degree, z, y)
          evaluations = evaluations + 1
          call series_reach(degree, y, scale, self%reach)
          if (.not. self%reach*unit*rate >= least_balance) return
-         change = y - change
+         self%change = y - self%change
          ! what the next iteration would change: by the last one's, w'/rate
          do k = 0, degree - 1
-            change(k, :) = (k + 1)/(unit*rate)*change(k + 1, :)
+            self%change(k, :) = (k + 1)/(unit*rate)*self%change(k + 1, :)
          end do
-         change(degree, :) = 0.0_wp
-         open = largest_term(degree, problem%n, change, scale, self%reach)
-         distance = maxval(abs(y(0, :) - state)/scale)
+         self%change(degree, :) = 0.0_wp
+         open = largest_term(degree, problem%n, self%change, scale, self%reach)
+         distance = maxval(abs(y(0, :) - self%state)/scale)
          if (distance > transient + 2*open) then
             ! limited steps shorten it by this many e-foldings at least
             self%patience = min(int(log(distance)/limited), self%patience)

@@ -2,7 +2,7 @@
 !> Wanner 1996, sec. IV.8).
 module dde_stage_iteration
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use dde_collocation, only: combine, divide_differences, lagrange_weights, weighted_sum
+   use dde_collocation, only: add_up, combine, lagrange_weights
    use dde_history, only: history_type
    use dde_interpolant, only: newton_value
    use dde_norm, only: scaled_norm
@@ -27,8 +27,14 @@ module dde_stage_iteration
       real(wp), allocatable :: increments(:, :), transforms(:, :)
       !> Slopes at the stages, shape (n, stages)
       real(wp), allocatable :: slopes(:, :)
+      !> State and slope at a stage, shape (n)
+      real(wp), allocatable :: argument(:), slope_at(:)
+      !> Last correction of the transforms, and the scales of its elements, shape (n, stages)
+      real(wp), allocatable, private :: change(:, :), scales(:, :)
       !> Delayed values at the stages, shape (delayed values, stages)
       real(wp), allocatable :: delayed(:, :)
+      !> Times of the stages since the start of the step, shape (stages)
+      real(wp), allocatable, private :: places(:)
       !> Place of each stage's delayed values in this step, in units of h; <= 0 in the past
       real(wp), allocatable :: own_place(:, :)
       !> Weights of the stage increments in those, shape (stages, delayed values, stages)
@@ -49,8 +55,6 @@ module dde_stage_iteration
       procedure :: expect_delayed
       !> Find them
       procedure :: iterate
-      !> Newton coefficients of the collocation polynomial
-      procedure :: difference
       !> Its slope at the end of the step
       procedure :: slope_at_end
       procedure, private :: slopes_at_stages
@@ -74,11 +78,13 @@ contains
 
       associate (s => method%stages)
          allocate (iteration%increments(n, s), iteration%transforms(n, s), iteration%slopes(n, s))
+         allocate (iteration%argument(n), iteration%slope_at(n))
+         allocate (iteration%change(n, s), iteration%scales(n, s))
          allocate (iteration%delayed(delays, s), iteration%own_place(delays, s))
-         allocate (iteration%own_weights(s, delays, s))
+         allocate (iteration%own_weights(s, delays, s), iteration%places(s))
       end associate
       iteration%x = [0.0_wp, method%c]
-      iteration%systems = stage_systems(method, n, delays)
+      iteration%systems = stage_systems(method, n)
    end function new_iteration
 
    !> Trust no contraction seen before.
@@ -113,7 +119,8 @@ contains
             end if
          end do
       end do
-      call past%values(problem, method%c*h, self%delayed)
+      self%places = method%c*h
+      call past%values(problem, self%places, self%delayed)
    end subroutine place_delays
 
    !> Start of the iteration: the last step's polynomial carried on, or no change.
@@ -123,7 +130,7 @@ contains
       !> The method
       type(radau_tableau), intent(in) :: method
       !> Newton coefficients of the last step's increments, shape (0:stages, n)
-      real(wp), intent(in) :: last_differences(0:, :)
+      real(wp), contiguous, intent(in) :: last_differences(0:, :)
       !> Its length; 0 where it says nothing on this step
       real(wp), intent(in) :: last_h
       !> Length of this step
@@ -169,8 +176,8 @@ contains
    end subroutine expect_delayed
 
    !> Simplified Newton iteration for the stage increments.
-   pure subroutine iterate(self, problem, method, t, h, y, scale, tolerance, safety, evaluations, &
-                           converged, finite)
+   pure subroutine iterate(self, problem, method, t, h, t_end, y, scale, tolerance, safety, &
+                           evaluations, converged, finite)
       !> The iteration, started and its systems prepared
       class(stage_iteration), intent(inout) :: self
       !> The problem
@@ -181,6 +188,8 @@ contains
       real(wp), intent(in) :: t
       !> Length of the step
       real(wp), intent(in) :: h
+      !> End of the step
+      real(wp), intent(in) :: t_end
       !> State at its start, shape (n)
       real(wp), intent(in) :: y(:)
       !> Scale of each component
@@ -195,25 +204,26 @@ contains
       logical, intent(out) :: converged
       !> Whether all evaluations were finite
       logical, intent(out) :: finite
-      real(wp), dimension(size(scale), method%stages) :: change, scales
       real(wp) :: last_norm, last_rate, limit, norm, rate, rounding
-      integer :: iteration, most
+      integer :: iteration, most, stage
 
       converged = .false.
       most = int(iterations_of_three + (method%stages - 3)*iterations_per_stage)
       limit = max(10.0_wp*epsilon(1.0_wp)/tolerance, min(0.03_wp, sqrt(tolerance)))
       ! the stiff residual is a small difference of large numbers: below this all is rounding
-      rounding = 4.0_wp*epsilon(1.0_wp)*maxval(abs(y))/minval(scale)
+      rounding = 4.0_wp*epsilon(1.0_wp)*maxval(abs(y)/scale)
       self%remainder = max(self%remainder, epsilon(1.0_wp))**0.8_wp
-      scales = spread(scale, 2, method%stages)
+      do stage = 1, method%stages
+         self%scales(:, stage) = scale
+      end do
       last_norm = 0.0_wp
       last_rate = 1.0_wp
       do iteration = 1, most
-         call self%slopes_at_stages(problem, method, t, h, y, finite)
+         call self%slopes_at_stages(problem, method, t, h, t_end, y, finite)
          evaluations = evaluations + method%stages
          if (.not. finite) return
-         call self%systems%correct(method, self%slopes, self%transforms, change)
-         norm = scaled_norm(size(change), change, scales)
+         call self%systems%correct(method, self%slopes, self%transforms, self%change)
+         norm = scaled_norm(size(self%change), self%change, self%scales)
          finite = ieee_is_finite(norm)
          if (.not. (finite .and. norm < huge(1.0_wp))) return
          if (iteration > 1) then
@@ -229,7 +239,7 @@ contains
             end if
          end if
          last_norm = max(norm, epsilon(1.0_wp))
-         self%transforms = self%transforms + change
+         self%transforms = self%transforms + self%change
          call combine(size(y), method%stages, self%systems%t, self%transforms, self%increments)
          ! one correction alone is trusted only where it is no larger than the tolerance
          if ((self%remainder*norm <= limit .and. (iteration > 1 .or. norm <= 1.0_wp)) &
@@ -241,34 +251,21 @@ contains
       safety = 0.9_wp*(2*most + 1.0_wp)/(2*most + min(iteration, most))
    end subroutine iterate
 
-   !> Newton coefficients of the collocation polynomial's increments, over 0 and c.
-   pure subroutine difference(self, differences)
-      !> The iteration, converged
-      class(stage_iteration), intent(in) :: self
-      !> The coefficients, shape (0:stages, n)
-      real(wp), intent(out) :: differences(0:, :)
-      integer :: k
-
-      do k = 1, size(differences, 2)
-         differences(0, k) = 0.0_wp
-         differences(1:, k) = self%increments(k, :)
-         call divide_differences(self%x, differences(:, k))
-      end do
-   end subroutine difference
-
    !> Slope of the collocation polynomial at the end of a step of length `h`.
-   pure function slope_at_end(self, h) result(slope)
+   pure subroutine slope_at_end(self, h, slope)
       !> The iteration, converged
       class(stage_iteration), intent(in) :: self
       !> Length of the step
       real(wp), intent(in) :: h
-      real(wp) :: slope(size(self%increments, 1))
+      !> The slope, shape (n)
+      real(wp), intent(out) :: slope(:)
 
-      slope = weighted_sum(self%systems%a_inverse(size(self%increments, 2), :), self%increments)/h
-   end function slope_at_end
+      call add_up(self%systems%a_inverse(size(self%increments, 2), :), self%increments, slope)
+      slope = slope/h
+   end subroutine slope_at_end
 
    !> Slopes of all stages.
-   pure subroutine slopes_at_stages(self, problem, method, t, h, y, finite)
+   pure subroutine slopes_at_stages(self, problem, method, t, h, t_end, y, finite)
       !> The iteration
       class(stage_iteration), intent(inout) :: self
       !> The problem
@@ -279,6 +276,8 @@ contains
       real(wp), intent(in) :: t
       !> Length of the step
       real(wp), intent(in) :: h
+      !> End of the step
+      real(wp), intent(in) :: t_end
       !> State at its start
       real(wp), intent(in) :: y(:)
       !> Whether all are finite
@@ -287,7 +286,8 @@ contains
 
       call self%expect_delayed(problem, y)
       do i = 1, method%stages
-         call problem%rhs(t + method%c(i)*h, y + self%increments(:, i), &
+         self%argument = y + self%increments(:, i)
+         call problem%rhs(merge(t_end, t + method%c(i)*h, i == method%stages), self%argument, &
                           self%delayed(:, i), self%slopes(:, i))
       end do
       finite = all(ieee_is_finite(self%slopes))

@@ -4,12 +4,13 @@
 module dde_stage_systems
    use dde_collocation, only: combine, in_lanes, stage_lanes
    use dde_coupling, only: coupling_type
-   use dde_linear, only: factorise, solve
+   use dde_jacobian, only: jacobian_type
    use dde_radau_tableau, only: radau_tableau
+   use dde_systems, only: complex_system, real_system
    use kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: correct_real, stage_systems
+   public :: stage_systems
 
    !> Factors for one Jacobian and one step length.
    type :: stage_systems
@@ -21,12 +22,16 @@ module dde_stage_systems
       integer(int64) :: factorisations = 0
       !> T of the method, its inverse, and inverse(A), shape (stage_lanes, stages)
       real(wp), allocatable, dimension(:, :) :: t, t_inverse, a_inverse
-      !> Factors of the real system, shape (n, n)
-      real(wp), allocatable, private :: real_factors(:, :)
-      !> Factors of the complex systems, shape (n, n, pairs)
-      complex(wp), allocatable, private :: complex_factors(:, :, :)
-      !> Rows exchanged
-      integer, allocatable, private :: real_pivot(:), complex_pivot(:, :)
+      !> Additions and multiplications of factorisations and solutions so far
+      real(wp) :: operations = 0.0_wp
+      !> The real system
+      type(real_system), private :: of_real
+      !> The complex systems, shape (pairs)
+      type(complex_system), allocatable, private :: of_pairs(:)
+      !> Right-hand side of one of them, shape (n)
+      complex(wp), allocatable, private :: pair_side(:)
+      !> Right-hand sides of all stages for one delayed value, shape (n, stages)
+      real(wp), allocatable, private :: reply(:, :)
       !> Delayed values of all stages, and those at the end of the step for the real system alone
       !> (allocatable: of two components of one type, gfortran frees only the first with the step)
       type(coupling_type), allocatable, private :: of_stages, of_end
@@ -47,23 +52,18 @@ module dde_stage_systems
 contains
 
    !> Storage for n equations.
-   pure function new_systems(method, n, delays) result(systems)
+   pure function new_systems(method, n) result(systems)
       !> The method
       type(radau_tableau), intent(in) :: method
       !> Number of equations
       integer, intent(in) :: n
-      !> Number of delayed values
-      integer, intent(in) :: delays
       type(stage_systems) :: systems
 
       associate (s => method%stages)
-         allocate (systems%real_factors(n, n), systems%complex_factors(n, n, s/2))
-         allocate (systems%real_pivot(n), systems%complex_pivot(n, s/2))
+         allocate (systems%of_pairs(s/2), systems%pair_side(n), systems%reply(n, s))
          systems%t = in_lanes(method%t)
          systems%t_inverse = in_lanes(method%t_inverse)
          systems%a_inverse = inverse_of_a(method)
-         systems%of_stages = coupling_type(n*s, delays*s)
-         systems%of_end = coupling_type(n, delays)
       end associate
    end function new_systems
 
@@ -93,17 +93,15 @@ contains
    end function inverse_of_a
 
    !> Factorise the systems of a step of length `h`.
-   pure subroutine prepare(self, method, h, by_y, by_z, component, own_place, own_weights, singular)
+   pure subroutine prepare(self, method, h, jacobian, component, own_place, own_weights, singular)
       !> The systems
       class(stage_systems), intent(inout) :: self
       !> The method
       type(radau_tableau), intent(in) :: method
       !> Length of the step
       real(wp), intent(in) :: h
-      !> Jacobian by y, shape (n, n)
-      real(wp), intent(in) :: by_y(:, :)
-      !> Jacobian by the delayed values, shape (n, delayed values)
-      real(wp), intent(in) :: by_z(:, :)
+      !> The Jacobian
+      type(jacobian_type), intent(in) :: jacobian
       !> Component that each delayed value is
       integer, intent(in) :: component(:)
       !> Place of each stage's delayed values in the step, <= 0 in the past, shape (delayed values,
@@ -113,30 +111,22 @@ contains
       real(wp), intent(in) :: own_weights(:, :, :)
       !> Whether a system has no solution
       logical, intent(out) :: singular
-      integer :: i, pair
+      integer :: pair
 
       self%h = h
       self%coupled = any(own_place > 0.0_wp)
-      self%real_factors = -by_y
-      do i = 1, size(by_y, 1)
-         self%real_factors(i, i) = self%real_factors(i, i) + method%real_eigenvalue/h
-      end do
-      call factorise(self%real_factors, self%real_pivot, singular)
+      call self%of_real%prepare(jacobian, method%real_eigenvalue/h, singular)
       self%factorisations = self%factorisations + 1
+      self%operations = self%operations + self%of_real%factor_operations
       if (singular) return
-      do pair = 1, size(method%complex_eigenvalues)
-         associate (e => self%complex_factors(:, :, pair))
-            e = cmplx(-by_y, kind=wp)
-            do i = 1, size(by_y, 1)
-               e(i, i) = e(i, i) + method%complex_eigenvalues(pair)/h
-            end do
-            call factorise(e, self%complex_pivot(:, pair), singular)
-         end associate
+      do pair = 1, size(self%of_pairs)
+         call self%of_pairs(pair)%prepare(jacobian, method%complex_eigenvalues(pair)/h, singular)
          self%factorisations = self%factorisations + 1
+         self%operations = self%operations + self%of_pairs(pair)%factor_operations
          if (singular) return
       end do
       if (self%coupled) then
-         call self%couple(method, by_z, component, own_place, own_weights, singular)
+         call self%couple(method, jacobian%by_z, component, own_place, own_weights, singular)
       end if
    end subroutine prepare
 
@@ -156,9 +146,12 @@ contains
       real(wp), intent(in) :: own_weights(:, :, :)
       !> Whether a system has no solution
       logical, intent(out) :: singular
-      real(wp) :: reply(size(by_z, 1), method%stages)
       integer :: i, j, k, unknown
 
+      if (.not. allocated(self%of_stages)) then
+         self%of_stages = coupling_type(size(by_z, 1)*method%stages, size(component)*method%stages)
+         self%of_end = coupling_type(size(by_z, 1), size(component))
+      end if
       call self%of_stages%clear()
       call self%of_end%clear()
       associate (n => size(by_z, 1), s => method%stages, last => method%stages)
@@ -169,15 +162,15 @@ contains
                do j = 1, s
                   self%of_stages%weights((j - 1)*n + component(k), unknown) &
                      = sum(own_weights(:, k, i)*self%t(:s, j))
-                  reply(:, j) = self%t_inverse(j, i)*by_z(:, k)
+                  self%reply(:, j) = self%t_inverse(j, i)*by_z(:, k)
                end do
-               call self%solve_stages(method, reply)
-               self%of_stages%replies(:, unknown) = reshape(reply, [n*s])
+               call self%solve_stages(self%reply)
+               self%of_stages%replies(:, unknown) = reshape(self%reply, [n*s])
             end do
             if (own_place(k, last) > 0.0_wp) then
                self%of_end%weights(component(k), k) = 1.0_wp
                self%of_end%replies(:, k) = by_z(:, k)
-               call solve(self%real_factors, self%real_pivot, self%of_end%replies(:, k))
+               call self%of_real%solve(self%of_end%replies(:, k))
             end if
          end do
       end associate
@@ -189,34 +182,33 @@ contains
    end subroutine couple
 
    !> Solution of the real and the complex systems, for transformed stages.
-   pure subroutine solve_stages(self, method, x)
+   pure subroutine solve_stages(self, x)
       !> The systems
-      class(stage_systems), intent(in) :: self
-      !> The method
-      type(radau_tableau), intent(in) :: method
-      !> Right-hand sides, replaced by the solutions
-      real(wp), intent(inout) :: x(size(self%real_pivot), method%stages)
-      complex(wp) :: of_pair(size(self%real_pivot))
+      class(stage_systems), intent(inout) :: self
+      !> Right-hand sides, replaced by the solutions, shape (n, stages)
+      real(wp), contiguous, intent(inout) :: x(:, :)
       integer :: i, pair
 
-      call solve(self%real_factors, self%real_pivot, x(:, 1))
-      do pair = 1, size(method%complex_eigenvalues)
+      call self%of_real%solve(x(:, 1))
+      self%operations = self%operations + self%of_real%solve_operations
+      do pair = 1, size(self%of_pairs)
          i = 2*pair
-         of_pair = cmplx(x(:, i), x(:, i + 1), wp)
-         call solve(self%complex_factors(:, :, pair), self%complex_pivot(:, pair), of_pair)
-         x(:, i) = real(of_pair)
-         x(:, i + 1) = aimag(of_pair)
+         self%pair_side = cmplx(x(:, i), x(:, i + 1), wp)
+         call self%of_pairs(pair)%solve(self%pair_side)
+         self%operations = self%operations + self%of_pairs(pair)%solve_operations
+         x(:, i) = real(self%pair_side)
+         x(:, i + 1) = aimag(self%pair_side)
       end do
    end subroutine solve_stages
 
    !> Newton correction of the transforms inverse(T) Z of the increments Z.
    pure subroutine correct(self, method, slopes, transforms, change)
       !> The systems
-      class(stage_systems), intent(in) :: self
+      class(stage_systems), intent(inout) :: self
       !> The method
       type(radau_tableau), intent(in) :: method
       !> Slopes at the stages, shape (n, stages)
-      real(wp), intent(in) :: slopes(:, :)
+      real(wp), contiguous, intent(in) :: slopes(:, :)
       !> Transforms of the increments, shape (n, stages)
       real(wp), intent(in) :: transforms(:, :)
       !> The correction, shape (n, stages)
@@ -234,40 +226,18 @@ contains
          change(:, i + 1) = change(:, i + 1) - (real(eigenvalue)*transforms(:, i + 1) &
                                                 + aimag(eigenvalue)*transforms(:, i))
       end do
-      call self%solve_stages(method, change)
+      call self%solve_stages(change)
       if (self%coupled) call self%of_stages%complete(change)
    end subroutine correct
-
-   !> Replace a vector by the solution of the real system for another Jacobian.
-   pure subroutine correct_real(method, h, by_y, vector, singular)
-      !> The method
-      type(radau_tableau), intent(in) :: method
-      !> Length of the step
-      real(wp), intent(in) :: h
-      !> Jacobian by y, shape (n, n); destroyed
-      real(wp), intent(inout) :: by_y(:, :)
-      !> Right-hand side, replaced by the solution, shape (n)
-      real(wp), intent(inout) :: vector(:)
-      !> Whether there is none
-      logical, intent(out) :: singular
-      integer :: i, pivot(size(vector))
-
-      by_y = -by_y
-      do i = 1, size(vector)
-         by_y(i, i) = by_y(i, i) + method%real_eigenvalue/h
-      end do
-      call factorise(by_y, pivot, singular)
-      if (.not. singular) call solve(by_y, pivot, vector)
-   end subroutine correct_real
 
    !> Replace a vector by the solution of the real system: stiff components shrink, others stay.
    pure subroutine filter(self, vector)
       !> The systems
-      class(stage_systems), intent(in) :: self
+      class(stage_systems), intent(inout) :: self
       !> Right-hand side, replaced by the solution, shape (n)
-      real(wp), intent(inout) :: vector(:)
+      real(wp), contiguous, intent(inout) :: vector(:)
 
-      call solve(self%real_factors, self%real_pivot, vector)
+      call self%of_real%solve(vector)
       if (self%coupled) call self%of_end%complete(vector)
    end subroutine filter
 end module dde_stage_systems

@@ -3,6 +3,7 @@
 module dde_step
    use dde_history, only: history_type
    use dde_problem, only: dde_problem_type
+   use dde_tolerance, only: tolerance_type
    use kinds, only: int64, wp
    implicit none (type, external)
    private
@@ -18,20 +19,26 @@ module dde_step
       integer :: error_order = 0
       !> Whether the method is implicit: steps may then be longer than the shortest delay
       logical :: implicit = .false.
-      !> Newton nodes of its interpolant
+      !> Newton nodes of its interpolant, and whether all of them are 0
       real(wp), allocatable :: nodes(:)
+      logical :: powers = .false.
       !> State at the start of the step, shape (n)
       real(wp), allocatable :: y(:)
       !> State at its end, shape (n)
       real(wp), allocatable :: y_new(:)
       !> Slope at the start of the step, shape (n)
       real(wp), allocatable :: slope(:)
+      !> Tolerance of each component, shape (n)
+      real(wp), allocatable :: scale(:)
       !> Delayed values at one place, shape (number of delayed values, 1)
       real(wp), allocatable :: z(:, :)
       !> Start of the step as an ordinary number
       real(wp) :: t = 0.0_wp
       !> Length of the step
       real(wp) :: h = 0.0_wp
+      !> Times that the right-hand side is asked for lie between these: it may jump where the step
+      !> starts and ends
+      real(wp) :: earliest = -huge(1.0_wp), latest = huge(1.0_wp)
       !> Share of the ideal length that the next step should have
       real(wp) :: safety = 0.9_wp
       !> A ratio of lengths between 1 and this does not pay a change of length
@@ -49,9 +56,15 @@ module dde_step
       real(wp) :: evaluation_cost = 1.0_wp
       !> Right-hand sides, or Taylor series, evaluated so far
       integer(int64) :: evaluations = 0
+      !> What work was done before this method took over, less what it takes for that of its own
+      real(wp) :: earlier_work = 0.0_wp
       !> Matrices factorised before this method took over
       integer(int64) :: factorised_before = 0
    contains
+      !> What was done so far, in evaluations of the explicit pair
+      procedure :: work
+      !> A time of the step that lies between its ends
+      procedure :: inside
       !> Slope at the present state
       procedure :: slope_here
       !> Evaluate the slope at the start
@@ -81,8 +94,8 @@ module dde_step
    abstract interface
       !> Try the step of length `h` from t; `error` is the estimate in units of the tolerance (step
       !> good when <= 1), huge where an iteration failed, not finite where an evaluation was not.
-      pure subroutine try_step(self, problem, past, t, h, relative, absolute, error)
-         import :: dde_problem_type, history_type, step_type, wp
+      pure subroutine try_step(self, problem, past, t, h, tolerance, error)
+         import :: dde_problem_type, history_type, step_type, tolerance_type, wp
          implicit none (type, external)
          !> The step
          class(step_type), intent(inout) :: self
@@ -94,10 +107,8 @@ module dde_step
          real(wp), intent(in) :: t
          !> Length of the step
          real(wp), intent(in) :: h
-         !> Relative tolerance
-         real(wp), intent(in) :: relative
-         !> Absolute tolerance
-         real(wp), intent(in) :: absolute
+         !> Tolerance of each component
+         type(tolerance_type), intent(in) :: tolerance
          !> Estimated error in units of the tolerance
          real(wp), intent(out) :: error
       end subroutine try_step
@@ -125,6 +136,24 @@ module dde_step
 
 contains
 
+   !> Most methods do little but evaluate.
+   pure real(wp) function work(self) result(done)
+      !> The step
+      class(step_type), intent(in) :: self
+
+      done = self%earlier_work + self%evaluation_cost*self%evaluations
+   end function work
+
+   !> A time of the step that lies between its ends.
+   pure real(wp) function inside(self, t) result(time)
+      !> The step
+      class(step_type), intent(in) :: self
+      !> A time from its start to its end
+      real(wp), intent(in) :: t
+
+      time = max(self%earliest, min(self%latest, t))
+   end function inside
+
    !> Evaluate the slope at the start of the step that `past` faces.
    pure subroutine restart(self, problem, past, t)
       !> The step
@@ -137,13 +166,13 @@ contains
       real(wp), intent(in) :: t
 
       call past%values(problem, [0.0_wp], self%z)
-      call problem%rhs(t, self%y, self%z, self%slope)
+      call problem%rhs(self%inside(t), self%y, self%z, self%slope)
       self%evaluations = self%evaluations + 1
       call self%reset()
    end subroutine restart
 
    !> Most methods take the length that they are given, and see from the error what it should be.
-   pure subroutine look_ahead(self, problem, past, t, relative, absolute, longest, h)
+   pure subroutine look_ahead(self, problem, past, t, tolerance, longest, h)
       !> The step
       class(step_type), intent(inout) :: self
       !> The problem
@@ -152,10 +181,8 @@ contains
       type(history_type), intent(inout) :: past
       !> Start of the step
       real(wp), intent(in) :: t
-      !> Relative tolerance
-      real(wp), intent(in) :: relative
-      !> Absolute tolerance
-      real(wp), intent(in) :: absolute
+      !> Tolerance of each component
+      type(tolerance_type), intent(in) :: tolerance
       !> Longest step of use
       real(wp), intent(in) :: longest
       !> Length of the step: proposed, then possible

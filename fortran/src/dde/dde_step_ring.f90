@@ -25,6 +25,8 @@ module dde_step_ring
       real(wp), allocatable :: serves(:)
       !> Degree of the interpolant, per slot
       integer, allocatable :: degree(:)
+      !> Whether all nodes of the interpolant are 0, so that it is in powers, per slot
+      logical, allocatable :: powers(:)
       !> Newton nodes of the interpolant, shape (highest degree, slot), unused ones last
       real(wp), allocatable :: nodes(:, :)
       !> Its coefficients (0:highest degree, kept component, slot), 0 above the degree up to the
@@ -35,6 +37,8 @@ module dde_step_ring
       procedure :: slot_of
       !> Take in an accepted step
       procedure :: append
+      !> Make place for one
+      procedure :: open_slot
       !> Give a kept step back
       procedure :: recall
       !> Drop what ended before a given instant
@@ -62,7 +66,7 @@ contains
       if (present(capacity)) slots = capacity
       ring%kept = kept
       allocate (ring%start(0:slots - 1), ring%length(0:slots - 1))
-      allocate (ring%serves(0:slots - 1), ring%degree(0:slots - 1))
+      allocate (ring%serves(0:slots - 1), ring%degree(0:slots - 1), ring%powers(0:slots - 1))
       allocate (ring%nodes(highest_degree, 0:slots - 1), source=0.0_wp)
       allocate (ring%coefficients(0:highest_degree, size(kept), 0:slots - 1))
    end function new_ring
@@ -93,6 +97,27 @@ contains
       real(wp), intent(in) :: serves
       integer :: slot
 
+      call self%open_slot(start, length, nodes, .not. any(abs(nodes) > 0.0_wp), serves, slot)
+      self%coefficients(:size(nodes), :, slot) = coefficients
+   end subroutine append
+
+   !> A slot for the step from `start`, `length` long; the coefficients are left to the caller.
+   pure subroutine open_slot(self, start, length, nodes, powers, serves, slot)
+      !> The ring
+      class(step_ring), intent(inout) :: self
+      !> Start of the step
+      type(instant), intent(in) :: start
+      !> Length of the step
+      real(wp), intent(in) :: length
+      !> Newton nodes of its interpolant
+      real(wp), contiguous, intent(in) :: nodes(:)
+      !> Whether all of them are 0
+      logical, intent(in) :: powers
+      !> How long from the start on it serves; less than the length counts as the length
+      real(wp), intent(in) :: serves
+      !> The slot
+      integer, intent(out) :: slot
+
       if (self%newest - self%oldest + 1 == size(self%start)) call double_capacity(self)
       self%newest = self%newest + 1
       slot = self%slot_of(self%newest)
@@ -100,10 +125,10 @@ contains
       self%length(slot) = length
       self%serves(slot) = max(length, serves)
       self%degree(slot) = size(nodes)
+      self%powers(slot) = powers
       self%nodes(:size(nodes), slot) = nodes
-      self%coefficients(:size(nodes), :, slot) = coefficients
       self%coefficients(size(nodes) + 1:usual_degree, :, slot) = 0.0_wp
-   end subroutine append
+   end subroutine open_slot
 
    !> Step number `step`, oldest..newest, as it was appended.
    pure subroutine recall(self, step, start, length, nodes, coefficients)
@@ -172,6 +197,7 @@ contains
          wider%length(to) = self%length(from)
          wider%serves(to) = self%serves(from)
          wider%degree(to) = self%degree(from)
+         wider%powers(to) = self%powers(from)
          wider%nodes(:, to) = self%nodes(:, from)
          wider%coefficients(:, :, to) = self%coefficients(:, :, from)
       end do
@@ -179,6 +205,7 @@ contains
       call move_alloc(wider%length, self%length)
       call move_alloc(wider%serves, self%serves)
       call move_alloc(wider%degree, self%degree)
+      call move_alloc(wider%powers, self%powers)
       call move_alloc(wider%nodes, self%nodes)
       call move_alloc(wider%coefficients, self%coefficients)
    end subroutine double_capacity

@@ -25,6 +25,8 @@ module dde_taylor_series
       !> Coefficients of the solution and of its delayed values, shapes (0:degree, n) and
       !> (0:degree, number of delayed values)
       real(wp), allocatable :: coefficients(:, :), delayed(:, :)
+      !> Those of the state, while a slow solution is looked for, shape (0:degree, n)
+      real(wp), allocatable, private :: of_state(:, :)
       !> Whether it is that of a slow solution, and when to look for one
       type(slow_series) :: slow
    contains
@@ -65,12 +67,12 @@ contains
       !> Time
       real(wp), intent(in) :: t
       !> Tolerance of each component
-      real(wp), intent(in) :: scale(:)
+      real(wp), contiguous, intent(in) :: scale(:)
       !> Series evaluated so far
       integer(int64), intent(inout) :: evaluations
       !> State
-      real(wp), intent(inout) :: y(:)
-      real(wp) :: of_state(0:self%degree, problem%n), rate
+      real(wp), contiguous, intent(inout) :: y(:)
+      real(wp) :: rate
       logical :: trying
 
       rate = problem%relaxation_rate(t, y)
@@ -86,9 +88,9 @@ contains
       if (trying) return
       call self%slow%worth_a_try(rate*self%reach, trying)
       if (.not. trying) return
-      of_state = self%coefficients
+      self%of_state = self%coefficients
       call find_slow(self, problem, t, scale, rate, evaluations, y)
-      if (.not. self%slow%holds) self%coefficients = of_state
+      if (.not. self%slow%holds) self%coefficients = self%of_state
    end subroutine expand
 
    !> Another unit for the series of delayed values.
@@ -117,13 +119,13 @@ contains
       !> Time
       real(wp), intent(in) :: t
       !> Tolerance of each component
-      real(wp), intent(in) :: scale(:)
+      real(wp), contiguous, intent(in) :: scale(:)
       !> Relaxation rate
       real(wp), intent(in) :: rate
       !> Series evaluated so far
       integer(int64), intent(inout) :: evaluations
       !> State; that on the slow solution
-      real(wp), intent(inout) :: y(:)
+      real(wp), contiguous, intent(inout) :: y(:)
 
       self%coefficients(0, :) = y
       call self%slow%find(problem, t, self%unit, self%degree, self%delayed, scale, rate, &
@@ -134,18 +136,19 @@ contains
    end subroutine find_slow
 
    !> The state at a time.
-   pure function state(self, time) result(y)
+   pure subroutine state(self, time, y)
       !> The series
       class(taylor_series), intent(in) :: self
       !> Time since its start
       real(wp), intent(in) :: time
-      real(wp) :: y(size(self%coefficients, 2))
+      !> The state, shape (n)
+      real(wp), intent(out) :: y(:)
       integer :: i
 
       do i = 1, size(y)
          y(i) = series_value(self%degree, self%coefficients(:, i), time/self%unit)
       end do
-   end function state
+   end subroutine state
 
    !> The slope at a time.
    pure function slope(self, time) result(value)

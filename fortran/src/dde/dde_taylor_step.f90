@@ -8,6 +8,7 @@ module dde_taylor_step
    use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
    use dde_taylor_series, only: taylor_series
+   use dde_tolerance, only: tolerance_type
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -39,8 +40,6 @@ module dde_taylor_step
       type(taylor_series), private :: series
       !> Where along the series the present state is; before it where its slope was evaluated
       real(wp), private :: place = -1.0_wp
-      !> Tolerance of each component
-      real(wp), allocatable, private :: scale(:)
    contains
       procedure :: reset
       procedure :: look_ahead
@@ -70,6 +69,7 @@ contains
       step%name = "taylor"
       step%order = degree
       step%error_order = degree
+      step%powers = .true.
       step%foresees = .true.
       step%evaluation_cost = cost_of_degree*degree
       associate (n => problem%n, delays => size(problem%lag))
@@ -91,7 +91,7 @@ contains
 
    !> The series, and how long the step may be: as the series allows, and as long as the past
    !> serves.
-   pure subroutine look_ahead(self, problem, past, t, relative, absolute, longest, h)
+   pure subroutine look_ahead(self, problem, past, t, tolerance, longest, h)
       !> The step
       class(taylor_step_type), intent(inout) :: self
       !> The problem
@@ -100,10 +100,8 @@ contains
       type(history_type), intent(inout) :: past
       !> Start of the step
       real(wp), intent(in) :: t
-      !> Relative tolerance
-      real(wp), intent(in) :: relative
-      !> Absolute tolerance
-      real(wp), intent(in) :: absolute
+      !> Tolerance of each component
+      type(tolerance_type), intent(in) :: tolerance
       !> Longest step of use
       real(wp), intent(in) :: longest
       !> Length of the step: proposed, then possible
@@ -112,15 +110,15 @@ contains
       logical :: passing
 
       unit = merge(min(self%ideal, growth*self%h), h, self%ideal > 0.0_wp)
-      self%scale = absolute + relative*abs(self%y)
+      call tolerance%scale(self%y, self%scale)
       passing = .true.
       associate (series => self%series)
          do
             series%unit = unit
             call past%series(problem, passing, series%unit, series%delayed, past_serves)
-            call series%expand(problem, t, self%scale, self%evaluations, self%y)
+            call series%expand(problem, self%inside(t), self%scale, self%evaluations, self%y)
             possible = min(series%reach, past_serves, longest)
-            call past%confirm(series%delayed, series%unit, relative, absolute, possible)
+            call past%confirm(series%delayed, series%unit, tolerance, possible)
             if (possible > 0.0_wp .or. .not. passing) exit
             passing = .false.
          end do
@@ -132,7 +130,7 @@ contains
    end subroutine look_ahead
 
    !> Try the step of length `h` from t: the error is within the tolerance.
-   pure subroutine attempt(self, problem, past, t, h, relative, absolute, error)
+   pure subroutine attempt(self, problem, past, t, h, tolerance, error)
       !> The step
       class(taylor_step_type), intent(inout) :: self
       !> The problem
@@ -143,10 +141,8 @@ contains
       real(wp), intent(in) :: t
       !> Length of the step
       real(wp), intent(in) :: h
-      !> Relative tolerance
-      real(wp), intent(in) :: relative
-      !> Absolute tolerance
-      real(wp), intent(in) :: absolute
+      !> Tolerance of each component
+      type(tolerance_type), intent(in) :: tolerance
       !> 0, or not a number where the series is not finite
       real(wp), intent(out) :: error
 
@@ -156,7 +152,7 @@ contains
       if (.not. self%ideal > 0.0_wp) return
       ! beyond this, terms that have vanished in a very short step would count
       self%serves = min(self%serves, growth*h)
-      self%y_new = self%series%state(h)
+      call self%series%state(h, self%y_new)
       if (all(ieee_is_finite(self%y_new))) error = 0.0_wp
    end subroutine attempt
 

@@ -49,6 +49,7 @@ contains
       integer :: i
 
       call read_group(path, settings, error)
+      if (allocated(error)) return
       call check_count(error, path, "count", settings%exponents, at_least=1, at_most=most_exponents)
       call check_count(error, path, "blocks", settings%blocks, at_least=2, at_most=most_blocks)
       call check_number(error, path, "t_end", settings%t_end, above=scene%t_transient)
