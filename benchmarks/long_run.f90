@@ -2,8 +2,8 @@
 !> tolerance; prints CPU seconds, steps and the most memory that the process has held, in kB.
 program long_run
    use dde, only: integrate, integration_options, integration_result
-   use errors, only: error_type
-   use kinds, only: wp
+   use dde_errors, only: error_type
+   use dde_kinds, only: wp
    use spring_block, only: spring_block_type
    implicit none (type, external)
    !> Short runs are repeated for this time, in seconds.

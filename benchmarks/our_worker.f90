@@ -3,8 +3,8 @@
 program our_worker
    use, intrinsic :: iso_fortran_env, only: iostat_end
    use dde, only: integrate, integration_options, integration_result, table_sampler
-   use errors, only: error_type
-   use kinds, only: wp
+   use dde_errors, only: error_type
+   use dde_kinds, only: wp
    use spring_block, only: index_of_ln_v, index_of_theta, index_of_u, spring_block_type
    use version, only: project_version
    implicit none (type, external)

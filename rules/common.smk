@@ -138,12 +138,15 @@ def sources_of(wildcards):
 @functools.cache
 def sources_of_program(program):
     """Its own and all modules."""
-    modules = glob_wildcards("fortran/src/{path}.{ending,f90|c|in}")
+    modules = glob_wildcards(
+        "fortran/{folder,src|dde/src|dde/lapack}/{path}.{ending,f90|c|in}"
+    )
     return [
         "fortran/CMakeLists.txt",
         "fortran/CMakePresets.json",
+        "fortran/dde/CMakeLists.txt",
         f"fortran/app/{program}.f90",
-        *sorted(expand("fortran/src/{path}.{ending}", zip, **modules._asdict())),
+        *sorted(expand("fortran/{folder}/{path}.{ending}", zip, **modules._asdict())),
     ]
 
 
@@ -155,7 +158,7 @@ def digest_of(program):
 
 def documented_sources():
     """Modules and programs that the pages about the code explain."""
-    found = glob_wildcards("fortran/{folder,src|app}/{path}.f90")
+    found = glob_wildcards("fortran/{folder,dde/src|src|app}/{path}.f90")
     return sorted(expand("fortran/{folder}/{path}.f90", zip, **found._asdict()))
 
 

@@ -38,7 +38,9 @@ FILEGRAPH = """digraph snakemake_dag {
 """
 
 SOURCES = sorted(
-    path for folder in ("src", "app") for path in (ROOT / "fortran" / folder).rglob("*.f90")
+    path
+    for folder in ("dde/src", "src", "app")
+    for path in (ROOT / "fortran" / folder).rglob("*.f90")
 )
 """What the pages about the code are made from."""
 

@@ -83,7 +83,7 @@ def test_results_carry_the_values_that_they_were_made_with(smoke):
 def test_results_of_an_older_program_are_computed_again(scratch):
     """Also where the build of the new one was interrupted, which leaves no program."""
     result = "results/friction/velocity_step.nc"
-    with open(scratch.folder / "fortran" / "src" / "kinds.f90", "a") as source:
+    with open(scratch.folder / "fortran" / "dde" / "src" / "face" / "dde_kinds.f90", "a") as source:
         source.write("! changed\n")
     lock = scratch.folder / "build" / "lock"
     lock.unlink()

@@ -5,7 +5,7 @@ program attractors_program
    use attractors, only: attractor_settings
    use attractors_output, only: write_attractors
    use dde, only: integration_options
-   use errors, only: error_type
+   use dde_errors, only: error_type
    use observation_input, only: read_observation
    use points_input, only: points_settings, read_points
    use progress, only: progress_type

@@ -1,10 +1,10 @@
 !> Lyapunov exponents of one scene, at its own tolerance, at others, and with shorter steps.
 program exponents
    use dde, only: integration_options
-   use errors, only: error_type
+   use dde_errors, only: error_type
    use exponents_input, only: exponents_settings, read_exponents
    use exponents_output, only: write_exponents
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use lyapunov_spectrum, only: growth_settings, growth_type, measure_growth
    use program_arguments, only: get_paths, stop_on
    use progress, only: progress_type

@@ -1,6 +1,6 @@
 !> Hopf curves in one plane of parameters, their special points, and the number of unstable pairs.
 program hopf
-   use errors, only: error_type
+   use dde_errors, only: error_type
    use hopf_curves, only: curve_point, trace_curves
    use hopf_input, only: hopf_settings, read_plane
    use hopf_output, only: write_curves

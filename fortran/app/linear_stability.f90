@@ -2,8 +2,8 @@
 program linear_stability
    use block_roots, only: roots_of_block
    use characteristic_function, only: block_parameters
-   use errors, only: error_type
-   use kinds, only: wp
+   use dde_errors, only: error_type
+   use dde_kinds, only: wp
    use linear_stability_input, only: linear_stability_settings, read_linear_stability
    use linear_stability_output, only: write_linear_stability
    use program_arguments, only: get_paths, stop_on

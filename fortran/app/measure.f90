@@ -2,8 +2,8 @@
 !> what it cost. A run that fails is a row with its reason.
 program measure
    use cases_input, only: read_cases
-   use errors, only: error_type
-   use kinds, only: wp
+   use dde_errors, only: error_type
+   use dde_kinds, only: wp
    use measure_input, only: measure_settings, read_measure
    use measure_output, only: measured_runs, write_measured_runs
    use measured_case, only: case_type

@@ -2,8 +2,8 @@
 !> uncertainty and of how much the case magnifies a disturbance of its history.
 program reference
    use cases_input, only: read_cases
-   use errors, only: error_type
-   use kinds, only: wp
+   use dde_errors, only: error_type
+   use dde_kinds, only: wp
    use measured_case, only: case_type
    use measured_run, only: measure_run, run_type
    use program_arguments, only: get_paths, stop_on

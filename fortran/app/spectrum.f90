@@ -1,8 +1,8 @@
 !> Power spectrum of v over a trajectory after its transient, with its peaks labelled.
 program spectrum_program
    use base_frequencies, only: bases_type, label_peaks
-   use errors, only: error_type
-   use kinds, only: wp
+   use dde_errors, only: error_type
+   use dde_kinds, only: wp
    use program_arguments, only: get_paths, refuse_input, stop_on
    use spectral_peaks, only: find_peaks, peak_type
    use spectrum, only: power_spectrum

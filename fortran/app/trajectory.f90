@@ -1,8 +1,8 @@
 !> Trajectory of one scene: the delayed block integrated from its history to t_end.
 program trajectory
    use dde, only: integrate, integration_options, integration_result
-   use errors, only: error_type
-   use kinds, only: wp
+   use dde_errors, only: error_type
+   use dde_kinds, only: wp
    use program_arguments, only: get_paths, stop_on
    use scene_input, only: read_scene, scene_type
    use spring_block, only: spring_block_type

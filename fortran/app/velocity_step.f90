@@ -1,6 +1,6 @@
 !> Response of friction to an up-step and a down-step of the imposed velocity.
 program velocity_step_program
-   use errors, only: error_type
+   use dde_errors, only: error_type
    use program_arguments, only: get_paths, stop_on
    use velocity_step, only: friction_response, respond, step_protocol
    use velocity_step_input, only: read_protocol

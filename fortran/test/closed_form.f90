@@ -3,7 +3,7 @@
 !>
 !>     1 + epsilon = sqrt((1 + omega^2)(1 + B^2)),   omega tau = atan B - atan omega + 2 pi k.
 module closed_form
-   use kinds, only: wp
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: closed_epsilon, closed_tau, closed_xi

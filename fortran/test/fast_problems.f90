@@ -1,7 +1,7 @@
 !> Problems with a component that is much faster than the others, with exact solutions.
 module fast_problems
    use dde, only: dde_problem_type
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use spring_block, only: spring_block_type
    use test_problems, only: constant_past, fill
    implicit none (type, external)

@@ -2,7 +2,7 @@
 module known_forms
    use characteristic_function, only: block_parameters
    use delay_equation, only: delay_equation_type
-   use kinds, only: wp
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: block_in_v, neurons, new_block_in_v, new_neurons

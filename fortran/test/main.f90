@@ -5,31 +5,14 @@ program tester
    use test_attractor_points, only: collect_attractor_points
    use test_attractors, only: collect_attractors
    use test_base_frequencies, only: collect_base_frequencies
-   use test_dde_behaviour, only: collect_dde_behaviour
-   use test_dde_breaks, only: collect_dde_breaks
-   use test_dde_continuation, only: collect_dde_continuation
-   use test_dde_controller, only: collect_dde_controller
-   use test_dde_convergence, only: collect_dde_convergence
-   use test_dde_events, only: collect_dde_events
    use test_dde_extremes, only: collect_dde_extremes
    use test_dde_gsl, only: collect_dde_gsl
-   use test_dde_history, only: collect_dde_history
    use test_dde_implicit, only: collect_dde_implicit
-   use test_dde_implicit_order, only: collect_dde_implicit_order
-   use test_dde_large, only: collect_dde_large
-   use test_dde_order, only: collect_dde_order
-   use test_dde_past_series, only: collect_dde_past_series
-   use test_dde_receivers, only: collect_dde_receivers
    use test_dde_reentrant, only: collect_dde_reentrant
-   use test_dde_refusals, only: collect_dde_refusals
-   use test_dde_sizes, only: collect_dde_sizes
    use test_dde_slow_series, only: collect_dde_slow_series
-   use test_dde_solutions, only: collect_dde_solutions
    use test_dde_stiff, only: collect_dde_stiff
-   use test_dde_stops, only: collect_dde_stops
    use test_dde_switch, only: collect_dde_switch
    use test_dde_taylor, only: collect_dde_taylor
-   use test_dde_time, only: collect_dde_time
    use test_exponents, only: collect_exponents
    use test_friction, only: collect_friction
    use test_gsl_roots, only: collect_gsl_roots
@@ -57,31 +40,14 @@ program tester
    allocate (suites, source=[new_testsuite("attractor_points", collect_attractor_points), &
                              new_testsuite("attractors", collect_attractors), &
                              new_testsuite("base_frequencies", collect_base_frequencies), &
-                             new_testsuite("dde_behaviour", collect_dde_behaviour), &
-                             new_testsuite("dde_breaks", collect_dde_breaks), &
-                             new_testsuite("dde_continuation", collect_dde_continuation), &
-                             new_testsuite("dde_controller", collect_dde_controller), &
-                             new_testsuite("dde_convergence", collect_dde_convergence), &
-                             new_testsuite("dde_events", collect_dde_events), &
                              new_testsuite("dde_extremes", collect_dde_extremes), &
                              new_testsuite("dde_gsl", collect_dde_gsl), &
-                             new_testsuite("dde_history", collect_dde_history), &
                              new_testsuite("dde_implicit", collect_dde_implicit), &
-                             new_testsuite("dde_implicit_order", collect_dde_implicit_order), &
-                             new_testsuite("dde_large", collect_dde_large), &
-                             new_testsuite("dde_order", collect_dde_order), &
-                             new_testsuite("dde_past_series", collect_dde_past_series), &
-                             new_testsuite("dde_receivers", collect_dde_receivers), &
                              new_testsuite("dde_reentrant", collect_dde_reentrant), &
-                             new_testsuite("dde_refusals", collect_dde_refusals), &
-                             new_testsuite("dde_sizes", collect_dde_sizes), &
                              new_testsuite("dde_slow_series", collect_dde_slow_series), &
-                             new_testsuite("dde_solutions", collect_dde_solutions), &
                              new_testsuite("dde_stiff", collect_dde_stiff), &
-                             new_testsuite("dde_stops", collect_dde_stops), &
                              new_testsuite("dde_switch", collect_dde_switch), &
                              new_testsuite("dde_taylor", collect_dde_taylor), &
-                             new_testsuite("dde_time", collect_dde_time), &
                              new_testsuite("exponents", collect_exponents), &
                              new_testsuite("friction", collect_friction), &
                              new_testsuite("gsl_roots", collect_gsl_roots), &

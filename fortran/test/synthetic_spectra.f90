@@ -1,9 +1,9 @@
 !> Spectra of sums of sines and noise.
 module synthetic_spectra
    use base_frequencies, only: bases_type, label_peaks
-   use errors, only: failure_type => error_type
+   use dde_errors, only: failure_type => error_type
    use expectations, only: expect_success
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type
    use pseudo_random, only: uniform
    use spectral_peaks, only: find_peaks, peak_type

@@ -5,9 +5,9 @@ module test_attractor_points
    use attractors, only: attractor_settings
    use characteristic_function, only: block_parameters
    use dde, only: integration_options
-   use errors, only: text
+   use dde_errors, only: text
    use expectations, only: expect, expect_failure, expect_success
-   use kinds, only: int64, wp
+   use dde_kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use motion_classes, only: fixed_point, undecided
    use omp_lib, only: omp_get_max_threads, omp_get_num_threads, omp_set_num_threads

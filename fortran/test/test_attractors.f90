@@ -2,9 +2,9 @@
 module test_attractors
    use attractors, only: attractor_settings, attractor_type, find_attractor
    use dde, only: integration_options
-   use errors, only: failure_type => error_type
+   use dde_errors, only: failure_type => error_type
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use motion_classes, only: chaos, class_names, cycle_motion, fixed_point, torus, undecided
    use solving, only: at_tolerance

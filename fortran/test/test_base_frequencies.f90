@@ -1,9 +1,9 @@
 !> Labels of peaks: base, harmonic, second base, combination, or none of them.
 module test_base_frequencies
    use base_frequencies, only: bases_type, label_peaks
-   use errors, only: text
+   use dde_errors, only: text
    use expectations, only: expect, expect_between, expect_close
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use pseudo_random, only: uniform
    use spectral_peaks, only: base_peak, combination_peak, harmonic_peak, other_peak, peak_type, &

@@ -2,9 +2,9 @@
 module test_dde_extremes
    use dde, only: continuation_type, elapsed, event_met, event_table, instant, integrate, &
                   integration_options, integration_result, methods, too_many_steps
-   use errors, only: failure_type => error_type, text
+   use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_success
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use solving, only: at_tolerance
    use spring_block, only: index_of_ln_v, spring_block_type

@@ -2,7 +2,7 @@
 module test_dde_gsl
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use expectations, only: expect, expect_between, expect_close
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use solving, only: at_tolerance, solve
    use spring_block, only: index_of_ln_v, index_of_theta, index_of_u, spring_block_type

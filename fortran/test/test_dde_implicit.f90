@@ -2,10 +2,10 @@
 module test_dde_implicit
    use dde, only: integrate, integration_options, integration_result, step_underflow, &
                   too_many_steps, value_not_finite
-   use errors, only: failure_type => error_type, text
+   use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_success
    use fast_problems, only: plain_block
-   use kinds, only: int64, wp
+   use dde_kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use published_problems, only: enzyme, infection, mackey_glass
    use solving, only: at_tolerance, solve

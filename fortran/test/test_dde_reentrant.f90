@@ -1,9 +1,9 @@
 !> Integrations side by side give the same bits as one after the other.
 module test_dde_reentrant
    use dde, only: dde_problem_type, integrate, integration_result, sampler_type, table_sampler
-   use errors, only: failure_type => error_type, text
+   use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_success
-   use kinds, only: int64, wp
+   use dde_kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use omp_lib, only: omp_get_num_threads
    use published_problems, only: enzyme, infection, mackey_glass

@@ -4,10 +4,10 @@ module test_dde_slow_series
    use dde, only: integrate, integration_options, integration_result, too_many_steps
    use dde_interpolant, only: series_value
    use dde_series_reach, only: series_reach
-   use errors, only: failure_type => error_type, text
+   use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_success
    use fast_problems, only: follower, plain_block, pulse
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use solving, only: at_tolerance, solve
    use spring_block, only: spring_block_type

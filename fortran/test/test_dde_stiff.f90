@@ -2,9 +2,9 @@
 !> slips, and the fall of v after them.
 module test_dde_stiff
    use dde, only: integrate, integration_result
-   use errors, only: failure_type => error_type
+   use dde_errors, only: failure_type => error_type
    use expectations, only: expect_between, expect_close, expect_success
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use solving, only: at_tolerance, solve
    use spring_block, only: spring_block_type

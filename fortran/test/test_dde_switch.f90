@@ -7,10 +7,10 @@ module test_dde_switch
    use dde_taylor_step, only: taylor_step_type
    use dde_tolerance, only: tolerance_type
    use dde_time, only: instant_at
-   use errors, only: failure_type => error_type, text
+   use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_success
    use fast_problems, only: plain_block
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use lines_of_cells, only: cells
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use piecewise_problems, only: switching, switching_kinds

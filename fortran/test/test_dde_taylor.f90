@@ -9,9 +9,9 @@ module test_dde_taylor
    use dde_taylor_step, only: taylor_step_type
    use dde_tolerance, only: tolerance_type
    use dde_time, only: instant_at
-   use errors, only: failure_type => error_type, text
+   use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use published_problems, only: enzyme, mackey_glass
    use single_step, only: interpolated

@@ -2,10 +2,10 @@
 module test_exponents
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde, only: dde_problem_type, integration_options
-   use errors, only: failure_type => error_type, text
+   use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_success
    use exponent_averages, only: average_growth, dimension_of, exponent_type, without_sign
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use lyapunov_spectrum, only: growth_settings, growth_type, measure_growth
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use published_problems, only: mackey_glass

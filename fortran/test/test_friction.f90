@@ -2,10 +2,10 @@
 !> theta = Dc/v + (theta_0 - Dc/v) exp(-v t/Dc), with (1.1).
 module test_friction
    use dde, only: integration_result, integrate
-   use errors, only: failure_type => error_type
+   use dde_errors, only: failure_type => error_type
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use friction_law, only: friction_coefficient, friction_parameters, state_evolution, steady_state
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use solving, only: at_tolerance
    use velocity_step, only: friction_response, respond, step_protocol

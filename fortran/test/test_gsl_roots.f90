@@ -2,10 +2,10 @@
 module test_gsl_roots
    use, intrinsic :: ieee_arithmetic, only: ieee_get_halting_mode, ieee_invalid, ieee_quiet_nan, &
                                             ieee_set_halting_mode, ieee_value
-   use errors, only: failure_type => error_type
+   use dde_errors, only: failure_type => error_type
    use expectations, only: expect_close, expect_failure, expect_success
    use gsl_roots, only: find_root, scalar_function
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    implicit none (type, external)
    private

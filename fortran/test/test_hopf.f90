@@ -4,10 +4,10 @@ module test_hopf
    use characteristic_function, only: block_parameters, delta, delta_by_s, delta_by_tau, &
                                       relative_residual
    use closed_form, only: closed_epsilon, closed_tau
-   use errors, only: text
+   use dde_errors, only: text
    use expectations, only: expect, expect_between, expect_close
    use hopf_condition, only: hopf_epsilon, hopf_tau, hopf_xi, printed_tau
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use pseudo_random, only: uniform
    use spring_block, only: spring_block_type

@@ -2,11 +2,11 @@
 !> closed form and characteristic roots followed by Newton's method.
 module test_hopf_curves
    use closed_form, only: closed_epsilon
-   use errors, only: text
+   use dde_errors, only: text
    use expectations, only: expect, expect_between, expect_close
    use hopf_curves, only: curve_point
    use hopf_planes, only: curve_plane
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use traced_planes, only: closed_delta, known_point, place_of, planes, root_near, trace, &
                             traced_plane

@@ -3,11 +3,11 @@ module test_hopf_points
    use block_equation, only: block_equation_type
    use characteristic_function, only: relative_residual
    use characteristic_roots, only: find_roots
-   use errors, only: failure_type => error_type, text
+   use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_success
    use hopf_condition, only: hopf_epsilon, partner_omega
    use hopf_points, only: find_hopf_points, hopf_point, judge_points
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use pseudo_random, only: uniform
    use stability_map, only: middles, unstable_pairs

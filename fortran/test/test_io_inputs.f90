@@ -1,6 +1,6 @@
 !> Namelists that cannot be read.
 module test_io_inputs
-   use errors, only: failure_type => error_type
+   use dde_errors, only: failure_type => error_type
    use expectations, only: expect_failure
    use exponents_input, only: exponents_settings, read_exponents
    use mctc_env_testing, only: error_type, new_unittest, unittest_type

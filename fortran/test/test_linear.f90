@@ -4,10 +4,10 @@ module test_linear
    use characteristic_function, only: block_parameters, relative_residual
    use characteristic_roots, only: find_roots
    use delay_equation, only: linear_system
-   use errors, only: failure_type => error_type, text
+   use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use hopf_condition, only: hopf_epsilon, hopf_tau
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use known_forms, only: block_in_v, neurons, new_block_in_v, new_neurons
    use lapack, only: solve
    use mctc_env_testing, only: error_type, new_unittest, unittest_type

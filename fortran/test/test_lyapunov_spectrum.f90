@@ -3,10 +3,10 @@
 module test_lyapunov_spectrum
    use dde, only: continuation_type, dde_problem_type, integrate, integration_options, &
                   integration_result, table_sampler
-   use errors, only: failure_type => error_type
+   use dde_errors, only: failure_type => error_type
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use exponent_averages, only: average_growth, exponent_type
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use lyapunov_spectrum, only: extend_growth, growth_settings, growth_type, measure_growth
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use rest, only: exponents_at_rest

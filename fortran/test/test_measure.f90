@@ -3,10 +3,10 @@ module test_measure
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use dde, only: dde_problem_type, integration_result, table_sampler, value_not_finite
    use double_numbers, only: as_double, evenly_spaced
-   use errors, only: failure_type => error_type
+   use dde_errors, only: failure_type => error_type
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use fixed_step_rk4, only: integrate_rk4
-   use kinds, only: int64, wp
+   use dde_kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use measured_case, only: case_type
    use measured_run, only: measure_run, run_type, time_runs

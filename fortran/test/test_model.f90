@@ -1,8 +1,8 @@
 !> The spring block against equations (3) and (4) written in v.
 module test_model
-   use errors, only: text
+   use dde_errors, only: text
    use expectations, only: expect, expect_close
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use pseudo_random, only: uniform
    use spring_block, only: index_of_ln_v, index_of_theta, index_of_u, spring_block_type

@@ -1,9 +1,9 @@
 !> Classes of motion from exponents, and the verdict of three witnesses.
 module test_motion_classes
-   use errors, only: text
+   use dde_errors, only: text
    use expectations, only: expect
    use exponent_averages, only: exponent_type
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use motion_classes, only: agreed, chaos, class_by_exponents, class_names, cycle_motion, &
                              fixed_point, torus, undecided

@@ -1,9 +1,9 @@
 !> What long work tells of its progress.
 module test_progress
    use dde, only: integration_options
-   use errors, only: failure_type => error_type
+   use dde_errors, only: failure_type => error_type
    use expectations, only: expect, expect_success
-   use kinds, only: int64, wp
+   use dde_kinds, only: int64, wp
    use lyapunov_spectrum, only: growth_settings, growth_type, measure_growth
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use measured_case, only: case_type

@@ -3,7 +3,7 @@
 module test_quadruple
    use double_numbers, only: as_double
    use expectations, only: expect, expect_close
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use solving, only: at_tolerance, solve
    use test_problems, only: linear

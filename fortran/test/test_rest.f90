@@ -1,10 +1,10 @@
 !> Blocks that come to rest, and the exponents of steady sliding.
 module test_rest
    use dde, only: continuation_type, integrate, integration_result
-   use errors, only: failure_type => error_type, text
+   use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_close, expect_success
    use exponent_averages, only: average_growth, exponent_type
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use lapack, only: eigenvalues
    use lyapunov_spectrum, only: growth_settings, growth_type, measure_growth
    use mctc_env_testing, only: error_type, new_unittest, unittest_type

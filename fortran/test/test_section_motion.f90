@@ -1,8 +1,8 @@
 !> Made-up sections whose motion is known.
 module test_section_motion
-   use errors, only: text
+   use dde_errors, only: text
    use expectations, only: expect, expect_between, expect_close
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use motion_classes, only: chaos, cycle_motion, torus, undecided
    use pseudo_random, only: uniform

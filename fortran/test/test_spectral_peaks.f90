@@ -1,9 +1,9 @@
 !> Peaks of a spectrum: where, how high, and above what.
 module test_spectral_peaks
    use base_frequencies, only: bases_type
-   use errors, only: text
+   use dde_errors, only: text
    use expectations, only: expect, expect_close
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use spectral_peaks, only: find_peaks, peak_type
    use synthetic_spectra, only: analyse, f, interval, length, width

@@ -1,8 +1,8 @@
 !> Power spectral density: Parseval's theorem, a direct Fourier sum, lines and noise of known power.
 module test_spectrum
-   use errors, only: failure_type => error_type, text
+   use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use omp_lib, only: omp_get_num_threads
    use pseudo_random, only: uniform

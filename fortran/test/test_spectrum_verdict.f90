@@ -2,7 +2,7 @@
 module test_spectrum_verdict
    use base_frequencies, only: bases_type
    use expectations, only: expect, expect_between, expect_close
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use spectral_peaks, only: base_peak, harmonic_peak, other_peak, peak_type
    use spectrum_verdict, only: continuum_share, line_share, spectrum_kind, spectrum_kind_name

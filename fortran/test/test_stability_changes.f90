@@ -2,9 +2,9 @@
 module test_stability_changes
    use block_roots, only: roots_of_block
    use characteristic_function, only: block_parameters, relative_residual
-   use errors, only: failure_type => error_type, text
+   use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use pseudo_random, only: uniform
    use root_counts, only: roots_right_of

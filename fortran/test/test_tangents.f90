@@ -2,10 +2,10 @@
 module test_tangents
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use dde, only: continuation_type, integrate, integration_result
-   use errors, only: failure_type => error_type, text
+   use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_success
    use exponent_averages, only: average_growth, dimension_of, exponent_type, without_sign
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use pseudo_random, only: uniform
    use solving, only: at_tolerance

@@ -1,11 +1,11 @@
 !> Planes of Hopf curves as traced, and what is known of them in closed form.
 module traced_planes
    use closed_form, only: closed_epsilon, closed_tau, closed_xi
-   use errors, only: failure_type => error_type, text
+   use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_success
    use hopf_curves, only: curve_point, trace_curves
    use hopf_planes, only: curve_plane, tau_of_epsilon, xi_of_epsilon
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type
    implicit none (type, external)
    private

@@ -3,8 +3,8 @@ module attractor_points
    use attractors, only: attractor_settings, attractor_type, find_attractor
    use characteristic_function, only: block_parameters
    use dde, only: integration_options
-   use errors, only: error_type
-   use kinds, only: wp
+   use dde_errors, only: error_type
+   use dde_kinds, only: wp
    use progress_receivers, only: progress_receiver
    use spring_block, only: spring_block_type
    implicit none (type, external)

@@ -6,9 +6,9 @@ module attractors
    use base_frequencies, only: bases_type, label_peaks
    use dde, only: continuation_type, event_table, integrate, integration_options, &
                   integration_result, table_sampler
-   use errors, only: error_type
+   use dde_errors, only: error_type
    use exponent_averages, only: average_growth, exponent_type
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use lyapunov_spectrum, only: extend_growth, growth_settings, growth_type, measure_growth
    use motion_classes, only: agreed, chaos, class_by_exponents, cycle_motion, fixed_point, torus, &
                              undecided

@@ -4,7 +4,7 @@
 !> random would rarely match: denominators of fractions and orders of combinations are bounded by
 !> that chance, not by a fixed number.
 module base_frequencies
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use spectral_peaks, only: base_peak, combination_peak, harmonic_peak, other_peak, peak_type, &
                              second_base_peak
    implicit none (type, external)

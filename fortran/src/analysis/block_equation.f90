@@ -7,7 +7,7 @@
 module block_equation
    use characteristic_function, only: block_parameters
    use delay_equation, only: delay_equation_type
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use spring_block, only: index_of_ln_v, index_of_theta, index_of_u, spring_block_type
    implicit none (type, external)
    private

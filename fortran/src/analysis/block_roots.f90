@@ -3,8 +3,8 @@ module block_roots
    use block_equation, only: block_equation_type
    use characteristic_function, only: block_parameters
    use characteristic_roots, only: find_roots
-   use errors, only: error_type, raise, text
-   use kinds, only: wp
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: wp
    use root_counts, only: roots_right_of
    implicit none (type, external)
    private

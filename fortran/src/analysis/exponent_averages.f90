@@ -2,7 +2,7 @@
 !> dimension of the attractor.
 module exponent_averages
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use kinds, only: wp
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: average_growth, dimension_of, error_bars, exponent_type, running_averages, &

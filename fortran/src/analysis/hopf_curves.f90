@@ -2,11 +2,11 @@
 !> window are found by a scan, their ends by root finding, and points are set where the line bends.
 module hopf_curves
    use characteristic_function, only: block_parameters, delta_by_s, delta_by_tau, relative_residual
-   use errors, only: error_type
+   use dde_errors, only: error_type
    use gsl_roots, only: find_root, scalar_function
    use hopf_condition, only: printed_tau
    use hopf_planes, only: curve_plane
-   use kinds, only: wp
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: curve_point, trace_curves

@@ -2,7 +2,7 @@
 module hopf_planes
    use characteristic_function, only: block_parameters
    use hopf_condition, only: hopf_epsilon, hopf_tau, hopf_xi, two_pi
-   use kinds, only: wp
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: curve_plane, tau_of_epsilon, xi_of_epsilon

@@ -3,12 +3,12 @@
 module hopf_points
    use block_equation, only: block_equation_type
    use characteristic_function, only: block_parameters
-   use errors, only: error_type
+   use dde_errors, only: error_type
    use gsl_roots, only: find_root, scalar_function
    use hopf_condition, only: hopf_tau, partner_omega, two_pi
    use hopf_curves, only: curve_point
    use hopf_planes, only: curve_plane, tau_of_epsilon
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use normal_form, only: first_lyapunov_coefficient
    use root_counts, only: pairs_beside
    implicit none (type, external)

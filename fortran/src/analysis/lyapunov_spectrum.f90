@@ -4,8 +4,8 @@
 module lyapunov_spectrum
    use dde, only: continuation_type, dde_problem_type, integrate, integration_options, &
                   integration_result
-   use errors, only: error_type, raise, text
-   use kinds, only: int64, wp
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: int64, wp
    use progress_receivers, only: progress_receiver
    use tangent_problem, only: tangent_problem_type
    use tangent_vectors, only: orthonormalise, start_vectors

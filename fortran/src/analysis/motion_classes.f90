@@ -1,7 +1,7 @@
 !> The classes of motion, and the one that exponents tell.
 module motion_classes
    use exponent_averages, only: error_bars, exponent_type, without_sign
-   use kinds, only: wp
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: agreed, chaos, class_by_exponents, class_names, cycle_motion, fixed_point, torus

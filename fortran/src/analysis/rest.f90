@@ -2,9 +2,9 @@
 module rest
    use block_roots, only: roots_of_block
    use characteristic_function, only: block_parameters
-   use errors, only: error_type
+   use dde_errors, only: error_type
    use exponent_averages, only: exponent_type
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use spring_block, only: spring_block_type
    implicit none (type, external)
    private

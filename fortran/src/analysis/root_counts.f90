@@ -3,7 +3,7 @@
 !> (3/2 - Z) pi, where Z is their number.
 module root_counts
    use characteristic_function, only: block_parameters, delta, slope_bound, terms
-   use kinds, only: wp
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: pairs_beside, roots_right_of

@@ -1,7 +1,7 @@
 !> What the points of a Poincare section tell: a few points that come again and again are a cycle;
 !> points that are a smooth function of two phases, each turning at a base frequency, are a torus.
 module section_motion
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use motion_classes, only: chaos, cycle_motion, torus, undecided
    implicit none (type, external)
    private

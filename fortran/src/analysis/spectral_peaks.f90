@@ -1,6 +1,6 @@
 !> Peaks of a power spectrum: where they are and how high.
 module spectral_peaks
-   use kinds, only: wp
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: base_peak, combination_peak, find_peaks, harmonic_peak, other_peak, peak_type

@@ -2,9 +2,9 @@
 !> averaged. One-sided, normalised so that its integral over frequency is the variance.
 module spectrum
    use, intrinsic :: iso_c_binding, only: c_double, c_double_complex, c_ptr
-   use errors, only: error_type, raise, text
+   use dde_errors, only: error_type, raise, text
    use fftw, only: fftw_destroy_plan, fftw_estimate, fftw_execute_dft_r2c, fftw_plan_dft_r2c_1d
-   use kinds, only: wp
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: power_spectrum, window_of

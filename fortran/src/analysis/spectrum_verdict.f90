@@ -1,7 +1,7 @@
 !> Whether a spectrum consists of lines of one base frequency, of two, or of a continuum.
 module spectrum_verdict
    use base_frequencies, only: bases_type
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use spectral_peaks, only: base_peak, combination_peak, harmonic_peak, other_peak, peak_type, &
                              second_base_peak
    implicit none (type, external)

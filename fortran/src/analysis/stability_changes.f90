@@ -2,10 +2,10 @@
 !> imaginary axis, all else kept: equations (7) and (10), solved for the frequency.
 module stability_changes
    use characteristic_function, only: block_parameters, delta_by_s, delta_by_tau
-   use errors, only: error_type
+   use dde_errors, only: error_type
    use gsl_roots, only: find_root, scalar_function
    use hopf_condition, only: hopf_epsilon, hopf_tau, partner_omega
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use root_counts, only: pairs_beside
    implicit none (type, external)
    private

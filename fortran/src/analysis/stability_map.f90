@@ -1,7 +1,7 @@
 !> The number of unstable pairs of characteristic roots over a plane of parameters.
 module stability_map
    use hopf_planes, only: curve_plane
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use root_counts, only: roots_right_of
    implicit none (type, external)
    private

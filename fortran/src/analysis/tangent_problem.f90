@@ -8,7 +8,7 @@
 module tangent_problem
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use dde, only: dde_problem_type, find_jacobian
-   use kinds, only: wp
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: tangent_problem_type

@@ -7,7 +7,7 @@
 !> rounding: Gauss's rule on each step for products of the polynomials that the solver keeps.
 module tangent_vectors
    use dde, only: continuation_type, dde_problem_type, elapsed, instant
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use tangent_problem, only: tangent_problem_type
    implicit none (type, external)
    private

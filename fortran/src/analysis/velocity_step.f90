@@ -2,9 +2,9 @@
 !> phases, v0, v0 + delta v and v0 again, with (1.1) along the way.
 module velocity_step
    use dde, only: integrate, integration_options, integration_result, table_sampler
-   use errors, only: error_type
+   use dde_errors, only: error_type
    use friction_law, only: friction_coefficient, friction_parameters, state_evolution, steady_state
-   use kinds, only: wp
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: friction_response, respond, step_protocol

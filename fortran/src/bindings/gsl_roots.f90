@@ -2,8 +2,8 @@
 module gsl_roots
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_funptr, &
                                           c_int, c_loc, c_ptr
-   use errors, only: error_type, raise, text
-   use kinds, only: wp
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: find_root, scalar_function

@@ -1,7 +1,7 @@
 !> Dense linear algebra by LAPACK: eigenvalues, systems of equations and null vectors.
 module lapack
-   use errors, only: error_type, raise, text
-   use kinds, only: wp
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: eigenvalues, null_vectors, solve

@@ -4,9 +4,9 @@ module attractors_output
    use attractor_points, only: finding_type
    use attractors, only: attractor_settings
    use dde, only: integration_options
-   use errors, only: error_type
+   use dde_errors, only: error_type
    use exponent_averages, only: sign_bound
-   use kinds, only: int64, wp
+   use dde_kinds, only: int64, wp
    use motion_classes, only: class_names
    use netcdf_output, only: output_file
    use points_input, only: points_settings

@@ -1,7 +1,7 @@
 !> Cases to measure, from the namelist group &cases_list: one list a key, one element a case.
 module cases_input
-   use errors, only: error_type, raise, text
-   use kinds, only: wp
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: wp
    use measured_case, only: case_name_length, case_type
    use namelist_input, only: check_number, close_namelist, not_given, open_namelist, word_length
    implicit none (type, external)

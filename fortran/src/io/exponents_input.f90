@@ -1,8 +1,8 @@
 !> How exponents of a scene are measured, from the namelist group &exponents.
 module exponents_input
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use errors, only: error_type, text
-   use kinds, only: wp
+   use dde_errors, only: error_type, text
+   use dde_kinds, only: wp
    use namelist_input, only: check_count, check_number, close_namelist, not_given, open_namelist
    use scene_input, only: scene_type
    implicit none (type, external)

@@ -2,11 +2,11 @@
 module exponents_output
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde, only: integration_options
-   use errors, only: error_type
+   use dde_errors, only: error_type
    use exponent_averages, only: average_growth, dimension_of, exponent_type, running_averages, &
                                 sign_bound, without_sign
    use exponents_input, only: exponents_settings
-   use kinds, only: int64, wp
+   use dde_kinds, only: int64, wp
    use lyapunov_spectrum, only: growth_type
    use netcdf_output, only: output_file
    use scene_input, only: scene_type

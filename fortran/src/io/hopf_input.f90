@@ -1,8 +1,8 @@
 !> The plane and window of Hopf curves, from the namelist group &hopf_curves.
 module hopf_input
-   use errors, only: error_type
+   use dde_errors, only: error_type
    use hopf_planes, only: curve_plane, tau_of_epsilon, xi_of_epsilon
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use namelist_input, only: check_choice, check_count, check_number, close_namelist, not_given, &
                              open_namelist, word_length
    implicit none (type, external)

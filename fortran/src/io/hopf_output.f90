@@ -1,10 +1,10 @@
 !> Files of Hopf curves.
 module hopf_output
-   use errors, only: error_type
+   use dde_errors, only: error_type
    use hopf_curves, only: curve_point
    use hopf_input, only: hopf_settings
    use hopf_points, only: hopf_point
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use netcdf_output, only: output_file
    use stability_map, only: middles
    implicit none (type, external)

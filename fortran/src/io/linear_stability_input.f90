@@ -1,8 +1,8 @@
 !> A state whose linear stability is asked for, from the namelist group &linear_stability.
 module linear_stability_input
    use characteristic_function, only: block_parameters
-   use errors, only: error_type
-   use kinds, only: wp
+   use dde_errors, only: error_type
+   use dde_kinds, only: wp
    use namelist_input, only: check_number, close_namelist, not_given, open_namelist
    implicit none (type, external)
    private

@@ -1,7 +1,7 @@
 !> Files of linear stability.
 module linear_stability_output
-   use errors, only: error_type
-   use kinds, only: int64, wp
+   use dde_errors, only: error_type
+   use dde_kinds, only: int64, wp
    use linear_stability_input, only: linear_stability_settings
    use netcdf_output, only: output_file
    use stability_changes, only: stability_change

@@ -1,8 +1,8 @@
 !> What to measure of the cases, from the namelist group &measure.
 module measure_input
    use dde, only: solver_methods => methods
-   use errors, only: error_type
-   use kinds, only: int64, wp
+   use dde_errors, only: error_type
+   use dde_kinds, only: int64, wp
    use measured_run, only: baseline_methods, run_type
    use namelist_input, only: check_choice, check_count, check_number, close_namelist, not_given, &
                              open_namelist, word_length

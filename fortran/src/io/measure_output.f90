@@ -1,7 +1,7 @@
 !> Files of measured runs: one row a run, with its samples.
 module measure_output
-   use errors, only: error_type
-   use kinds, only: wp
+   use dde_errors, only: error_type
+   use dde_kinds, only: wp
    use measured_case, only: case_type
    use measured_run, only: run_type
    use netcdf_output, only: output_file

@@ -1,8 +1,8 @@
 !> What all namelists share: opening the file and refusing values out of range in words.
 module namelist_input
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan, ieee_quiet_nan, ieee_value
-   use errors, only: error_type, raise, text
-   use kinds, only: wp
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: check_choice, check_count, check_number, close_namelist, not_given, open_namelist

@@ -1,8 +1,8 @@
 !> NetCDF-4 files that are whole or absent.
 module netcdf_output
    use, intrinsic :: iso_fortran_env, only: compiler_version
-   use errors, only: error_type, raise
-   use kinds, only: int64, wp
+   use dde_errors, only: error_type, raise
+   use dde_kinds, only: int64, wp
    use netcdf, only: nf90_char, nf90_close, nf90_create, nf90_def_dim, nf90_def_var, nf90_double, &
                      nf90_global, nf90_int, nf90_netcdf4, nf90_noclobber, nf90_noerr, &
                      nf90_put_att, nf90_put_var, nf90_strerror

@@ -2,8 +2,8 @@
 module observation_input
    use attractors, only: attractor_settings
    use dde, only: integration_options, methods
-   use errors, only: error_type, raise, text
-   use kinds, only: int64, wp
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: int64, wp
    use namelist_input, only: check_choice, check_count, check_number, close_namelist, not_given, &
                              open_namelist, word_length
    use spectrum_input, only: windows

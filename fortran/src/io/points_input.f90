@@ -4,8 +4,8 @@ module points_input
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use attractor_points, only: point_type
    use characteristic_function, only: block_parameters
-   use errors, only: error_type, raise, text
-   use kinds, only: wp
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: wp
    use namelist_input, only: check_count, check_number, close_namelist, not_given, open_namelist, &
                              word_length
    implicit none (type, external)

@@ -1,7 +1,7 @@
 !> The command line of every program: a namelist file and the path of the output.
 module program_arguments
    use, intrinsic :: iso_fortran_env, only: error_unit
-   use errors, only: error_type, raise
+   use dde_errors, only: error_type, raise
    use files, only: is_same_file
    use process, only: end_at_once
    use unfinished_file, only: check_place

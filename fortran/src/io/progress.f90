@@ -2,8 +2,8 @@
 !> a line every 5 %. Short programs say nothing.
 module progress
    use, intrinsic :: iso_fortran_env, only: error_unit
-   use errors, only: text
-   use kinds, only: int64, wp
+   use dde_errors, only: text
+   use dde_kinds, only: int64, wp
    use process, only: standard_error_is_terminal
    use progress_receivers, only: progress_receiver
    implicit none (type, external)

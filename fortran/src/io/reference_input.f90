@@ -1,8 +1,8 @@
 !> How references are computed, from the namelist group &reference.
 module reference_input
    use dde, only: methods
-   use errors, only: error_type
-   use kinds, only: int64, wp
+   use dde_errors, only: error_type
+   use dde_kinds, only: int64, wp
    use namelist_input, only: check_choice, check_count, check_number, close_namelist, not_given, &
                              open_namelist, word_length
    implicit none (type, external)

@@ -1,8 +1,8 @@
 !> Reference files: tables of text with 20 digits, more than a number in double precision holds.
 !> They are whole or absent.
 module reference_output
-   use errors, only: error_type
-   use kinds, only: wp
+   use dde_errors, only: error_type
+   use dde_kinds, only: wp
    use measured_case, only: case_type
    use measured_run, only: run_type
    use unfinished_file, only: unfinished_type

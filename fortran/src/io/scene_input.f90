@@ -1,8 +1,8 @@
 !> A scene: one parameter set of the delayed block, from the namelist group &scene.
 module scene_input
    use dde, only: methods
-   use errors, only: error_type, raise, text
-   use kinds, only: wp
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: wp
    use namelist_input, only: check_choice, check_number, close_namelist, not_given, open_namelist, &
                              word_length
    implicit none (type, external)

@@ -1,7 +1,7 @@
 !> What a spectrum is made from and how, from the namelist group &spectrum.
 module spectrum_input
-   use errors, only: error_type, raise
-   use kinds, only: wp
+   use dde_errors, only: error_type, raise
+   use dde_kinds, only: wp
    use namelist_input, only: check_choice, check_count, check_number, close_namelist, &
                              not_given, open_namelist, word_length
    implicit none (type, external)

@@ -1,8 +1,8 @@
 !> Spectrum files.
 module spectrum_output
    use base_frequencies, only: bases_type
-   use errors, only: error_type, text
-   use kinds, only: int64, wp
+   use dde_errors, only: error_type, text
+   use dde_kinds, only: int64, wp
    use netcdf_output, only: output_file
    use spectral_peaks, only: base_peak, combination_peak, harmonic_peak, other_peak, peak_type, &
                              second_base_peak

@@ -1,8 +1,8 @@
 !> Reading a trajectory file back.
 module trajectory_input
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use errors, only: error_type, raise
-   use kinds, only: wp
+   use dde_errors, only: error_type, raise
+   use dde_kinds, only: wp
    use netcdf, only: nf90_close, nf90_get_att, nf90_get_var, nf90_global, nf90_inq_dimid, &
                      nf90_inq_varid, nf90_inquire_dimension, nf90_noerr, nf90_nowrite, nf90_open, &
                      nf90_strerror

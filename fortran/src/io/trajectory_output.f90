@@ -2,8 +2,8 @@
 !> that the scene lists.
 module trajectory_output
    use dde, only: integration_result, sampler_type
-   use errors, only: error_type
-   use kinds, only: int64, wp
+   use dde_errors, only: error_type
+   use dde_kinds, only: int64, wp
    use netcdf_output, only: output_file
    use program_arguments, only: stop_on
    use progress, only: progress_type

@@ -4,10 +4,10 @@
 !> as when a workflow was killed and its programs live on, the last to begin does so: an older one
 !> finds nothing to rename, whenever it ends.
 module unfinished_file
-   use errors, only: error_type, raise, text
+   use dde_errors, only: error_type, raise, text
    use files, only: missing, occupied, place_of_file, reason_of, remove_file, remove_marked, &
                     rename_file, write_file
-   use kinds, only: int64
+   use dde_kinds, only: int64
    use process, only: number_of_process
    implicit none (type, external)
    private

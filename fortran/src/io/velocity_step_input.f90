@@ -1,8 +1,8 @@
 !> A velocity step and the friction law it tries, from the namelist group &velocity_step.
 module velocity_step_input
-   use errors, only: error_type
+   use dde_errors, only: error_type
    use friction_law, only: friction_parameters
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use namelist_input, only: check_count, check_number, not_given, open_namelist, close_namelist
    use velocity_step, only: step_protocol
    implicit none (type, external)

@@ -1,6 +1,6 @@
 !> Files of the response to velocity steps.
 module velocity_step_output
-   use errors, only: error_type
+   use dde_errors, only: error_type
    use friction_law, only: friction_coefficient, steady_state
    use netcdf_output, only: output_file
    use velocity_step, only: friction_response, step_protocol

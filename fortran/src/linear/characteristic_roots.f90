@@ -3,8 +3,8 @@
 !> det Delta(s), with so many nodes that twice as many change nothing.
 module characteristic_roots
    use delay_equation, only: linear_system
-   use errors, only: error_type, raise, text
-   use kinds, only: wp
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: wp
    use lapack, only: eigenvalues, solve
    implicit none (type, external)
    private

@@ -4,7 +4,7 @@
 !>
 !> and the second and third derivative forms of their right-hand side.
 module delay_equation
-   use kinds, only: wp
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: delay_equation_type, linear_system

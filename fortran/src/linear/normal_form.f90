@@ -1,8 +1,8 @@
 !> The normal form of a Hopf bifurcation of a delay equation.
 module normal_form
    use delay_equation, only: delay_equation_type
-   use errors, only: error_type
-   use kinds, only: wp
+   use dde_errors, only: error_type
+   use dde_kinds, only: wp
    use lapack, only: null_vectors, solve
    implicit none (type, external)
    private

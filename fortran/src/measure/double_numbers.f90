@@ -1,7 +1,7 @@
 !> Numbers that double precision holds. A program compiled in quadruple precision rounds its inputs
 !> to them, so that it solves the very problem that the program in double precision solves.
 module double_numbers
-   use kinds, only: wp
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: as_double, evenly_spaced

@@ -5,8 +5,8 @@ module fixed_step_rk4
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde, only: dde_problem_type, integration_result, reached_end, refused, sampler_type, &
                   value_not_finite
-   use errors, only: error_type, raise, text
-   use kinds, only: wp
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: integrate_rk4

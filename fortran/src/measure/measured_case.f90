@@ -2,7 +2,7 @@
 !> quantities are nondimensional.
 module measured_case
    use double_numbers, only: as_double, evenly_spaced
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use spring_block, only: spring_block_type
    implicit none (type, external)
    private

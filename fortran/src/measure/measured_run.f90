@@ -5,9 +5,9 @@ module measured_run
    use dde, only: integrate, integration_options, integration_result, reached_end, step_underflow, &
                   too_many_steps, value_not_finite
    use double_numbers, only: as_double
-   use errors, only: error_type
+   use dde_errors, only: error_type
    use fixed_step_rk4, only: integrate_rk4
-   use kinds, only: int64, wp
+   use dde_kinds, only: int64, wp
    use measured_case, only: case_type
    use progress_receivers, only: progress_receiver
    use spring_block, only: spring_block_type

@@ -1,7 +1,7 @@
 !> Samples in a table, and the extremes of ln v over a finer grid between them.
 module watching_sampler
    use dde, only: sampler_type
-   use kinds, only: wp
+   use dde_kinds, only: wp
    use progress_receivers, only: progress_receiver
    use spring_block, only: index_of_ln_v
    implicit none (type, external)

@@ -6,7 +6,7 @@
 module block_series
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use block_state, only: index_of_ln_v, index_of_theta, index_of_u, largest_ln_v, least_ln_v
-   use kinds, only: wp
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: series_of_block, slow_series_of_block

@@ -1,6 +1,6 @@
 !> The state of the block: where each quantity stands, and what the equations take.
 module block_state
-   use kinds, only: wp
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: index_of_ln_v, index_of_theta, index_of_u, largest_ln_v, least_ln_v

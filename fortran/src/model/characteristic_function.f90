@@ -5,7 +5,7 @@
 !>
 !> All quantities are nondimensional.
 module characteristic_function
-   use kinds, only: wp
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: block_parameters, delta, delta_by_s, delta_by_tau, relative_residual

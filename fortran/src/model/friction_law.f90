@@ -2,7 +2,7 @@
 !> velocity. SI units.
 module friction_law
    use dde, only: dde_problem_type
-   use kinds, only: wp
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: friction_parameters, friction_coefficient, steady_state, state_evolution

@@ -7,7 +7,7 @@
 !>
 !> All quantities are nondimensional.
 module hopf_condition
-   use kinds, only: wp
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: hopf_epsilon, hopf_tau, hopf_xi, partner_omega, printed_tau, two_pi

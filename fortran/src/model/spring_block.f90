@@ -5,7 +5,7 @@ module spring_block
    use block_series, only: series_of_block, slow_series_of_block
    use block_state, only: index_of_ln_v, index_of_theta, index_of_u, largest_ln_v, least_ln_v
    use dde, only: dde_problem_type
-   use kinds, only: wp
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: index_of_ln_v, index_of_theta, index_of_u, spring_block_type

@@ -1,0 +1,191 @@
+!> One step of the explicit pair 8(5,3) of Dormand and Prince (dde_explicit_stages) as method of
+!> steps: no longer than the shortest delay, so that all delayed values lie in the past.
+module dde_explicit_step
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+   use dde_explicit_stages, only: dense_coefficients, dense_places, dense_stages, error_853, &
+                                  evaluate, lanes, places, slope_count, take_stages
+   use dde_history, only: history_type
+   use dde_problem, only: dde_problem_type
+   use dde_step, only: step_type
+   use dde_tolerance, only: tolerance_type
+   use dde_kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: explicit_step_type
+
+   !> Length times rate of change above which stability limits a step.
+   real(wp), parameter :: limited_by_stability = 2.5_wp
+
+   !> Stages of the current step; components fill lane by lane, what is left of the last is zero.
+   type, extends(step_type) :: explicit_step_type
+      !> Slopes 1 to 13 of the step and 14 to 16 of its dense output, shape (lanes, blocks, 16)
+      real(wp), allocatable :: k(:, :, :)
+      !> State at the start of the step and at its end, shape (lanes, blocks)
+      real(wp), allocatable :: start(:, :), finish(:, :)
+      !> Argument of the current stage, and of the last of the step, shape (lanes, blocks)
+      real(wp), allocatable :: stage(:, :), last_stage(:, :)
+      !> Delayed values at `places` and `dense_places`
+      real(wp), allocatable :: delayed(:, :), dense_delayed(:, :)
+      !> Errors of the embedded methods of orders 3 and 5, shape (lanes, blocks)
+      real(wp), allocatable :: e3(:, :), e5(:, :)
+      !> Whether all slopes so far are finite
+      logical :: finite = .true.
+   contains
+      procedure :: attempt
+      procedure :: complete
+      procedure :: extend
+      procedure :: interpolant
+      procedure :: held_back
+      procedure :: advance
+   end type explicit_step_type
+
+   interface explicit_step_type
+      module procedure :: new_step
+   end interface explicit_step_type
+
+contains
+
+   !> Storage, and the state at the first instant.
+   pure function new_step(problem) result(step)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      type(explicit_step_type) :: step
+      integer :: blocks
+
+      step%name = "explicit"
+      step%order = 8
+      step%error_order = 8
+      step%nodes = real([0, 1, 0, 1, 0, 1, 0], wp)
+      blocks = (problem%n + lanes - 1)/lanes
+      allocate (step%k(lanes, blocks, slope_count), source=0.0_wp)
+      allocate (step%start(lanes, blocks), step%finish(lanes, blocks), source=0.0_wp)
+      allocate (step%stage(lanes, blocks), step%last_stage(lanes, blocks), source=0.0_wp)
+      allocate (step%e3(lanes, blocks), step%e5(lanes, blocks))
+      allocate (step%y(problem%n), step%y_new(problem%n), step%slope(problem%n))
+      allocate (step%scale(problem%n))
+      allocate (step%z(size(problem%lag), 1))
+      allocate (step%delayed(size(problem%lag), size(places)))
+      allocate (step%dense_delayed(size(problem%lag), size(dense_places)))
+      call problem%initial(step%y)
+   end function new_step
+
+   !> Try the step of length `h` from t; `error` is the 853 estimate in units of the tolerance
+   !> (step good when <= 1), or not finite where an evaluation was not.
+   pure subroutine attempt(self, problem, past, t, h, tolerance, error)
+      !> The step
+      class(explicit_step_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The past, facing this step
+      type(history_type), intent(inout) :: past
+      !> Start of the step
+      real(wp), intent(in) :: t
+      !> Length of the step
+      real(wp), intent(in) :: h
+      !> Tolerance of each component
+      type(tolerance_type), intent(in) :: tolerance
+      !> Estimated error in units of the tolerance
+      real(wp), intent(out) :: error
+
+      self%t = t
+      self%h = h
+      call copy(problem%n, self%y, self%start)
+      call copy(problem%n, self%slope, self%k)
+      call past%values(problem, h*places, self%delayed)
+      self%finite = all(ieee_is_finite(self%slope))
+      if (self%finite) then
+         call take_stages(problem, self%inside(t), h, self%inside(t + h), size(self%k, 2), &
+                          self%start, self%delayed, self%k, self%stage, self%last_stage, &
+                          self%finish, self%evaluations, self%finite)
+      end if
+      call copy(problem%n, self%finish, self%y_new)
+      error = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (.not. (self%finite .and. all(ieee_is_finite(self%y_new)))) return
+      self%scale = tolerance%absolute + tolerance%relative*max(abs(self%y), abs(self%y_new))
+      call error_853(problem%n, size(self%k, 2), self%k, h, self%scale, tolerance%level, self%e3, &
+                     self%e5, error)
+   end subroutine attempt
+
+   !> Copy n numbers; either side may be stored in lanes.
+   pure subroutine copy(n, from, to)
+      !> How many
+      integer, intent(in) :: n
+      !> Source
+      real(wp), intent(in) :: from(n)
+      !> Copy
+      real(wp), intent(inout) :: to(n)
+
+      to = from
+   end subroutine copy
+
+   !> Slope 13, at the end of an accepted step.
+   pure subroutine complete(self, problem, past)
+      !> The step
+      class(explicit_step_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The past, facing this step
+      type(history_type), intent(inout) :: past
+
+      call evaluate(problem, self%inside(self%t + self%h), self%y_new, &
+                    self%delayed(:, size(places)), self%k(:, :, 13), self%evaluations, self%finite)
+   end subroutine complete
+
+   !> Whether stability limits the step: its length times |k13 - k12| over the distance of their
+   !> arguments, both at the end of the step (Hairer and Wanner 1996, sec. IV.2), in units of the
+   !> tolerance.
+   pure logical function held_back(self) result(value)
+      !> The step
+      class(explicit_step_type), intent(in) :: self
+      real(wp) :: distance, rise
+      integer :: block, i, lane
+
+      distance = 0.0_wp
+      rise = 0.0_wp
+      do i = 1, size(self%scale)
+         lane = 1 + modulo(i - 1, lanes)
+         block = 1 + (i - 1)/lanes
+         rise = max(rise, abs(self%k(lane, block, 13) - self%k(lane, block, 12))/self%scale(i))
+         distance = max(distance, abs(self%finish(lane, block) - self%last_stage(lane, block)) &
+                                  /self%scale(i))
+      end do
+      value = self%h*rise > limited_by_stability*distance
+   end function held_back
+
+   !> The end of the step becomes the start of the next; its last slope serves as the first.
+   pure subroutine advance(self)
+      !> The step
+      class(explicit_step_type), intent(inout) :: self
+
+      self%y = self%y_new
+      call copy(size(self%y), self%k(:, :, 13), self%slope)
+   end subroutine advance
+
+   !> Slopes 14 to 16 of an accepted step.
+   pure subroutine extend(self, problem, past)
+      !> The step
+      class(explicit_step_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The past, facing this step
+      type(history_type), intent(inout) :: past
+
+      call past%values(problem, self%h*dense_places, self%dense_delayed)
+      call dense_stages(problem, self%t, self%h, size(self%k, 2), self%start, self%dense_delayed, &
+                        self%k, self%stage, self%evaluations, self%finite)
+   end subroutine extend
+
+   !> Dense output of component `i` over an accepted and extended step, before `advance`.
+   pure subroutine interpolant(self, i, a)
+      !> The step
+      class(explicit_step_type), intent(in) :: self
+      !> Which component
+      integer, intent(in) :: i
+      !> Newton coefficients over `nodes`
+      real(wp), contiguous, intent(out) :: a(0:)
+      real(wp) :: slopes(slope_count)
+
+      slopes = self%k(1 + modulo(i - 1, lanes), 1 + (i - 1)/lanes, :)
+      call dense_coefficients(slopes, self%h, self%y(i), self%y_new(i), a(0:7))
+   end subroutine interpolant
+end module dde_explicit_step

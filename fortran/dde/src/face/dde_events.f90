@@ -1,0 +1,231 @@
+!> Events are instants where a function of time, state and slope passes zero: the maxima of a
+!> component or its passages through a section. The integrator finds them on dense output and hands
+!> them over; which functions and what is done with an event is the watcher's.
+!>
+!> A function that stands off zero and then is at zero or beyond makes one event, at the first such
+!> instant. A zero at the first instant of a run is none. Where a function stays within the
+!> tolerance of zero, dense output may pass it though the solution does not.
+module dde_events
+   use dde_time, only: instant
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: event_table, event_watcher_type
+
+   !> Rows of a new table; it doubles.
+   integer, parameter :: first_rows = 64
+
+   !> Event functions, and the receiver of their events.
+   type, abstract :: event_watcher_type
+      !> Passages wanted of each function: -1 falling, 1 rising, 0 both
+      integer, allocatable :: direction(:)
+      !> Whether an event of each function ends the run
+      logical, allocatable :: terminal(:)
+      !> Longest time between two looks at the functions, besides those that each step takes: for
+      !> functions that change faster than the solution
+      real(wp) :: look_every = huge(1.0_wp)
+   contains
+      !> Refuse what cannot be watched
+      procedure :: check => check_directions
+      !> The event functions
+      procedure(event_values), deferred :: values
+      !> Receive an event
+      procedure(take_event), deferred :: take
+   end type event_watcher_type
+
+   abstract interface
+      !> All event functions at once; a value that is not finite is passed over.
+      pure subroutine event_values(self, t, y, slope, g)
+         import :: event_watcher_type, wp
+         implicit none (type, external)
+         !> The watcher
+         class(event_watcher_type), intent(in) :: self
+         !> Time
+         real(wp), intent(in) :: t
+         !> State, shape (n)
+         real(wp), intent(in) :: y(:)
+         !> Its time derivative, of dense output, shape (n)
+         real(wp), intent(in) :: slope(:)
+         !> The functions, shape (size(direction))
+         real(wp), intent(out) :: g(:)
+      end subroutine event_values
+
+      !> Receive an event; events come in order of time.
+      subroutine take_event(self, which, t, y, slope)
+         import :: event_watcher_type, instant, wp
+         implicit none (type, external)
+         !> The watcher
+         class(event_watcher_type), intent(inout) :: self
+         !> Number of the function
+         integer, intent(in) :: which
+         !> Its time: t%hi, and t%lo beyond its last digit
+         type(instant), intent(in) :: t
+         !> State there, shape (n)
+         real(wp), intent(in) :: y(:)
+         !> Its time derivative, shape (n)
+         real(wp), intent(in) :: slope(:)
+      end subroutine take_event
+   end interface
+
+   !> A table in memory of the passages of components, or of their slopes, through levels. With
+   !> functions of its own an extension has no need of `component`, `of_slope` and `level`.
+   type, extends(event_watcher_type) :: event_table
+      !> Component that each function looks at, 1..n
+      integer, allocatable :: component(:)
+      !> Whether it looks at the slope of the component: level 0 falling is a maximum
+      logical, allocatable :: of_slope(:)
+      !> Level that counts as zero
+      real(wp), allocatable :: level(:)
+      !> Number of events received
+      integer :: received = 0
+      !> When, shape (at least received)
+      type(instant), allocatable :: time(:)
+      !> Number of the function, shape (at least received)
+      integer, allocatable :: which(:)
+      !> State, shape (n, at least received)
+      real(wp), allocatable :: y(:, :)
+   contains
+      procedure :: check => check_table
+      procedure :: values => less_level
+      procedure :: take => take_row
+   end type event_table
+
+   interface event_table
+      module procedure :: new_table
+   end interface event_table
+
+contains
+
+   !> An empty table; not terminal and not of slopes where not said.
+   pure function new_table(component, level, direction, terminal, of_slope) result(table)
+      !> Component that each function looks at
+      integer, intent(in) :: component(:)
+      !> Level that counts as zero, one each
+      real(wp), intent(in) :: level(:)
+      !> Passages wanted: -1 falling, 1 rising, 0 both, one each
+      integer, intent(in) :: direction(:)
+      !> Whether an event ends the run, one each
+      logical, intent(in), optional :: terminal(:)
+      !> Whether it looks at the slope of the component, one each
+      logical, intent(in), optional :: of_slope(:)
+      type(event_table) :: table
+
+      allocate (table%component, source=component)
+      allocate (table%level, source=level)
+      allocate (table%direction, source=direction)
+      allocate (table%terminal(size(direction)), source=.false.)
+      allocate (table%of_slope(size(component)), source=.false.)
+      if (present(terminal)) table%terminal = terminal
+      if (present(of_slope)) table%of_slope = of_slope
+   end function new_table
+
+   !> Refuse directions and ends that cannot be.
+   pure subroutine check_directions(self, n, error)
+      !> The watcher
+      class(event_watcher_type), intent(in) :: self
+      !> Number of equations
+      integer, intent(in) :: n
+      !> What is wrong
+      type(error_type), allocatable, intent(out) :: error
+      integer :: i
+
+      if (.not. (allocated(self%direction) .and. allocated(self%terminal))) then
+         call raise(error, "integrate: direction and terminal of the watcher are not allocated; " &
+                    //"expected to be, one each for every event function")
+         return
+      end if
+      if (size(self%direction) /= size(self%terminal)) then
+         call raise(error, "integrate: "//text(size(self%direction))//" directions for " &
+                    //text(size(self%terminal))//" marks `terminal` of the watcher; as many " &
+                    //"expected")
+         return
+      end if
+      do i = 1, size(self%direction)
+         if (abs(self%direction(i)) <= 1) cycle
+         call raise(error, "integrate: direction("//text(i)//") = "//text(self%direction(i)) &
+                    //" of the watcher; -1 (falling), 1 (rising) or 0 (both) expected")
+         return
+      end do
+      if (self%look_every > 0.0_wp) return
+      call raise(error, "integrate: look_every = "//text(self%look_every) &
+                 //" of the watcher; a time > 0 expected")
+   end subroutine check_directions
+
+   !> Refuse levels of components that are not there.
+   pure subroutine check_table(self, n, error)
+      !> The table
+      class(event_table), intent(in) :: self
+      !> Number of equations
+      integer, intent(in) :: n
+      !> What is wrong
+      type(error_type), allocatable, intent(out) :: error
+      integer :: i
+
+      call check_directions(self, n, error)
+      if (allocated(error) .or. .not. allocated(self%component)) return
+      if (any([size(self%level), size(self%of_slope), size(self%direction)] &
+              /= size(self%component))) then
+         call raise(error, "integrate: "//text(size(self%component))//" components, " &
+                    //text(size(self%level))//" levels, "//text(size(self%direction)) &
+                    //" directions and "//text(size(self%of_slope))//" marks `of_slope` of the " &
+                    //"watcher; as many expected")
+         return
+      end if
+      do i = 1, size(self%component)
+         if (self%component(i) >= 1 .and. self%component(i) <= n) cycle
+         call raise(error, "integrate: component("//text(i)//") = "//text(self%component(i)) &
+                    //" of the watcher; 1.."//text(n)//" expected")
+         return
+      end do
+   end subroutine check_table
+
+   !> Components or slopes, less their levels.
+   pure subroutine less_level(self, t, y, slope, g)
+      !> The table
+      class(event_table), intent(in) :: self
+      !> Time, without influence
+      real(wp), intent(in) :: t
+      !> State
+      real(wp), intent(in) :: y(:)
+      !> Its time derivative
+      real(wp), intent(in) :: slope(:)
+      !> The functions
+      real(wp), intent(out) :: g(:)
+      integer :: i
+
+      do i = 1, size(g)
+         if (self%of_slope(i)) then
+            g(i) = slope(self%component(i)) - self%level(i)
+         else
+            g(i) = y(self%component(i)) - self%level(i)
+         end if
+      end do
+   end subroutine less_level
+
+   !> Fill the next row.
+   subroutine take_row(self, which, t, y, slope)
+      !> The table
+      class(event_table), intent(inout) :: self
+      !> Number of the function
+      integer, intent(in) :: which
+      !> When
+      type(instant), intent(in) :: t
+      !> State there
+      real(wp), intent(in) :: y(:)
+      !> Its time derivative, not kept
+      real(wp), intent(in) :: slope(:)
+
+      if (.not. allocated(self%time)) then
+         allocate (self%time(first_rows), self%which(first_rows), self%y(size(y), first_rows))
+      else if (self%received == size(self%time)) then
+         self%time = [self%time, self%time]
+         self%which = [self%which, self%which]
+         self%y = reshape([self%y, self%y], [size(y), 2*self%received])
+      end if
+      self%received = self%received + 1
+      self%time(self%received) = t
+      self%which(self%received) = which
+      self%y(:, self%received) = y
+   end subroutine take_row
+end module dde_events

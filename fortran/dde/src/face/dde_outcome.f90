@@ -1,0 +1,104 @@
+!> What an integration did, and why it ended.
+module dde_outcome
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use dde_request, only: integration_options
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: int64, wp
+   implicit none (type, external)
+   private
+   public :: explain, integration_result, limit_met
+   public :: event_met, reached_end, refused, step_underflow, too_many_steps, value_not_finite
+
+   !> Steps below this share of the time no longer move an instant.
+   real(wp), parameter :: least_step = 1.0e-140_wp
+
+   !> Why an integration ended.
+   enum, bind(c)
+      enumerator :: reached_end, event_met, refused, step_underflow, too_many_steps, &
+         value_not_finite
+   end enum
+
+   !> What an integration did.
+   type :: integration_result
+      !> Why it ended: reached_end, event_met, step_underflow, too_many_steps, value_not_finite or
+      !> refused
+      integer :: reason = refused
+      !> How far it came
+      real(wp) :: t = 0.0_wp
+      !> State there, shape (n)
+      real(wp), allocatable :: y(:)
+      !> Steps accepted
+      integer(int64) :: accepted = 0
+      !> Steps rejected
+      integer(int64) :: rejected = 0
+      !> Right-hand sides, or Taylor series, evaluated, those for differences included
+      integer(int64) :: evaluations = 0
+      !> Work as `auto` counts it, in evaluations of the explicit pair: evaluations as they cost in
+      !> each method, and linear systems
+      real(wp) :: work = 0.0_wp
+      !> Matrices factorised
+      integer(int64) :: factorisations = 0
+      !> Accepted steps that were implicit
+      integer(int64) :: implicit_steps = 0
+      !> Changes of method
+      integer(int64) :: switches = 0
+      !> Breaking points landed on
+      integer :: breaking_points = 0
+      !> Accepted steps that were shorter than the spacing of times: f was asked for at one time all
+      !> along
+      integer(int64) :: unresolved = 0
+   end type integration_result
+
+contains
+
+   !> The limit that forbids a further try, or `reached_end` when none does.
+   pure integer function limit_met(outcome, last_error, options, h, largest_time) result(reason)
+      !> Counts so far
+      type(integration_result), intent(in) :: outcome
+      !> Error estimate of the last try
+      real(wp), intent(in) :: last_error
+      !> Limits
+      type(integration_options), intent(in) :: options
+      !> Length of the coming try
+      real(wp), intent(in) :: h
+      !> Largest |t| of the integration
+      real(wp), intent(in) :: largest_time
+
+      reason = reached_end
+      if (h <= least_step*largest_time) then
+         reason = step_underflow
+         if (.not. ieee_is_finite(last_error)) reason = value_not_finite
+      else if (outcome%accepted + outcome%rejected >= options%most_steps) then
+         reason = too_many_steps
+      end if
+   end function limit_met
+
+   !> Say where and why an integration ended before its time.
+   pure subroutine explain(outcome, t_end, h, options, culprit, error)
+      !> What was done
+      type(integration_result), intent(in) :: outcome
+      !> Where it should have ended
+      real(wp), intent(in) :: t_end
+      !> Last step tried
+      real(wp), intent(in) :: h
+      !> Limits
+      type(integration_options), intent(in) :: options
+      !> Which value is not finite
+      character(len=*), intent(in) :: culprit
+      !> The error to set
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: why
+
+      select case (outcome%reason)
+      case (step_underflow)
+         why = "the step had to shrink to "//text(h)//", too small to move time; a singularity?"
+      case (too_many_steps)
+         why = text(options%most_steps)//" steps (most_steps) were used up"
+      case default
+         why = "a value is not finite at every step length down to "//text(h)//": "//culprit
+      end select
+      call raise(error, "integrate: stopped at t = "//text(outcome%t)//" of "//text(t_end) &
+                 //" after "//text(outcome%accepted)//" steps ("//text(outcome%rejected) &
+                 //" rejected): "//why)
+   end subroutine explain
+end module dde_outcome

@@ -1,0 +1,187 @@
+!> What a user of the solver writes: an initial value problem with constant delays,
+!>
+!>     dy/dt = f(t, y(t), z),   z(k) = y_c(k)(t - lag(k)),   y(t0) given,   y_c(t) given for t < t0.
+!>
+!> Extend `dde_problem_type`, fill `n`, `lag` and `component`, and write the three procedures.
+!> Without delays leave `lag` and `component` of size zero: no history is kept then.
+!> Optional are `jacobian`, or `lower` and `upper`, for the implicit methods, and `analytic` with
+!> `series` and `past_series`, without which there is no method `taylor`; beside these
+!> `relaxation_rate` and `slow_series`, with which it takes long steps where fast components are in
+!> balance.
+module dde_problem
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use dde_kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: dde_problem_type, not_given
+
+   !> What stands in a Jacobian that is not given.
+   real(wp), parameter :: not_given = -huge(1.0_wp)
+
+   !> A system of delay differential equations; its parameters are components of the extension.
+   type, abstract :: dde_problem_type
+      !> Number of equations
+      integer :: n = 0
+      !> Delay of each delayed value z(k), > 0
+      real(wp), allocatable :: lag(:)
+      !> Which component of y each delayed value z(k) is, 1..n
+      integer, allocatable :: component(:)
+      !> Where the Jacobian by y is banded: its diagonals below and above the main one; it is then
+      !> found by differences
+      integer :: lower = -1, upper = -1
+      !> Whether the extension gives `series` and `past_series`
+      logical :: analytic = .false.
+   contains
+      !> y at the first instant; may differ from the history there (a jump)
+      procedure(initial_state), deferred :: initial
+      !> One component before the first instant
+      procedure(past_value), deferred :: history
+      !> Right-hand side f(t, y, z)
+      procedure(right_hand_side), deferred :: rhs
+      !> Derivatives of f by y and z; by differences unless the extension gives them
+      procedure :: jacobian => no_jacobian
+      !> Taylor series of the solution
+      procedure :: series => no_series
+      !> Taylor series of one component before the first instant
+      procedure :: past_series => no_past_series
+      !> How fast the fast components come to a balance with the others
+      procedure :: relaxation_rate => no_relaxation
+      !> Taylor series of the solution on which they are in balance
+      procedure :: slow_series => no_slow_series
+   end type dde_problem_type
+
+   abstract interface
+      !> State at the first instant.
+      pure subroutine initial_state(self, y)
+         import :: dde_problem_type, wp
+         implicit none (type, external)
+         !> The problem
+         class(dde_problem_type), intent(in) :: self
+         !> y(t0), shape (n)
+         real(wp), intent(out) :: y(self%n)
+      end subroutine initial_state
+
+      !> Component `component` of y at time t <= t0 (t0 itself: the limit from the left).
+      pure function past_value(self, t, component) result(value)
+         import :: dde_problem_type, wp
+         implicit none (type, external)
+         !> The problem
+         class(dde_problem_type), intent(in) :: self
+         !> Time
+         real(wp), intent(in) :: t
+         !> Index into y, one of self%component
+         integer, intent(in) :: component
+         real(wp) :: value
+      end function past_value
+
+      !> Right-hand side; a value that is not finite makes the solver take a smaller step.
+      pure subroutine right_hand_side(self, t, y, z, dydt)
+         import :: dde_problem_type, wp
+         implicit none (type, external)
+         !> The problem
+         class(dde_problem_type), intent(in) :: self
+         !> Time
+         real(wp), intent(in) :: t
+         !> State, shape (n)
+         real(wp), intent(in) :: y(self%n)
+         !> Delayed values z(k) = y_component(k)(t - lag(k)), shape (size(lag))
+         real(wp), intent(in) :: z(size(self%lag))
+         !> dy/dt, shape (n)
+         real(wp), intent(out) :: dydt(self%n)
+      end subroutine right_hand_side
+   end interface
+
+contains
+
+   !> Derivatives of the right-hand side by y and z: `not_given` where the extension gives none.
+   pure subroutine no_jacobian(self, t, y, z, by_y, by_z)
+      !> The problem
+      class(dde_problem_type), intent(in) :: self
+      !> Time
+      real(wp), intent(in) :: t
+      !> State, shape (n)
+      real(wp), intent(in) :: y(self%n)
+      !> Delayed values, shape (size(lag))
+      real(wp), intent(in) :: z(size(self%lag))
+      !> Derivatives by y, shape (n, n)
+      real(wp), intent(out) :: by_y(self%n, self%n)
+      !> Derivatives by z, shape (n, size(lag))
+      real(wp), intent(out) :: by_z(self%n, size(self%lag))
+
+      by_y = not_given
+      by_z = not_given
+   end subroutine no_jacobian
+
+   !> Taylor series of the solution in powers of s = (t' - t)/unit: since dy/ds = unit f,
+   !> coefficient k + 1 of y is unit/(k + 1) times coefficient k of f. Not a number where the
+   !> extension gives none.
+   pure subroutine no_series(self, t, unit, degree, z, y)
+      !> The problem
+      class(dde_problem_type), intent(in) :: self
+      !> Time
+      real(wp), intent(in) :: t
+      !> Unit of time of the powers
+      real(wp), intent(in) :: unit
+      !> Degree of the series
+      integer, intent(in) :: degree
+      !> Coefficients of the delayed values
+      real(wp), intent(in) :: z(0:degree, size(self%lag))
+      !> Coefficients of the solution; y(0, :) is given, the state at t
+      real(wp), intent(inout) :: y(0:degree, self%n)
+
+      y(1:, :) = ieee_value(1.0_wp, ieee_quiet_nan)
+   end subroutine no_series
+
+   !> Taylor series of one component, as it was before the first instant, in powers of
+   !> (t' - t)/unit. Not a number where the extension gives none.
+   pure subroutine no_past_series(self, t, component, unit, y)
+      !> The problem
+      class(dde_problem_type), intent(in) :: self
+      !> Time, at which the series begins
+      real(wp), intent(in) :: t
+      !> Index into y, one of self%component
+      integer, intent(in) :: component
+      !> Unit of time of the powers
+      real(wp), intent(in) :: unit
+      !> Coefficients, shape (0:degree)
+      real(wp), intent(out) :: y(0:)
+
+      y = ieee_value(1.0_wp, ieee_quiet_nan)
+   end subroutine no_past_series
+
+   !> Rate at which fast components come to a balance with the others, wherever they start:
+   !> y_c' = rate (balance - y_c) near it. 0 where the extension knows of none.
+   pure function no_relaxation(self, t, y) result(rate)
+      !> The problem
+      class(dde_problem_type), intent(in) :: self
+      !> Time
+      real(wp), intent(in) :: t
+      !> State, shape (n)
+      real(wp), intent(in) :: y(self%n)
+      !> The rate, in units of one over time
+      real(wp) :: rate
+
+      rate = 0.0_wp
+   end function no_relaxation
+
+   !> A better series of the slow solution, by one step of the iteration of Fraser (1988, "The
+   !> steady state and equilibrium approximations: A geometrical picture", J. Chem. Phys. 88, 4732):
+   !> fast components, their values at t included, are the balance less y_c'/rate with y_c' as it
+   !> was, and the others follow as in `series`. Not a number where the extension gives none.
+   pure subroutine no_slow_series(self, t, unit, degree, z, y)
+      !> The problem
+      class(dde_problem_type), intent(in) :: self
+      !> Time
+      real(wp), intent(in) :: t
+      !> Unit of time of the powers
+      real(wp), intent(in) :: unit
+      !> Degree of the series
+      integer, intent(in) :: degree
+      !> Coefficients of the delayed values
+      real(wp), intent(in) :: z(0:degree, size(self%lag))
+      !> Coefficients as they were, at first the state at t and zeros; better ones
+      real(wp), intent(inout) :: y(0:degree, self%n)
+
+      y = ieee_value(1.0_wp, ieee_quiet_nan)
+   end subroutine no_slow_series
+end module dde_problem

@@ -1,0 +1,287 @@
+!> What a caller asks of an integration, and the refusal of what cannot be done.
+module dde_request
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
+   use dde_continuation, only: continuation_type
+   use dde_events, only: event_watcher_type
+   use dde_kinks, only: kink_type
+   use dde_lapack, only: lapack_is_there
+   use dde_problem, only: dde_problem_type
+   use dde_sampler, only: sampler_type
+   use dde_time, only: elapsed, instant, instant_at
+   use dde_tolerance, only: tolerance_type
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: int64, wp
+   implicit none (type, external)
+   private
+   public :: causes, check, implicit_methods, integration_options, methods, tolerance_of
+
+   !> Methods to choose from: `taylor` is for problems that give their series; `auto` changes
+   !> between it, or the explicit pair for other problems, and one of the implicit ones.
+   character(len=8), parameter :: implicit_methods(3) = ["radau5  ", "radau9  ", "radau13 "]
+   character(len=8), parameter :: methods(6) = [character(len=8) :: "auto", "explicit", "taylor", &
+                                                implicit_methods]
+
+   !> What a caller may choose.
+   type :: integration_options
+      !> One of `methods`
+      character(len=8) :: method = "auto"
+      !> Relative tolerance of one step
+      real(wp) :: relative = 1.0e-9_wp
+      !> Absolute tolerance of one step
+      real(wp) :: absolute = 1.0e-9_wp
+      !> Relative and absolute tolerance of each component, in place of those, shape (n)
+      real(wp), allocatable :: each_relative(:), each_absolute(:)
+      !> Length of the first step; chosen by the solver when 0
+      real(wp) :: first_step = 0.0_wp
+      !> Longest step
+      real(wp) :: longest_step = huge(1.0_wp)
+      !> Most steps, accepted and rejected
+      integer(int64) :: most_steps = 100000000_int64
+      !> Times at which the right-hand side jumps, or the history before the first instant, in any
+      !> order: steps end there
+      real(wp), allocatable :: break_at(:)
+   end type integration_options
+
+contains
+
+   !> The tolerances of all components.
+   pure type(tolerance_type) function tolerance_of(problem, options) result(tolerance)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> What the caller chose
+      type(integration_options), intent(in) :: options
+
+      tolerance = tolerance_type(problem%n, options%relative, options%absolute, &
+                                 options%each_relative, options%each_absolute)
+   end function tolerance_of
+
+   !> The jumps that the user gave: of the history before the first instant, of the right-hand side
+   !> after it.
+   pure function causes(options, origin) result(kinks)
+      !> Where they are
+      type(integration_options), intent(in) :: options
+      !> First instant of the first run
+      type(instant), intent(in) :: origin
+      type(kink_type), allocatable :: kinks(:)
+
+      allocate (kinks(0))
+      if (.not. allocated(options%break_at)) return
+      deallocate (kinks)
+      allocate (kinks(size(options%break_at)))
+      kinks%at = instant_at(options%break_at)
+      kinks%passages = merge(-1, 0, options%break_at < origin%hi)
+   end function causes
+
+   !> Refuse what cannot be integrated.
+   pure subroutine check(problem, t_start, t_end, options, error, sampler, watcher, continuation)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> First instant
+      real(wp), intent(in) :: t_start
+      !> Last instant
+      real(wp), intent(in) :: t_end
+      !> Method, tolerances and limits
+      type(integration_options), intent(in) :: options
+      !> What is wrong
+      type(error_type), allocatable, intent(out) :: error
+      !> Receiver of samples
+      class(sampler_type), intent(in), optional :: sampler
+      !> Receiver of events
+      class(event_watcher_type), intent(in), optional :: watcher
+      !> Where an earlier run ended
+      type(continuation_type), intent(in), optional :: continuation
+      logical :: goes_on
+
+      call check_problem(problem, error)
+      if (.not. allocated(error)) call check_span(t_start, t_end, error, continuation)
+      if (.not. allocated(error)) call check_options(problem, options, error)
+      goes_on = .false.
+      if (present(continuation)) goes_on = allocated(continuation%y)
+      if (present(sampler) .and. .not. allocated(error)) then
+         call sampler%check(problem%n, t_start, goes_on, error)
+      end if
+      if (present(watcher) .and. .not. allocated(error)) call watcher%check(problem%n, error)
+      if (present(continuation) .and. .not. allocated(error)) then
+         call continuation%check(problem, t_start, error)
+      end if
+   end subroutine check
+
+   !> Refuse a problem that is not one.
+   pure subroutine check_problem(problem, error)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> What is wrong
+      type(error_type), allocatable, intent(out) :: error
+      integer :: k
+
+      if (problem%n < 1) then
+         call raise(error, "integrate: n = "//text(problem%n)//" equations; at least 1 expected")
+      else if (.not. (allocated(problem%lag) .and. allocated(problem%component))) then
+         call raise(error, "integrate: lag and component are not allocated; expected to be, of " &
+                    //"size 0 without delays")
+      else if (size(problem%lag) /= size(problem%component)) then
+         call raise(error, "integrate: "//text(size(problem%lag))//" delays for " &
+                    //text(size(problem%component))//" delayed components; as many expected")
+      else if (problem%lower < 0 .neqv. problem%upper < 0) then
+         call raise(error, "integrate: lower = "//text(problem%lower)//", upper = " &
+                    //text(problem%upper)//"; both >= 0 expected (a banded Jacobian), or neither")
+      else if (problem%lower >= 0 .and. .not. lapack_is_there) then
+         call raise(error, "integrate: lower = "//text(problem%lower)//" (a banded Jacobian) " &
+                    //"in a build without LAPACK; lower and upper < 0 expected")
+      end if
+      if (allocated(error)) return
+      do k = 1, size(problem%lag)
+         if (.not. positive(problem%lag(k))) then
+            call raise(error, "integrate: lag("//text(k)//") = "//text(problem%lag(k)) &
+                       //"; finite and > 0 expected")
+         else if (problem%component(k) < 1 .or. problem%component(k) > problem%n) then
+            call raise(error, "integrate: component("//text(k)//") = " &
+                       //text(problem%component(k))//"; 1.."//text(problem%n)//" expected")
+         end if
+         if (allocated(error)) return
+      end do
+   end subroutine check_problem
+
+   !> Refuse a span that is none; a run that goes on starts where the other ended, to the last bit.
+   pure subroutine check_span(t_start, t_end, error, continuation)
+      !> First instant
+      real(wp), intent(in) :: t_start
+      !> Last instant
+      real(wp), intent(in) :: t_end
+      !> What is wrong
+      type(error_type), allocatable, intent(out) :: error
+      !> Where an earlier run ended
+      type(continuation_type), intent(in), optional :: continuation
+      type(instant) :: start
+
+      if (all(ieee_is_finite([t_start, t_end]))) then
+         start = instant_at(t_start)
+         if (present(continuation)) then
+            if (allocated(continuation%y)) start%lo = continuation%time(2)
+         end if
+         if (elapsed(start, instant_at(t_end)) >= 0.0_wp) return
+      end if
+      call raise(error, "integrate: t_end = "//text(t_end)//"; finite and >= "//text(t_start) &
+                 //" expected")
+   end subroutine check_span
+
+   !> Refuse tolerances, limits and a method that there cannot be.
+   pure subroutine check_options(problem, options, error)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Method, tolerances and limits
+      type(integration_options), intent(in) :: options
+      !> What is wrong
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: names
+      integer :: i
+
+      if (.not. ((positive(options%relative) .or. is_zero(options%relative)) &
+                 .and. positive(options%absolute))) then
+         call raise(error, "integrate: tolerances relative = "//text(options%relative) &
+                    //", absolute = "//text(options%absolute) &
+                    //"; finite, >= 0 and > 0 expected")
+      else if (allocated(options%each_relative) .or. allocated(options%each_absolute)) then
+         call check_each(problem%n, options, error)
+      end if
+      if (allocated(error)) return
+      if (.not. (positive(options%first_step) .or. is_zero(options%first_step))) then
+         call raise(error, "integrate: first_step = "//text(options%first_step) &
+                    //"; finite and >= 0 expected (0: chosen by the solver)")
+      else if (.not. above_zero(options%longest_step)) then
+         call raise(error, "integrate: longest_step = "//text(options%longest_step) &
+                    //"; > 0 expected")
+      else if (all(options%method /= methods)) then
+         names = trim(methods(1))
+         do i = 2, size(methods)
+            names = names//", "//trim(methods(i))
+         end do
+         call raise(error, "integrate: method = '"//trim(options%method)//"'; one of "//names &
+                    //" expected")
+      else if (options%method == "taylor" .and. .not. problem%analytic) then
+         call raise(error, "integrate: method = 'taylor' for a problem that gives no Taylor " &
+                    //"series (analytic = .false.); another method expected")
+      else if (allocated(options%break_at)) then
+         do i = 1, size(options%break_at)
+            if (ieee_is_finite(options%break_at(i))) cycle
+            call raise(error, "integrate: break_at("//text(i)//") = "//text(options%break_at(i)) &
+                       //"; a finite time expected")
+            return
+         end do
+      end if
+   end subroutine check_options
+
+   !> Refuse tolerances of components that there cannot be.
+   pure subroutine check_each(n, options, error)
+      !> Number of equations
+      integer, intent(in) :: n
+      !> What the caller chose
+      type(integration_options), intent(in) :: options
+      !> What is wrong
+      type(error_type), allocatable, intent(out) :: error
+
+      if (allocated(options%each_relative)) then
+         call check_list(n, "each_relative", options%each_relative, ">= 0", &
+                         positive(options%each_relative) .or. is_zero(options%each_relative), error)
+      end if
+      if (allocated(options%each_absolute) .and. .not. allocated(error)) then
+         call check_list(n, "each_absolute", options%each_absolute, "> 0", &
+                         positive(options%each_absolute), error)
+      end if
+   end subroutine check_each
+
+   !> Refuse a list of tolerances that has another size, or one that cannot be.
+   pure subroutine check_list(n, name, values, range, allowed, error)
+      !> Number of equations
+      integer, intent(in) :: n
+      !> Name of the list
+      character(len=*), intent(in) :: name
+      !> The list
+      real(wp), intent(in) :: values(:)
+      !> What is allowed
+      character(len=*), intent(in) :: range
+      !> Which of them are, shape of values
+      logical, intent(in) :: allowed(:)
+      !> What is wrong
+      type(error_type), allocatable, intent(out) :: error
+      integer :: i
+
+      if (size(values) /= n) then
+         call raise(error, "integrate: "//text(size(values))//" tolerances "//name//" for " &
+                    //text(n)//" equations; as many expected")
+         return
+      end if
+      do i = 1, n
+         if (allowed(i)) cycle
+         call raise(error, "integrate: "//name//"("//text(i)//") = "//text(values(i)) &
+                    //"; finite and "//range//" expected")
+         return
+      end do
+   end subroutine check_list
+
+   !> Whether a number is finite and > 0.
+   elemental logical function positive(x) result(value)
+      !> The number
+      real(wp), intent(in) :: x
+
+      value = above_zero(x) .and. ieee_is_finite(x)
+   end function positive
+
+   !> Whether a number is > 0, infinite or not.
+   elemental logical function above_zero(x) result(value)
+      !> The number
+      real(wp), intent(in) :: x
+
+      value = .false.
+      if (.not. ieee_is_nan(x)) value = x > 0.0_wp
+   end function above_zero
+
+   !> Whether a number is 0.
+   elemental logical function is_zero(x) result(value)
+      !> The number
+      real(wp), intent(in) :: x
+
+      value = .false.
+      if (ieee_is_finite(x)) value = .not. abs(x) > 0.0_wp
+   end function is_zero
+end module dde_request

@@ -1,0 +1,58 @@
+!> Time that does not lose small steps: an unevaluated sum of two numbers, so that a step far
+!> below spacing(t) still moves it (error-free sums of Knuth and Dekker).
+module dde_time
+   use dde_kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: instant, elapsed, instant_at, later
+
+   !> A point in time, hi + lo with |lo| at most half a unit in the last place of hi.
+   type :: instant
+      !> Leading part: the time as an ordinary number
+      real(wp) :: hi = 0.0_wp
+      !> What rounding took from it
+      real(wp) :: lo = 0.0_wp
+   end type instant
+
+contains
+
+   !> The instant of an ordinary number.
+   elemental function instant_at(time) result(point)
+      !> Time
+      real(wp), intent(in) :: time
+      type(instant) :: point
+
+      point = instant(hi=time, lo=0.0_wp)
+   end function instant_at
+
+   !> The instant `step` after `point` (before it where step is negative).
+   elemental function later(point, step) result(moved)
+      !> Where to start
+      type(instant), intent(in) :: point
+      !> Signed distance
+      real(wp), intent(in) :: step
+      type(instant) :: moved
+      real(wp) :: total, part, rest
+
+      total = point%hi + step
+      part = total - point%hi
+      rest = (point%hi - (total - part)) + (step - part) + point%lo
+      moved%hi = total + rest
+      moved%lo = rest - (moved%hi - total)
+   end function later
+
+   !> Signed time from one instant to another.
+   elemental function elapsed(from, to) result(span)
+      !> Start
+      type(instant), intent(in) :: from
+      !> End
+      type(instant), intent(in) :: to
+      real(wp) :: span
+      real(wp) :: difference, part, rest
+
+      difference = to%hi - from%hi
+      part = difference - to%hi
+      rest = (to%hi - (difference - part)) - (from%hi + part)
+      span = difference + (rest + (to%lo - from%lo))
+   end function elapsed
+end module dde_time

@@ -1,0 +1,77 @@
+!> What the error of one step may be: of component i, absolute(i) + relative(i) |y(i)|.
+module dde_tolerance
+   use dde_kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: tolerance_type
+
+   !> Bounds of `level`: no method can use a tolerance below the rounding of numbers, nor one that
+   !> asks for no digit.
+   real(wp), parameter :: least_level = epsilon(1.0_wp), most_level = 1.0_wp
+
+   !> The tolerance of all components.
+   type :: tolerance_type
+      !> Relative and absolute tolerance, shape (n)
+      real(wp), allocatable :: relative(:), absolute(:)
+      !> The largest of all of them: the digits that are asked for
+      real(wp) :: level = 0.0_wp
+   contains
+      !> Tolerances for a state
+      procedure :: scale
+      !> Tolerance of one component
+      procedure :: of_component
+   end type tolerance_type
+
+   interface tolerance_type
+      module procedure :: new_tolerance
+   end interface tolerance_type
+
+contains
+
+   !> Scalars hold for all components, lists for one each.
+   pure function new_tolerance(n, relative, absolute, each_relative, each_absolute) &
+      result(tolerance)
+      !> Number of equations
+      integer, intent(in) :: n
+      !> Relative tolerance
+      real(wp), intent(in) :: relative
+      !> Absolute tolerance
+      real(wp), intent(in) :: absolute
+      !> Relative tolerances in its place, shape (n)
+      real(wp), intent(in), optional :: each_relative(:)
+      !> Absolute tolerances in its place, shape (n)
+      real(wp), intent(in), optional :: each_absolute(:)
+      type(tolerance_type) :: tolerance
+
+      allocate (tolerance%relative(n), source=relative)
+      allocate (tolerance%absolute(n), source=absolute)
+      if (present(each_relative)) tolerance%relative = each_relative
+      if (present(each_absolute)) tolerance%absolute = each_absolute
+      tolerance%level = max(maxval(tolerance%relative), maxval(tolerance%absolute))
+      tolerance%level = min(most_level, max(least_level, tolerance%level))
+   end function new_tolerance
+
+   !> Tolerances for a state.
+   pure subroutine scale(self, y, values)
+      !> The tolerance
+      class(tolerance_type), intent(in) :: self
+      !> State, shape (n)
+      real(wp), contiguous, intent(in) :: y(:)
+      !> Tolerance of each component, shape (n)
+      real(wp), contiguous, intent(out) :: values(:)
+
+      values = self%absolute + self%relative*abs(y)
+   end subroutine scale
+
+   !> Tolerance of one component.
+   pure real(wp) function of_component(self, i, value) result(tolerance)
+      !> The tolerance
+      class(tolerance_type), intent(in) :: self
+      !> Which component
+      integer, intent(in) :: i
+      !> Its value
+      real(wp), intent(in) :: value
+
+      tolerance = self%absolute(i) + self%relative(i)*abs(value)
+   end function of_component
+end module dde_tolerance

@@ -1,0 +1,291 @@
+!> Breaking points: where a kink (or jump) comes back through the delays, one derivative smoother at
+!> each passage (Bellen and Zennaro 2003, "Numerical Methods for Delay Differential Equations",
+!> sec. 2.2). They are made as the run goes on, by the points that it lands on.
+!>
+!> The run lands on all points of the first generation. A later one that would cut a step to less
+!> than half is landed on as long as few such were, and else passed over: the error estimate of
+!> the step judges its kink, and where the step is accepted the kink is below the tolerance, and so
+!> are the smoother ones that would come of it.
+module dde_breaking_points
+   use dde_kinks, only: kink_type, merged, same_point, sorted
+   use dde_time, only: elapsed, instant, later
+   use dde_kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: breaking_points, stretch
+
+   !> A step that is this share shorter than proposed is short.
+   real(wp), parameter :: short = 0.5_wp
+   !> A step may end this much later than proposed to end at a point.
+   real(wp), parameter :: stretch = 1.01_wp
+   !> Points awaited beyond which no more of a later generation are: they lie too close to land on.
+   integer, parameter :: most_awaited = 1000
+   !> Passages and generation of an end that is no kink.
+   integer, parameter :: no_kink = huge(1)
+
+   !> The kinks of a run.
+   type :: breaking_points
+      !> Those that a delay may bring back, ascending
+      type(kink_type), allocatable :: met(:)
+      !> Those to come, ascending; the last is the end of the run
+      type(kink_type), allocatable, private :: ahead(:)
+      !> The next of them, and the next that must be landed on
+      integer, private :: next = 1, due = 1
+      !> Delays
+      real(wp), allocatable, private :: lag(:)
+      !> First instant, from which rounding is measured
+      type(instant), private :: origin
+      !> Passages after which a kink is smoother than the method can see
+      integer, private :: most_passages = 0
+      !> Short steps that the run may still take, and at most
+      integer, private :: credit = 0, most_credit = 0
+   contains
+      !> Begin a run with the kinks so far and those that the user gave
+      procedure :: begin
+      !> Add a kink here
+      procedure :: add
+      !> The point that a step should head for
+      procedure :: goal
+      !> Its instant
+      procedure :: at
+      !> Whether a point is the end of the run
+      procedure :: is_end
+      !> Whether the right-hand side may jump at a point
+      procedure :: is_cause
+      !> Time to the next point, landed on or not
+      procedure :: smooth
+      !> Time to the end of the run
+      procedure :: left
+      !> Land on a point
+      procedure :: land
+      !> Go on by a step that lands on none
+      procedure :: pass
+      !> Drop what no delay can bring back
+      procedure :: forget
+      procedure, private :: await, bring_back, find_due
+   end type breaking_points
+
+contains
+
+   !> Begin a run.
+   pure subroutine begin(self, kinks, origin, now, finish, lag, most_passages)
+      !> The points
+      class(breaking_points), intent(inout) :: self
+      !> Kinks so far and to come, in any order
+      type(kink_type), intent(in) :: kinks(:)
+      !> First instant of the first run
+      type(instant), intent(in) :: origin
+      !> The run stands here
+      type(instant), intent(in) :: now
+      !> Its end
+      type(instant), intent(in) :: finish
+      !> Delays, > 0
+      real(wp), intent(in) :: lag(:)
+      !> Passages after which a kink is smoother than the method can see
+      integer, intent(in) :: most_passages
+      type(kink_type), allocatable :: all_kinks(:)
+      integer :: i
+
+      self%origin = origin
+      self%most_passages = most_passages
+      self%most_credit = 2*most_passages
+      self%credit = self%most_credit
+      self%lag = lag
+      self%ahead = [kink_type(finish, no_kink, no_kink)]
+      all_kinks = sorted(kinks, origin)
+      self%met = pack(all_kinks, elapsed(all_kinks%at, now) >= 0.0_wp)
+      call self%await(pack(all_kinks, elapsed(all_kinks%at, now) < 0.0_wp), now)
+      do i = 1, size(self%met)
+         call self%bring_back(self%met(i), now)
+      end do
+      call self%find_due()
+   end subroutine begin
+
+   !> Add a kink here.
+   pure subroutine add(self, kink)
+      !> The points
+      class(breaking_points), intent(inout) :: self
+      !> The kink
+      type(kink_type), intent(in) :: kink
+
+      self%met = merged(self%met, [kink], self%origin)
+      call self%bring_back(kink, kink%at)
+      call self%find_due()
+   end subroutine add
+
+   !> What becomes of a kink, each delay later, after `now` and before the end.
+   pure subroutine bring_back(self, kink, now)
+      !> The points
+      class(breaking_points), intent(inout) :: self
+      !> The kink
+      type(kink_type), intent(in) :: kink
+      !> The run stands here
+      type(instant), intent(in) :: now
+      type(kink_type), allocatable :: children(:)
+
+      if (kink%passages >= self%most_passages) return
+      if (kink%generation > 0 .and. size(self%ahead) - self%next >= most_awaited) return
+      allocate (children(size(self%lag)))
+      children%at = later(kink%at, self%lag)
+      children%passages = kink%passages + 1
+      children%generation = kink%generation + 1
+      call self%await(sorted(children, self%origin), now)
+   end subroutine bring_back
+
+   !> Take in points to come, as far as they lie after `now` and not after the end.
+   pure subroutine await(self, points, now)
+      !> The points
+      class(breaking_points), intent(inout) :: self
+      !> Points, ascending
+      type(kink_type), intent(in) :: points(:)
+      !> The run stands here
+      type(instant), intent(in) :: now
+      type(kink_type), allocatable :: awaited(:)
+
+      associate (finish => self%ahead(size(self%ahead))%at)
+         awaited = points
+         where (abs(elapsed(finish, awaited%at)) <= same_point*elapsed(self%origin, finish))
+            awaited%at%hi = finish%hi
+            awaited%at%lo = finish%lo
+         end where
+         awaited = pack(awaited, elapsed(awaited%at, finish) >= 0.0_wp .and. elapsed(now, &
+                        awaited%at) > same_point*elapsed(self%origin, awaited%at))
+      end associate
+      if (size(awaited) == 0) return
+      self%ahead = merged(self%ahead(self%next:), awaited, self%origin)
+      self%next = 1
+   end subroutine await
+
+   !> The first point that must be landed on.
+   pure subroutine find_due(self)
+      !> The points
+      class(breaking_points), intent(inout) :: self
+
+      self%due = self%next
+      do while (self%ahead(self%due)%generation > 1 .and. self%due < size(self%ahead))
+         self%due = self%due + 1
+      end do
+   end subroutine find_due
+
+   !> Number of the point that a step of proposed length `h` should head for.
+   pure integer function goal(self, now, h) result(number)
+      !> The points
+      class(breaking_points), intent(in) :: self
+      !> The run stands here
+      type(instant), intent(in) :: now
+      !> Length proposed
+      real(wp), intent(in) :: h
+      integer :: i
+      real(wp) :: gap
+
+      if (self%credit > 0) then
+         number = self%next
+         return
+      end if
+      number = self%due
+      do i = self%next, self%due - 1
+         gap = elapsed(now, self%ahead(i)%at)
+         if (gap > stretch*h) exit
+         if (gap >= short*h) number = i
+      end do
+   end function goal
+
+   !> The instant of a point.
+   pure type(instant) function at(self, number) result(point)
+      !> The points
+      class(breaking_points), intent(in) :: self
+      !> Its number
+      integer, intent(in) :: number
+
+      point = self%ahead(number)%at
+   end function at
+
+   !> Whether a point is the end of the run.
+   pure logical function is_end(self, number) result(value)
+      !> The points
+      class(breaking_points), intent(in) :: self
+      !> Its number
+      integer, intent(in) :: number
+
+      value = number == size(self%ahead)
+   end function is_end
+
+   !> Whether the right-hand side may jump at a point.
+   pure logical function is_cause(self, number) result(value)
+      !> The points
+      class(breaking_points), intent(in) :: self
+      !> Its number
+      integer, intent(in) :: number
+
+      value = self%ahead(number)%generation == 0
+   end function is_cause
+
+   !> Time to the next point, landed on or not.
+   pure real(wp) function smooth(self, now) result(time)
+      !> The points
+      class(breaking_points), intent(in) :: self
+      !> The run stands here
+      type(instant), intent(in) :: now
+
+      time = elapsed(now, self%ahead(self%next)%at)
+   end function smooth
+
+   !> Time to the end of the run.
+   pure real(wp) function left(self, now) result(time)
+      !> The points
+      class(breaking_points), intent(in) :: self
+      !> The run stands here
+      type(instant), intent(in) :: now
+
+      time = elapsed(now, self%ahead(size(self%ahead))%at)
+   end function left
+
+   !> Land on a point.
+   pure subroutine land(self, number, proposed, h)
+      !> The points
+      class(breaking_points), intent(inout) :: self
+      !> Its number
+      integer, intent(in) :: number
+      !> Length proposed for the step
+      real(wp), intent(in) :: proposed
+      !> Its length
+      real(wp), intent(in) :: h
+      type(kink_type) :: here
+
+      here = self%ahead(number)
+      if (number < self%due .and. h < short*proposed) self%credit = max(0, self%credit - 1)
+      if (.not. self%is_end(number)) self%next = number + 1
+      if (here%passages == no_kink) return
+      self%met = [self%met, here]
+      if (self%is_end(number)) return
+      call self%bring_back(here, here%at)
+      call self%find_due()
+   end subroutine land
+
+   !> Go on by a step that lands on no point.
+   pure subroutine pass(self, now)
+      !> The points
+      class(breaking_points), intent(inout) :: self
+      !> The run stands here
+      type(instant), intent(in) :: now
+
+      self%credit = min(self%credit + 1, self%most_credit)
+      do while (self%next < self%due)
+         if (elapsed(now, self%ahead(self%next)%at) > 0.0_wp) exit
+         self%next = self%next + 1
+      end do
+   end subroutine pass
+
+   !> Drop the kinks that no delay can bring back any more.
+   pure subroutine forget(self, horizon)
+      !> The points
+      class(breaking_points), intent(inout) :: self
+      !> Nothing before this instant will be asked for
+      type(instant), intent(in) :: horizon
+
+      if (size(self%met) == 0) return
+      if (elapsed(self%met(1)%at, horizon) > 0.0_wp) then
+         self%met = pack(self%met, elapsed(self%met%at, horizon) <= 0.0_wp)
+      end if
+   end subroutine forget
+end module dde_breaking_points

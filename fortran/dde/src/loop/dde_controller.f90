@@ -1,0 +1,106 @@
+!> From the error of one step to the size of the next: proportional-integral control after
+!> Gustafsson (Hairer and Wanner 1996, "Solving Ordinary Differential Equations II", sec. IV.2).
+module dde_controller
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use dde_step, only: step_type
+   use dde_kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: controller_type
+
+   !> Share of the last accepted error in the next step (integral part).
+   real(wp), parameter :: beta = 0.04_wp
+   !> Bounds on the ratio of one step to the one before.
+   real(wp), parameter :: least_ratio = 1.0_wp/3.0_wp, most_ratio = 6.0_wp
+   !> Where a step is rejected again the order seen between the two tries takes the place of the
+   !> method's (Gustafsson 1994, ACM Trans. Math. Softw. 20, 496): at least this, with this least
+   !> ratio.
+   real(wp), parameter :: least_order = 0.5_wp, least_ratio_again = 1.0e-4_wp
+   !> Ratio after an evaluation that was not finite.
+   real(wp), parameter :: ratio_after_failure = 0.1_wp
+   !> Accepted errors count as at least this, in proportional and in predictive control.
+   real(wp), parameter :: least_error = 1.0e-4_wp, least_predicted = 1.0e-2_wp
+
+   !> Step control of one integration.
+   type :: controller_type
+      !> Error of the last accepted step, 0 before the first
+      real(wp) :: last_error = 0.0_wp
+      !> Length of the last accepted step
+      real(wp) :: last_h = 0.0_wp
+      !> Whether the last step was rejected
+      logical :: rejected = .false.
+      !> Its error, 0 where that was not finite, and its length
+      real(wp), private :: rejected_error = 0.0_wp, rejected_h = 0.0_wp
+   contains
+      !> Length after an accepted step
+      procedure :: accept
+      !> Length after a rejected step
+      procedure :: reject
+   end type controller_type
+
+contains
+
+   !> After an accepted step: replace its length by the next.
+   pure subroutine accept(self, step, h, error)
+      !> Control
+      class(controller_type), intent(inout) :: self
+      !> The step, with its method's constants
+      class(step_type), intent(in) :: step
+      !> Length of the step, replaced by the next
+      real(wp), intent(inout) :: h
+      !> Error of the step in units of the tolerance, 0..1
+      real(wp), intent(in) :: error
+      real(wp) :: power, ratio, taken
+
+      taken = h
+      ratio = most_ratio
+      power = 1.0_wp/step%error_order
+      if (error > 0.0_wp) then
+         if (step%predictive) then
+            ratio = step%safety*error**(-power)
+            if (self%last_error > 0.0_wp) then
+               ratio = min(ratio, ratio*h/self%last_h*(self%last_error/error)**power)
+            end if
+         else
+            ratio = step%safety*max(self%last_error, least_error)**beta*error**(0.2_wp*beta - power)
+         end if
+         ratio = min(most_ratio, max(least_ratio, ratio))
+      end if
+      if (self%rejected) ratio = min(ratio, 1.0_wp)
+      if (ratio < 1.0_wp .or. ratio > step%hold) h = h*ratio
+      self%last_error = max(error, merge(least_predicted, least_error, step%predictive))
+      self%last_h = taken
+      self%rejected = .false.
+   end subroutine accept
+
+   !> After a rejected step: replace its length by the next try.
+   pure subroutine reject(self, step, h, error)
+      !> Control
+      class(controller_type), intent(inout) :: self
+      !> The step, with its method's constants
+      class(step_type), intent(in) :: step
+      !> Length of the step, replaced by the next try
+      real(wp), intent(inout) :: h
+      !> Error of the step in units of the tolerance, > 1 or not finite
+      real(wp), intent(in) :: error
+      real(wp) :: least, order, taken
+
+      taken = h
+      if (ieee_is_finite(error)) then
+         order = step%error_order
+         least = least_ratio
+         if (self%rejected .and. self%rejected_error > error .and. self%rejected_h > h) then
+            ! a near-jump inside the step: its error falls by a low order of its length
+            order = log(self%rejected_error/error)/log(self%rejected_h/h)
+            order = max(least_order, min(order, real(step%error_order, wp)))
+            least = least_ratio_again
+         end if
+         h = h*max(least, step%safety*error**(-1.0_wp/order))
+      else
+         h = h*ratio_after_failure
+      end if
+      self%rejected_error = merge(error, 0.0_wp, ieee_is_finite(error))
+      self%rejected_h = taken
+      self%rejected = .true.
+   end subroutine reject
+end module dde_controller

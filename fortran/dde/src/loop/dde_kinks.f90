@@ -1,0 +1,82 @@
+!> Kinks, and ascending lists of them.
+module dde_kinks
+   use dde_time, only: elapsed, instant
+   use dde_kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: kink_type, merged, same_point, sorted
+
+   !> Points closer than this share of their distance from the first kink are one.
+   real(wp), parameter :: same_point = 16.0_wp*epsilon(1.0_wp)
+
+   !> An instant where a derivative of the solution jumps.
+   type :: kink_type
+      !> When
+      type(instant) :: at
+      !> Passages through a delay since the first derivative jumped; -1 where the solution does
+      integer :: passages = 0
+      !> Passages since the cause: the first instant, or one that the user gave
+      integer :: generation = 0
+   end type kink_type
+
+contains
+
+   !> Two ascending lists as one, each point once, as rough as the roughest that meet there.
+   pure function merged(one, other, origin) result(points)
+      !> Ascending points
+      type(kink_type), intent(in) :: one(:)
+      !> More of them
+      type(kink_type), intent(in) :: other(:)
+      !> What their rounding is measured from
+      type(instant), intent(in) :: origin
+      type(kink_type), allocatable :: points(:)
+      type(kink_type) :: point
+      integer :: count, i, j
+      logical :: first
+
+      allocate (points(size(one) + size(other)))
+      count = 0
+      i = 1
+      j = 1
+      do while (i <= size(one) .or. j <= size(other))
+         first = j > size(other)
+         if (.not. first .and. i <= size(one)) first = elapsed(one(i)%at, other(j)%at) > 0.0_wp
+         if (first) then
+            point = one(i)
+            i = i + 1
+         else
+            point = other(j)
+            j = j + 1
+         end if
+         if (count > 0) then
+            if (elapsed(points(count)%at, point%at) &
+                <= same_point*abs(elapsed(origin, point%at))) then
+               points(count)%passages = min(points(count)%passages, point%passages)
+               points(count)%generation = min(points(count)%generation, point%generation)
+               cycle
+            end if
+         end if
+         count = count + 1
+         points(count) = point
+      end do
+      points = points(:count)
+   end function merged
+
+   !> Points in ascending order, each once.
+   pure recursive function sorted(points, origin) result(ascending)
+      !> Points in any order
+      type(kink_type), intent(in) :: points(:)
+      !> What their rounding is measured from
+      type(instant), intent(in) :: origin
+      type(kink_type), allocatable :: ascending(:)
+
+      if (size(points) < 2) then
+         ascending = points
+      else
+         associate (half => size(points)/2)
+            ascending = merged(sorted(points(:half), origin), sorted(points(half + 1:), origin), &
+                               origin)
+         end associate
+      end if
+   end function sorted
+end module dde_kinks

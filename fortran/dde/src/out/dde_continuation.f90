@@ -1,0 +1,261 @@
+!> A run that can go on: all that a later run needs to carry on where one ended, in plain arrays
+!> that a caller can write to a file and read back.
+module dde_continuation
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use dde_history, only: history_type
+   use dde_interpolant, only: highest_degree
+   use dde_kinks, only: kink_type
+   use dde_problem, only: dde_problem_type
+   use dde_time, only: elapsed, instant, later
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: int64, wp
+   implicit none (type, external)
+   private
+   public :: continuation_type
+
+   !> Where a run stands; empty (`y` not allocated) before the first. Each instant is a pair, its
+   !> second number what rounding took from the first.
+   type :: continuation_type
+      !> When
+      real(wp) :: time(2) = 0.0_wp
+      !> First instant of the first run: before it the problem's own history holds
+      real(wp) :: origin(2) = 0.0_wp
+      !> State, shape (n)
+      real(wp), allocatable :: y(:)
+      !> Its time derivative by dense output, shape (n): what event functions saw last; of size 0
+      !> after a change of the state
+      real(wp), allocatable :: slope(:)
+      !> Right-hand side, shape (n): a problem that gives another one makes a kink; of size 0 where
+      !> a caller changed the solution smoothly, all of its past with it: then there is none
+      real(wp), allocatable :: rate(:)
+      !> Length of the next step; chosen by the solver when 0
+      real(wp) :: next_step = 0.0_wp
+      !> Name of the method in use
+      character(len=8) :: method = ""
+      !> Kinks in the steps kept, shape (2, kinks), ascending
+      real(wp), allocatable :: kink(:, :)
+      !> Passages through a delay that each has made; -1 for a jump of the solution
+      integer, allocatable :: passages(:)
+      !> Passages through a delay since its cause that each has made; 0 for the cause
+      integer, allocatable :: generation(:)
+      !> Components of y that are kept
+      integer, allocatable :: kept(:)
+      !> Start of each step kept, shape (2, steps), ascending
+      real(wp), allocatable :: step_start(:, :)
+      !> Its length, shape (steps)
+      real(wp), allocatable :: step_length(:)
+      !> Newton nodes of its polynomial, shape (degree, steps)
+      real(wp), allocatable :: nodes(:, :)
+      !> Newton coefficients, shape (1 + degree, kept, steps), 0 above the degree of the step
+      real(wp), allocatable :: coefficients(:, :, :)
+   contains
+      !> Change the state: a dose, a bounce
+      procedure :: change_state
+      !> Refuse a problem that cannot go on from here
+      procedure :: check
+      !> Whether a right-hand side is that of the end of the run
+      procedure :: has_rate
+      !> Keep the past
+      procedure :: store
+      !> Give the past back
+      procedure :: restore
+   end type continuation_type
+
+contains
+
+   !> Change the state: a dose, a bounce. The solution jumps here, and the jump comes back after
+   !> each delay.
+   pure subroutine change_state(self, y, error)
+      !> The continuation, filled by a run
+      class(continuation_type), intent(inout) :: self
+      !> New state, shape (n)
+      real(wp), intent(in) :: y(:)
+      !> No run has ended here, or y is no state
+      type(error_type), allocatable, intent(out) :: error
+      integer :: i
+
+      if (.not. allocated(self%y)) then
+         call raise(error, "change_state: the continuation is empty; one filled by a run expected")
+         return
+      end if
+      if (size(y) /= size(self%y)) then
+         call raise(error, "change_state: "//text(size(y))//" components for " &
+                    //text(size(self%y))//" equations; as many expected")
+         return
+      end if
+      do i = 1, size(y)
+         if (ieee_is_finite(y(i))) cycle
+         call raise(error, "change_state: y("//text(i)//") = "//text(y(i)) &
+                    //"; a finite number expected")
+         return
+      end do
+      self%kink = reshape([self%kink, self%time], [2, size(self%kink, 2) + 1])
+      self%passages = [self%passages, -1]
+      self%generation = [self%generation, 0]
+      self%y = y
+      deallocate (self%slope)
+      allocate (self%slope(0))
+      self%next_step = 0.0_wp
+   end subroutine change_state
+
+   !> Refuse a problem that cannot go on from here, or numbers that do not fit each other.
+   pure subroutine check(self, problem, t_start, error)
+      !> The continuation
+      class(continuation_type), intent(in) :: self
+      !> The problem that shall go on
+      class(dde_problem_type), intent(in) :: problem
+      !> First instant of the run to come
+      real(wp), intent(in) :: t_start
+      !> What is wrong
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: delayed, kept
+      integer :: k
+
+      if (.not. allocated(self%y)) return
+      if (size(self%y) /= problem%n) then
+         call raise(error, "integrate: a continuation of "//text(size(self%y))//" equations for " &
+                    //text(problem%n)//"; as many expected")
+      else if (.not. consistent(self)) then
+         call raise(error, "integrate: the arrays of the continuation do not fit each other; " &
+                    //"expected as an earlier run left them")
+      else if (.not. same_set(self%kept, problem%component)) then
+         call list(self%kept, kept)
+         call list(problem%component, delayed)
+         call raise(error, "integrate: the continuation keeps components"//kept &
+                    //", delayed are"//delayed//"; the same expected")
+      else if (abs(t_start - self%time(1)) > 0.0_wp) then
+         call raise(error, "integrate: t_start = "//text(t_start)//" is " &
+                    //text(t_start - self%time(1))//" off the time "//text(self%time(1)) &
+                    //" of the continuation; the same expected")
+      end if
+      if (allocated(error) .or. size(self%step_length) == 0) return
+      associate (oldest => instant(self%step_start(1, 1), self%step_start(2, 1)), &
+                 origin => instant(self%origin(1), self%origin(2)), &
+                 now => instant(self%time(1), self%time(2)))
+         if (elapsed(origin, oldest) <= 0.0_wp) return
+         do k = 1, size(problem%lag)
+            if (elapsed(oldest, later(now, -problem%lag(k))) >= 0.0_wp) cycle
+            call raise(error, "integrate: lag("//text(k)//") = "//text(problem%lag(k)) &
+                       //" reaches beyond the past that the continuation keeps; at most " &
+                       //text(elapsed(oldest, now))//" expected")
+            return
+         end do
+      end associate
+   end subroutine check
+
+   !> Whether the arrays fit each other.
+   pure logical function consistent(self) result(value)
+      !> The continuation
+      type(continuation_type), intent(in) :: self
+      integer :: steps
+
+      value = allocated(self%slope) .and. allocated(self%rate) .and. allocated(self%kink) &
+              .and. allocated(self%passages) .and. allocated(self%generation) &
+              .and. allocated(self%kept) &
+              .and. allocated(self%step_start) .and. allocated(self%step_length) &
+              .and. allocated(self%nodes) .and. allocated(self%coefficients)
+      if (.not. value) return
+      steps = size(self%step_length)
+      value = any(size(self%slope) == [0, size(self%y)]) &
+              .and. any(size(self%rate) == [0, size(self%y)]) &
+              .and. all(shape(self%kink) == [2, size(self%passages)]) &
+              .and. size(self%generation) == size(self%passages) &
+              .and. all(shape(self%step_start) == [2, steps]) &
+              .and. size(self%nodes, 1) <= highest_degree .and. size(self%nodes, 2) == steps &
+              .and. all(shape(self%coefficients) &
+                        == [1 + size(self%nodes, 1), size(self%kept), steps])
+   end function consistent
+
+   !> Whether each of some components is among the others.
+   pure logical function same_set(one, other) result(value)
+      !> Some
+      integer, intent(in) :: one(:)
+      !> The others
+      integer, intent(in) :: other(:)
+      integer :: i
+
+      value = all([(any(other == one(i)), i=1, size(one))]) &
+              .and. all([(any(one == other(i)), i=1, size(other))])
+   end function same_set
+
+   !> Numbers as words, each with a blank before it.
+   pure subroutine list(numbers, words)
+      !> Numbers
+      integer, intent(in) :: numbers(:)
+      !> Words
+      character(len=:), allocatable, intent(out) :: words
+      integer :: i
+
+      words = ""
+      do i = 1, size(numbers)
+         words = words//" "//text(numbers(i))
+      end do
+      if (size(numbers) == 0) words = " none"
+   end subroutine list
+
+   !> Keep the steps that the past keeps, and the kinks that delays may bring back.
+   pure subroutine store(self, past, kinks)
+      !> The continuation
+      class(continuation_type), intent(inout) :: self
+      !> The past
+      type(history_type), intent(in) :: past
+      !> Kinks up to now, ascending
+      type(kink_type), intent(in) :: kinks(:)
+      type(instant) :: start
+      integer(int64) :: step
+      integer :: degree, i, steps
+
+      self%kept = past%kept
+      degree = past%degree_in_use()
+      steps = int(past%newest - past%oldest + 1)
+      allocate (self%step_start(2, steps), self%step_length(steps))
+      allocate (self%nodes(degree, steps), self%coefficients(1 + degree, size(past%kept), steps))
+      i = 0
+      do step = past%oldest, past%newest
+         i = i + 1
+         call past%recall(step, start, self%step_length(i), self%nodes(:, i), &
+                          self%coefficients(:, :, i))
+         self%step_start(:, i) = [start%hi, start%lo]
+      end do
+      allocate (self%kink(2, size(kinks)))
+      self%kink(1, :) = kinks%at%hi
+      self%kink(2, :) = kinks%at%lo
+      self%passages = kinks%passages
+      self%generation = kinks%generation
+   end subroutine store
+
+   !> Give the past back.
+   pure subroutine restore(self, past, kinks)
+      !> The continuation
+      class(continuation_type), intent(in) :: self
+      !> The past, empty
+      type(history_type), intent(inout) :: past
+      !> Kinks in it, ascending
+      type(kink_type), allocatable, intent(out) :: kinks(:)
+      integer :: i
+
+      do i = 1, size(self%step_length)
+         call past%append(instant(self%step_start(1, i), self%step_start(2, i)), &
+                          self%step_length(i), self%nodes(:, i), self%coefficients(:, :, i), &
+                          serves=self%step_length(i))
+      end do
+      allocate (kinks(size(self%passages)))
+      kinks%at%hi = self%kink(1, :)
+      kinks%at%lo = self%kink(2, :)
+      kinks%passages = self%passages
+      kinks%generation = self%generation
+   end subroutine restore
+
+   !> Whether a right-hand side is that of the end of the run, or need not be.
+   pure logical function has_rate(self, slope) result(value)
+      !> The continuation
+      class(continuation_type), intent(in) :: self
+      !> The right-hand side, shape (n)
+      real(wp), intent(in) :: slope(:)
+
+      value = size(self%rate) == 0
+      if (value) return
+      value = all(ieee_is_finite(slope)) .and. all(ieee_is_finite(self%rate))
+      if (value) value = .not. any(abs(slope - self%rate) > 0.0_wp)
+   end function has_rate
+end module dde_continuation

@@ -1,0 +1,111 @@
+!> State and slope at any place of an accepted step, from its dense output.
+module dde_dense_state
+   use dde_interpolant, only: newton_state
+   use dde_step, only: step_type
+   use dde_time, only: instant, later
+   use dde_kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: dense_state
+
+   !> Rounding of a state, relative, that the slope of dense output may carry over a step length.
+   real(wp), parameter :: rounding = 16.0_wp*epsilon(1.0_wp)
+
+   !> A place of a step.
+   type :: dense_state
+      !> When
+      type(instant) :: t
+      !> State and its time derivative there, shape (n)
+      real(wp), allocatable :: y(:), slope(:)
+      !> Degree of dense output
+      integer :: degree = 0
+      !> Start and end of the step
+      type(instant), private :: start, finish
+      !> Its length
+      real(wp) :: h = 0.0_wp
+      !> State at its end, shape (n)
+      real(wp), allocatable, private :: y_end(:)
+      !> Newton nodes of its dense output, shape (degree)
+      real(wp), allocatable, private :: nodes(:)
+      !> Newton coefficients, shape (n, 0:degree)
+      real(wp), allocatable, private :: coefficients(:, :)
+      !> Slopes at both ends, times h, shape (n, 2)
+      real(wp), allocatable, private :: ends(:, :)
+      !> Whether the step is so short that rounding hides the slopes between, shape (n)
+      logical, allocatable, private :: straight(:)
+   contains
+      !> Stand at an instant before any step
+      procedure :: begin
+      !> Take up a step
+      procedure :: take_up
+      !> Go to a place of it
+      procedure :: go_to
+   end type dense_state
+
+contains
+
+   !> Stand at an instant before any step.
+   pure subroutine begin(self, t, y, slope)
+      !> The state
+      class(dense_state), intent(inout) :: self
+      !> When
+      type(instant), intent(in) :: t
+      !> State there, shape (n)
+      real(wp), intent(in) :: y(:)
+      !> Its time derivative, shape (n)
+      real(wp), intent(in) :: slope(:)
+
+      self%t = t
+      self%y = y
+      self%slope = slope
+      allocate (self%ends(size(y), 2), self%coefficients(size(y), 0:0))
+   end subroutine begin
+
+   !> Take up an accepted and extended step.
+   pure subroutine take_up(self, step, start, finish)
+      !> The state
+      class(dense_state), intent(inout) :: self
+      !> The step
+      class(step_type), intent(in) :: step
+      !> Its start
+      type(instant), intent(in) :: start
+      !> Its end
+      type(instant), intent(in) :: finish
+      integer :: i
+
+      self%start = start
+      self%finish = finish
+      self%h = step%h
+      self%y_end = step%y_new
+      self%nodes = step%nodes
+      self%degree = size(step%nodes)
+      if (ubound(self%coefficients, 2) /= self%degree) then
+         deallocate (self%coefficients)
+         allocate (self%coefficients(size(step%y), 0:self%degree))
+      end if
+      do i = 1, size(step%y)
+         call step%interpolant(i, self%coefficients(i, :))
+      end do
+      call newton_state(self%nodes, self%coefficients, 0.0_wp, self%y, self%ends(:, 1))
+      call newton_state(self%nodes, self%coefficients, 1.0_wp, self%y, self%ends(:, 2))
+      self%straight = abs(self%ends(:, 2) - self%ends(:, 1)) <= rounding*abs(step%y)
+   end subroutine take_up
+
+   !> Go to a place of the step; at its end stand the very numbers that the next step starts from.
+   pure subroutine go_to(self, place)
+      !> The state
+      class(dense_state), intent(inout) :: self
+      !> The place, 0..1
+      real(wp), intent(in) :: place
+
+      self%t = later(self%start, place*self%h)
+      call newton_state(self%nodes, self%coefficients, place, self%y, self%slope)
+      where (self%straight)
+         self%slope = (1.0_wp - place)*self%ends(:, 1) + place*self%ends(:, 2)
+      end where
+      self%slope = self%slope/self%h
+      if (place < 1.0_wp) return
+      self%t = self%finish
+      self%y = self%y_end
+   end subroutine go_to
+end module dde_dense_state

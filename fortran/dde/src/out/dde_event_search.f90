@@ -1,0 +1,249 @@
+!> The search for events in a step: dense output is looked at in as many places as its degree asks
+!> for, and where a parabola through three of them comes nearest to zero; a passage between two
+!> places is located to the last digits of the step.
+module dde_event_search
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use dde_dense_state, only: dense_state
+   use dde_events, only: event_watcher_type
+   use dde_step, only: step_type
+   use dde_time, only: instant
+   use dde_kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: endless, event_search, most_places
+
+   !> Most places that a watcher's `look_every` may ask for in a step: a longer step is not taken.
+   real(wp), parameter :: most_places = 1.0e5_wp
+   !> A time that is longer than any run.
+   real(wp), parameter :: endless = 1.0e200_wp
+   !> Events are located to this share of the step.
+   real(wp), parameter :: accuracy = epsilon(1.0_wp)
+
+   !> The search, at one place of one step.
+   type :: event_search
+      !> The place, and time, state and slope there
+      type(dense_state) :: here
+      !> Event functions there
+      real(wp), allocatable, private :: g(:)
+      !> Side of zero that each function was last seen on, going forward: -1, 1, or 0 at zero
+      integer, allocatable, private :: side(:)
+   contains
+      !> Look at the first instant
+      procedure :: begin
+      !> Look through a step
+      procedure :: look_through
+      procedure, private :: choose_places, go_to, hand_over, locate
+   end type event_search
+
+contains
+
+   !> See on which side of zero each function starts.
+   pure subroutine begin(self, watcher, t, y, slope)
+      !> The search
+      class(event_search), intent(inout) :: self
+      !> The watcher
+      class(event_watcher_type), intent(in) :: watcher
+      !> First instant
+      type(instant), intent(in) :: t
+      !> State there, shape (n)
+      real(wp), intent(in) :: y(:)
+      !> Its time derivative, shape (n)
+      real(wp), intent(in) :: slope(:)
+
+      call self%here%begin(t, y, slope)
+      allocate (self%g(size(watcher%direction)))
+      allocate (self%side(size(watcher%direction)), source=0)
+      call watcher%values(t%hi, y, slope, self%g)
+      self%side = seen(self%g, self%side)
+   end subroutine begin
+
+   !> Hand over the events of an accepted and extended step. Afterwards the search stands at the end
+   !> of the step, or at the event that ends the run.
+   subroutine look_through(self, watcher, step, start, step_end, share, ended)
+      !> The search
+      class(event_search), intent(inout) :: self
+      !> The watcher
+      class(event_watcher_type), intent(inout) :: watcher
+      !> The step
+      class(step_type), intent(in) :: step
+      !> Its start
+      type(instant), intent(in) :: start
+      !> Its end; the event that ends the run, if one does
+      type(instant), intent(inout) :: step_end
+      !> Share of the step up to there, 0..1
+      real(wp), intent(out) :: share
+      !> Whether an event ends the run
+      logical, intent(out) :: ended
+      integer :: side(size(self%side))
+      integer :: i
+      real(wp), allocatable :: g(:, :), places(:)
+      real(wp) :: before
+
+      call self%here%take_up(step, start, step_end)
+      call self%choose_places(watcher, places, g)
+      ended = .false.
+      share = 0.0_wp
+      do i = 1, size(places)
+         before = share
+         share = places(i)
+         side = seen(g(:, i), self%side)
+         if (any(side /= self%side .and. self%side /= 0)) then
+            call self%hand_over(watcher, before, share, side, ended)
+            if (ended) step_end = self%here%t
+            if (ended) return
+         end if
+         self%side = side
+      end do
+      call self%go_to(watcher, 1.0_wp)
+   end subroutine look_through
+
+   !> Places to look at, ascending up to 1: an even grid, and between its places where functions may
+   !> dip through zero and back.
+   pure subroutine choose_places(self, watcher, places, g)
+      !> The search
+      class(event_search), intent(inout) :: self
+      !> The watcher
+      class(event_watcher_type), intent(in) :: watcher
+      !> The places
+      real(wp), allocatable, intent(out) :: places(:)
+      !> Event functions there, shape (functions, places)
+      real(wp), allocatable, intent(out) :: g(:, :)
+      real(wp), allocatable :: grid(:, :)
+      real(wp) :: bend, half_rise, place
+      integer :: i, k, last
+
+      last = max(self%here%degree + 1, ceiling(self%here%h/watcher%look_every))
+      allocate (grid(size(self%g), 0:last))
+      do k = 0, last
+         call self%go_to(watcher, k*1.0_wp/last)
+         grid(:, k) = self%g
+      end do
+      allocate (places, source=[(k*1.0_wp/last, k=1, last)])
+      allocate (g, source=grid(:, 1:))
+      do k = 1, last - 1
+         do i = 1, size(self%g)
+            if (abs(sum(seen(grid(i, k - 1:k + 1), 0))) < 3) cycle
+            half_rise = 0.5_wp*(grid(i, k + 1) - grid(i, k - 1))
+            bend = (grid(i, k + 1) - grid(i, k)) - (grid(i, k) - grid(i, k - 1))
+            ! towards zero and back, with the vertex of the parabola between the three
+            if (sign(1.0_wp, grid(i, k))*bend <= abs(half_rise)) cycle
+            place = (k - half_rise/bend)/last
+            call self%go_to(watcher, place)
+            associate (earlier => count(places < place))
+               g = reshape([g(:, :earlier), self%g, g(:, earlier + 1:)], shape(g) + [0, 1])
+               places = [places(:earlier), place, places(earlier + 1:)]
+            end associate
+         end do
+      end do
+   end subroutine choose_places
+
+   !> Hand over the events between two places, in order of time, as far as the run goes on.
+   subroutine hand_over(self, watcher, before, share, side, ended)
+      !> The search
+      class(event_search), intent(inout) :: self
+      !> The watcher
+      class(event_watcher_type), intent(inout) :: watcher
+      !> The earlier place
+      real(wp), intent(in) :: before
+      !> The later place; the event that ends the run, if one does
+      real(wp), intent(inout) :: share
+      !> Sides seen at the later place
+      integer, intent(in) :: side(:)
+      !> Whether an event ends the run
+      logical, intent(out) :: ended
+      real(wp) :: root(size(side))
+      logical :: passed(size(side))
+      integer :: i
+
+      passed = side /= self%side .and. self%side /= 0 .and. watcher%direction*self%side <= 0
+      root = share
+      do i = 1, size(side)
+         if (passed(i)) call self%locate(watcher, i, before, root(i))
+      end do
+      ended = .false.
+      do while (any(passed))
+         i = minloc(root, dim=1, mask=passed)
+         if (ended .and. root(i) > share) exit
+         passed(i) = .false.
+         call self%go_to(watcher, root(i))
+         call watcher%take(i, self%here%t, self%here%y, self%here%slope)
+         if (watcher%terminal(i)) then
+            ended = .true.
+            share = root(i)
+         end if
+      end do
+   end subroutine hand_over
+
+   !> First place after `before` where function `i` is not on its side of zero any more, by the
+   !> method of Oliveira and Takahashi (2020), "An Enhancement of the Bisection Method Average
+   !> Performance Preserving Minmax Optimality": never more evaluations than halving and one.
+   subroutine locate(self, watcher, i, before, root)
+      !> The search
+      class(event_search), intent(inout) :: self
+      !> The watcher
+      class(event_watcher_type), intent(in) :: watcher
+      !> Number of the function
+      integer, intent(in) :: i
+      !> A place where it is on its side
+      real(wp), intent(in) :: before
+      !> A place where it is not; the first one
+      real(wp), intent(inout) :: root
+      real(wp) :: first_width, g_left, g_right, left, move, place, width
+      integer :: j, halvings
+
+      call self%go_to(watcher, root)
+      g_right = self%g(i)
+      left = before
+      call self%go_to(watcher, left)
+      ! a slope may jump where the step begins
+      if (seen(self%g(i), self%side(i)) /= self%side(i)) root = left
+      g_left = self%g(i)
+      first_width = root - left
+      halvings = max(0, exponent(first_width/accuracy)) + 1
+      do j = halvings, 0, -1
+         width = root - left
+         if (width <= accuracy) exit
+         ! from the middle to the secant's zero, short of it, no further than halving allows
+         move = 0.0_wp
+         if (ieee_is_finite(g_left)) move = width*(g_left/(g_left - g_right) - 0.5_wp)
+         move = sign(max(0.0_wp, min(abs(move) - 0.2_wp*width**2/first_width, &
+                                     scale(0.5_wp*accuracy, j) - 0.5_wp*width)), move)
+         place = left + 0.5_wp*width + move
+         call self%go_to(watcher, place)
+         if (seen(self%g(i), self%side(i)) == self%side(i)) then
+            left = place
+            g_left = self%g(i)
+         else
+            root = place
+            g_right = self%g(i)
+         end if
+      end do
+   end subroutine locate
+
+   !> Look at one place of the step.
+   pure subroutine go_to(self, watcher, place)
+      !> The search
+      class(event_search), intent(inout) :: self
+      !> The watcher
+      class(event_watcher_type), intent(in) :: watcher
+      !> The place, 0..1
+      real(wp), intent(in) :: place
+
+      call self%here%go_to(place)
+      call watcher%values(self%here%t%hi, self%here%y, self%here%slope, self%g)
+   end subroutine go_to
+
+   !> Side of zero of a value; the last one seen where the value is not finite.
+   elemental integer function seen(g, last) result(side)
+      !> The value
+      real(wp), intent(in) :: g
+      !> Side last seen
+      integer, intent(in) :: last
+
+      side = last
+      if (.not. ieee_is_finite(g)) return
+      side = 0
+      if (g > 0.0_wp) side = 1
+      if (g < 0.0_wp) side = -1
+   end function seen
+end module dde_event_search

@@ -1,0 +1,210 @@
+!> The polynomial that a step leaves behind, in Newton form over s = (t - t_n)/h,
+!>
+!>     p(s) = a(0) + (s - x(1)) [a(1) + (s - x(2)) [a(2) + ... ]],
+!>
+!> whose nodes x belong to the method and whose coefficients a to the step and component.
+module dde_interpolant
+   use dde_kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: highest_degree, newton_state, newton_value, newton_values, series_value
+   public :: taylor_coefficients, usual_degree
+
+   !> Highest degree of an interpolant.
+   integer, parameter :: highest_degree = 20
+   !> Highest degree but that of Taylor series.
+   integer, parameter :: usual_degree = 8
+   !> Factorials, all of them exact (compilers disagree on those that they make of `gamma`), and one
+   !> over them.
+   real(wp), parameter :: factorial(0:highest_degree) = [ &
+      1.0_wp, 1.0_wp, 2.0_wp, 6.0_wp, 24.0_wp, 120.0_wp, 720.0_wp, 5040.0_wp, 40320.0_wp, &
+      362880.0_wp, 3628800.0_wp, 39916800.0_wp, 479001600.0_wp, &
+      6227020800.0_wp, 87178291200.0_wp, 1307674368000.0_wp, &
+      20922789888000.0_wp, 355687428096000.0_wp, 6402373705728000.0_wp, &
+      121645100408832000.0_wp, 2432902008176640000.0_wp]
+   real(wp), parameter :: inverse_factorial(0:highest_degree) = 1.0_wp/factorial
+
+contains
+
+   !> Value of p at s.
+   pure function newton_value(degree, nodes, coefficients, s) result(value)
+      !> Degree of p
+      integer, intent(in) :: degree
+      !> Nodes x(1..degree) of the method
+      real(wp), intent(in) :: nodes(degree)
+      !> Coefficients a(0..degree)
+      real(wp), intent(in) :: coefficients(0:degree)
+      !> Place in the step, 0..1
+      real(wp), intent(in) :: s
+      real(wp) :: value
+      integer :: j
+
+      value = coefficients(degree)
+      do j = degree, 1, -1
+         value = coefficients(j - 1) + (s - nodes(j))*value
+      end do
+   end function newton_value
+
+   !> Values of p at ascending places, from the `first` on as far as they lie within a limit;
+   !> written out for the usual degrees, since delayed values are what a step asks for most.
+   pure subroutine newton_values(degree, x, a, offset, length, limit, places, ahead, first, values)
+      !> Degree of p
+      integer, intent(in) :: degree
+      !> Nodes
+      real(wp), intent(in) :: x(highest_degree)
+      !> Coefficients, 0 above the degree of p
+      real(wp), intent(in) :: a(0:highest_degree)
+      !> Time from the start of p's step to the origin of `ahead`
+      real(wp), intent(in) :: offset
+      !> Length of p's step
+      real(wp), intent(in) :: length
+      !> Time since the start of p's step up to which p serves
+      real(wp), intent(in) :: limit
+      !> Number of places
+      integer, intent(in) :: places
+      !> Places as times, ascending
+      real(wp), intent(in) :: ahead(places)
+      !> First place to serve; moved on to the first that lies beyond the limit
+      integer, intent(inout) :: first
+      !> Values at all places
+      real(wp), intent(inout) :: values(places)
+      real(wp) :: s, rest
+      integer :: i, j
+
+      do i = first, places
+         if (offset + ahead(i) > limit) exit
+         s = (offset + ahead(i))/length
+         rest = 0.0_wp
+         do j = degree, usual_degree + 1, -1
+            rest = (s - x(j))*(a(j) + rest)
+         end do
+         values(i) = a(0) + (s - x(1))*(a(1) + (s - x(2))*(a(2) + (s - x(3))*(a(3) &
+                     + (s - x(4))*(a(4) + (s - x(5))*(a(5) + (s - x(6))*(a(6) &
+                     + (s - x(7))*(a(7) + (s - x(8))*(a(8) + rest))))))))
+      end do
+      first = i
+   end subroutine newton_values
+
+   !> Value of a series of powers at s: even and odd terms do not wait for each other.
+   pure function series_value(degree, coefficients, s) result(value)
+      !> Degree
+      integer, intent(in) :: degree
+      !> Coefficients
+      real(wp), intent(in) :: coefficients(0:degree)
+      !> Place
+      real(wp), intent(in) :: s
+      real(wp) :: even, odd, square, value
+      integer :: k, last_odd
+
+      square = s*s
+      last_odd = degree - 1 + modulo(degree, 2)
+      even = 0.0_wp
+      if (last_odd < degree) even = coefficients(degree)
+      odd = 0.0_wp
+      do k = last_odd, 1, -2
+         odd = coefficients(k) + square*odd
+         even = coefficients(k - 1) + square*even
+      end do
+      value = even + s*odd
+   end function series_value
+
+   !> Coefficients of p in powers of a unit of time from s on.
+   pure subroutine taylor_coefficients(degree, nodes, powers, coefficients, s, unit, taylor)
+      !> Degree of p
+      integer, intent(in) :: degree
+      !> Nodes x(1..degree)
+      real(wp), intent(in) :: nodes(degree)
+      !> Whether all of them are 0
+      logical, intent(in) :: powers
+      !> Coefficients a(0..degree)
+      real(wp), intent(in) :: coefficients(0:degree)
+      !> Place in the step
+      real(wp), intent(in) :: s
+      !> The unit of time, in lengths of the step
+      real(wp), intent(in) :: unit
+      !> Coefficients of the powers, as many as there is place for
+      real(wp), contiguous, intent(out) :: taylor(0:)
+      real(wp) :: power, rest(0:highest_degree)
+      integer :: i, j
+
+      taylor(degree + 1:) = 0.0_wp
+      if (powers) then
+         call shift(degree, coefficients, s, unit, taylor)
+         return
+      end if
+      rest(:degree) = coefficients
+      ! with each node s brought to the front of the others one more coefficient stands
+      do i = 0, degree - 1
+         do j = degree - 1, i, -1
+            rest(j) = rest(j) + (s - nodes(j - i + 1))*rest(j + 1)
+         end do
+      end do
+      power = 1.0_wp
+      do i = 0, min(degree, ubound(taylor, 1))
+         taylor(i) = power*rest(i)
+         power = power*unit
+      end do
+   end subroutine taylor_coefficients
+
+   !> From powers of x to powers of (x - s)/unit: i! b(i) = unit**i times the sum over j of
+   !> (i + j)! a(i + j) s**j/j!, sums that do not wait for each other.
+   pure subroutine shift(degree, a, s, unit, b)
+      !> Degree
+      integer, intent(in) :: degree
+      !> Coefficients
+      real(wp), intent(in) :: a(0:degree)
+      !> Where the new powers vanish
+      real(wp), intent(in) :: s
+      !> Unit of x
+      real(wp), intent(in) :: unit
+      !> New coefficients, as many as there is place for
+      real(wp), contiguous, intent(inout) :: b(0:)
+      real(wp), dimension(0:highest_degree + 1) :: derivatives, weights
+      real(wp) :: even, odd, power
+      integer :: i, j
+
+      power = 1.0_wp
+      do i = 0, degree
+         derivatives(i) = factorial(i)*a(i)
+         weights(i) = power*inverse_factorial(i)
+         power = power*s
+      end do
+      derivatives(degree + 1) = 0.0_wp
+      weights(degree + 1) = 0.0_wp
+      power = 1.0_wp
+      do i = 0, min(degree, ubound(b, 1))
+         even = 0.0_wp
+         odd = 0.0_wp
+         do j = 0, degree - i, 2
+            even = even + derivatives(i + j)*weights(j)
+            odd = odd + derivatives(i + j + 1)*weights(j + 1)
+         end do
+         b(i) = power*inverse_factorial(i)*(even + odd)
+         power = power*unit
+      end do
+   end subroutine shift
+
+   !> Values at s of several polynomials over the same nodes, and their derivatives by s.
+   pure subroutine newton_state(nodes, coefficients, s, values, slopes)
+      !> Nodes x(1..degree) of the method
+      real(wp), intent(in) :: nodes(:)
+      !> Coefficients a(0..degree) of each, shape (polynomials, 0:degree)
+      real(wp), intent(in) :: coefficients(:, 0:)
+      !> Place in the step, 0..1
+      real(wp), intent(in) :: s
+      !> Values, shape (polynomials)
+      real(wp), intent(out) :: values(:)
+      !> Derivatives, shape (polynomials)
+      real(wp), intent(out) :: slopes(:)
+      integer :: i, j
+
+      do i = 1, size(values)
+         values(i) = coefficients(i, size(nodes))
+         slopes(i) = 0.0_wp
+         do j = size(nodes), 1, -1
+            slopes(i) = values(i) + (s - nodes(j))*slopes(i)
+            values(i) = coefficients(i, j - 1) + (s - nodes(j))*values(i)
+         end do
+      end do
+   end subroutine newton_state
+end module dde_interpolant

@@ -1,0 +1,298 @@
+!> One step of a Radau IIA method as method of steps, by simplified Newton iteration (Hairer and
+!> Wanner 1996, sec. IV.8). Where the step is longer than a delay, its own collocation polynomial is
+!> the history.
+module dde_implicit_step
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+   use dde_collocation, only: add_up, difference_increments, shape_bump
+   use dde_history, only: history_type
+   use dde_implicit_checks, only: confirm, find_error_inside
+   use dde_jacobian, only: jacobian_type
+   use dde_norm, only: scaled_norm
+   use dde_problem, only: dde_problem_type
+   use dde_radau_tableau, only: radau_iia, radau_tableau
+   use dde_stage_iteration, only: stage_iteration
+   use dde_step, only: step_type
+   use dde_systems, only: real_system
+   use dde_tolerance, only: tolerance_type
+   use dde_kinds, only: int64, wp
+   implicit none (type, external)
+   private
+   public :: implicit_cost, implicit_step_type, operations_of_evaluation
+
+   !> Contraction below which the Jacobian serves another step.
+   real(wp), parameter :: good_contraction = 1.0e-3_wp
+   !> Ratio of step lengths up to which it pays to keep length and factors.
+   real(wp), parameter :: keep_length = 1.2_wp
+   !> Below this, an explicit step may be as long: times the norm of the Jacobian.
+   real(wp), parameter :: worth_returning = 8.0_wp
+   !> Cost of an evaluation within this method over one within the explicit pair.
+   real(wp), parameter :: implicit_cost = 4.0_wp
+   !> Additions and multiplications worth an evaluation of the explicit pair, for each equation.
+   real(wp), parameter :: operations_of_evaluation = 200.0_wp
+
+   !> Stages and factors of the current step.
+   type, extends(step_type) :: implicit_step_type
+      !> The method
+      type(radau_tableau) :: method
+      !> Newton coefficients, over `nodes`, of the polynomial whose derivative vanishes at all c
+      real(wp), allocatable :: bump(:)
+      !> Its derivative at 0
+      real(wp) :: bump_slope = 0.0_wp
+      !> Derivatives of the right-hand side, and their norm
+      type(jacobian_type) :: jacobian
+      real(wp) :: stiffness = 0.0_wp
+      !> Stages of the step and the iteration that finds them
+      type(stage_iteration) :: stages
+      !> Newton coefficients of the increments over this and the last accepted step, (0:stages, n)
+      real(wp), allocatable :: differences(:, :), last_differences(:, :)
+      !> Length of the last accepted step; 0 when its polynomial says nothing on this one
+      real(wp) :: last_h = 0.0_wp
+      !> Error of the embedded method, filtered and not, and without the slope, shape (n)
+      real(wp), allocatable :: error_vector(:), unfiltered(:), raw(:)
+      !> The Jacobian at the end of the step, and its real system
+      type(jacobian_type), allocatable, private :: jacobian_at_end
+      type(real_system), allocatable, private :: system_at_end
+      !> Whether the last Jacobian still serves
+      logical :: jacobian_serves = .false.
+   contains
+      procedure :: work
+      procedure :: reset
+      procedure :: factorisations
+      procedure :: attempt
+      procedure :: interpolant
+      procedure :: mild
+      procedure :: advance
+      procedure, private :: estimate, prepare
+   end type implicit_step_type
+
+   interface implicit_step_type
+      module procedure :: new_step
+   end interface implicit_step_type
+
+contains
+
+   !> Storage, and the constants that follow from the method.
+   pure function new_step(problem, stages) result(step)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Number of stages: 3, 5 or 7
+      integer, intent(in) :: stages
+      type(implicit_step_type) :: step
+
+      step%method = radau_iia(stages)
+      write (step%name, "(a,i0)") "radau", 2*stages - 1
+      step%order = 2*stages - 1
+      step%error_order = stages + 1
+      step%implicit = .true.
+      step%predictive = .true.
+      step%hold = keep_length
+      step%evaluation_cost = implicit_cost
+      step%nodes = [0.0_wp, step%method%c]
+      associate (n => problem%n, delays => size(problem%lag))
+         allocate (step%y(n), step%y_new(n), step%slope(n), step%z(delays, 1))
+         allocate (step%scale(n), step%error_vector(n), step%raw(n), step%unfiltered(n))
+         allocate (step%jacobian_at_end, step%system_at_end)
+         allocate (step%differences(0:stages, n), step%last_differences(0:stages, n))
+         step%stages = stage_iteration(step%method, n, delays)
+      end associate
+      call shape_bump(step%method%c, step%bump, step%bump_slope)
+      call problem%initial(step%y)
+   end function new_step
+
+   !> Evaluations, and the linear systems beside them.
+   pure real(wp) function work(self) result(done)
+      !> The step
+      class(implicit_step_type), intent(in) :: self
+
+      done = self%earlier_work + self%evaluation_cost*self%evaluations &
+             + self%stages%systems%operations/(operations_of_evaluation*size(self%y))
+   end function work
+
+   !> Polynomial, Jacobian and factors from before do not serve.
+   pure subroutine reset(self)
+      !> The step
+      class(implicit_step_type), intent(inout) :: self
+
+      self%last_h = 0.0_wp
+      self%jacobian_serves = .false.
+      call self%stages%forget()
+   end subroutine reset
+
+   !> Those of the systems and those before.
+   pure function factorisations(self) result(count)
+      !> The step
+      class(implicit_step_type), intent(in) :: self
+      integer(int64) :: count
+
+      count = self%factorised_before + self%stages%systems%factorisations
+   end function factorisations
+
+   !> Try the step of length `h` from t.
+   pure subroutine attempt(self, problem, past, t, h, tolerance, error)
+      !> The step
+      class(implicit_step_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The past, facing this step
+      type(history_type), intent(inout) :: past
+      !> Start of the step
+      real(wp), intent(in) :: t
+      !> Length of the step
+      real(wp), intent(in) :: h
+      !> Tolerance of each component
+      type(tolerance_type), intent(in) :: tolerance
+      !> Estimated error in units of the tolerance
+      real(wp), intent(out) :: error
+      real(wp) :: asked, inside
+      logical :: converged, finite, singular
+
+      self%t = t
+      self%h = h
+      ! the estimate has order s, the method of steps s + 1 inside and more at the ends: asked for
+      ! this, errors come out near the tolerance, as they do with the explicit method
+      asked = tolerance%level**((self%method%stages + 1.0_wp)/(self%method%stages + 2.0_wp))
+      call tolerance%scale(self%y, self%scale)
+      self%scale = asked/tolerance%level*self%scale
+      call self%stages%place_delays(problem, past, self%method, h)
+      error = ieee_value(1.0_wp, ieee_quiet_nan)
+      do
+         if (.not. self%last_h > 0.0_wp) call past%values(problem, [0.0_wp], self%z)
+         call self%stages%start(self%method, self%last_differences, self%last_h, h)
+         call self%prepare(problem, tolerance, singular)
+         converged = .false.
+         if (.not. singular) then
+            call self%stages%iterate(problem, self%method, self%inside(t), h, self%inside(t + h), &
+                                     self%y, self%scale, asked, self%safety, self%evaluations, &
+                                     converged, finite)
+         end if
+         if (converged) then
+            call confirm(problem, self%method, self%stages, h, self%inside(t + h), self%y, &
+                         self%scale, tolerance, self%evaluations, self%jacobian_at_end, &
+                         self%system_at_end, self%unfiltered, converged)
+         end if
+         if (converged .or. .not. self%last_h > 0.0_wp) exit
+         ! the polynomial carried on may be too far off, the Jacobian too old: once more anew
+         self%last_h = 0.0_wp
+         self%jacobian_serves = .false.
+      end do
+      if (converged) then
+         call self%estimate(problem, error)
+         call difference_increments(self%stages%x, self%stages%increments, self%differences)
+         if (ieee_is_finite(error)) then
+            call find_error_inside(self%method, h, self%differences, self%unfiltered, &
+                                   self%error_vector, self%scale, asked, tolerance%level, inside)
+            error = max(error, inside)
+            if (error <= 1.0_wp) return
+         end if
+      else if (.not. singular) then
+         if (finite) error = huge(1.0_wp)
+      end if
+      self%jacobian_serves = .false.
+   end subroutine attempt
+
+   !> Jacobian and factors, as far as the last ones do not serve. The Jacobian is that of the middle
+   !> stage as it is expected, which is nearer to all stages than the start of the step.
+   pure subroutine prepare(self, problem, tolerance, singular)
+      !> The step
+      class(implicit_step_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Tolerance of each component
+      type(tolerance_type), intent(in) :: tolerance
+      !> Whether there is no Jacobian or a system has no solution
+      logical, intent(out) :: singular
+
+      logical :: coupled, finite
+
+      singular = .false.
+      coupled = any(self%stages%own_place > 0.0_wp)
+      if (.not. self%jacobian_serves .or. coupled .and. .not. self%jacobian%knows_delays) then
+         call self%stages%expect_delayed(problem, self%y)
+         associate (middle => (self%method%stages + 1)/2)
+            call self%jacobian%evaluate(problem, self%t + self%method%c(middle)*self%h, &
+                                        self%y + self%stages%increments(:, middle), &
+                                        self%stages%delayed(:, middle), tolerance, coupled, &
+                                        self%evaluations, finite)
+         end associate
+         self%stages%systems%h = 0.0_wp
+         singular = .not. finite
+         if (singular) return
+         call self%jacobian%find_norm(self%stiffness)
+         self%jacobian_serves = .true.
+      end if
+      if (.not. abs(self%stages%systems%h - self%h) > 0.0_wp) return
+      call self%stages%systems%prepare(self%method, self%h, self%jacobian, problem%component, &
+                                       self%stages%own_place, self%stages%own_weights, singular)
+   end subroutine prepare
+
+   !> Error of the embedded method of order s, filtered by the real system so that stiff components
+   !> do not drown it (Hairer and Wanner 1996, eq. (IV.8.20)).
+   pure subroutine estimate(self, problem, error)
+      !> The step
+      class(implicit_step_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Estimated error in units of the tolerance
+      real(wp), intent(out) :: error
+      real(wp), allocatable :: slope(:)
+
+      call add_up(self%method%e, self%stages%increments, self%raw)
+      self%raw = self%raw/self%h
+      self%error_vector = self%slope + self%raw
+      self%unfiltered = self%error_vector
+      call self%stages%systems%filter(self%error_vector)
+      error = scaled_norm(problem%n, self%error_vector, self%scale)
+      if (error >= 1.0_wp .and. .not. self%last_h > 0.0_wp) then
+         ! at a start, once more through the filter; the slope of an earlier polynomial is not that
+         ! of the state, and only what the error changes of it counts
+         allocate (slope(problem%n))
+         call problem%rhs(self%inside(self%t), self%y, self%z, slope)
+         call problem%rhs(self%inside(self%t), self%y + self%error_vector, self%z, &
+                          self%error_vector)
+         self%evaluations = self%evaluations + 2
+         if (all(ieee_is_finite(self%error_vector)) .and. all(ieee_is_finite(slope))) then
+            self%error_vector = (self%error_vector - slope) + (self%slope + self%raw)
+            self%unfiltered = self%error_vector
+            call self%stages%systems%filter(self%error_vector)
+            error = scaled_norm(problem%n, self%error_vector, self%scale)
+         end if
+      end if
+      self%y_new = self%y + self%stages%increments(:, self%method%stages)
+      if (.not. all(ieee_is_finite(self%y_new))) error = ieee_value(1.0_wp, ieee_quiet_nan)
+   end subroutine estimate
+
+   !> Collocation polynomial of component `i` and the multiple of the bump that gives it the slope
+   !> at the start: one order more.
+   pure subroutine interpolant(self, i, a)
+      !> The step
+      class(implicit_step_type), intent(in) :: self
+      !> Which component
+      integer, intent(in) :: i
+      !> Newton coefficients over `nodes`
+      real(wp), contiguous, intent(out) :: a(0:)
+
+      a = self%method%real_eigenvalue*self%error_vector(i)/self%bump_slope*self%bump
+      a(0:self%method%stages) = a(0:self%method%stages) + self%differences(:, i)
+      a(0) = self%y(i)
+   end subroutine interpolant
+
+   !> Whether the step is short in units of one over the norm of the Jacobian.
+   pure logical function mild(self) result(value)
+      !> The step
+      class(implicit_step_type), intent(in) :: self
+
+      value = self%h*self%stiffness < worth_returning
+   end function mild
+
+   !> The end becomes the start; polynomial, Jacobian and factors serve on as far as they are good.
+   pure subroutine advance(self)
+      !> The step
+      class(implicit_step_type), intent(inout) :: self
+
+      call self%stages%slope_at_end(self%h, self%slope)
+      self%y = self%y_new
+      self%last_differences = self%differences
+      self%last_h = self%h
+      self%jacobian_serves = self%stages%contraction <= good_contraction
+   end subroutine advance
+end module dde_implicit_step

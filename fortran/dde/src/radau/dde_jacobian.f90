@@ -1,0 +1,246 @@
+!> The Jacobian of a problem at one place: as the problem gives it, or by forward differences; those
+!> of a banded one take as many evaluations as it has diagonals (Curtis, Powell and Reid 1974, "On
+!> the estimation of sparse Jacobian matrices", J. Inst. Maths Applics 13, 117).
+module dde_jacobian
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use dde_problem, only: dde_problem_type, not_given
+   use dde_tolerance, only: tolerance_type
+   use dde_kinds, only: int64, wp
+   implicit none (type, external)
+   private
+   public :: find_jacobian, jacobian_type
+
+   !> Differences are this share of a component.
+   real(wp), parameter :: difference = sqrt(epsilon(1.0_wp))
+   !> A component counts as no smaller than this share of the size that the digits asked for and
+   !> its absolute tolerance mean, and no smaller than this number.
+   real(wp), parameter :: small_share = 1.0e-5_wp, least_size = 1.0e-140_wp
+
+   !> Derivatives of the right-hand side.
+   type :: jacobian_type
+      !> By y: element (i, j) at (i, j), shape (n, n), or at (1 + upper + i - j, j) where it is
+      !> banded, shape (1 + lower + upper, n)
+      real(wp), allocatable :: by_y(:, :)
+      !> By the delayed values, shape (n, delayed values)
+      real(wp), allocatable :: by_z(:, :)
+      !> Whether it is banded, its diagonals below and above the main one
+      logical :: banded = .false.
+      integer :: lower = 0, upper = 0
+      !> Whether derivatives by the delayed values are known, too
+      logical :: knows_delays = .false.
+      !> Whether the problem gives it, as far as is known
+      logical, private :: given = .true.
+      !> The right-hand side at the place, and beside it, shape (n)
+      real(wp), allocatable, private :: here(:), beside(:)
+      !> Moved arguments, shapes (n) and (delayed values)
+      real(wp), allocatable, private :: moved_y(:), moved_z(:)
+   contains
+      !> Evaluate it
+      procedure :: evaluate
+      !> Its norm: the largest sum of a row
+      procedure :: find_norm
+      procedure, private :: prepare, differences_by_y, differences_by_z
+   end type jacobian_type
+
+contains
+
+   !> Evaluate it at a place.
+   pure subroutine evaluate(self, problem, t, y, z, tolerance, with_delays, evaluations, finite)
+      !> The Jacobian
+      class(jacobian_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Time
+      real(wp), intent(in) :: t
+      !> State, shape (n)
+      real(wp), intent(in) :: y(:)
+      !> Delayed values, shape (delayed values)
+      real(wp), intent(in) :: z(:)
+      !> Tolerance of each component
+      type(tolerance_type), intent(in) :: tolerance
+      !> Whether derivatives by the delayed values are wanted, too
+      logical, intent(in) :: with_delays
+      !> Right-hand sides evaluated so far
+      integer(int64), intent(inout) :: evaluations
+      !> Whether it is finite
+      logical, intent(out) :: finite
+
+      call self%prepare(problem, with_delays)
+      if (self%given) then
+         call problem%jacobian(t, y, z, self%by_y, self%by_z)
+         self%given = any(self%by_y > not_given) .or. .not. all(ieee_is_finite(self%by_y))
+      end if
+      self%knows_delays = with_delays .or. self%given
+      if (.not. self%given) then
+         call problem%rhs(t, y, z, self%here)
+         evaluations = evaluations + 1
+         call self%differences_by_y(problem, t, y, z, tolerance, evaluations)
+         if (with_delays) then
+            call self%differences_by_z(problem, t, y, z, tolerance, evaluations)
+         end if
+      end if
+      finite = all(ieee_is_finite(self%by_y))
+      if (finite .and. with_delays) finite = all(ieee_is_finite(self%by_z))
+   end subroutine evaluate
+
+   !> The Jacobian of a problem outside of a run, as the problem gives it or by differences.
+   pure subroutine find_jacobian(problem, t, y, z, by_y, by_z)
+      !> The problem, its Jacobian not banded
+      class(dde_problem_type), intent(in) :: problem
+      !> Time
+      real(wp), intent(in) :: t
+      !> State, shape (n)
+      real(wp), intent(in) :: y(:)
+      !> Delayed values, shape (delayed values)
+      real(wp), intent(in) :: z(:)
+      !> Derivatives by y, shape (n, n)
+      real(wp), intent(out) :: by_y(:, :)
+      !> Derivatives by the delayed values, shape (n, delayed values)
+      real(wp), intent(out) :: by_z(:, :)
+      type(jacobian_type) :: here
+      integer(int64) :: evaluations
+      logical :: finite
+
+      call problem%jacobian(t, y, z, by_y, by_z)
+      if (any(by_y > not_given)) return
+      here%given = .false.
+      evaluations = 0
+      call here%evaluate(problem, t, y, z, tolerance_type(problem%n, 1.0_wp, 1.0_wp), .true., &
+                         evaluations, finite)
+      by_y = here%by_y
+      by_z = here%by_z
+   end subroutine find_jacobian
+
+   !> Storage, as far as it is needed.
+   pure subroutine prepare(self, problem, with_delays)
+      !> The Jacobian
+      class(jacobian_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Whether derivatives by the delayed values are wanted, too
+      logical, intent(in) :: with_delays
+
+      if (.not. allocated(self%by_y)) then
+         self%banded = problem%lower >= 0
+         if (self%banded) then
+            self%given = .false.
+            self%lower = min(problem%lower, problem%n - 1)
+            self%upper = min(problem%upper, problem%n - 1)
+            allocate (self%by_y(1 + self%lower + self%upper, problem%n), source=0.0_wp)
+         else
+            allocate (self%by_y(problem%n, problem%n))
+         end if
+         allocate (self%here(problem%n), self%beside(problem%n), self%moved_y(problem%n))
+         allocate (self%moved_z(size(problem%lag)))
+      end if
+      if ((with_delays .or. self%given) .and. .not. allocated(self%by_z)) then
+         allocate (self%by_z(problem%n, size(problem%lag)))
+      end if
+   end subroutine prepare
+
+   !> By forward differences of y: columns that share no equation are moved at once.
+   pure subroutine differences_by_y(self, problem, t, y, z, tolerance, evaluations)
+      !> The Jacobian, `here` known
+      class(jacobian_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Time
+      real(wp), intent(in) :: t
+      !> State
+      real(wp), intent(in) :: y(:)
+      !> Delayed values
+      real(wp), intent(in) :: z(:)
+      !> Tolerance of each component
+      type(tolerance_type), intent(in) :: tolerance
+      !> Right-hand sides evaluated so far
+      integer(int64), intent(inout) :: evaluations
+      integer :: apart, first, group, j, last, shift
+
+      apart = merge(1 + self%lower + self%upper, problem%n, self%banded)
+      do group = 1, min(apart, problem%n)
+         self%moved_y = y
+         do j = group, problem%n, apart
+            self%moved_y(j) = y(j) + difference*size_of(tolerance, j, y(j))
+         end do
+         call problem%rhs(t, self%moved_y, z, self%beside)
+         evaluations = evaluations + 1
+         do j = group, problem%n, apart
+            first = 1
+            last = problem%n
+            shift = 0
+            if (self%banded) then
+               first = max(1, j - self%upper)
+               last = min(problem%n, j + self%lower)
+               shift = 1 + self%upper - j
+            end if
+            self%by_y(shift + first:shift + last, j) &
+               = (self%beside(first:last) - self%here(first:last))/(self%moved_y(j) - y(j))
+         end do
+      end do
+   end subroutine differences_by_y
+
+   !> By forward differences of the delayed values.
+   pure subroutine differences_by_z(self, problem, t, y, z, tolerance, evaluations)
+      !> The Jacobian, `here` known
+      class(jacobian_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Time
+      real(wp), intent(in) :: t
+      !> State
+      real(wp), intent(in) :: y(:)
+      !> Delayed values
+      real(wp), intent(in) :: z(:)
+      !> Tolerance of each component
+      type(tolerance_type), intent(in) :: tolerance
+      !> Right-hand sides evaluated so far
+      integer(int64), intent(inout) :: evaluations
+      integer :: k
+
+      do k = 1, size(z)
+         self%moved_z = z
+         self%moved_z(k) = z(k) + difference*size_of(tolerance, problem%component(k), z(k))
+         call problem%rhs(t, y, self%moved_z, self%beside)
+         evaluations = evaluations + 1
+         self%by_z(:, k) = (self%beside - self%here)/(self%moved_z(k) - z(k))
+      end do
+   end subroutine differences_by_z
+
+   !> Size of a component, from which its difference is taken.
+   pure real(wp) function size_of(tolerance, i, value) result(size)
+      !> Tolerance of each component
+      type(tolerance_type), intent(in) :: tolerance
+      !> Which component
+      integer, intent(in) :: i
+      !> Its value
+      real(wp), intent(in) :: value
+
+      size = max(abs(value), small_share*tolerance%absolute(i)/tolerance%level, &
+                 least_size)
+   end function size_of
+
+   !> The largest sum of a row of absolute values.
+   pure subroutine find_norm(self, norm)
+      !> The Jacobian
+      class(jacobian_type), intent(inout) :: self
+      !> The norm
+      real(wp), intent(out) :: norm
+      integer :: first, j, last, shift
+
+      associate (sums => self%beside)
+         sums = 0.0_wp
+         do j = 1, size(sums)
+            first = 1
+            last = size(sums)
+            shift = 0
+            if (self%banded) then
+               first = max(1, j - self%upper)
+               last = min(size(sums), j + self%lower)
+               shift = 1 + self%upper - j
+            end if
+            sums(first:last) = sums(first:last) + abs(self%by_y(shift + first:shift + last, j))
+         end do
+         norm = maxval(sums)
+      end associate
+   end subroutine find_norm
+end module dde_jacobian

@@ -1,0 +1,202 @@
+!> Small dense linear systems by Gaussian elimination, real and complex. Pivots are the largest of
+!> their column relative to their rows: in a stiff system a row of huge numbers must not serve as
+!> pivot for the others. LAPACK pivots without that, and is
+!> slower for a few equations (dde_systems).
+module dde_linear
+   use dde_kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: factorise, solve
+
+   !> Replace a matrix by its factors.
+   interface factorise
+      module procedure :: factorise_real
+      module procedure :: factorise_complex
+   end interface factorise
+
+   !> Replace a right-hand side by the solution.
+   interface solve
+      module procedure :: solve_real
+      module procedure :: solve_complex
+   end interface solve
+
+contains
+
+   !> Factors of a real matrix.
+   pure subroutine factorise_real(a, pivot, row_scale, singular)
+      !> Rows exchanged, shape (n)
+      integer, intent(out) :: pivot(:)
+      !> Matrix, replaced by its factors
+      real(wp), intent(inout) :: a(size(pivot), size(pivot))
+      !> One over the largest element of each row, shape (n)
+      real(wp), intent(out) :: row_scale(size(pivot))
+      !> Whether a pivot vanished
+      logical, intent(out) :: singular
+      real(wp) :: moved
+      real(wp) :: best, share
+      integer :: i, j, k, n
+
+      n = size(pivot)
+      singular = .false.
+      row_scale = tiny(1.0_wp)
+      do j = 1, n
+         do i = 1, n
+            row_scale(i) = max(row_scale(i), abs(a(i, j)))
+         end do
+      end do
+      row_scale = 1.0_wp/row_scale
+      do k = 1, n
+         pivot(k) = k
+         best = abs(a(k, k))*row_scale(k)
+         do i = k + 1, n
+            share = abs(a(i, k))*row_scale(i)
+            if (share > best) then
+               best = share
+               pivot(k) = i
+            end if
+         end do
+         singular = .not. best > 0.0_wp
+         if (singular) return
+         if (pivot(k) /= k) then
+            do j = k, n
+               moved = a(k, j)
+               a(k, j) = a(pivot(k), j)
+               a(pivot(k), j) = moved
+            end do
+            row_scale(pivot(k)) = row_scale(k)
+         end if
+         a(k, k) = 1.0_wp/a(k, k)
+         do i = k + 1, n
+            a(i, k) = a(i, k)*a(k, k)
+         end do
+         do j = k + 1, n
+            moved = a(k, j)
+            do i = k + 1, n
+               a(i, j) = a(i, j) - a(i, k)*moved
+            end do
+         end do
+      end do
+   end subroutine factorise_real
+
+   !> Factors of a complex matrix.
+   pure subroutine factorise_complex(a, pivot, row_scale, singular)
+      !> Rows exchanged, shape (n)
+      integer, intent(out) :: pivot(:)
+      !> Matrix, replaced by its factors
+      complex(wp), intent(inout) :: a(size(pivot), size(pivot))
+      !> One over the largest element of each row, shape (n)
+      real(wp), intent(out) :: row_scale(size(pivot))
+      !> Whether a pivot vanished
+      logical, intent(out) :: singular
+      complex(wp) :: moved
+      real(wp) :: best, share
+      integer :: i, j, k, n
+
+      n = size(pivot)
+      singular = .false.
+      row_scale = tiny(1.0_wp)
+      do j = 1, n
+         do i = 1, n
+            row_scale(i) = max(row_scale(i), size_of(a(i, j)))
+         end do
+      end do
+      row_scale = 1.0_wp/row_scale
+      do k = 1, n
+         pivot(k) = k
+         best = size_of(a(k, k))*row_scale(k)
+         do i = k + 1, n
+            share = size_of(a(i, k))*row_scale(i)
+            if (share > best) then
+               best = share
+               pivot(k) = i
+            end if
+         end do
+         singular = .not. best > 0.0_wp
+         if (singular) return
+         if (pivot(k) /= k) then
+            do j = k, n
+               moved = a(k, j)
+               a(k, j) = a(pivot(k), j)
+               a(pivot(k), j) = moved
+            end do
+            row_scale(pivot(k)) = row_scale(k)
+         end if
+         a(k, k) = 1.0_wp/a(k, k)
+         do i = k + 1, n
+            a(i, k) = a(i, k)*a(k, k)
+         end do
+         do j = k + 1, n
+            moved = a(k, j)
+            do i = k + 1, n
+               a(i, j) = a(i, j) - a(i, k)*moved
+            end do
+         end do
+      end do
+   end subroutine factorise_complex
+
+   !> Size of a complex number: the sum of its parts.
+   elemental real(wp) function size_of(z) result(value)
+      !> The number
+      complex(wp), intent(in) :: z
+
+      value = abs(real(z)) + abs(aimag(z))
+   end function size_of
+
+   !> Solution of a factorised real system.
+   pure subroutine solve_real(a, pivot, b)
+      !> Rows exchanged, shape (n)
+      integer, intent(in) :: pivot(:)
+      !> Factors
+      real(wp), intent(in) :: a(size(pivot), size(pivot))
+      !> Right-hand side, replaced by the solution
+      real(wp), intent(inout) :: b(size(pivot))
+      real(wp) :: moved
+      integer :: i, k, n
+
+      n = size(pivot)
+      do k = 1, n
+         moved = b(pivot(k))
+         b(pivot(k)) = b(k)
+         b(k) = moved
+         do i = k + 1, n
+            b(i) = b(i) - a(i, k)*moved
+         end do
+      end do
+      do k = n, 1, -1
+         moved = b(k)*a(k, k)
+         b(k) = moved
+         do i = 1, k - 1
+            b(i) = b(i) - a(i, k)*moved
+         end do
+      end do
+   end subroutine solve_real
+
+   !> Solution of a factorised complex system.
+   pure subroutine solve_complex(a, pivot, b)
+      !> Rows exchanged, shape (n)
+      integer, intent(in) :: pivot(:)
+      !> Factors
+      complex(wp), intent(in) :: a(size(pivot), size(pivot))
+      !> Right-hand side, replaced by the solution
+      complex(wp), intent(inout) :: b(size(pivot))
+      complex(wp) :: moved
+      integer :: i, k, n
+
+      n = size(pivot)
+      do k = 1, n
+         moved = b(pivot(k))
+         b(pivot(k)) = b(k)
+         b(k) = moved
+         do i = k + 1, n
+            b(i) = b(i) - a(i, k)*moved
+         end do
+      end do
+      do k = n, 1, -1
+         moved = b(k)*a(k, k)
+         b(k) = moved
+         do i = 1, k - 1
+            b(i) = b(i) - a(i, k)*moved
+         end do
+      end do
+   end subroutine solve_complex
+end module dde_linear

@@ -1,0 +1,295 @@
+!> The stages of a Radau IIA step, and the simplified Newton iteration that finds them (Hairer and
+!> Wanner 1996, sec. IV.8).
+module dde_stage_iteration
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use dde_collocation, only: add_up, combine, lagrange_weights
+   use dde_history, only: history_type
+   use dde_interpolant, only: newton_value
+   use dde_norm, only: scaled_norm
+   use dde_problem, only: dde_problem_type
+   use dde_radau_tableau, only: radau_tableau
+   use dde_stage_systems, only: stage_systems
+   use dde_kinds, only: int64, wp
+   implicit none (type, external)
+   private
+   public :: stage_iteration
+
+   !> Iterations allowed: this many, and more for each stage above three.
+   real(wp), parameter :: iterations_of_three = 7.0_wp, iterations_per_stage = 2.5_wp
+
+   !> Stages of the current step.
+   type :: stage_iteration
+      !> Systems of the iteration
+      type(stage_systems) :: systems
+      !> Nodes of the collocation polynomial: 0 and c
+      real(wp), allocatable :: x(:)
+      !> Increments Y - y at the stages, and their transforms, shape (n, stages)
+      real(wp), allocatable :: increments(:, :), transforms(:, :)
+      !> Slopes at the stages, shape (n, stages)
+      real(wp), allocatable :: slopes(:, :)
+      !> State and slope at a stage, shape (n)
+      real(wp), allocatable :: argument(:), slope_at(:)
+      !> Last correction of the transforms, and the scales of its elements, shape (n, stages)
+      real(wp), allocatable, private :: change(:, :), scales(:, :)
+      !> Delayed values at the stages, shape (delayed values, stages)
+      real(wp), allocatable :: delayed(:, :)
+      !> Times of the stages since the start of the step, shape (stages)
+      real(wp), allocatable, private :: places(:)
+      !> Place of each stage's delayed values in this step, in units of h; <= 0 in the past
+      real(wp), allocatable :: own_place(:, :)
+      !> Weights of the stage increments in those, shape (stages, delayed values, stages)
+      real(wp), allocatable :: own_weights(:, :, :)
+      !> Contraction theta of the last iteration
+      real(wp) :: contraction = 1.0_wp
+      !> What is left after a correction, over the correction: theta/(1 - theta), or a guess that
+      !> loses trust with each step that did not measure it
+      real(wp) :: remainder = 1.0_wp
+   contains
+      !> Trust no contraction seen before
+      procedure :: forget
+      !> Look up the delayed values
+      procedure :: place_delays
+      !> Guess the increments
+      procedure :: start
+      !> Delayed values in this step, by the increments as they are
+      procedure :: expect_delayed
+      !> Find them
+      procedure :: iterate
+      !> Its slope at the end of the step
+      procedure :: slope_at_end
+      procedure, private :: slopes_at_stages
+   end type stage_iteration
+
+   interface stage_iteration
+      module procedure :: new_iteration
+   end interface stage_iteration
+
+contains
+
+   !> Storage.
+   pure function new_iteration(method, n, delays) result(iteration)
+      !> The method
+      type(radau_tableau), intent(in) :: method
+      !> Number of equations
+      integer, intent(in) :: n
+      !> Number of delayed values
+      integer, intent(in) :: delays
+      type(stage_iteration) :: iteration
+
+      associate (s => method%stages)
+         allocate (iteration%increments(n, s), iteration%transforms(n, s), iteration%slopes(n, s))
+         allocate (iteration%argument(n), iteration%slope_at(n))
+         allocate (iteration%change(n, s), iteration%scales(n, s))
+         allocate (iteration%delayed(delays, s), iteration%own_place(delays, s))
+         allocate (iteration%own_weights(s, delays, s), iteration%places(s))
+      end associate
+      iteration%x = [0.0_wp, method%c]
+      iteration%systems = stage_systems(method, n)
+   end function new_iteration
+
+   !> Trust no contraction seen before.
+   pure subroutine forget(self)
+      !> The iteration
+      class(stage_iteration), intent(inout) :: self
+
+      self%contraction = 1.0_wp
+      self%remainder = 1.0_wp
+   end subroutine forget
+
+   !> Delayed values of all stages, and where they lie in this very step.
+   pure subroutine place_delays(self, problem, past, method, h)
+      !> The iteration
+      class(stage_iteration), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The past, facing this step
+      type(history_type), intent(inout) :: past
+      !> The method
+      type(radau_tableau), intent(in) :: method
+      !> Length of the step
+      real(wp), intent(in) :: h
+      integer :: i, k
+
+      if (size(problem%lag) == 0) return
+      do i = 1, method%stages
+         self%own_place(:, i) = method%c(i) - problem%lag/h
+         do k = 1, size(problem%lag)
+            if (self%own_place(k, i) > 0.0_wp) then
+               self%own_weights(:, k, i) = lagrange_weights(self%x, self%own_place(k, i))
+            end if
+         end do
+      end do
+      self%places = method%c*h
+      call past%values(problem, self%places, self%delayed)
+   end subroutine place_delays
+
+   !> Start of the iteration: the last step's polynomial carried on, or no change.
+   pure subroutine start(self, method, last_differences, last_h, h)
+      !> The iteration
+      class(stage_iteration), intent(inout) :: self
+      !> The method
+      type(radau_tableau), intent(in) :: method
+      !> Newton coefficients of the last step's increments, shape (0:stages, n)
+      real(wp), contiguous, intent(in) :: last_differences(0:, :)
+      !> Its length; 0 where it says nothing on this step
+      real(wp), intent(in) :: last_h
+      !> Length of this step
+      real(wp), intent(in) :: h
+      real(wp) :: place, rise
+      integer :: i, k
+
+      self%increments = 0.0_wp
+      associate (s => method%stages, n => size(self%increments, 1))
+         if (last_h > 0.0_wp) then
+            do k = 1, n
+               rise = newton_value(s, self%x, last_differences(:, k), 1.0_wp)
+               do i = 1, s
+                  place = 1.0_wp + method%c(i)*h/last_h
+                  self%increments(k, i) = newton_value(s, self%x, last_differences(:, k), &
+                                                       place) - rise
+               end do
+            end do
+         end if
+         call combine(n, s, self%systems%t_inverse, self%increments, self%transforms)
+      end associate
+   end subroutine start
+
+   !> Delayed values that lie in this step, by the increments as they are.
+   pure subroutine expect_delayed(self, problem, y)
+      !> The iteration
+      class(stage_iteration), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> State at the start of the step
+      real(wp), intent(in) :: y(:)
+      integer :: i, k
+
+      do i = 1, size(self%own_place, 2)
+         do k = 1, size(self%own_place, 1)
+            if (.not. self%own_place(k, i) > 0.0_wp) cycle
+            associate (component => problem%component(k))
+               self%delayed(k, i) = y(component) + sum(self%increments(component, :) &
+                                    *self%own_weights(:, k, i))
+            end associate
+         end do
+      end do
+   end subroutine expect_delayed
+
+   !> Simplified Newton iteration for the stage increments.
+   pure subroutine iterate(self, problem, method, t, h, t_end, y, scale, tolerance, safety, &
+                           evaluations, converged, finite)
+      !> The iteration, started and its systems prepared
+      class(stage_iteration), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The method
+      type(radau_tableau), intent(in) :: method
+      !> Start of the step
+      real(wp), intent(in) :: t
+      !> Length of the step
+      real(wp), intent(in) :: h
+      !> End of the step
+      real(wp), intent(in) :: t_end
+      !> State at its start, shape (n)
+      real(wp), intent(in) :: y(:)
+      !> Scale of each component
+      real(wp), intent(in) :: scale(:)
+      !> Tolerance of the error estimate
+      real(wp), intent(in) :: tolerance
+      !> Share of the ideal length that the next step should have: less after many iterations
+      real(wp), intent(inout) :: safety
+      !> Right-hand sides evaluated so far
+      integer(int64), intent(inout) :: evaluations
+      !> Whether it converged
+      logical, intent(out) :: converged
+      !> Whether all evaluations were finite
+      logical, intent(out) :: finite
+      real(wp) :: last_norm, last_rate, limit, norm, rate, rounding
+      integer :: iteration, most, stage
+
+      converged = .false.
+      most = int(iterations_of_three + (method%stages - 3)*iterations_per_stage)
+      limit = max(10.0_wp*epsilon(1.0_wp)/tolerance, min(0.03_wp, sqrt(tolerance)))
+      ! the stiff residual is a small difference of large numbers: below this all is rounding
+      rounding = 4.0_wp*epsilon(1.0_wp)*maxval(abs(y)/scale)
+      self%remainder = max(self%remainder, epsilon(1.0_wp))**0.8_wp
+      do stage = 1, method%stages
+         self%scales(:, stage) = scale
+      end do
+      last_norm = 0.0_wp
+      last_rate = 1.0_wp
+      do iteration = 1, most
+         call self%slopes_at_stages(problem, method, t, h, t_end, y, finite)
+         evaluations = evaluations + method%stages
+         if (.not. finite) return
+         call self%systems%correct(method, self%slopes, self%transforms, self%change)
+         norm = scaled_norm(size(self%change), self%change, self%scales)
+         finite = ieee_is_finite(norm)
+         if (.not. (finite .and. norm < huge(1.0_wp))) return
+         if (iteration > 1) then
+            rate = norm/last_norm
+            self%contraction = merge(rate, sqrt(rate*last_rate), iteration == 2)
+            last_rate = rate
+            if (self%contraction < 0.99_wp) then
+               self%remainder = self%contraction/(1.0_wp - self%contraction)
+               if (self%remainder*norm*self%contraction**(most - 1 - iteration) > limit &
+                   .and. norm > rounding) exit
+            else if (norm > rounding) then
+               exit
+            end if
+         end if
+         last_norm = max(norm, epsilon(1.0_wp))
+         self%transforms = self%transforms + self%change
+         call combine(size(y), method%stages, self%systems%t, self%transforms, self%increments)
+         ! one correction alone is trusted only where it is no larger than the tolerance
+         if ((self%remainder*norm <= limit .and. (iteration > 1 .or. norm <= 1.0_wp)) &
+             .or. norm <= rounding) then
+            converged = .true.
+            exit
+         end if
+      end do
+      safety = 0.9_wp*(2*most + 1.0_wp)/(2*most + min(iteration, most))
+   end subroutine iterate
+
+   !> Slope of the collocation polynomial at the end of a step of length `h`.
+   pure subroutine slope_at_end(self, h, slope)
+      !> The iteration, converged
+      class(stage_iteration), intent(in) :: self
+      !> Length of the step
+      real(wp), intent(in) :: h
+      !> The slope, shape (n)
+      real(wp), intent(out) :: slope(:)
+
+      call add_up(self%systems%a_inverse(size(self%increments, 2), :), self%increments, slope)
+      slope = slope/h
+   end subroutine slope_at_end
+
+   !> Slopes of all stages.
+   pure subroutine slopes_at_stages(self, problem, method, t, h, t_end, y, finite)
+      !> The iteration
+      class(stage_iteration), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The method
+      type(radau_tableau), intent(in) :: method
+      !> Start of the step
+      real(wp), intent(in) :: t
+      !> Length of the step
+      real(wp), intent(in) :: h
+      !> End of the step
+      real(wp), intent(in) :: t_end
+      !> State at its start
+      real(wp), intent(in) :: y(:)
+      !> Whether all are finite
+      logical, intent(out) :: finite
+      integer :: i
+
+      call self%expect_delayed(problem, y)
+      do i = 1, method%stages
+         self%argument = y + self%increments(:, i)
+         call problem%rhs(merge(t_end, t + method%c(i)*h, i == method%stages), self%argument, &
+                          self%delayed(:, i), self%slopes(:, i))
+      end do
+      finite = all(ieee_is_finite(self%slopes))
+   end subroutine slopes_at_stages
+end module dde_stage_iteration

@@ -1,0 +1,145 @@
+!> The Taylor series of a slow solution: one on which fast components are in balance with the
+!> others, so that their rates do not limit its steps. What a state has of a transient towards the
+!> balance is left out, which is at most the tolerance.
+module dde_slow_series
+   use dde_problem, only: dde_problem_type
+   use dde_series_reach, only: series_reach
+   use dde_kinds, only: int64, wp
+   implicit none (type, external)
+   private
+   public :: least_balance, slow_series
+
+   !> A series of the state alone that may be longer than this, in units of one over the relaxation
+   !> rate, is limited by it.
+   real(wp), parameter :: limited = 2.0_wp
+   !> A slow series serves no less than this, in the same units: it is asymptotic.
+   real(wp), parameter :: least_balance = 20.0_wp
+   !> How far a state may be from the balance, in units of the tolerance.
+   real(wp), parameter :: transient = 1.0_wp
+   !> What an iteration may leave open, in units of the tolerance.
+   real(wp), parameter :: left_open = 0.01_wp
+   !> Iterations at most.
+   integer, parameter :: most_iterations = 6
+   !> Limited steps that pass at most until the next try.
+   integer, parameter :: most_patience = 7
+
+   !> Whether there is a slow series near the solution, and when to look for it.
+   type :: slow_series
+      !> Whether it served the last step
+      logical :: holds = .false.
+      !> How far it reaches, in units of its powers
+      real(wp) :: reach = 0.0_wp
+      !> Limited steps since the last try, and how many pass until the next
+      integer, private :: waited = 0, patience = 0
+      !> What an iteration changes of the coefficients, shape (0:degree, n), and the state, shape
+      !> (n)
+      real(wp), allocatable, private :: change(:, :), state(:)
+   contains
+      !> Whether a step is worth a try
+      procedure :: worth_a_try
+      !> Find it for a state
+      procedure :: find
+   end type slow_series
+
+contains
+
+   !> Whether to try: where the relaxation rate limits steps, more seldom after each vain try.
+   pure subroutine worth_a_try(self, measure, value)
+      !> The series
+      class(slow_series), intent(inout) :: self
+      !> How far the series of the state reaches, times the relaxation rate
+      real(wp), intent(in) :: measure
+      !> The answer
+      logical, intent(out) :: value
+
+      value = .false.
+      if (measure <= limited) return
+      value = self%waited >= self%patience
+      self%waited = merge(0, self%waited + 1, value)
+      if (value) self%patience = min(2*self%patience + 1, most_patience)
+   end subroutine worth_a_try
+
+   !> Iterate from the state; the series holds where it converges to the tolerance within what it
+   !> reaches, and where the state is that near to it.
+   pure subroutine find(self, problem, t, unit, degree, z, scale, rate, evaluations, y)
+      !> The series
+      class(slow_series), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Time
+      real(wp), intent(in) :: t
+      !> Unit of time of the powers
+      real(wp), intent(in) :: unit
+      !> Degree
+      integer, intent(in) :: degree
+      !> Coefficients of the delayed values
+      real(wp), intent(in) :: z(0:degree, size(problem%lag))
+      !> Tolerance of each component
+      real(wp), intent(in) :: scale(problem%n)
+      !> Relaxation rate
+      real(wp), intent(in) :: rate
+      !> Series evaluated so far
+      integer(int64), intent(inout) :: evaluations
+      !> Coefficients, of which y(0, :) is given, the state; the slow series if it holds
+      real(wp), intent(inout) :: y(0:degree, problem%n)
+      real(wp) :: distance, open
+      integer :: iteration, k
+
+      self%holds = .false.
+      if (.not. allocated(self%state)) then
+         allocate (self%change(0:degree, problem%n), self%state(problem%n))
+      end if
+      self%state = y(0, :)
+      y(1:, :) = 0.0_wp
+      do iteration = 1, most_iterations
+         self%change = y
+         call problem%slow_series(t, unit, degree, z, y)
+         evaluations = evaluations + 1
+         call series_reach(degree, y, scale, self%reach)
+         if (.not. self%reach*unit*rate >= least_balance) return
+         self%change = y - self%change
+         ! what the next iteration would change: by the last one's, w'/rate
+         do k = 0, degree - 1
+            self%change(k, :) = (k + 1)/(unit*rate)*self%change(k + 1, :)
+         end do
+         self%change(degree, :) = 0.0_wp
+         open = largest_term(degree, problem%n, self%change, scale, self%reach)
+         distance = maxval(abs(y(0, :) - self%state)/scale)
+         if (distance > transient + 2*open) then
+            ! limited steps shorten it by this many e-foldings at least
+            self%patience = min(int(log(distance)/limited), self%patience)
+            return
+         end if
+         if (open < left_open) exit
+      end do
+      self%holds = open < left_open
+      if (.not. self%holds) return
+      self%waited = 0
+      self%patience = 0
+   end subroutine find
+
+   !> Largest term of several series at s, in units of their scales.
+   pure real(wp) function largest_term(degree, n, coefficients, scale, s) result(largest)
+      !> Degree
+      integer, intent(in) :: degree
+      !> How many
+      integer, intent(in) :: n
+      !> Coefficients
+      real(wp), intent(in) :: coefficients(0:degree, n)
+      !> Scales
+      real(wp), intent(in) :: scale(n)
+      !> Place
+      real(wp), intent(in) :: s
+      real(wp) :: power
+      integer :: i, k
+
+      largest = 0.0_wp
+      do i = 1, n
+         power = 1.0_wp/scale(i)
+         do k = 0, degree
+            largest = max(largest, power*abs(coefficients(k, i)))
+            power = power*s
+         end do
+      end do
+   end function largest_term
+end module dde_slow_series

@@ -1,0 +1,171 @@
+!> The Taylor series of the solution from the start of a step on, and how far it serves: that of the
+!> state, or that of a slow solution near it.
+module dde_taylor_series
+   use dde_interpolant, only: series_value
+   use dde_problem, only: dde_problem_type
+   use dde_series_reach, only: series_reach
+   use dde_slow_series, only: slow_series
+   use dde_kinds, only: int64, wp
+   implicit none (type, external)
+   private
+   public :: taylor_series
+
+   !> Longest unit for the series of a state, in units of one over the relaxation rate: its powers
+   !> must not overflow.
+   real(wp), parameter :: longest_unit = 1000.0_wp
+
+   !> The series of all components.
+   type :: taylor_series
+      !> Degree
+      integer :: degree = 0
+      !> Unit of time of its powers
+      real(wp) :: unit = 0.0_wp
+      !> Time that it serves; 0 where it is not finite
+      real(wp) :: reach = 0.0_wp
+      !> Coefficients of the solution and of its delayed values, shapes (0:degree, n) and
+      !> (0:degree, number of delayed values)
+      real(wp), allocatable :: coefficients(:, :), delayed(:, :)
+      !> Those of the state, while a slow solution is looked for, shape (0:degree, n)
+      real(wp), allocatable, private :: of_state(:, :)
+      !> Whether it is that of a slow solution, and when to look for one
+      type(slow_series) :: slow
+   contains
+      !> The coefficients, delayed values and unit given
+      procedure :: expand
+      !> The state at a time
+      procedure :: state
+      !> Its slope there
+      procedure :: slope
+   end type taylor_series
+
+   interface taylor_series
+      module procedure :: new_series
+   end interface taylor_series
+
+contains
+
+   !> Storage.
+   pure function new_series(problem, degree) result(series)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Degree
+      integer, intent(in) :: degree
+      type(taylor_series) :: series
+
+      series%degree = degree
+      allocate (series%coefficients(0:degree, problem%n))
+      allocate (series%delayed(0:degree, size(problem%lag)))
+   end function new_series
+
+   !> The slow series where it holds, which puts the state on the slow solution; else that of the
+   !> state as it is.
+   pure subroutine expand(self, problem, t, scale, evaluations, y)
+      !> The series
+      class(taylor_series), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Time
+      real(wp), intent(in) :: t
+      !> Tolerance of each component
+      real(wp), contiguous, intent(in) :: scale(:)
+      !> Series evaluated so far
+      integer(int64), intent(inout) :: evaluations
+      !> State
+      real(wp), contiguous, intent(inout) :: y(:)
+      real(wp) :: rate
+      logical :: trying
+
+      rate = problem%relaxation_rate(t, y)
+      trying = self%slow%holds
+      if (trying) call find_slow(self, problem, t, scale, rate, evaluations, y)
+      if (self%slow%holds) return
+      if (self%unit*rate > longest_unit) call shorten_unit(self, longest_unit/rate)
+      self%coefficients(0, :) = y
+      call problem%series(t, self%unit, self%degree, self%delayed, self%coefficients)
+      evaluations = evaluations + 1
+      call series_reach(self%degree, self%coefficients, scale, self%reach)
+      self%reach = self%unit*self%reach
+      if (trying) return
+      call self%slow%worth_a_try(rate*self%reach, trying)
+      if (.not. trying) return
+      self%of_state = self%coefficients
+      call find_slow(self, problem, t, scale, rate, evaluations, y)
+      if (.not. self%slow%holds) self%coefficients = self%of_state
+   end subroutine expand
+
+   !> Another unit for the series of delayed values.
+   pure subroutine shorten_unit(self, unit)
+      !> The series
+      class(taylor_series), intent(inout) :: self
+      !> The unit
+      real(wp), intent(in) :: unit
+      real(wp) :: power
+      integer :: k
+
+      power = 1.0_wp
+      do k = 1, self%degree
+         power = power*(unit/self%unit)
+         self%delayed(k, :) = power*self%delayed(k, :)
+      end do
+      self%unit = unit
+   end subroutine shorten_unit
+
+   !> Take the slow series where it holds.
+   pure subroutine find_slow(self, problem, t, scale, rate, evaluations, y)
+      !> The series
+      class(taylor_series), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Time
+      real(wp), intent(in) :: t
+      !> Tolerance of each component
+      real(wp), contiguous, intent(in) :: scale(:)
+      !> Relaxation rate
+      real(wp), intent(in) :: rate
+      !> Series evaluated so far
+      integer(int64), intent(inout) :: evaluations
+      !> State; that on the slow solution
+      real(wp), contiguous, intent(inout) :: y(:)
+
+      self%coefficients(0, :) = y
+      call self%slow%find(problem, t, self%unit, self%degree, self%delayed, scale, rate, &
+                          evaluations, self%coefficients)
+      if (.not. self%slow%holds) return
+      y = self%coefficients(0, :)
+      self%reach = self%unit*self%slow%reach
+   end subroutine find_slow
+
+   !> The state at a time.
+   pure subroutine state(self, time, y)
+      !> The series
+      class(taylor_series), intent(in) :: self
+      !> Time since its start
+      real(wp), intent(in) :: time
+      !> The state, shape (n)
+      real(wp), intent(out) :: y(:)
+      integer :: i
+
+      do i = 1, size(y)
+         y(i) = series_value(self%degree, self%coefficients(:, i), time/self%unit)
+      end do
+   end subroutine state
+
+   !> The slope at a time.
+   pure function slope(self, time) result(value)
+      !> The series
+      class(taylor_series), intent(in) :: self
+      !> Time since its start
+      real(wp), intent(in) :: time
+      real(wp) :: value(size(self%coefficients, 2))
+      integer :: k
+
+      value = self%coefficients(1, :)/self%unit
+      ! at the start it is known even where later terms are not finite
+      if (.not. time > 0.0_wp) return
+      value = 0.0_wp
+      do k = self%degree, 1, -1
+         value = k*self%coefficients(k, :) + (time/self%unit)*value
+      end do
+      value = value/self%unit
+   end function slope
+end module dde_taylor_series

@@ -1,0 +1,229 @@
+!> One step by the Taylor series of the solution, for problems that give it. The last coefficients
+!> tell how long it may be, so that hardly a step is rejected; the series is its own dense output,
+!> and serves as the past beyond the end of the step as far as it converges.
+module dde_taylor_step
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+   use dde_history, only: history_type
+   use dde_interpolant, only: highest_degree
+   use dde_problem, only: dde_problem_type
+   use dde_step, only: step_type
+   use dde_taylor_series, only: taylor_series
+   use dde_tolerance, only: tolerance_type
+   use dde_kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: taylor_step_type
+
+   !> Degree = this - log10(tolerance), near the one with the least cost for an accuracy: Jorba and
+   !> Zou 2005, "A software package for the numerical integration of ODEs by means of high-order
+   !> Taylor methods", sec. 3.2, have 1 - ln(tolerance)/2; more, since a step here costs three times
+   !> its series.
+   real(wp), parameter :: degree_at_one = 7.0_wp
+   !> Lowest degree.
+   integer, parameter :: lowest_degree = 6
+   !> How far the series is tried as the past, in units of the length it allows its own step.
+   real(wp), parameter :: beyond = 1.2_wp
+   !> The unit of a series is the length that the one before allowed, at most this times the length
+   !> that its step had: powers of it must not overflow where a solution is a polynomial.
+   real(wp), parameter :: growth = 1000.0_wp
+   !> Cost of a series over that of a right-hand side, over its degree (instructions and time of the
+   !> spring block).
+   real(wp), parameter :: cost_of_degree = 0.75_wp
+   !> Below this share of the first term the second is small, below its square the third.
+   real(wp), parameter :: small = 0.04_wp
+   !> A little more than the second term of exp(x) at the limit of stability, over degree squared.
+   real(wp), parameter :: stability = 0.1_wp
+
+   !> A step along the series from its start on.
+   type, extends(step_type) :: taylor_step_type
+      !> The series
+      type(taylor_series), private :: series
+      !> Where along the series the present state is; before it where its slope was evaluated
+      real(wp), private :: place = -1.0_wp
+   contains
+      procedure :: reset
+      procedure :: look_ahead
+      procedure :: attempt
+      procedure :: interpolant
+      procedure :: held_back
+      procedure :: advance
+      procedure :: slope_here
+   end type taylor_step_type
+
+   interface taylor_step_type
+      module procedure :: new_step
+   end interface taylor_step_type
+
+contains
+
+   !> Storage, and the state at the first instant.
+   pure function new_step(problem, tolerance) result(step)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Relative or absolute tolerance, the larger
+      real(wp), intent(in) :: tolerance
+      type(taylor_step_type) :: step
+      integer :: degree
+
+      degree = max(lowest_degree, min(highest_degree, nint(degree_at_one - log10(tolerance))))
+      step%name = "taylor"
+      step%order = degree
+      step%error_order = degree
+      step%powers = .true.
+      step%foresees = .true.
+      step%evaluation_cost = cost_of_degree*degree
+      associate (n => problem%n, delays => size(problem%lag))
+         allocate (step%nodes(degree), source=0.0_wp)
+         allocate (step%y(n), step%y_new(n), step%slope(n), step%z(delays, 1))
+         allocate (step%scale(n))
+      end associate
+      step%series = taylor_series(problem, degree)
+      call problem%initial(step%y)
+   end function new_step
+
+   !> The slope has been evaluated, the last step has no say.
+   pure subroutine reset(self)
+      !> The step
+      class(taylor_step_type), intent(inout) :: self
+
+      self%place = -1.0_wp
+   end subroutine reset
+
+   !> The series, and how long the step may be: as the series allows, and as long as the past
+   !> serves.
+   pure subroutine look_ahead(self, problem, past, t, tolerance, longest, h)
+      !> The step
+      class(taylor_step_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The past, facing the step
+      type(history_type), intent(inout) :: past
+      !> Start of the step
+      real(wp), intent(in) :: t
+      !> Tolerance of each component
+      type(tolerance_type), intent(in) :: tolerance
+      !> Longest step of use
+      real(wp), intent(in) :: longest
+      !> Length of the step: proposed, then possible
+      real(wp), intent(inout) :: h
+      real(wp) :: past_serves, possible, unit
+      logical :: passing
+
+      unit = merge(min(self%ideal, growth*self%h), h, self%ideal > 0.0_wp)
+      call tolerance%scale(self%y, self%scale)
+      passing = .true.
+      associate (series => self%series)
+         do
+            series%unit = unit
+            call past%series(problem, passing, series%unit, series%delayed, past_serves)
+            call series%expand(problem, self%inside(t), self%scale, self%evaluations, self%y)
+            possible = min(series%reach, past_serves, longest)
+            call past%confirm(series%delayed, series%unit, tolerance, possible)
+            if (possible > 0.0_wp .or. .not. passing) exit
+            passing = .false.
+         end do
+         self%ideal = series%reach
+         self%place = 0.0_wp
+      end associate
+      self%serves = beyond*self%ideal
+      if (self%ideal > 0.0_wp) h = possible
+   end subroutine look_ahead
+
+   !> Try the step of length `h` from t: the error is within the tolerance.
+   pure subroutine attempt(self, problem, past, t, h, tolerance, error)
+      !> The step
+      class(taylor_step_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The past, facing this step
+      type(history_type), intent(inout) :: past
+      !> Start of the step
+      real(wp), intent(in) :: t
+      !> Length of the step
+      real(wp), intent(in) :: h
+      !> Tolerance of each component
+      type(tolerance_type), intent(in) :: tolerance
+      !> 0, or not a number where the series is not finite
+      real(wp), intent(out) :: error
+
+      self%t = t
+      self%h = h
+      error = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (.not. self%ideal > 0.0_wp) return
+      ! beyond this, terms that have vanished in a very short step would count
+      self%serves = min(self%serves, growth*h)
+      call self%series%state(h, self%y_new)
+      if (all(ieee_is_finite(self%y_new))) error = 0.0_wp
+   end subroutine attempt
+
+   !> The series of component `i`.
+   pure subroutine interpolant(self, i, a)
+      !> The step
+      class(taylor_step_type), intent(in) :: self
+      !> Which component
+      integer, intent(in) :: i
+      !> Newton coefficients over `nodes`, which are all 0
+      real(wp), contiguous, intent(out) :: a(0:)
+
+      real(wp) :: power
+      integer :: k
+
+      associate (series => self%series)
+         a(0) = series%coefficients(0, i)
+         power = 1.0_wp
+         do k = 1, series%degree
+            power = power*(self%h/series%unit)
+            a(k) = power*series%coefficients(k, i)
+         end do
+      end associate
+   end subroutine interpolant
+
+   !> Whether the step is much shorter than the time on which the solution changes: its second and
+   !> third terms are small beside the first, but for what truncation, at the level of the
+   !> tolerance, makes of them in a step at the limit of stability, or in a slow series by itself.
+   pure logical function held_back(self) result(value)
+      !> The step
+      class(taylor_step_type), intent(in) :: self
+      real(wp) :: first, of_second, of_third, place, second, third, weight
+      integer :: i
+
+      place = self%h/self%series%unit
+      first = 0.0_wp
+      second = 0.0_wp
+      third = 0.0_wp
+      associate (c => self%series%coefficients)
+         do i = 1, size(self%scale)
+            weight = place/self%scale(i)
+            first = max(first, weight*abs(c(1, i)))
+            second = max(second, weight*place*abs(c(2, i)))
+            third = max(third, weight*place**2*abs(c(3, i)))
+         end do
+      end associate
+      of_second = 1.0_wp
+      of_third = 1.0_wp
+      if (.not. self%series%slow%holds) then
+         of_second = stability*self%order**2
+         of_third = of_second*self%order/6
+      end if
+      value = second < small*first + of_second .and. third < small**2*first + of_third
+   end function held_back
+
+   !> The end becomes the start.
+   pure subroutine advance(self)
+      !> The step
+      class(taylor_step_type), intent(inout) :: self
+
+      self%y = self%y_new
+      self%place = self%h
+   end subroutine advance
+
+   !> Along a series its derivative.
+   pure function slope_here(self) result(slope)
+      !> The step
+      class(taylor_step_type), intent(in) :: self
+      real(wp) :: slope(size(self%y))
+
+      slope = self%slope
+      if (self%place >= 0.0_wp) slope = self%series%slope(self%place)
+   end function slope_here
+end module dde_taylor_step

@@ -1,0 +1,137 @@
+!> Problems that jump, and a problem of many delays or of components of any size.
+module piecewise_problems
+   use dde_kinds, only: wp
+   use test_problems, only: constant_past
+   implicit none (type, external)
+   private
+   public :: delayed_pulse, jumping_history, logistic_beside, many_delays, relaxing, switching
+   public :: switching_kinds
+
+   !> y1' = 100 for 50 <= t < 50.1, else 0; y2' = y1(t - 1). From (0, 0), y2(55) = 39.5.
+   type, extends(constant_past) :: delayed_pulse
+   contains
+      procedure :: rhs => pulse_rhs
+   end type delayed_pulse
+
+   !> y' = y(t - 1), y = 0 for t < -1/2, 1 for -1/2 <= t < 0, y(0) = 0: y(5/2) = 7/8.
+   type, extends(constant_past) :: jumping_history
+      !> y for t < -1/2
+      real(wp) :: before = 0.0_wp
+   contains
+      procedure :: history => step_history
+      procedure :: rhs => delayed_rhs
+   end type jumping_history
+
+   !> y1' = 1.8 y1 (1 - y1(t - 1)), y2' = 0.
+   type, extends(constant_past) :: logistic_beside
+   contains
+      procedure :: rhs => logistic_rhs
+   end type logistic_beside
+
+   !> y' = -y - (sum of all delayed values)/24.
+   type, extends(constant_past) :: many_delays
+   contains
+      procedure :: rhs => mean_rhs
+   end type many_delays
+
+   !> y2' = -y2, y1' = -1000 (y1^2/unit - unit y2^2): y1 is near unit y2.
+   type, extends(constant_past) :: relaxing
+      !> Size of y1
+      real(wp) :: unit = 1.0_wp
+   contains
+      procedure :: rhs => relaxing_rhs
+   end type relaxing
+
+   !> Number of different problems below.
+   integer, parameter :: switching_kinds = 6
+
+   !> Stiff problems, with rate k, that jump or change their stiffness again and again.
+   type, extends(constant_past) :: switching
+      !> Which one
+      integer :: kind = 1
+      !> The fast rate
+      real(wp) :: k = 1000.0_wp
+   contains
+      procedure :: rhs => switching_rhs
+   end type switching
+
+contains
+
+   pure subroutine pulse_rhs(self, t, y, z, dydt)
+      class(delayed_pulse), intent(in) :: self
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: dydt(self%n)
+
+      dydt = [merge(100.0_wp, 0.0_wp, t >= 50.0_wp .and. t < 50.1_wp), z(1)]
+   end subroutine pulse_rhs
+
+   pure function step_history(self, t, component) result(value)
+      class(jumping_history), intent(in) :: self
+      real(wp), intent(in) :: t
+      integer, intent(in) :: component
+      real(wp) :: value
+
+      value = merge(1.0_wp, self%before, t >= -0.5_wp)
+   end function step_history
+
+   pure subroutine delayed_rhs(self, t, y, z, dydt)
+      class(jumping_history), intent(in) :: self
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: dydt(self%n)
+
+      dydt = z
+   end subroutine delayed_rhs
+
+   pure subroutine logistic_rhs(self, t, y, z, dydt)
+      class(logistic_beside), intent(in) :: self
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: dydt(self%n)
+
+      dydt = [1.8_wp*y(1)*(1.0_wp - z(1)), 0.0_wp]
+   end subroutine logistic_rhs
+
+   pure subroutine mean_rhs(self, t, y, z, dydt)
+      class(many_delays), intent(in) :: self
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: dydt(self%n)
+
+      dydt = -y - sum(z)/24
+   end subroutine mean_rhs
+
+   pure subroutine relaxing_rhs(self, t, y, z, dydt)
+      class(relaxing), intent(in) :: self
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: dydt(self%n)
+
+      associate (x => y(1)/self%unit)
+         dydt = [-1000.0_wp*self%unit*(x**2 - y(2)**2), -y(2)]
+      end associate
+   end subroutine relaxing_rhs
+
+   pure subroutine switching_rhs(self, t, y, z, dydt)
+      class(switching), intent(in) :: self
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: dydt(self%n)
+
+      select case (self%kind)
+      case (1) ! a square wave
+         dydt(1) = -self%k*(y(1) - sign(1.0_wp, sin(t)))
+         dydt(2) = -y(2) - z(1)
+      case (2) ! a stiffness that comes and goes
+         dydt(1) = -merge(self%k, 1.0_wp, sin(3*t) > 0.0_wp)*(y(1) - cos(t))
+         dydt(2) = -y(2) + z(1)
+      case (3) ! a fast square wave
+         dydt(1) = -self%k*(y(1) - sign(1.0_wp, sin(10*t)) - z(2))
+         dydt(2) = y(1) - y(2)
+      case (4) ! the oscillator of van der Pol
+         dydt(1) = y(2)
+         dydt(2) = self%k*((1.0_wp - y(1)**2)*y(2) - y(1))
+      case (5) ! a thermostat
+         dydt(1) = -self%k*(y(1) - 2*y(2))
+         dydt(2) = merge(1.0_wp, -1.0_wp, z(1) < 0.5_wp) - 0.1_wp*y(2)
+      case default ! a steep delayed feedback
+         dydt(1) = self%k*(1.0_wp/(1.0_wp + max(z(1), 0.0_wp)**20) - y(1))
+         dydt(2) = y(1) - y(2)
+      end select
+   end subroutine switching_rhs
+end module piecewise_problems

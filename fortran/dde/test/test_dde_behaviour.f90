@@ -1,0 +1,271 @@
+!> What the solver does on its way: samples, breaking points, limits, and only the work it needs.
+module test_dde_behaviour
+   use dde, only: dde_problem_type, integrate, integration_options, integration_result, &
+                  table_sampler
+   use dde_errors, only: failure_type => error_type, text
+   use expectations, only: expect, expect_between, expect_close, expect_success
+   use dde_kinds, only: int64, wp
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use published_problems, only: mackey_glass
+   use solving, only: at_tolerance, solve
+   use test_problems, only: linear, wille_baker
+   use undelayed_problems, only: oscillator, swing
+   implicit none (type, external)
+   private
+   public :: collect_dde_behaviour
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_dde_behaviour(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("samples", test_samples), &
+                   new_unittest("samples before and after", test_samples_outside), &
+                   new_unittest("a run that ends at a sample", test_end_at_sample), &
+                   new_unittest("breaking points of one delay", test_one_delay), &
+                   new_unittest("breaking points of two delays", test_two_delays), &
+                   new_unittest("kinks are landed on", test_landing), &
+                   new_unittest("kinks of two delays are landed on", test_landing_two_delays), &
+                   new_unittest("first and longest step", test_steps), &
+                   new_unittest("first step chosen", test_first_step), &
+                   new_unittest("work without delays", test_work_without_delays), &
+                   new_unittest("work with a delay", test_work_with_delay)]
+   end subroutine collect_dde_behaviour
+
+   !> Samples are the wanted components, in their order, at the times wanted: the start, the end,
+   !> one time twice, some a hundredth of a step apart.
+   subroutine test_samples(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(table_sampler) :: table
+      real(wp), parameter :: t_end = 0.1_wp + 0.2_wp + 7.0_wp
+      real(wp), parameter :: times(8) = [0.0_wp, 1.0e-9_wp, 2.0_wp, 2.001_wp, 2.002_wp, 2.002_wp, &
+                                         5.5_wp, t_end]
+
+      table = table_sampler([2, 1], times)
+      call integrate(swing(), 0.0_wp, t_end, at_tolerance(1.0e-12_wp), outcome, failure, table)
+      call expect_success(error, failure)
+      call expect(error, table%received == size(times), "all samples are received")
+      call expect_close(error, table%values(:, 1), [0.0_wp, 1.0_wp], 0.0_wp, "start")
+      call expect_close(error, table%values(1, :), -sin(times), 1.0e-11_wp, "-sin t")
+      call expect_close(error, table%values(2, :), cos(times), 1.0e-11_wp, "cos t")
+      call expect_close(error, table%values(:, 8), outcome%y([2, 1]), 3.0e-16_wp, "end")
+      call expect(error, outcome%t >= t_end .and. outcome%t <= t_end, "t is t_end")
+   end subroutine test_samples
+
+   !> Samples before the start show the start; those after the end are not taken.
+   subroutine test_samples_outside(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(table_sampler) :: table
+
+      table = table_sampler([1], [0.0_wp, 0.5_wp, 1.0_wp, nearest(1.0_wp, 1.0_wp), 3.0_wp])
+      call integrate(swing(), 0.0_wp, 1.0_wp, at_tolerance(1.0e-12_wp), outcome, failure, table)
+      call expect_success(error, failure)
+      call expect(error, table%received == 3, "3 samples, but "//text(table%received))
+      call expect_close(error, table%values(1, 1:3), [1.0_wp, cos(0.5_wp), cos(1.0_wp)], &
+                        1.0e-11_wp, "sample")
+   end subroutine test_samples_outside
+
+   !> Dense output agrees with a run that ends there.
+   subroutine test_end_at_sample(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(mackey_glass) :: problem
+      real(wp), parameter :: times(4) = [3.3_wp, 17.0_wp, 41.7_wp, 80.0_wp]
+      real(wp), allocatable :: through(:, :), until(:, :)
+      integer :: i
+
+      problem = mackey_glass(n=1, lag=[17.0_wp], component=[1], past=[1.2_wp], first=[1.2_wp])
+      call solve(problem, times, at_tolerance(1.0e-10_wp), through, error)
+      do i = 1, size(times)
+         call solve(problem, times(i:i), at_tolerance(1.0e-10_wp), until, error)
+         call expect_close(error, through(1, i), until(1, 1), 2.0e-9_wp, "y")
+      end do
+   end subroutine test_end_at_sample
+
+   !> A method of order 8 needs a continuous eighth derivative: a kink is landed on 7 times, a jump
+   !> 8 times, as far as the multiples of the delay lie before the end.
+   subroutine test_one_delay(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call expect_points(error, decay(past=1.0_wp), 30.0_wp, 7)
+      call expect_points(error, decay(past=0.0_wp), 30.0_wp, 8)
+      call expect_points(error, decay(past=1.0_wp), 3.5_wp, 3)
+      call expect_points(error, decay(past=0.0_wp), 3.5_wp, 3)
+      call expect_points(error, decay(past=1.0_wp), 3.0_wp, 2)
+      call expect_points(error, decay(past=1.0_wp), 1.0_wp, 0)
+      call expect_points(error, decay(past=0.0_wp), 8.5_wp, 8)
+      call expect_points(error, decay(past=1.0_wp), 8.5_wp, 7)
+   end subroutine test_one_delay
+
+   !> Two delays, counted by hand. Delays 1 and 0.2 to t = 2.1: 0.2, 0.4, .. 2.0, where many sums
+   !> meet. Delays 1 and 0.1 to t = 1.85: 0.1 .. 0.7, 1.0 .. 1.6, for 0.8 and 1.7 are sums of eight.
+   !> Delays 1 and sqrt 2 to t = 4.5: 4, 4, 2 and 1 with 0, 1, 2 and 3 times the root.
+   subroutine test_two_delays(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call expect_points(error, pair(1.0_wp, 0.2_wp), 2.1_wp, 10)
+      call expect_points(error, pair(1.0_wp, 0.1_wp), 1.85_wp, 14)
+      call expect_points(error, pair(1.0_wp, sqrt(2.0_wp)), 4.5_wp, 11)
+   end subroutine test_two_delays
+
+   !> Where all kinks are landed on, piecewise polynomials up to degree 7 come out exact at any
+   !> tolerance.
+   subroutine test_landing(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: time(28)
+      real(wp), allocatable :: y(:, :)
+      integer :: i
+
+      time = [(0.25_wp*i, i=1, size(time))]
+      call solve(decay(past=1.0_wp), time, at_tolerance(1.0_wp), y, error)
+      call expect_close(error, y(1, :), [(decayed(time(i) + 1.0_wp), i=1, size(time))], &
+                        1.0e-14_wp, "y with a kink")
+      call solve(decay(past=0.0_wp), time, at_tolerance(1.0_wp), y, error)
+      call expect_close(error, y(1, :), [(decayed(time(i)), i=1, size(time))], 1.0e-14_wp, &
+                        "y with a jump")
+   end subroutine test_landing
+
+   !> So do those of two delays.
+   subroutine test_landing_two_delays(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable :: y(:, :)
+
+      call solve(pair(1.0_wp, 0.2_wp), [1.0_wp], at_tolerance(1.0_wp), y, error)
+      call expect_close(error, y(:, 1), [2.0_wp, 696401.0_wp/187500, 17896711.0_wp/5625000], &
+                        1.0e-14_wp, "y(1)")
+   end subroutine test_landing_two_delays
+
+   !> The first step is as long as asked for, no step longer.
+   subroutine test_steps(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_options) :: options
+      type(integration_result) :: outcome
+
+      options = integration_options("explicit", first_step=0.125_wp, most_steps=1_int64)
+      call integrate(swing(), 0.0_wp, 9.0_wp, options, outcome, failure)
+      call expect_close(error, outcome%t, 0.125_wp, 0.0_wp, "end of the first step")
+      options = integration_options("explicit", longest_step=0.03125_wp)
+      call integrate(swing(), 0.0_wp, 9.0_wp, options, outcome, failure)
+      call expect_success(error, failure)
+      call expect_between(error, real(outcome%accepted, wp), 288.0_wp, 300.0_wp, "number of steps")
+   end subroutine test_steps
+
+   !> The first step that the solver chooses passes, and fits the problem: between a thousandth of a
+   !> radian and one of a slow and of a fast oscillator.
+   subroutine test_first_step(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_options) :: options
+      type(integration_result) :: outcome
+      type(oscillator) :: problem
+      real(wp), parameter :: rates(2) = [1.0_wp, 1.0e6_wp]
+      integer :: i
+
+      options = at_tolerance(1.0e-9_wp)
+      options%most_steps = 1
+      do i = 1, 2
+         problem = swing()
+         problem%rate = rates(i)
+         call integrate(problem, 0.0_wp, 9.0_wp, options, outcome, failure)
+         call expect(error, outcome%accepted == 1, "the first step passes")
+         call expect_between(error, rates(i)*outcome%t, 1.0e-3_wp, 1.0_wp, "first step")
+      end do
+   end subroutine test_first_step
+
+   !> Eleven evaluations a try and one more when it is accepted, three more where a sample wants
+   !> dense output, one at the start.
+   subroutine test_work_without_delays(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_options) :: options
+      type(integration_result) :: outcome, sampled
+      type(table_sampler) :: table
+
+      options = integration_options("explicit", first_step=3.0_wp)
+      call integrate(swing(), 0.0_wp, 20.0_wp, options, outcome, failure)
+      call expect_success(error, failure)
+      call expect(error, outcome%rejected > 0, "a first step that is too long is rejected")
+      call expect(error, outcome%evaluations == 1 + 11*tries(outcome) + outcome%accepted, &
+                  "evaluations without samples: "//text(outcome%evaluations))
+      table = table_sampler([1], [0.0_wp, 10.0_wp, 10.0_wp, 20.0_wp])
+      call integrate(swing(), 0.0_wp, 20.0_wp, options, sampled, failure, table)
+      call expect(error, sampled%evaluations == outcome%evaluations + 6, &
+                  "evaluations for two steps with samples: "//text(sampled%evaluations))
+      call expect_close(error, sampled%y, outcome%y, 0.0_wp, "state with and without samples")
+   end subroutine test_work_without_delays
+
+   !> With a delay each step needs dense output, and each breaking point a new first slope.
+   subroutine test_work_with_delay(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+
+      call integrate(decay(past=1.0_wp), 0.0_wp, 20.0_wp, &
+                     integration_options("explicit", first_step=0.9_wp), outcome, failure)
+      call expect_success(error, failure)
+      call expect(error, outcome%evaluations == 1 + 11*tries(outcome) + 4*outcome%accepted &
+                  + outcome%breaking_points, "evaluations: "//text(outcome%evaluations))
+   end subroutine test_work_with_delay
+
+   !> Steps tried.
+   pure integer(int64) function tries(outcome) result(value)
+      !> What was done
+      type(integration_result), intent(in) :: outcome
+
+      value = outcome%accepted + outcome%rejected
+   end function tries
+
+   !> So many breaking points are landed on before t_end.
+   subroutine expect_points(error, problem, t_end, points)
+      !> The first failure of the test
+      type(error_type), allocatable, intent(inout) :: error
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Last instant
+      real(wp), intent(in) :: t_end
+      !> Number of points
+      integer, intent(in) :: points
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+
+      call integrate(problem, 0.0_wp, t_end, at_tolerance(1.0e-6_wp), outcome, failure)
+      call expect_success(error, failure)
+      call expect(error, outcome%breaking_points == points, text(points) &
+                  //" breaking points before t = "//text(t_end)//", but " &
+                  //text(outcome%breaking_points))
+   end subroutine expect_points
+
+   !> y' = -y(t - 1), y(0) = 1.
+   pure type(linear) function decay(past) result(problem)
+      !> y before t = 0
+      real(wp), intent(in) :: past
+
+      problem = linear(n=1, lag=[1.0_wp], component=[1], past=[past], first=[1.0_wp])
+   end function decay
+
+   !> Its exact solution, the sum of (-1)^k (s - k)^k/k! over 0 <= k <= s, where s = t after a jump
+   !> and t + 1 without one.
+   pure real(wp) function decayed(s) result(y)
+      !> Time since the first kink
+      real(wp), intent(in) :: s
+      integer :: k
+
+      y = sum([((-1)**k*(s - k)**k/gamma(k + 1.0_wp), k=0, floor(s))])
+   end function decayed
+
+   !> Wille and Baker's problem with any two delays.
+   pure type(wille_baker) function pair(first_lag, second_lag) result(problem)
+      !> Delay of y1
+      real(wp), intent(in) :: first_lag
+      !> Delay of y2
+      real(wp), intent(in) :: second_lag
+
+      problem = wille_baker(n=3, lag=[first_lag, second_lag], component=[1, 2], &
+                            past=[1.0_wp, 1.0_wp, 1.0_wp], first=[1.0_wp, 1.0_wp, 1.0_wp])
+   end function pair
+end module test_dde_behaviour

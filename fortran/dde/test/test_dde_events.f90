@@ -1,0 +1,343 @@
+!> Events: where they are found, in what order, and that one can end a run.
+module test_dde_events
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use dde, only: event_met, event_table, integrate, integration_options, integration_result, &
+                  methods, reached_end, table_sampler
+   use dde_errors, only: failure_type => error_type, text
+   use expectations, only: expect, expect_between, expect_close, expect_success
+   use dde_kinds, only: int64, wp
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use solving, only: at_tolerance
+   use test_problems, only: sine
+   use undelayed_problems, only: quadrature, swing, without_delays
+   implicit none (type, external)
+   private
+   public :: collect_dde_events
+
+   !> Half a turn.
+   real(wp), parameter :: pi = acos(-1.0_wp)
+
+   !> Passages of sin 50 t.
+   type, extends(event_table) :: fast_function
+   contains
+      procedure :: values => fast_values
+   end type fast_function
+
+   !> A table of the events of a function of its own.
+   type, extends(event_table) :: partial_function
+   contains
+      procedure :: values => partial_values
+   end type partial_function
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_dde_events(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("directions", test_directions), &
+                   new_unittest("an event that ends the run", test_terminal), &
+                   new_unittest("maxima", test_maxima), &
+                   new_unittest("two passages in one step", test_pair), &
+                   new_unittest("order of several functions", test_order), &
+                   new_unittest("at once with the end of the run", test_simultaneous), &
+                   new_unittest("a zero at the start", test_zero_at_start), &
+                   new_unittest("a zero where steps meet", test_zero_at_step_end), &
+                   new_unittest("a value that is not finite", test_not_finite), &
+                   new_unittest("a fast function of time", test_fast), &
+                   new_unittest("work", test_work)]
+   end subroutine collect_dde_events
+
+   !> sin t = 1/2 at pi/6, 5 pi/6 and 13 pi/6: rising, falling, both.
+   subroutine test_directions(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(event_table) :: table
+      type(integration_result) :: outcome
+      integer :: i
+
+      do i = 1, size(methods)
+         table = event_table([1, 1, 1], [0.5_wp, 0.5_wp, 0.5_wp], [1, -1, 0])
+         call watch(error, i, table, outcome)
+         call expect(error, outcome%reason == reached_end, "the run goes to its end")
+         call expect_close(error, times_of(table, 1), [pi/6, 13*pi/6], 1.0e-10_wp, &
+                           trim(methods(i))//", rising")
+         call expect_close(error, times_of(table, 2), [5*pi/6], 1.0e-10_wp, &
+                           trim(methods(i))//", falling")
+         call expect_close(error, times_of(table, 3), [pi/6, 5*pi/6, 13*pi/6], 1.0e-10_wp, &
+                           trim(methods(i))//", both")
+         call expect_close(error, table%y(1, :table%received), spread(0.5_wp, 1, 6), &
+                           1.0e-14_wp, "y")
+      end do
+   end subroutine test_directions
+
+   !> The second event, 5 pi/6, ends the run: state, time and samples stop there.
+   subroutine test_terminal(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(event_table) :: table
+      type(integration_result) :: outcome
+      type(table_sampler) :: samples
+      integer :: i
+
+      do i = 1, size(methods)
+         table = event_table([1, 1], [0.5_wp, 0.5_wp], [1, -1], terminal=[.false., .true.])
+         samples = table_sampler([1], [0.0_wp, 2.6_wp, 2.61_wp, 2.62_wp, 5.0_wp])
+         call watch(error, i, table, outcome, samples)
+         call expect(error, outcome%reason == event_met, "the reason is `event_met`")
+         call expect(error, table%received == 2, "two events are received")
+         call expect_close(error, table%time(:2)%hi, [pi/6, 5*pi/6], 1.0e-10_wp, "times")
+         call expect_close(error, outcome%t, table%time(2)%hi, 0.0_wp, "end")
+         call expect_close(error, outcome%y, [0.5_wp], 1.0e-14_wp, "y at the end")
+         call expect(error, samples%received == 3, "samples after it are not taken: " &
+                     //text(samples%received))
+         call expect_close(error, samples%values(1, 2:3), sin([2.6_wp, 2.61_wp]), 1.0e-10_wp, &
+                           "samples before it")
+      end do
+   end subroutine test_terminal
+
+   !> Maxima and minima of cos t and -sin t.
+   subroutine test_maxima(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(event_table) :: table
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      integer :: i, k
+
+      do i = 1, size(methods)
+         table = event_table([1, 1, 2], [0.0_wp, 0.0_wp, 0.0_wp], [-1, 1, -1], &
+                             of_slope=[.true., .true., .true.])
+         call integrate(swing(), 0.0_wp, 20.0_wp, at_tolerance(1.0e-12_wp, methods(i)), &
+                        outcome, failure, watcher=table)
+         call expect_success(error, failure)
+         call expect_close(error, times_of(table, 1), [(2*pi*k, k=1, 3)], 1.0e-10_wp, &
+                           trim(methods(i))//", maxima of cos t")
+         call expect_close(error, times_of(table, 2), [(2*pi*k - pi, k=1, 3)], 1.0e-10_wp, &
+                           trim(methods(i))//", minima of cos t")
+         call expect_close(error, times_of(table, 3), [(2*pi*k - 0.5_wp*pi, k=1, 3)], 1.0e-10_wp, &
+                           trim(methods(i))//", maxima of -sin t")
+      end do
+   end subroutine test_maxima
+
+   !> t^2 passes 1/4 and 1/100 twice within one step from -1 to 1; the step's ends do not show it.
+   subroutine test_pair(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(event_table) :: table
+      type(failure_type), allocatable :: failure
+      type(integration_options) :: options
+      type(integration_result) :: outcome
+      integer :: i
+
+      do i = 1, size(methods)
+         options = integration_options(methods(i), first_step=2.0_wp)
+         table = event_table([1, 1], [0.25_wp, 0.01_wp], [0, 0])
+         call integrate(power_of_time(1, 1.0_wp), -1.0_wp, 1.0_wp, options, outcome, failure, &
+                        watcher=table)
+         call expect_success(error, failure)
+         call expect(error, outcome%accepted == 1, "one step")
+         call expect(error, table%received == 4, "four events")
+         if (allocated(error)) return
+         call expect_close(error, table%time(:4)%hi, [-0.5_wp, -0.1_wp, 0.1_wp, 0.5_wp], &
+                           1.0e-13_wp, trim(methods(i)))
+         call expect(error, all(table%which(:4) == [1, 2, 2, 1]), "which")
+      end do
+   end subroutine test_pair
+
+   !> t passes seven levels in one step, given in disorder: events come in order of time.
+   subroutine test_order(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(event_table) :: table
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      real(wp), parameter :: levels(7) = [0.31_wp, 0.3_wp, 0.9_wp, 0.1_wp, 0.32_wp, 0.89_wp, 0.2_wp]
+
+      table = event_table([1, 1, 1, 1, 1, 1, 1], levels, [1, 1, 1, 1, 1, 1, 1])
+      call integrate(power_of_time(0, 0.0_wp), 0.0_wp, 1.0_wp, &
+                     integration_options("explicit", first_step=1.0_wp), outcome, failure, &
+                     watcher=table)
+      call expect_success(error, failure)
+      call expect(error, table%received == 7, "seven events")
+      if (allocated(error)) return
+      call expect(error, all(table%which(:7) == [4, 7, 2, 1, 5, 6, 3]), "their order")
+      call expect_close(error, table%time(:7)%hi, levels(table%which(:7)), 1.0e-15_wp, "times")
+   end subroutine test_order
+
+   !> Of events at one instant, all are handed over, though one of them ends the run; later ones are
+   !> not.
+   subroutine test_simultaneous(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(event_table) :: table
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+
+      table = event_table([1, 1, 1], [0.51_wp, 0.5_wp, 0.5_wp], [1, 1, 1], &
+                          terminal=[.false., .true., .false.])
+      call integrate(power_of_time(0, 0.0_wp), 0.0_wp, 1.0_wp, &
+                     integration_options("explicit", first_step=1.0_wp), outcome, failure, &
+                     watcher=table)
+      call expect_success(error, failure)
+      call expect(error, table%received == 2, "two events")
+      call expect(error, all(table%which(:2) == [2, 3]), "which")
+   end subroutine test_simultaneous
+
+   !> sin t = 0 at t = 0 is no event, pi and 2 pi are.
+   subroutine test_zero_at_start(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(event_table) :: table
+      type(integration_result) :: outcome
+      integer :: i
+
+      do i = 1, size(methods)
+         table = event_table([1], [0.0_wp], [0])
+         call watch(error, i, table, outcome)
+         call expect_close(error, times_of(table, 1), [pi, 2*pi], 1.0e-10_wp, methods(i))
+      end do
+   end subroutine test_zero_at_start
+
+   !> t passes 1 and 2 where steps meet and 3 where the run ends: each once.
+   subroutine test_zero_at_step_end(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(event_table) :: table
+      type(failure_type), allocatable :: failure
+      type(integration_options) :: options
+      type(integration_result) :: outcome
+      integer :: i
+
+      do i = 1, size(methods)
+         options = integration_options(methods(i), first_step=1.0_wp, longest_step=1.0_wp)
+         table = event_table([1, 1, 1], [1.0_wp, 2.0_wp, 3.0_wp], [0, 0, 0])
+         call integrate(power_of_time(0, 0.0_wp), 0.0_wp, 3.0_wp, options, outcome, failure, &
+                        watcher=table)
+         call expect_success(error, failure)
+         call expect(error, outcome%accepted == 3, "three steps")
+         call expect(error, abs(outcome%y(1) - 3.0_wp) > 0.0_wp .or. table%received == 3, &
+                     "a zero at the very end is seen")
+         call expect_between(error, real(table%received, wp), 2.0_wp, 3.0_wp, "events")
+         if (allocated(error)) return
+         call expect_close(error, table%time(:2)%hi, [1.0_wp, 2.0_wp], 1.0e-13_wp, methods(i))
+      end do
+   end subroutine test_zero_at_step_end
+
+   !> A function of its own, t - 0.3, that is no number before 1/4 and after 1/2: its zero is found.
+   subroutine test_not_finite(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(partial_function) :: partial
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+
+      allocate (partial%direction, source=[0])
+      allocate (partial%terminal, source=[.false.])
+      call integrate(power_of_time(0, 0.0_wp), 0.0_wp, 1.0_wp, &
+                     integration_options("explicit", first_step=1.0_wp), outcome, failure, &
+                     watcher=partial)
+      call expect_success(error, failure)
+      call expect_close(error, times_of(partial%event_table, 1), [0.3_wp], 1.0e-15_wp, "zero")
+   end subroutine test_not_finite
+
+   !> t - 0.3 where 1/4 <= t <= 1/2, no number elsewhere.
+   pure subroutine partial_values(self, t, y, slope, g)
+      class(partial_function), intent(in) :: self
+      real(wp), intent(in) :: t
+      real(wp), intent(in) :: y(:)
+      real(wp), intent(in) :: slope(:)
+      real(wp), intent(out) :: g(:)
+
+      g = t - 0.3_wp
+      if (t < 0.25_wp .or. t > 0.5_wp) g = ieee_value(t, ieee_quiet_nan)
+   end subroutine partial_values
+
+   !> A function of time that changes much faster than the solution, 1 + t: all of its
+   !> zeros k pi/50 up to t = 100, looked at five times between two of them, at no further step.
+   subroutine test_fast(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(fast_function) :: table
+      type(integration_result) :: outcome, unwatched
+      type(quadrature) :: problem
+      integer :: i, k
+
+      problem = quadrature(n=1, past=[1.0_wp], first=[1.0_wp])
+      call without_delays(problem)
+      do i = 1, size(methods)
+         table = fast_function(direction=[0], terminal=[.false.])
+         table%look_every = 0.0125_wp
+         call integrate(problem, 0.0_wp, 100.0_wp, at_tolerance(1.0e-6_wp, methods(i)), unwatched, &
+                        failure)
+         call expect_success(error, failure)
+         call integrate(problem, 0.0_wp, 100.0_wp, at_tolerance(1.0e-6_wp, methods(i)), outcome, &
+                        failure, watcher=table)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         call expect_close(error, table%time(:table%received)%hi, [(k*pi/50, k=1, 1591)], &
+                           1.0e-9_wp, methods(i))
+         call expect(error, outcome%accepted == unwatched%accepted, "as many steps")
+      end do
+   end subroutine test_fast
+
+   !> A watcher costs three evaluations a step of the explicit method, and changes no state.
+   subroutine test_work(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(event_table) :: table
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome, watched
+
+      table = event_table([1], [0.5_wp], [0])
+      call integrate(swing(), 0.0_wp, 20.0_wp, at_tolerance(1.0e-9_wp), outcome, failure)
+      call integrate(swing(), 0.0_wp, 20.0_wp, at_tolerance(1.0e-9_wp), watched, failure, &
+                     watcher=table)
+      call expect_success(error, failure)
+      call expect(error, watched%evaluations == outcome%evaluations + 3_int64*outcome%accepted, &
+                  "evaluations: "//text(watched%evaluations))
+      call expect_close(error, watched%y, outcome%y, 0.0_wp, "state")
+   end subroutine test_work
+
+   !> y' = -y(t - pi/2) with the history sin t to t = 8, watched.
+   subroutine watch(error, method, table, outcome, sampler)
+      !> The first failure of the test
+      type(error_type), allocatable, intent(inout) :: error
+      !> Number of the method
+      integer, intent(in) :: method
+      !> The watcher
+      type(event_table), intent(inout) :: table
+      !> What was done
+      type(integration_result), intent(out) :: outcome
+      !> Receiver of samples
+      type(table_sampler), intent(inout), optional :: sampler
+      type(failure_type), allocatable :: failure
+
+      call integrate(sine(), 0.0_wp, 8.0_wp, at_tolerance(1.0e-12_wp, methods(method)), outcome, &
+                     failure, sampler, table)
+      call expect_success(error, failure)
+   end subroutine watch
+
+   !> Times of the events of one function.
+   pure function times_of(table, which) result(times)
+      !> The table
+      type(event_table), intent(in) :: table
+      !> Number of the function
+      integer, intent(in) :: which
+      real(wp), allocatable :: times(:)
+
+      associate (rows => table%received)
+         allocate (times, source=pack(table%time(:rows)%hi, table%which(:rows) == which))
+      end associate
+   end function times_of
+
+   !> sin 50 t.
+   pure subroutine fast_values(self, t, y, slope, g)
+      class(fast_function), intent(in) :: self
+      real(wp), intent(in) :: t, y(:), slope(:)
+      real(wp), intent(out) :: g(:)
+
+      g = sin(50.0_wp*t)
+   end subroutine fast_values
+
+   !> y' = (power + 1) t^power.
+   pure type(quadrature) function power_of_time(power, first) result(problem)
+      !> Power
+      integer, intent(in) :: power
+      !> y at the start
+      real(wp), intent(in) :: first
+
+      problem = quadrature(n=1, past=[first], first=[first], power=power)
+      call without_delays(problem)
+   end function power_of_time
+end module test_dde_events

@@ -1,0 +1,292 @@
+!> The past: look-ups in a ring of polynomials of two kinds, growth, and forgetting.
+module test_dde_history
+   use, intrinsic :: iso_c_binding, only: c_long
+   use dde, only: integrate, integration_options, integration_result
+   use dde_history, only: history_type
+   use dde_time, only: instant, instant_at, later
+   use dde_errors, only: failure_type => error_type, text
+   use expectations, only: expect, expect_between, expect_close, expect_success
+   use dde_kinds, only: wp
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use test_problems, only: linear, sine, wille_baker
+   implicit none (type, external)
+   private
+   public :: collect_dde_history
+
+   !> Nodes of the polynomials of odd and of even steps.
+   real(wp), parameter :: odd_nodes(1) = [1.0_wp], even_nodes(3) = [0.0_wp, 1.0_wp, 0.0_wp]
+   !> Places of a step in an order that goes forth and back.
+   real(wp), parameter :: places(5) = [0.0_wp, 0.05_wp, 0.3_wp, 0.9_wp, 1.0_wp]
+   !> Memory that counts as growth, in kibibytes.
+   integer(c_long), parameter :: growth = 4096_c_long
+
+   interface
+      integer(c_long) function peak_memory() result(kibibytes) bind(c)
+         import :: c_long
+         implicit none (type, external)
+      end function peak_memory
+   end interface
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_dde_history(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("components kept", test_kept), &
+                   new_unittest("before the first instant", test_before), &
+                   new_unittest("look-ups in a ring", test_ring), &
+                   new_unittest("look-ups in a ring that doubles", test_doubling), &
+                   new_unittest("look-ups in a ring that doubles late", test_late_doubling), &
+                   new_unittest("what is forgotten", test_forget), &
+                   new_unittest("what is given back", test_recall), &
+                   new_unittest("memory of a ring", test_memory), &
+                   new_unittest("memory of an integration", test_memory_of_integration)]
+   end subroutine collect_dde_history
+
+   !> Of delayed components [3, 1, 3] two are kept.
+   subroutine test_kept(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(history_type) :: past
+
+      past = history_type(delayed([1.0_wp, 2.0_wp, 3.0_wp], [3, 1, 3]), instant_at(0.0_wp))
+      call expect_close(error, real(past%kept, wp), [1.0_wp, 3.0_wp], 0.0_wp, "components kept")
+   end subroutine test_kept
+
+   !> Before the first instant the problem's history is asked, at the right time.
+   subroutine test_before(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(history_type) :: past
+      type(sine) :: problem
+      real(wp) :: z(1, 1)
+
+      problem = sine()
+      past = history_type(problem, instant_at(0.0_wp))
+      call past%face(problem, instant_at(0.25_wp), 0.5_wp)
+      call past%values(problem, [0.5_wp], z)
+      call expect_close(error, z(:, 1), [sin(0.75_wp - problem%lag(1))], 1.0e-15_wp, "history")
+   end subroutine test_before
+
+   !> Three delays of two components over 2000 steps of different lengths, of which 50 at a time
+   !> matter.
+   subroutine test_ring(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call expect_lookups(error, [0.05_wp, 1.45_wp, 0.9_wp], 2000)
+   end subroutine test_ring
+
+   !> The same where 600 steps matter at a time, so that the ring doubles four times.
+   subroutine test_doubling(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call expect_lookups(error, [0.05_wp, 18.0_wp, 7.3_wp], 2000)
+   end subroutine test_doubling
+
+   !> The same where steps become shorter on the way, so that the ring doubles when its oldest step
+   !> lies anywhere.
+   subroutine test_late_doubling(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call expect_lookups(error, [0.05_wp, 1.45_wp, 0.9_wp], 2000, 500)
+   end subroutine test_late_doubling
+
+   !> Steps that ended before the horizon are gone, those after it are there, the newest always is:
+   !> the value of each step is its number.
+   subroutine test_forget(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(history_type) :: past
+      type(wille_baker) :: problem
+      integer :: i
+
+      problem = delayed([200.0_wp], [1])
+      past = history_type(problem, instant_at(0.0_wp))
+      do i = 0, 199
+         call past%append(instant_at(real(i, wp)), 1.0_wp, [0.0_wp], &
+                          reshape([real(i, wp), 0.0_wp], [2, 1]), serves=1.0_wp)
+      end do
+      call expect_number(error, past, problem, 2.5_wp, 2.0_wp)
+      call past%forget(instant_at(100.5_wp))
+      call expect_number(error, past, problem, 2.5_wp, 100.0_wp)
+      call expect_number(error, past, problem, 100.25_wp, 100.0_wp)
+      call expect_number(error, past, problem, 101.5_wp, 101.0_wp)
+      call expect_number(error, past, problem, 199.5_wp, 199.0_wp)
+      call past%forget(instant_at(150.0_wp))
+      call expect_number(error, past, problem, 2.5_wp, 150.0_wp)
+      call past%forget(instant_at(1000.0_wp))
+      call expect_number(error, past, problem, 2.5_wp, 199.0_wp)
+   end subroutine test_forget
+
+   !> A step of low degree in a slot that had one of high degree before comes back with zeros above.
+   subroutine test_recall(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(history_type) :: past
+      type(instant) :: start
+      real(wp) :: coefficient(0:12, 1), length, nodes(12)
+      integer :: i
+
+      past = history_type(delayed([2.0_wp], [1]), instant_at(0.0_wp))
+      nodes = 0.0_wp
+      coefficient = 7.0_wp
+      do i = 0, 63
+         call past%append(instant_at(real(i, wp)), 1.0_wp, nodes, coefficient, serves=1.0_wp)
+         call past%forget(instant_at(i + 1.0_wp))
+      end do
+      call past%append(instant_at(64.0_wp), 1.0_wp, odd_nodes, reshape([3.0_wp, 4.0_wp], [2, 1]), &
+                       serves=1.0_wp)
+      call past%recall(past%newest, start, length, nodes, coefficient)
+      call expect_close(error, start%hi, 64.0_wp, 0.0_wp, "start")
+      call expect_close(error, coefficient(:, 1), [3.0_wp, 4.0_wp, (0.0_wp, i=2, 12)], 0.0_wp, &
+                        "coefficients")
+      call expect(error, past%degree_in_use() == 12, "the step before is kept, too")
+   end subroutine test_recall
+
+   !> A million steps of which ten matter at a time take no more memory than the first hundred.
+   subroutine test_memory(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(history_type) :: past
+      integer(c_long) :: before
+      integer :: i
+
+      past = history_type(delayed([10.0_wp], [1]), instant_at(0.0_wp))
+      before = 0
+      do i = 0, 1000000
+         if (i == 100) before = peak_memory()
+         call past%append(instant_at(real(i, wp)), 1.0_wp, odd_nodes, &
+                          reshape([1.0_wp, 0.0_wp], [2, 1]), serves=1.0_wp)
+         call past%forget(instant_at(i - 9.0_wp))
+      end do
+      call expect(error, before > 0, "memory is known")
+      call expect(error, peak_memory() - before < growth, "memory does not grow")
+   end subroutine test_memory
+
+   !> Nor do ten thousand steps of an integration with 40 delayed values, which would need 25 MB.
+   subroutine test_memory_of_integration(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(linear) :: problem
+      integer, parameter :: n = 40
+      integer(c_long) :: before
+      integer :: i
+
+      problem = linear(n=n, lag=[(0.01_wp, i=1, n)], component=[(i, i=1, n)], &
+                       past=[(1.0_wp, i=1, n)], first=[(1.0_wp, i=1, n)])
+      call integrate(problem, 0.0_wp, 1.0_wp, integration_options("explicit"), &
+                     outcome, failure)
+      call expect_success(error, failure)
+      before = peak_memory()
+      call integrate(problem, 0.0_wp, 100.0_wp, integration_options("explicit"), &
+                     outcome, failure)
+      call expect_success(error, failure)
+      call expect(error, outcome%accepted >= 10000, "ten thousand steps")
+      call expect(error, peak_memory() - before < growth, "memory does not grow by " &
+                  //text(int(peak_memory() - before)))
+   end subroutine test_memory_of_integration
+
+   !> Append steps, forget what no delay reaches, and look up all delayed values in each step. In
+   !> step i the solution is i + s, but component 3 of an even step is i + 3 s^2 - 2 s^3:
+   !> continuous, and in no step what it is in another.
+   subroutine expect_lookups(error, lag, steps, long_steps)
+      !> The first failure of the test
+      type(error_type), allocatable, intent(inout) :: error
+      !> Delays of components 3, 1 and 3
+      real(wp), intent(in) :: lag(3)
+      !> Number of steps
+      integer, intent(in) :: steps
+      !> Steps after which they are 20 times shorter; none if not given
+      integer, intent(in), optional :: long_steps
+      type(history_type) :: past
+      type(instant) :: now
+      type(wille_baker) :: problem
+      real(wp) :: known, length, misfit, start(0:steps)
+      real(wp) :: z(3, size(places))
+      integer :: found, i, j, k
+
+      problem = delayed(lag, [3, 1, 3])
+      now = instant_at(0.0_wp)
+      past = history_type(problem, now)
+      misfit = 0.0_wp
+      found = 0
+      do i = 0, steps - 1
+         start(i) = now%hi
+         length = 0.01_wp*(1 + modulo(7*i, 5))
+         if (present(long_steps)) length = length/merge(1, 20, i < long_steps)
+         call past%face(problem, now, length)
+         ! ahead, then back to the start of the step
+         call past%values(problem, places(3:)*length, z(:, 3:))
+         call past%values(problem, places*length, z)
+         do j = 1, size(places)
+            do k = 1, size(lag)
+               ! a step that has the first instant inside is none that the solver makes
+               if (now%hi < lag(k) .and. now%hi + length > lag(k)) cycle
+               known = problem%past(problem%component(k))
+               if (now%hi >= lag(k)) then
+                  known = value_at(now%hi + places(j)*length - lag(k), start(:i), &
+                                   problem%component(k))
+                  found = found + 1
+               end if
+               misfit = max(misfit, abs(z(k, j) - known))
+            end do
+         end do
+         if (modulo(i, 2) == 1) then
+            call past%append(now, length, odd_nodes, &
+                             reshape([real(wp) :: i + 1, 1, i + 1, 1], [2, 2]), serves=length)
+         else
+            call past%append(now, length, even_nodes, &
+                             reshape([real(wp) :: i, 1, 0, 0, i, 1, 1, -2], [4, 2]), &
+                             serves=length)
+         end if
+         now = later(now, length)
+         call past%forget(later(now, -maxval(lag)))
+      end do
+      call expect_between(error, misfit, 0.0_wp, 1.0e-9_wp, "largest misfit")
+      call expect(error, found > 5*steps, "most look-ups are in the ring")
+   end subroutine expect_lookups
+
+   !> That solution at time t.
+   pure real(wp) function value_at(t, start, component) result(value)
+      !> Time
+      real(wp), intent(in) :: t
+      !> Starts of all steps so far, the present one last
+      real(wp), intent(in) :: start(0:)
+      !> 1 or 3
+      integer, intent(in) :: component
+      real(wp) :: s
+      integer :: i
+
+      i = min(count(start <= t), ubound(start, 1)) - 1
+      s = (t - start(i))/(start(i + 1) - start(i))
+      value = i + s
+      if (component == 3 .and. modulo(i, 2) == 0) value = i + (3.0_wp - 2.0_wp*s)*s**2
+   end function value_at
+
+   !> The past reads this number at time t.
+   subroutine expect_number(error, past, problem, t, number)
+      !> The first failure of the test
+      type(error_type), allocatable, intent(inout) :: error
+      !> The past
+      type(history_type), intent(inout) :: past
+      !> Its problem, with one delay
+      type(wille_baker), intent(in) :: problem
+      !> Time
+      real(wp), intent(in) :: t
+      !> Value known
+      real(wp), intent(in) :: number
+      real(wp) :: z(1, 1)
+
+      call past%face(problem, instant_at(t + problem%lag(1)), 0.1_wp)
+      call past%values(problem, [0.0_wp], z)
+      call expect_close(error, z(:, 1), [number], 0.0_wp, "number of the step at t = "//text(t))
+   end subroutine expect_number
+
+   !> A problem of three components with any delays.
+   pure type(wille_baker) function delayed(lag, component) result(problem)
+      !> Delays
+      real(wp), intent(in) :: lag(:)
+      !> Which component each belongs to
+      integer, intent(in) :: component(:)
+
+      problem = wille_baker(n=3, lag=lag, component=component, past=[-1.0_wp, -2.0_wp, -3.0_wp], &
+                            first=[0.0_wp, 0.0_wp, 0.0_wp])
+   end function delayed
+end module test_dde_history

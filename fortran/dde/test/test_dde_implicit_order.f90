@@ -1,0 +1,315 @@
+!> Order of one Radau IIA step, of its interpolant and of its error estimate, for 3, 5 and 7 stages.
+module test_dde_implicit_order
+   use dde_collocation, only: combine, lagrange_weights
+   use dde_implicit_step, only: implicit_step_type
+   use dde_jacobian, only: jacobian_type
+   use dde_linear, only: factorise, solve
+   use dde_radau_tableau, only: radau_iia, radau_tableau
+   use dde_stage_systems, only: stage_systems
+   use dde_errors, only: text
+   use expectations, only: expect, expect_between, expect_close
+   use dde_kinds, only: wp
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use pseudo_random, only: uniform
+   use single_step, only: interpolated, take_step
+   use undelayed_problems, only: oscillator, quadrature, without_delays
+   implicit none (type, external)
+   private
+   public :: collect_dde_implicit_order
+
+   !> Numbers of stages.
+   integer, parameter :: stages(3) = [3, 5, 7]
+   !> Places in the step.
+   real(wp), parameter :: places(5) = [0.05_wp, 0.31_wp, 0.52_wp, 0.77_wp, 0.93_wp]
+   !> What the estimate is asked for, so that the iteration goes on to rounding.
+   real(wp), parameter :: rounding = 5.0e-15_wp
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_dde_implicit_order(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("conditions B, C and D", test_conditions), &
+                   new_unittest("powers of t", test_powers), &
+                   new_unittest("one step of an oscillator", test_oscillator), &
+                   new_unittest("ten steps of an oscillator", test_global_order), &
+                   new_unittest("a row of huge numbers", test_huge_row), &
+                   new_unittest("delayed values in the step", test_coupling)]
+   end subroutine collect_dde_implicit_order
+
+   !> Butcher's conditions B(2 s - 1), C(s) and D(s - 1), which make the order 2 s - 1 (Hairer and
+   !> Wanner 1996, theorem IV.5.1).
+   subroutine test_conditions(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(radau_tableau) :: method
+      type(stage_systems) :: systems
+      real(wp), allocatable :: a(:, :), b(:)
+      integer :: i, q
+
+      do i = 1, size(stages)
+         method = radau_iia(stages(i))
+         systems = stage_systems(method, 1)
+         a = inverse(systems%a_inverse(:stages(i), :))
+         b = a(stages(i), :)
+         associate (c => method%c, s => stages(i))
+            do q = 1, 2*s - 1
+               call expect_close(error, sum(b*c**(q - 1)), 1.0_wp/q, 1.0e-13_wp, "B "//text(q))
+            end do
+            do q = 1, s
+               call expect_close(error, matmul(a, c**(q - 1)), c**q/q, 1.0e-13_wp, "C "//text(q))
+            end do
+            do q = 1, s - 1
+               call expect_close(error, matmul(b*c**(q - 1), a), b*(1.0_wp - c**q)/q, 1.0e-13_wp, &
+                                 "D "//text(q))
+            end do
+            call expect_between(error, abs(sum(b*c**(2*s - 1)) - 0.5_wp/s), 1.0e-10_wp, 1.0_wp, &
+                                "B beyond")
+         end associate
+      end do
+   end subroutine test_conditions
+
+   !> Inverse of a matrix, column by column.
+   pure function inverse(matrix) result(columns)
+      !> The matrix
+      real(wp), intent(in) :: matrix(:, :)
+      real(wp) :: columns(size(matrix, 1), size(matrix, 1))
+      real(wp) :: factors(size(matrix, 1), size(matrix, 1)), row_scale(size(matrix, 1))
+      integer :: i, pivot(size(matrix, 1))
+      logical :: singular
+
+      factors = matrix
+      call factorise(factors, pivot, row_scale, singular)
+      columns = 0.0_wp
+      do i = 1, size(pivot)
+         columns(i, i) = 1.0_wp
+         call solve(factors, pivot, columns(:, i))
+      end do
+   end function inverse
+
+   !> y' = (p + 1) t**p: the step is exact up to p = 2 s - 2, the interpolant up to p = s.
+   subroutine test_powers(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(implicit_step_type) :: step
+      type(quadrature) :: problem
+      real(wp) :: estimate, inside(1), misfit, misfit_inside
+      integer :: i, j, p
+
+      do i = 1, size(stages)
+         do p = 0, 2*stages(i) - 1
+            problem = quadrature(n=1, past=[0.0_wp], first=[0.0_wp], power=p)
+            call without_delays(problem)
+            step = implicit_step_type(problem, stages(i))
+            call take_step(problem, 0.25_wp, 0.75_wp, step, estimate, tight(stages(i)), &
+                           tight(stages(i)))
+            misfit = abs(step%y_new(1) - (1.0_wp - 0.25_wp**(p + 1)))
+            misfit_inside = 0.0_wp
+            do j = 1, size(places)
+               inside = interpolated(step, places(j))
+               misfit_inside = max(misfit_inside, &
+                                   abs(inside(1) - ((0.25_wp + 0.75_wp*places(j))**(p + 1) &
+                                                    - 0.25_wp**(p + 1))))
+            end do
+            if (p <= 2*stages(i) - 2) then
+               call expect_between(error, misfit, 0.0_wp, 1.0e-13_wp, "low power "//text(p))
+            else
+               call expect_between(error, misfit, 1.0e-10_wp, 1.0_wp, "high power "//text(p))
+            end if
+            if (p <= stages(i)) then
+               call expect_between(error, misfit_inside, 0.0_wp, 1.0e-13_wp, "inside "//text(p))
+            else if (p == stages(i) + 1) then
+               call expect_between(error, misfit_inside, 1.0e-8_wp, 1.0_wp, "inside "//text(p))
+            end if
+         end do
+      end do
+   end subroutine test_powers
+
+   !> Halving h divides the error of a step by 2**(2 s), that inside the step by 2**(s + 2) and the
+   !> estimate by 2**(s + 1).
+   subroutine test_oscillator(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(implicit_step_type) :: step
+      type(oscillator) :: problem
+      real(wp), parameter :: longest(3) = [0.5_wp, 2.0_wp, 5.0_wp]
+      real(wp) :: estimate(2), h, inside(2), misfit(2)
+      integer :: i, j, k
+
+      problem = oscillator(n=2, past=[1.0_wp, 0.0_wp], first=[1.0_wp, 0.0_wp])
+      call without_delays(problem)
+      do i = 1, size(stages)
+         do j = 1, 2
+            h = longest(i)*0.5_wp**j
+            step = implicit_step_type(problem, stages(i))
+            call take_step(problem, 0.0_wp, h, step, estimate(j), tight(stages(i)), &
+                           tight(stages(i)))
+            misfit(j) = norm2(step%y_new - [cos(h), -sin(h)])
+            inside(j) = maxval([(norm2(interpolated(step, places(k)) &
+                                       - [cos(h*places(k)), -sin(h*places(k))]), &
+                                 k=1, size(places))])
+         end do
+         associate (s => stages(i))
+            call expect_between(error, halvings(misfit), 2*s - 0.5_wp, 2*s + 0.6_wp, "step")
+            call expect_between(error, halvings(inside), s + 1.7_wp, s + 2.6_wp, "inside")
+            call expect_between(error, halvings(estimate), s + 0.7_wp, s + 1.6_wp, "estimate")
+         end associate
+      end do
+   end subroutine test_oscillator
+
+   !> After ten steps, and twice as many of half the length, the error falls with order 2 s - 1.
+   subroutine test_global_order(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(implicit_step_type) :: step
+      type(oscillator) :: problem
+      real(wp), parameter :: longest(3) = [0.5_wp, 2.0_wp, 4.0_wp]
+      real(wp) :: estimate, h, misfit(2)
+      integer :: i, j, k
+
+      problem = oscillator(n=2, past=[1.0_wp, 0.0_wp], first=[1.0_wp, 0.0_wp])
+      call without_delays(problem)
+      do i = 1, size(stages)
+         do j = 1, 2
+            h = longest(i)*0.5_wp**j
+            step = implicit_step_type(problem, stages(i))
+            do k = 1, 10*j
+               call take_step(problem, (k - 1)*h, h, step, estimate, tight(stages(i)), &
+                              tight(stages(i)))
+               call step%advance()
+            end do
+            associate (t => 10*j*h)
+               misfit(j) = norm2(step%y - [cos(t), -sin(t)])
+            end associate
+         end do
+         call expect_between(error, halvings(misfit), 2*stages(i) - 1.5_wp, 2*stages(i) - 0.5_wp, &
+                             "global order")
+      end do
+   end subroutine test_global_order
+
+   !> One Newton correction of a block deep in stick (stiffness 1e23, near balance of forces), alone
+   !> and with the delay inside the step: theta stays, u falls by h c. The row of ln v must not
+   !> serve as pivot for the others.
+   subroutine test_huge_row(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(radau_tableau) :: method
+      type(stage_systems) :: systems
+      real(wp), parameter :: h = 2.8e-4_wp, stiffness = 1.0e23_wp
+      real(wp), allocatable, dimension(:, :) :: change, correction, own_place, slopes
+      type(jacobian_type) :: jacobian
+      integer :: i, lag
+      logical :: singular
+
+      allocate (jacobian%by_y(3, 3), jacobian%by_z(3, 1), source=0.0_wp)
+      jacobian%by_y(3, :) = -stiffness*[2.0_wp, 1.0_wp, 2.0_wp - 2.0e-8_wp]
+      do i = 1, size(stages)
+         do lag = 0, 1
+            method = radau_iia(stages(i))
+            systems = stage_systems(method, 3)
+            allocate (own_place, source=reshape(method%c - (0.35_wp + lag), [1, stages(i)]))
+            allocate (slopes(3, stages(i)))
+            slopes(1, :) = 0.0_wp
+            slopes(2, :) = -1.0_wp
+            slopes(3, :) = -2.0e-8_wp*stiffness
+            call systems%prepare(method, h, jacobian, [3], own_place, &
+                                 weights_at(method, own_place), singular)
+            allocate (change(3, stages(i)), correction(3, stages(i)))
+            call systems%correct(method, slopes, 0.0_wp*slopes, correction)
+            call combine(3, stages(i), systems%t, correction, change)
+            call expect(error, systems%coupled .neqv. lag == 1, "coupled by a short delay")
+            call expect_close(error, change(1, :), 0.0_wp*method%c, 1.0e-15_wp, "theta")
+            call expect_close(error, change(2, :), -h*method%c, 1.0e-15_wp, "u")
+            deallocate (change, correction, own_place, slopes)
+         end do
+      end do
+   end subroutine test_huge_row
+
+   !> A correction solves the linearised equations of all stages, and the filter its own, with two
+   !> delays that lie in the step at all stages, at some and at none.
+   subroutine test_coupling(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(radau_tableau) :: method
+      type(jacobian_type) :: jacobian
+      type(stage_systems) :: systems
+      real(wp), parameter :: h = 0.7_wp, lags(2, 3) = reshape([0.01_wp, 0.3_wp, 0.5_wp, 0.02_wp, &
+                                                               0.4_wp, 0.9_wp], [2, 3])
+      integer, parameter :: component(2) = [3, 1], n = 4
+      real(wp), allocatable, dimension(:, :) :: change, correction, left, own_place, slopes
+      real(wp), allocatable :: weights(:, :, :)
+      real(wp) :: by_y(n, n), by_z(n, 2), filtered(n), vector(n)
+      integer :: i, j, k, lag
+      logical :: singular
+
+      by_y = reshape(uniform(1, n*n, -2.0_wp, 2.0_wp), [n, n])
+      by_z = reshape(uniform(2, n*2, -2.0_wp, 2.0_wp), [n, 2])
+      jacobian%by_y = by_y
+      jacobian%by_z = by_z
+      vector = uniform(3, n, -1.0_wp, 1.0_wp)
+      do i = 1, size(stages)
+         method = radau_iia(stages(i))
+         do lag = 1, size(lags, 2)
+            systems = stage_systems(method, n)
+            allocate (own_place(2, stages(i)), change(n, stages(i)), correction(n, stages(i)))
+            do j = 1, stages(i)
+               own_place(:, j) = method%c(j) - lags(:, lag)/h
+            end do
+            slopes = reshape(uniform(4, n*stages(i), -1.0_wp, 1.0_wp), [n, stages(i)])
+            weights = weights_at(method, own_place)
+            call systems%prepare(method, h, jacobian, component, own_place, weights, singular)
+            call systems%correct(method, slopes, 0.0_wp*slopes, correction)
+            call combine(n, stages(i), systems%t, correction, change)
+            left = matmul(change, transpose(systems%a_inverse(:stages(i), :)))/h &
+                   - matmul(by_y, change)
+            do j = 1, stages(i)
+               do k = 1, 2
+                  if (own_place(k, j) <= 0.0_wp) cycle
+                  left(:, j) = left(:, j) - by_z(:, k)*sum(weights(:, k, j)*change(component(k), :))
+               end do
+            end do
+            call expect(error, .not. singular, "there is a solution")
+            do j = 1, stages(i)
+               call expect_close(error, left(:, j), slopes(:, j), 1.0e-12_wp, "stage "//text(j))
+            end do
+            filtered = vector
+            call systems%filter(filtered)
+            left = reshape(method%real_eigenvalue/h*filtered - matmul(by_y, filtered), [n, 1])
+            do k = 1, 2
+               if (own_place(k, stages(i)) > 0.0_wp) then
+                  left(:, 1) = left(:, 1) - by_z(:, k)*filtered(component(k))
+               end if
+            end do
+            call expect_close(error, left(:, 1), vector, 1.0e-13_wp, "the filter")
+            deallocate (own_place, change, correction)
+         end do
+      end do
+   end subroutine test_coupling
+
+   !> Weights of the stage increments in the delayed values of each stage.
+   pure function weights_at(method, own_place) result(weights)
+      !> The method
+      type(radau_tableau), intent(in) :: method
+      !> Places of the delayed values in the step, shape (delayed values, stages)
+      real(wp), intent(in) :: own_place(:, :)
+      real(wp) :: weights(method%stages, size(own_place, 1), method%stages)
+      integer :: i, k
+
+      do i = 1, method%stages
+         do k = 1, size(own_place, 1)
+            weights(:, k, i) = lagrange_weights([0.0_wp, method%c], own_place(k, i))
+         end do
+      end do
+   end function weights_at
+
+   !> Tolerance at which a method of s stages asks `rounding` of its estimate of order s.
+   pure real(wp) function tight(s) result(tolerance)
+      !> Number of stages
+      integer, intent(in) :: s
+
+      tolerance = rounding**((s + 2.0_wp)/(s + 1.0_wp))
+   end function tight
+
+   !> Power of 2 between two values.
+   pure real(wp) function halvings(values) result(power)
+      !> Values at h and h/2
+      real(wp), intent(in) :: values(2)
+
+      power = log(values(1)/values(2))/log(2.0_wp)
+   end function halvings
+end module test_dde_implicit_order

@@ -1,0 +1,188 @@
+!> Many equations: a delayed reaction with diffusion by the method of lines. CTest runs this suite
+!> with a stack of 512 kB, on which no array of its 100 000 equations would find place.
+module test_dde_large
+   use dde, only: integrate, integration_options, integration_result
+   use dde_jacobian, only: jacobian_type
+   use dde_tolerance, only: tolerance_type
+   use dde_errors, only: failure_type => error_type, text
+   use expectations, only: expect, expect_close, expect_failure, expect_success
+   use dde_kinds, only: int64, wp
+   use lines_of_cells, only: cells
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use solving, only: at_tolerance
+   implicit none (type, external)
+   private
+   public :: collect_dde_large
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_dde_large(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("differences", test_differences), &
+                   new_unittest("a banded Jacobian", test_banded), &
+                   new_unittest("refused bands", test_refused), &
+                   new_unittest("every cell delayed", test_every_cell), &
+                   new_unittest("100 000 equations", test_stack), &
+                   new_unittest("the cost of auto", test_auto)]
+   end subroutine collect_dde_large
+
+   !> Differences agree with the derivatives, and each evaluation is counted: by columns and delayed
+   !> values, and by diagonals where the Jacobian is banded.
+   subroutine test_differences(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: n = 7
+      type(cells) :: problem
+      type(jacobian_type) :: banded, full
+      type(tolerance_type) :: tolerance
+      integer(int64) :: evaluations
+      integer :: i, j
+      logical :: finite
+      real(wp) :: known, y(n), z(n)
+
+      problem = cells(n, diffusion=3.0_wp, delayed=.true.)
+      tolerance = tolerance_type(n, 1.0e-6_wp, 1.0e-6_wp)
+      y = [(1.0_wp + 0.1_wp*i, i=1, n)]
+      z = 0.5_wp
+      evaluations = 0
+      call full%evaluate(problem, 0.0_wp, y, z, tolerance, .true., evaluations, finite)
+      call expect(error, evaluations == 1 + 2*n, "of all: "//text(evaluations))
+      call full%evaluate(problem, 0.0_wp, y, z, tolerance, .false., evaluations, finite)
+      call expect(error, evaluations == 2 + 3*n, "without the delayed ones: "//text(evaluations))
+      problem%lower = 1
+      problem%upper = 1
+      evaluations = 0
+      call banded%evaluate(problem, 0.0_wp, y, z, tolerance, .false., evaluations, finite)
+      call expect(error, evaluations == 4, "by diagonals: "//text(evaluations))
+      do j = 1, n
+         do i = max(1, j - 1), min(n, j + 1)
+            known = 3.0_wp
+            if (i == j) known = 1.8_wp*(1.0_wp - z(i)) - merge(3.0_wp, 6.0_wp, i == 1 .or. i == n)
+            call expect_close(error, full%by_y(i, j), known, 1.0e-6_wp, "full")
+            call expect_close(error, banded%by_y(2 + i - j, j), known, 1.0e-6_wp, "banded")
+         end do
+         call expect_close(error, full%by_z(j, j), -1.8_wp*y(j), 1.0e-6_wp, "by a delayed value")
+      end do
+   end subroutine test_differences
+
+   !> With a band the solution is the same, for a tenth of the evaluations; below and above the
+   !> number of equations from which on LAPACK factorises.
+   subroutine test_banded(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: sizes(2) = [30, 80]
+      character(len=8), parameter :: methods(3) = [character(len=8) :: "radau5", "radau9", &
+                                                   "radau13"]
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: banded, full
+      type(cells) :: problem
+      integer :: i, k
+
+      do k = 1, size(sizes)
+         do i = 1, size(methods)
+            problem = cells(sizes(k), diffusion=100.0_wp, delayed=.true.)
+            call integrate(problem, 0.0_wp, 5.0_wp, at_tolerance(1.0e-7_wp, methods(i)), full, &
+                           failure)
+            call expect_success(error, failure)
+            problem%lower = 1
+            problem%upper = 1
+            call integrate(problem, 0.0_wp, 5.0_wp, at_tolerance(1.0e-7_wp, methods(i)), banded, &
+                           failure)
+            call expect_success(error, failure)
+            if (allocated(error)) return
+            call expect_close(error, banded%y, full%y, 1.0e-6_wp, methods(i))
+            call expect(error, banded%evaluations < full%evaluations, "fewer evaluations")
+         end do
+      end do
+   end subroutine test_banded
+
+   !> Both widths of a band are given, or neither.
+   subroutine test_refused(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(cells) :: problem
+
+      problem = cells(30, diffusion=1.0_wp, delayed=.true.)
+      problem%lower = 1
+      call integrate(problem, 0.0_wp, 1.0_wp, integration_options(), outcome, failure)
+      call expect_failure(error, failure, "lower = 1, upper = -1; both >= 0 expected")
+   end subroutine test_refused
+
+   !> 730 equations, each with a delayed value, by a full and by a banded Jacobian.
+   subroutine test_every_cell(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: banded, explicit, full
+      type(cells) :: problem
+
+      problem = cells(730, diffusion=10.0_wp, delayed=.true.)
+      call integrate(problem, 0.0_wp, 1.5_wp, at_tolerance(1.0e-6_wp, "explicit"), explicit, &
+                     failure)
+      call expect_success(error, failure)
+      call integrate(problem, 0.0_wp, 1.5_wp, at_tolerance(1.0e-3_wp, "radau5"), full, failure)
+      call expect_success(error, failure)
+      problem%lower = 1
+      problem%upper = 1
+      call integrate(problem, 0.0_wp, 1.5_wp, at_tolerance(1.0e-6_wp, "radau9"), banded, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect_close(error, banded%y, explicit%y, 1.0e-5_wp, "banded")
+      call expect_close(error, full%y, explicit%y, 1.0e-2_wp, "full")
+   end subroutine test_every_cell
+
+   !> No array on the stack grows with the number of equations.
+   subroutine test_stack(error)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=8), parameter :: methods(3) = [character(len=8) :: "explicit", "radau5", "auto"]
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(cells) :: problem
+      integer :: i
+
+      problem = cells(100000, diffusion=1.0_wp, delayed=.false.)
+      problem%lower = 1
+      problem%upper = 1
+      do i = 1, size(methods)
+         call integrate(problem, 0.0_wp, 0.1_wp, at_tolerance(1.0e-3_wp, methods(i)), outcome, &
+                        failure)
+         call expect_success(error, failure)
+      end do
+   end subroutine test_stack
+
+   !> Where the explicit method is better `auto` stays with it, however stiff steps may look; where
+   !> the implicit one is, it does not take much more.
+   subroutine test_auto(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: diffusion(2) = [1.0_wp, 1000.0_wp]
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: auto, explicit, implicit
+      type(cells) :: problem
+      integer :: banded, i, n
+
+      do banded = 0, 1
+         do n = 30, 150, 120
+            do i = 1, size(diffusion)
+               problem = cells(n, diffusion(i), delayed=.true.)
+               if (banded == 1) problem%lower = 1
+               if (banded == 1) problem%upper = 1
+               call integrate(problem, 0.0_wp, 3.0_wp, at_tolerance(1.0e-5_wp, "explicit"), &
+                              explicit, failure)
+               call expect_success(error, failure)
+               call integrate(problem, 0.0_wp, 3.0_wp, at_tolerance(1.0e-5_wp, "radau9"), &
+                              implicit, failure)
+               call expect_success(error, failure)
+               call integrate(problem, 0.0_wp, 3.0_wp, at_tolerance(1.0e-5_wp, "auto"), auto, &
+                              failure)
+               call expect_success(error, failure)
+               if (allocated(error)) return
+               associate (better => min(explicit%work, implicit%work))
+                  call expect(error, auto%work <= 1.5_wp*better + 700.0_wp, &
+                              text(auto%work)//" by auto, "//text(explicit%work) &
+                              //" by explicit, "//text(implicit%work)//" by radau9")
+               end associate
+            end do
+         end do
+      end do
+   end subroutine test_auto
+end module test_dde_large

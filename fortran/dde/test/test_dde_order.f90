@@ -1,0 +1,231 @@
+!> Order of one explicit 8(5,3) step, of its interpolant and of its error estimate: Butcher's
+!> condition of every rooted tree, and powers of t.
+module test_dde_order
+   use dde_dop853_tableau, only: b1, b10, b11, b12, b6, b7, b8, b9, bhh1, bhh2, bhh3, er1, er10, &
+                                 er11, er12, er6, er7, er8, er9
+   use dde_explicit_step, only: explicit_step_type
+   use dde_interpolant, only: newton_value
+   use dde_errors, only: text
+   use expectations, only: expect, expect_between, expect_close
+   use dde_kinds, only: wp
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use rooted_trees, only: grow_trees, tree_counts, tree_system
+   use single_step, only: interpolated, take_step
+   use undelayed_problems, only: decay, quadrature, without_delays
+   implicit none (type, external)
+   private
+   public :: collect_dde_order
+
+   !> Length of the step; a power of two, so that its powers are exact.
+   real(wp), parameter :: h = 0.5_wp
+   !> Places in the step.
+   real(wp), parameter :: places(9) = [0.0_wp, 0.07_wp, 0.21_wp, 0.33_wp, 0.45_wp, 0.62_wp, &
+                                       0.71_wp, 0.94_wp, 1.0_wp]
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_dde_order(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("number of trees", test_tree_counts), &
+                   new_unittest("200 conditions of the step", test_step_conditions), &
+                   new_unittest("85 conditions of the interpolant", test_interpolant_conditions), &
+                   new_unittest("conditions of the estimates", test_estimate_conditions), &
+                   new_unittest("estimate of the error", test_estimate), &
+                   new_unittest("estimate of far too long steps", test_long_steps), &
+                   new_unittest("powers of t", test_powers)]
+   end subroutine collect_dde_order
+
+   !> The trees of each order are as many as there are known to be.
+   subroutine test_tree_counts(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(tree_system) :: trees
+      integer :: order
+
+      trees = grow_trees(size(tree_counts))
+      do order = 1, size(tree_counts)
+         call expect(error, count(trees%order == order) == tree_counts(order), &
+                     "number of trees of order "//text(order))
+      end do
+   end subroutine test_tree_counts
+
+   !> The step gives h**order/density for every tree up to order 8, but not for those of order 9;
+   !> with and without the time of its stages.
+   subroutine test_step_conditions(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(explicit_step_type) :: step
+      type(tree_system) :: trees
+      real(wp) :: estimate
+      real(wp), allocatable :: misfit(:)
+      integer :: i
+
+      trees = grow_trees(9)
+      do i = 1, 2
+         trees%by_the_clock = i == 2
+         step = explicit_step_type(trees)
+         call take_step(trees, 0.0_wp, h, step, estimate)
+         misfit = abs(step%y_new/h**trees%order - 1.0_wp/trees%density)
+         call expect_between(error, maxval(misfit, trees%order <= 8), 0.0_wp, 1.0e-14_wp, &
+                             "largest misfit of orders 1 to 8")
+         call expect_between(error, maxval(misfit, trees%order == 9), 1.0e-6_wp, 1.0e-4_wp, &
+                             "largest misfit of order 9")
+      end do
+   end subroutine test_step_conditions
+
+   !> All over the step, the interpolant gives (s h)**order/density for every tree up to order 7,
+   !> but not for those of order 8.
+   subroutine test_interpolant_conditions(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(explicit_step_type) :: step
+      type(tree_system) :: trees
+      real(wp) :: estimate
+      real(wp), allocatable :: misfit(:)
+      integer :: j
+
+      trees = grow_trees(8)
+      step = explicit_step_type(trees)
+      call take_step(trees, 0.0_wp, h, step, estimate)
+      allocate (misfit(trees%n), source=0.0_wp)
+      do j = 1, size(places)
+         misfit = max(misfit, abs(interpolated(step, places(j))/h**trees%order &
+                                  - places(j)**trees%order/trees%density))
+      end do
+      call expect_between(error, maxval(misfit, trees%order <= 7), 0.0_wp, 1.0e-14_wp, &
+                          "largest misfit of orders 1 to 7")
+      call expect_between(error, maxval(misfit, trees%order == 8), 1.0e-5_wp, 1.0e-3_wp, &
+                          "largest misfit of order 8")
+   end subroutine test_interpolant_conditions
+
+   !> The estimate of order 5 vanishes for every tree up to order 5, that of order 3 up to order 3,
+   !> and neither beyond; with and without the time of the stages.
+   subroutine test_estimate_conditions(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(explicit_step_type) :: step
+      type(tree_system) :: trees
+      real(wp) :: estimate
+      integer :: i
+
+      trees = grow_trees(6)
+      do i = 1, 2
+         trees%by_the_clock = i == 2
+         step = explicit_step_type(trees)
+         call take_step(trees, 0.0_wp, 1.0_wp, step, estimate)
+         associate (e3 => abs(e_3(step)), e5 => abs(e_5(step)), order => trees%order)
+            call expect_between(error, maxval(e5, order <= 5), 0.0_wp, 1.0e-14_wp, &
+                                "estimate 5 of orders 1 to 5")
+            call expect_between(error, maxval(e5, order == 6), 1.0e-5_wp, 1.0e-2_wp, &
+                                "estimate 5 of order 6")
+            call expect_between(error, maxval(e3, order <= 3), 0.0_wp, 1.0e-14_wp, &
+                                "estimate 3 of orders 1 to 3")
+            call expect_between(error, maxval(e3, order == 4), 1.0e-3_wp, 1.0_wp, &
+                                "estimate 3 of order 4")
+         end associate
+      end do
+   end subroutine test_estimate_conditions
+
+   !> The two make the estimate of eq. (II.10.17) of Hairer, Norsett and Wanner (1993).
+   subroutine test_estimate(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(explicit_step_type) :: step
+      type(tree_system) :: trees
+      real(wp), parameter :: absolute = 1.0e-9_wp, relative = 1.0e-8_wp
+      real(wp) :: estimate, of_order_3, of_order_5, unit(sum(tree_counts(:6)))
+
+      trees = grow_trees(6)
+      step = explicit_step_type(trees)
+      call take_step(trees, 0.0_wp, h, step, estimate, relative, absolute)
+      unit = absolute + relative*step%y_new
+      of_order_3 = h*norm2(e_3(step)/unit)/sqrt(real(trees%n, wp))
+      of_order_5 = h*norm2(e_5(step)/unit)/sqrt(real(trees%n, wp))
+      call expect_close(error, estimate/(of_order_5**2/hypot(of_order_5, 0.1_wp*of_order_3)), &
+                        1.0_wp, 1.0e-12_wp, "estimate over its formula")
+   end subroutine test_estimate
+
+   !> y' = -rate y, rates up to 40 in a step of length 1: no step passes whose error is above the
+   !> tolerance, not even near 5.66, where e5 changes its sign and e3 is large.
+   subroutine test_long_steps(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(decay) :: problem
+      type(explicit_step_type) :: step
+      real(wp) :: estimate, tolerance, worst
+      integer :: digits, i
+
+      problem = decay(n=1, past=[1.0_wp], first=[1.0_wp])
+      call without_delays(problem)
+      do digits = 4, 12
+         tolerance = 10.0_wp**(-digits)
+         worst = 0.0_wp
+         do i = 1, 4000
+            problem%rate = 0.01_wp*i
+            step = explicit_step_type(problem)
+            call take_step(problem, 0.0_wp, 1.0_wp, step, estimate, absolute=tolerance)
+            if (estimate > 1.0_wp) cycle
+            worst = max(worst, abs(step%y_new(1) - exp(-problem%rate))/tolerance)
+         end do
+         call expect_between(error, worst, 1.0e-3_wp, 1.0_wp, &
+                             "largest error of a step that passes at tolerance "//text(tolerance))
+      end do
+   end subroutine test_long_steps
+
+   !> y' = (p + 1) t**p: the step is exact up to p = 7, the interpolant up to p = 6.
+   subroutine test_powers(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(explicit_step_type) :: step
+      type(quadrature) :: problem
+      real(wp) :: estimate, misfit(0:12), misfit_inside(0:12)
+      integer :: j, p
+
+      do p = 0, ubound(misfit, 1)
+         problem = quadrature(n=1, past=[0.0_wp], first=[0.0_wp], power=p)
+         call without_delays(problem)
+         step = explicit_step_type(problem)
+         call take_step(problem, 0.25_wp, 0.75_wp, step, estimate)
+         misfit(p) = abs(step%y_new(1) - (1.0_wp - 0.25_wp**(p + 1)))
+         misfit_inside(p) = 0.0_wp
+         do j = 1, size(places)
+            associate (inside => interpolated(step, places(j)), t => 0.25_wp + 0.75_wp*places(j))
+               misfit_inside(p) = max(misfit_inside(p), &
+                                      abs(inside(1) - (t**(p + 1) - 0.25_wp**(p + 1))))
+            end associate
+         end do
+      end do
+      call expect_between(error, maxval(misfit(:7)), 0.0_wp, 2.0e-15_wp, "misfit for p <= 7")
+      call expect_between(error, minval(misfit(8:)), 1.0e-5_wp, 1.0_wp, "misfit for p > 7")
+      call expect_between(error, maxval(misfit_inside(:6)), 0.0_wp, 5.0e-15_wp, &
+                          "misfit inside the step for p <= 6")
+      call expect_between(error, minval(misfit_inside(7:)), 1.0e-5_wp, 1.0_wp, &
+                          "misfit inside the step for p > 6")
+   end subroutine test_powers
+
+   !> Error coefficients of order 5, one for each component.
+   pure function e_5(step) result(e)
+      !> A step
+      type(explicit_step_type), intent(in) :: step
+      real(wp) :: e(size(step%y))
+
+      e = matmul(slopes(step), &
+                 [er1, er6, er7, er8, er9, er10, er11, er12])
+   end function e_5
+
+   !> Error coefficients of order 3, one for each component.
+   pure function e_3(step) result(e)
+      !> A step
+      type(explicit_step_type), intent(in) :: step
+      real(wp) :: e(size(step%y))
+
+      e = matmul(slopes(step), &
+                 [b1 - bhh1, b6, b7, b8, b9 - bhh2, b10, b11, b12 - bhh3])
+   end function e_3
+
+   !> Slopes 1 and 6 to 12, shape (n, 8).
+   pure function slopes(step) result(k)
+      !> A step
+      type(explicit_step_type), intent(in) :: step
+      real(wp) :: k(size(step%y), 8)
+      real(wp) :: by_component(size(step%k, 1)*size(step%k, 2), size(step%k, 3))
+
+      by_component = reshape(step%k, shape(by_component))
+      k = by_component(:size(step%y), [1, 6, 7, 8, 9, 10, 11, 12])
+   end function slopes
+end module test_dde_order

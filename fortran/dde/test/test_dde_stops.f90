@@ -1,0 +1,194 @@
+!> Why an integration ends, and that time and state say how far it came.
+module test_dde_stops
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use dde, only: integrate, integration_options, integration_result, reached_end, &
+                  step_underflow, table_sampler, too_many_steps, value_not_finite
+   use dde_errors, only: failure_type => error_type, text
+   use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
+   use dde_kinds, only: int64, wp
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use piecewise_problems, only: jumping_history
+   use solving, only: at_tolerance
+   use test_problems, only: fill
+   use undelayed_problems, only: blow_up, decay, falls_out, swing, without_delays
+   implicit none (type, external)
+   private
+   public :: collect_dde_stops
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_dde_stops(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("end reached", test_reached_end), &
+                   new_unittest("step underflow", test_step_underflow), &
+                   new_unittest("too many steps", test_too_many_steps), &
+                   new_unittest("just enough steps", test_enough_steps), &
+                   new_unittest("value not finite", test_value_not_finite), &
+                   new_unittest("value not finite from the start", test_not_finite_at_start), &
+                   new_unittest("history not finite", test_not_finite_history), &
+                   new_unittest("no length", test_no_length), &
+                   new_unittest("below the spacing of times", test_unresolved)]
+   end subroutine collect_dde_stops
+
+   !> A good end: t_end itself, the state there, no error.
+   subroutine test_reached_end(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+
+      call integrate(swing(), 0.0_wp, 7.3_wp, at_tolerance(1.0e-11_wp), outcome, failure)
+      call expect_success(error, failure)
+      call expect(error, outcome%reason == reached_end, "the reason is `reached_end`")
+      call expect_close(error, outcome%t, 7.3_wp, 0.0_wp, "t")
+      call expect_close(error, outcome%y, [cos(7.3_wp), -sin(7.3_wp)], 1.0e-10_wp, "y")
+      call expect(error, outcome%implicit_steps == 0, "no step is implicit")
+   end subroutine test_reached_end
+
+   !> y = 1/(1 - t) has no value at t = 1: the step shrinks until it cannot move time.
+   subroutine test_step_underflow(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(blow_up) :: problem
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+
+      problem = blow_up(n=1, past=[1.0_wp], first=[1.0_wp])
+      call without_delays(problem)
+      call integrate(problem, 0.0_wp, 2.0_wp, at_tolerance(1.0e-9_wp), outcome, failure)
+      call expect(error, outcome%reason == step_underflow, "the reason is `step_underflow`")
+      call expect_failure(error, failure, "stopped at t = 1.0000")
+      call expect_failure(error, failure, "the step had to shrink")
+      call expect_close(error, outcome%t, 1.0_wp, 1.0e-8_wp, "t")
+      call expect_between(error, outcome%y(1), 1.0e15_wp, huge(1.0_wp), "y")
+   end subroutine test_step_underflow
+
+   !> The steps run out: time and state belong together.
+   subroutine test_too_many_steps(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_options) :: options
+      type(integration_result) :: outcome
+
+      options = at_tolerance(1.0e-11_wp)
+      options%first_step = 3.0_wp
+      options%most_steps = 20_int64
+      call integrate(swing(), 0.0_wp, 1000.0_wp, options, outcome, failure)
+      call expect(error, outcome%reason == too_many_steps, "the reason is `too_many_steps`")
+      call expect_failure(error, failure, "20 steps (most_steps)")
+      call expect(error, outcome%rejected > 0, "some steps were rejected")
+      call expect(error, outcome%accepted + outcome%rejected == 20, "20 steps were tried")
+      call expect_between(error, outcome%t, 1.0_wp, 60.0_wp, "t")
+      call expect_close(error, outcome%y, [cos(outcome%t), -sin(outcome%t)], 1.0e-9_wp, "y")
+   end subroutine test_too_many_steps
+
+   !> As many steps as are needed suffice, one less does not.
+   subroutine test_enough_steps(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_options) :: options
+      type(integration_result) :: outcome
+
+      options%first_step = 3.0_wp
+      call integrate(swing(), 0.0_wp, 10.0_wp, options, outcome, failure)
+      options%most_steps = outcome%accepted + outcome%rejected
+      call integrate(swing(), 0.0_wp, 10.0_wp, options, outcome, failure)
+      call expect_success(error, failure)
+      options%most_steps = options%most_steps - 1
+      call integrate(swing(), 0.0_wp, 10.0_wp, options, outcome, failure)
+      call expect(error, outcome%reason == too_many_steps, "the reason is `too_many_steps`")
+      call expect_failure(error, failure, "(most_steps)")
+   end subroutine test_enough_steps
+
+   !> y = t up to t = 1, and no number beyond: it comes as near as steps can be short.
+   subroutine test_value_not_finite(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+
+      call integrate(edge(first=0.0_wp), 0.0_wp, 2.0_wp, at_tolerance(1.0e-9_wp), outcome, failure)
+      call expect(error, outcome%reason == value_not_finite, "the reason is `value_not_finite`")
+      call expect_failure(error, failure, "stopped at t = 1.0 of 2.0")
+      call expect_failure(error, failure, "f(1) is NaN at t = 1.0")
+      call expect_close(error, outcome%t, 1.0_wp, 1.0e-12_wp, "t")
+      call expect_close(error, outcome%y, [outcome%t], 1.0e-12_wp, "y")
+   end subroutine test_value_not_finite
+
+   !> Where not even the first slope is a number, it stays at the start.
+   subroutine test_not_finite_at_start(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+
+      call integrate(edge(first=5.0_wp), 3.0_wp, 4.0_wp, at_tolerance(1.0e-9_wp), outcome, failure)
+      call expect(error, outcome%reason == value_not_finite, "the reason is `value_not_finite`")
+      call expect_failure(error, failure, "stopped at t = 3.0 of 4.0 after 0 steps")
+      call expect_close(error, outcome%t, 3.0_wp, 0.0_wp, "t")
+      call expect_close(error, outcome%y, [5.0_wp], 0.0_wp, "y")
+   end subroutine test_not_finite_at_start
+
+   !> A history that is no number is named with its component and time.
+   subroutine test_not_finite_history(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(jumping_history) :: problem
+      character(len=8), parameter :: methods(2) = [character(len=8) :: "explicit", "radau9"]
+      integer :: i
+
+      call fill(problem, 1, [0.0_wp], [0.0_wp], [1.0_wp], [1])
+      problem%before = ieee_value(1.0_wp, ieee_quiet_nan)
+      do i = 1, size(methods)
+         call integrate(problem, 0.0_wp, 2.0_wp, at_tolerance(1.0e-6_wp, methods(i)), outcome, &
+                        failure)
+         call expect(error, outcome%reason == value_not_finite, "the reason is `value_not_finite`")
+         call expect_failure(error, failure, "the history of component 1 is NaN at t = -1.0")
+      end do
+   end subroutine test_not_finite_history
+
+   !> A run of no length gives the first state and the sample there.
+   subroutine test_no_length(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(table_sampler) :: table
+
+      table = table_sampler([1], [1.0_wp])
+      call integrate(edge(first=5.0_wp), 1.0_wp, 1.0_wp, at_tolerance(1.0e-9_wp), outcome, &
+                     failure, table)
+      call expect_success(error, failure)
+      call expect(error, outcome%reason == reached_end, "the reason is `reached_end`")
+      call expect_close(error, outcome%y, [5.0_wp], 0.0_wp, "y")
+      call expect_close(error, table%values(1, :), [5.0_wp], 0.0_wp, "the sample")
+   end subroutine test_no_length
+
+   !> Steps below the spacing of times are counted: 1e-10 at t = 1e6, 1e-17 near 0.1.
+   subroutine test_unresolved(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: starts(2) = [0.0_wp, 1.0e6_wp]
+      type(failure_type), allocatable :: failure
+      type(decay) :: problem
+      type(integration_result) :: outcome
+      integer :: i
+
+      problem = decay(n=1, past=[1.0_wp], first=[1.0_wp])
+      problem%rate = 1.0e12_wp
+      call without_delays(problem)
+      do i = 1, size(starts)
+         call integrate(problem, starts(i), starts(i) + 1.0e-9_wp, at_tolerance(1.0e-9_wp), &
+                        outcome, failure)
+         call expect_success(error, failure)
+         call expect(error, outcome%unresolved > 100 .eqv. i == 2, text(outcome%unresolved) &
+                     //" from t = "//text(starts(i)))
+      end do
+   end subroutine test_unresolved
+
+   !> y' = 1 up to t = 1, no number after.
+   pure type(falls_out) function edge(first) result(problem)
+      !> y at the start
+      real(wp), intent(in) :: first
+
+      problem = falls_out(n=1, past=[first], first=[first])
+      call without_delays(problem)
+   end function edge
+end module test_dde_stops
