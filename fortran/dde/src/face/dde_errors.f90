@@ -33,19 +33,8 @@ contains
       error%message = message
    end subroutine raise
 
-   !> A real number with the digits that matter to a reader. Results of this function have a length
-   !> that is asked for first: gfortran keeps the length of an allocatable one in static storage,
-   !> which threads share.
-   pure function text_of_real(value) result(words)
-      !> Number to write
-      real(wp), intent(in) :: value
-      character(len=len_trim(written_real(value))) :: words
-
-      words = written_real(value)
-   end function text_of_real
-
-   !> The same, filled up with blanks: 15 digits, as many as any decimal keeps in double precision,
-   !> without the zeros at their end.
+   !> A real number, filled up with blanks: 15 digits, as many as any decimal keeps in double
+   !> precision, without the zeros at their end.
    pure function written_real(value) result(words)
       !> Number to write
       real(wp), intent(in) :: value
@@ -72,6 +61,26 @@ contains
       end if
    end function written_real
 
+   !> An integer, filled up with blanks.
+   pure function written_integer(value) result(words)
+      !> Number to write
+      integer(int64), intent(in) :: value
+      character(len=32) :: words
+
+      write (words, "(i0)") value
+   end function written_integer
+
+   !> A real number with the digits that matter to a reader. Results of this function have a length
+   !> that is asked for first: gfortran keeps the length of an allocatable one in static storage,
+   !> which threads share.
+   pure function text_of_real(value) result(words)
+      !> Number to write
+      real(wp), intent(in) :: value
+      character(len=len_trim(written_real(value))) :: words
+
+      words = written_real(value)
+   end function text_of_real
+
    !> An integer.
    pure function text_of_integer(value) result(words)
       !> Number to write
@@ -89,13 +98,4 @@ contains
 
       words = written_integer(value)
    end function text_of_long_integer
-
-   !> The same, filled up with blanks.
-   pure function written_integer(value) result(words)
-      !> Number to write
-      integer(int64), intent(in) :: value
-      character(len=32) :: words
-
-      write (words, "(i0)") value
-   end function written_integer
 end module dde_errors

@@ -1,0 +1,1 @@
+../../by_cmake/kinds.f90

@@ -1,0 +1,86 @@
+"""The solver outside this project: installed, found, and built by projects of others."""
+
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).parent.parent / "fortran" / "dde"
+OUTSIDE = Path(__file__).parent / "outside_projects"
+TOLERANCE = 1e-9
+"""Of the outside projects: the default of the solver."""
+
+
+def run(*command, **settings) -> str:
+    """What a command prints; its whole output where it fails."""
+    done = subprocess.run([*map(str, command)], capture_output=True, text=True, **settings)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def largest_error(printed: str) -> float:
+    """As the outside project prints it."""
+    return float(re.search(r"largest error +(\S+)", printed)[1])
+
+
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory) -> Path:
+    """Folder of an installed copy, with LAPACK; its sources and its build are gone."""
+    folder = tmp_path_factory.mktemp("solver")
+    source = shutil.copytree(PACKAGE, folder / "source")
+    settings = ["-G", "Ninja", "-D", "DDE_LAPACK=ON", "-D", "DDE_TESTS=OFF"]
+    prefix = folder / "prefix"
+    run(
+        "cmake", *settings, f"-DCMAKE_INSTALL_PREFIX={prefix}", "-S", source, "-B", folder / "build"
+    )
+    run("cmake", "--build", folder / "build")
+    run("cmake", "--install", folder / "build")
+    shutil.rmtree(source)
+    shutil.rmtree(folder / "build")
+    return prefix
+
+
+def test_cmake_finds_it(installed, tmp_path):
+    """In a project whose modules and targets have names that this project has, too."""
+    where = ["-G", "Ninja", f"-DCMAKE_PREFIX_PATH={installed}"]
+    run("cmake", *where, "-S", OUTSIDE / "by_cmake", "-B", tmp_path)
+    run("cmake", "--build", tmp_path)
+    assert "100% tests passed" in run("ctest", "--test-dir", tmp_path)
+    assert largest_error(run(tmp_path / "tester")) < 100 * TOLERANCE
+
+
+def test_pkg_config_finds_it(installed, tmp_path):
+    """Flags for a compiler without a build system."""
+    [folder] = [path.parent for path in installed.rglob("dde.pc")]
+    environment = {**os.environ, "PKG_CONFIG_PATH": str(folder)}
+    flags = run("pkg-config", "--cflags", "--libs", "dde", env=environment)
+    sources = [OUTSIDE / "by_cmake" / f"{name}.f90" for name in ("kinds", "errors", "tester")]
+    words = " ".join(f'"{path}"' for path in sources)
+    run("sh", "-c", f"gfortran {words} -o mine {flags}", cwd=tmp_path)
+    assert largest_error(run(tmp_path / "mine")) < 100 * TOLERANCE
+
+
+def test_fpm_builds_it(tmp_path):
+    """From a copy of its folder alone, without LAPACK."""
+    shutil.copytree(PACKAGE, tmp_path / "dde")
+    shutil.copytree(OUTSIDE / "by_fpm", tmp_path / "mine")
+    printed = run("fpm", "run", cwd=tmp_path / "mine")
+    assert largest_error(printed) < 100 * TOLERANCE
+    assert "1.060954363" in run("fpm", "run", "--example", cwd=tmp_path / "dde")
+
+
+def test_it_stays_quiet_in_another_project(tmp_path):
+    """As a folder of it: its tests and its installation stay away."""
+    (tmp_path / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.18)\n"
+        "project(mine LANGUAGES Fortran)\n"
+        "include(CTest)\n"
+        f'add_subdirectory("{PACKAGE}" solver)\n'
+    )
+    build = tmp_path / "build"
+    run("cmake", "-G", "Ninja", "-S", tmp_path, "-B", build)
+    assert "Total Tests: 0" in run("ctest", "--show-only", "--test-dir", build)
+    assert "file(INSTALL" not in (build / "solver" / "cmake_install.cmake").read_text()
