@@ -1,6 +1,7 @@
 !> One scene without samples in a process of its own (long_runs.py). Reads the scene and the
 !> tolerance; prints CPU seconds, steps and the most memory that the process has held, in kB.
 program long_run
+   use block_parameters, only: block_history_type, block_parameters_type
    use dde, only: integrate, integration_options, integration_result
    use dde_errors, only: error_type
    use dde_kinds, only: wp
@@ -14,14 +15,18 @@ program long_run
    type(error_type), allocatable :: error
    type(integration_options) :: options
    type(integration_result) :: outcome
+   type(spring_block_type) :: block_model
 
    read (*, *, iostat=status, iomsg=message) scene, tolerance
    if (status /= 0) error stop "long_run: "//trim(message)
    options = integration_options(relative=tolerance, absolute=tolerance)
+   block_model = spring_block_type( &
+                 block_parameters_type(tau=scene(1), epsilon=scene(2), xi=scene(3), &
+                                       gamma=scene(4)), &
+                 block_history_type(theta=scene(5), u=scene(6), v=exp(scene(7))))
    call cpu_time(start)
    do runs = 1, 1000
-      call integrate(spring_block_type(scene(1), scene(2), scene(3), scene(4), scene(5), scene(6), &
-                                       exp(scene(7))), 0.0_wp, scene(8), options, outcome, error)
+      call integrate(block_model, 0.0_wp, scene(8), options, outcome, error)
       if (allocated(error)) error stop "long_run: "//error%message
       call cpu_time(finish)
       if (finish - start >= least_seconds) exit

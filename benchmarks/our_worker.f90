@@ -2,6 +2,7 @@
 !> Its argument is the method.
 program our_worker
    use, intrinsic :: iso_fortran_env, only: iostat_end
+   use block_parameters, only: block_history_type, block_parameters_type
    use dde, only: integrate, integration_options, integration_result, table_sampler
    use dde_errors, only: error_type
    use dde_kinds, only: wp
@@ -21,8 +22,10 @@ program our_worker
    call get_command_argument(1, method)
    read (*, *, iostat=status, iomsg=message) scene
    if (status /= 0) error stop "our_worker: scene: "//trim(message)
-   block_model = spring_block_type(scene(1), scene(2), scene(3), scene(4), scene(5), scene(6), &
-                                   exp(scene(7)))
+   block_model = spring_block_type( &
+                 block_parameters_type(tau=scene(1), epsilon=scene(2), xi=scene(3), &
+                                       gamma=scene(4)), &
+                 block_history_type(theta=scene(5), u=scene(6), v=exp(scene(7))))
    t_end = scene(8)
    last = nint(t_end/scene(9))
    print "(a)", "answer: "//project_version

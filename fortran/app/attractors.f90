@@ -2,21 +2,21 @@
 !> several, with their classes.
 program attractors_program
    use attractor_points, only: find_attractors, finding_type
-   use attractors, only: attractor_settings
+   use attractors, only: attractor_settings_type
    use attractors_output, only: write_attractors
    use dde, only: integration_options
    use dde_errors, only: error_type
    use observation_input, only: read_observation
-   use points_input, only: points_settings, read_points
+   use points_input, only: points_settings_type, read_points
    use progress, only: progress_type
    use program_arguments, only: get_paths, stop_on
    implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
-   type(attractor_settings) :: settings
+   type(attractor_settings_type) :: settings
    type(error_type), allocatable :: error
    type(finding_type), allocatable :: findings(:)
    type(integration_options) :: options
-   type(points_settings) :: asked
+   type(points_settings_type) :: asked
    type(progress_type) :: report
 
    call get_paths(namelist_path, output_path, error)

@@ -2,10 +2,9 @@
 program exponents
    use dde, only: integration_options
    use dde_errors, only: error_type
-   use exponents_input, only: exponents_settings, read_exponents
+   use exponents_input, only: exponents_settings_type, read_exponents
    use exponents_output, only: write_exponents
-   use dde_kinds, only: wp
-   use lyapunov_spectrum, only: growth_settings, growth_type, measure_growth
+   use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
    use program_arguments, only: get_paths, stop_on
    use progress, only: progress_type
    use scene_input, only: read_scene, scene_type
@@ -13,7 +12,7 @@ program exponents
    implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
    type(error_type), allocatable :: error
-   type(exponents_settings) :: settings
+   type(exponents_settings_type) :: settings
    type(growth_type), allocatable :: measured(:)
    type(integration_options) :: own
    type(integration_options), allocatable :: options(:)
@@ -29,8 +28,7 @@ program exponents
    call read_exponents(namelist_path, scene, settings, error)
    call stop_on(error)
 
-   block_model = spring_block_type(scene%tau, scene%epsilon, scene%xi, scene%gamma, &
-                                   scene%history%theta, scene%history%u, scene%history%v)
+   block_model = spring_block_type(scene%parameters, scene%history)
    own = integration_options(method=trim(scene%method), relative=scene%tolerance, &
                              absolute=scene%tolerance)
    associate (tolerances => settings%check_tolerances, steps => settings%check_steps)
@@ -44,8 +42,11 @@ program exponents
    do i = 1, size(options)
       call report%begin_part(i)
       call measure_growth(block_model, &
-                          growth_settings(settings%exponents, scene%t_transient, settings%t_end, &
-                                          settings%t_turning, settings%interval, settings%blocks), &
+                          growth_settings_type(exponents=settings%exponents, &
+                                               t_begin=scene%t_transient, t_end=settings%t_end, &
+                                               t_turning=settings%t_turning, &
+                                               interval=settings%interval, &
+                                               blocks=settings%blocks), &
                           options(i), measured(i), error, progress=report)
       if (allocated(error)) exit
    end do

@@ -1,20 +1,20 @@
 !> Hopf curves in one plane of parameters, their special points, and the number of unstable pairs.
 program hopf
    use dde_errors, only: error_type
-   use hopf_curves, only: curve_point, trace_curves
-   use hopf_input, only: hopf_settings, read_plane
+   use hopf_curves, only: curve_point_type, trace_curves
+   use hopf_input, only: hopf_settings_type, read_plane
    use hopf_output, only: write_curves
-   use hopf_planes, only: curve_plane
-   use hopf_points, only: find_hopf_points, hopf_point, judge_points
+   use hopf_planes, only: curve_plane_type
+   use hopf_points, only: find_hopf_points, hopf_point_type, judge_points
    use program_arguments, only: get_paths, stop_on
    use stability_map, only: unstable_pairs
    implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
    type(error_type), allocatable :: error
-   type(hopf_settings) :: settings
-   class(curve_plane), allocatable :: plane
-   type(curve_point), allocatable :: points(:)
-   type(hopf_point), allocatable :: special(:)
+   type(hopf_settings_type) :: settings
+   class(curve_plane_type), allocatable :: plane
+   type(curve_point_type), allocatable :: points(:)
+   type(hopf_point_type), allocatable :: special(:)
 
    call get_paths(namelist_path, output_path, error)
    call stop_on(error)

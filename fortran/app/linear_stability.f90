@@ -1,21 +1,21 @@
 !> Linear stability of steady sliding at one set of parameters.
 program linear_stability
    use block_roots, only: roots_of_block
-   use characteristic_function, only: block_parameters
+   use block_parameters, only: block_parameters_type
    use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use linear_stability_input, only: linear_stability_settings, read_linear_stability
+   use linear_stability_input, only: linear_stability_settings_type, read_linear_stability
    use linear_stability_output, only: write_linear_stability
    use program_arguments, only: get_paths, stop_on
    use root_counts, only: roots_right_of
-   use stability_changes, only: changes_with_epsilon, changes_with_tau, stability_change
+   use stability_changes, only: changes_with_epsilon, changes_with_tau, stability_change_type
    implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
    type(error_type), allocatable :: error
-   type(linear_stability_settings) :: settings
-   type(block_parameters) :: without_delay
+   type(linear_stability_settings_type) :: settings
+   type(block_parameters_type) :: without_delay
    complex(wp), allocatable :: roots(:)
-   type(stability_change), allocatable :: with_epsilon(:), with_tau(:)
+   type(stability_change_type), allocatable :: with_epsilon(:), with_tau(:)
    integer :: pairs(2)
 
    call get_paths(namelist_path, output_path, error)

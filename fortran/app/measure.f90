@@ -4,8 +4,8 @@ program measure
    use cases_input, only: read_cases
    use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use measure_input, only: measure_settings, read_measure
-   use measure_output, only: measured_runs, write_measured_runs
+   use measure_input, only: measure_settings_type, read_measure
+   use measure_output, only: measured_runs_type, write_measured_runs
    use measured_case, only: case_type
    use measured_run, only: measure_run, time_runs
    use namelist_input, only: not_given
@@ -15,8 +15,8 @@ program measure
    character(len=:), allocatable :: namelist_path, output_path
    type(case_type), allocatable :: cases(:)
    type(error_type), allocatable :: error
-   type(measure_settings) :: settings
-   type(measured_runs), allocatable :: measured(:)
+   type(measure_settings_type) :: settings
+   type(measured_runs_type), allocatable :: measured(:)
    type(progress_type) :: report
    integer :: i, j
 

@@ -8,15 +8,15 @@ program reference
    use measured_run, only: measure_run, run_type
    use program_arguments, only: get_paths, stop_on
    use progress, only: progress_type
-   use reference_input, only: read_reference, reference_settings
-   use reference_output, only: reference_file
+   use reference_input, only: read_reference, reference_settings_type
+   use reference_output, only: reference_file_type
    implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
    type(case_type), allocatable :: cases(:)
    type(error_type), allocatable :: error
    type(progress_type) :: report
-   type(reference_file) :: file
-   type(reference_settings) :: settings
+   type(reference_file_type) :: file
+   type(reference_settings_type) :: settings
    type(run_type) :: best, checking, disturbed
    integer :: i
 

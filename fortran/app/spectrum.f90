@@ -6,7 +6,7 @@ program spectrum_program
    use program_arguments, only: get_paths, refuse_input, stop_on
    use spectral_peaks, only: find_peaks, peak_type
    use spectrum, only: power_spectrum
-   use spectrum_input, only: read_spectrum_settings, spectrum_settings
+   use spectrum_input, only: read_spectrum_settings, spectrum_settings_type
    use spectrum_output, only: write_spectrum
    use trajectory_input, only: read_trajectory, trajectory_type
    implicit none (type, external)
@@ -14,7 +14,7 @@ program spectrum_program
    type(bases_type) :: bases
    type(error_type), allocatable :: error
    type(peak_type), allocatable :: peaks(:)
-   type(spectrum_settings) :: settings
+   type(spectrum_settings_type) :: settings
    type(trajectory_type) :: trajectory
    real(wp), allocatable :: frequency(:), power(:)
    integer :: first

@@ -6,7 +6,7 @@ program trajectory
    use program_arguments, only: get_paths, stop_on
    use scene_input, only: read_scene, scene_type
    use spring_block, only: spring_block_type
-   use trajectory_output, only: trajectory_writer
+   use trajectory_output, only: trajectory_writer_type
    implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
    type(error_type), allocatable :: error
@@ -14,18 +14,17 @@ program trajectory
    type(integration_result) :: outcome
    type(scene_type) :: scene
    type(spring_block_type) :: block_model
-   type(trajectory_writer) :: writer
+   type(trajectory_writer_type) :: writer
 
    call get_paths(namelist_path, output_path, error)
    call stop_on(error)
    call read_scene(namelist_path, scene, error)
    call stop_on(error)
 
-   block_model = spring_block_type(scene%tau, scene%epsilon, scene%xi, scene%gamma, &
-                                   scene%history%theta, scene%history%u, scene%history%v)
+   block_model = spring_block_type(scene%parameters, scene%history)
    options = integration_options(method=trim(scene%method), relative=scene%tolerance, &
                                  absolute=scene%tolerance)
-   writer = trajectory_writer(output_path, scene)
+   writer = trajectory_writer_type(output_path, scene)
    call stop_on(writer%file%error)
    call integrate(block_model, 0.0_wp, scene%t_end, options, outcome, error, writer)
    if (allocated(error)) call writer%discard()

@@ -2,14 +2,14 @@
 program velocity_step_program
    use dde_errors, only: error_type
    use program_arguments, only: get_paths, stop_on
-   use velocity_step, only: friction_response, respond, step_protocol
+   use velocity_step, only: friction_response_type, respond, step_protocol_type
    use velocity_step_input, only: read_protocol
    use velocity_step_output, only: write_response
    implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
    type(error_type), allocatable :: error
-   type(friction_response) :: response
-   type(step_protocol) :: protocol
+   type(friction_response_type) :: response
+   type(step_protocol_type) :: protocol
 
    call get_paths(namelist_path, output_path, error)
    call stop_on(error)

@@ -1,6 +1,6 @@
 !> Delay equations by their derivatives, for tests of the normal form.
 module known_forms
-   use characteristic_function, only: block_parameters
+   use block_parameters, only: block_parameters_type
    use delay_equation, only: delay_equation_type
    use dde_kinds, only: wp
    implicit none (type, external)
@@ -19,7 +19,7 @@ module known_forms
    !> The delayed block in theta, u and v. Lags: 0, tau.
    type, extends(delay_equation_type) :: block_in_v
       !> Parameters
-      type(block_parameters) :: p
+      type(block_parameters_type) :: p
    contains
       procedure :: second => second_form_in_v
       procedure :: third => third_form_in_v
@@ -65,7 +65,7 @@ contains
 
    !> The block; its linear part by hand.
    pure function new_block_in_v(p) result(equation)
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
       type(block_in_v) :: equation
 
       allocate (equation%linear%a(3, 3, 2))

@@ -14,24 +14,24 @@ program tester
    use test_dde_switch, only: collect_dde_switch
    use test_dde_taylor, only: collect_dde_taylor
    use test_exponents, only: collect_exponents
-   use test_friction, only: collect_friction
    use test_gsl_roots, only: collect_gsl_roots
-   use test_hopf, only: collect_hopf
+   use test_hopf_condition, only: collect_hopf_condition
    use test_hopf_curves, only: collect_hopf_curves
    use test_hopf_points, only: collect_hopf_points
-   use test_linear, only: collect_linear
+   use test_linear_stability, only: collect_linear_stability
    use test_lyapunov_spectrum, only: collect_lyapunov_spectrum
-   use test_measure, only: collect_measure
-   use test_model, only: collect_model
+   use test_measured_run, only: collect_measured_run
    use test_motion_classes, only: collect_motion_classes
    use test_progress, only: collect_progress
-   use test_rest, only: collect_rest
    use test_section_motion, only: collect_section_motion
    use test_spectral_peaks, only: collect_spectral_peaks
    use test_spectrum, only: collect_spectrum
    use test_spectrum_verdict, only: collect_spectrum_verdict
+   use test_spring_block, only: collect_spring_block
    use test_stability_changes, only: collect_stability_changes
+   use test_steady_sliding, only: collect_steady_sliding
    use test_tangents, only: collect_tangents
+   use test_velocity_step, only: collect_velocity_step
    implicit none (type, external)
    type(testsuite_type), allocatable :: suites(:)
    character(len=32) :: wanted
@@ -49,25 +49,24 @@ program tester
                              new_testsuite("dde_switch", collect_dde_switch), &
                              new_testsuite("dde_taylor", collect_dde_taylor), &
                              new_testsuite("exponents", collect_exponents), &
-                             new_testsuite("friction", collect_friction), &
                              new_testsuite("gsl_roots", collect_gsl_roots), &
-                             new_testsuite("hopf", collect_hopf), &
+                             new_testsuite("hopf_condition", collect_hopf_condition), &
                              new_testsuite("hopf_curves", collect_hopf_curves), &
                              new_testsuite("hopf_points", collect_hopf_points), &
-                             new_testsuite("linear", collect_linear), &
+                             new_testsuite("linear_stability", collect_linear_stability), &
                              new_testsuite("lyapunov_spectrum", collect_lyapunov_spectrum), &
-                             new_testsuite("measure", collect_measure), &
-                             new_testsuite("model", collect_model), &
+                             new_testsuite("measured_run", collect_measured_run), &
                              new_testsuite("motion_classes", collect_motion_classes), &
                              new_testsuite("progress", collect_progress), &
-                             new_testsuite("rest", collect_rest), &
                              new_testsuite("section_motion", collect_section_motion), &
                              new_testsuite("spectral_peaks", collect_spectral_peaks), &
                              new_testsuite("spectrum", collect_spectrum), &
                              new_testsuite("spectrum_verdict", collect_spectrum_verdict), &
-                             new_testsuite("stability_changes", &
-                                           collect_stability_changes), &
-                             new_testsuite("tangents", collect_tangents)])
+                             new_testsuite("spring_block", collect_spring_block), &
+                             new_testsuite("stability_changes", collect_stability_changes), &
+                             new_testsuite("steady_sliding", collect_steady_sliding), &
+                             new_testsuite("tangents", collect_tangents), &
+                             new_testsuite("velocity_step", collect_velocity_step)])
    wanted = ""
    if (command_argument_count() > 0) call get_command_argument(1, wanted)
    failed = 0

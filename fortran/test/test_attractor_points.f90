@@ -2,8 +2,8 @@
 !> others'.
 module test_attractor_points
    use attractor_points, only: find_attractors, finding_type, point_type
-   use attractors, only: attractor_settings
-   use characteristic_function, only: block_parameters
+   use attractors, only: attractor_settings_type
+   use block_parameters, only: block_history_type, block_parameters_type
    use dde, only: integration_options
    use dde_errors, only: text
    use expectations, only: expect, expect_failure, expect_success
@@ -11,14 +11,14 @@ module test_attractor_points
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use motion_classes, only: fixed_point, undecided
    use omp_lib, only: omp_get_max_threads, omp_get_num_threads, omp_set_num_threads
-   use progress_receivers, only: progress_receiver
+   use progress_receiver, only: progress_receiver_type
    use solving, only: at_tolerance
    implicit none (type, external)
    private
    public :: collect_attractor_points
 
    !> Keeps what it is told.
-   type, extends(progress_receiver) :: memory_type
+   type, extends(progress_receiver_type) :: memory_type
       !> Numbers of points done, and of all
       integer, allocatable :: done(:), total(:)
       !> Most threads at work at a time
@@ -53,16 +53,17 @@ contains
       type(point_type) :: points(8)
       integer :: i
 
-      points = [(point_type(block_parameters(5.0_wp*modulo(i, 4), 0.3_wp + 0.05_wp*i, 0.8_wp, &
-                                             0.8_wp), [0.1_wp*i, 0.0_wp, 1.5_wp]), i=1, 8)]
+      points = [(point_type(block_parameters_type(tau=5.0_wp*modulo(i, 4), xi=0.8_wp, &
+                                                  epsilon=0.3_wp + 0.05_wp*i, gamma=0.8_wp), &
+                            block_history_type(theta=0.1_wp*i, v=1.5_wp)), i=1, 8)]
    end function some_points
 
    !> How attractors are found here.
-   pure type(attractor_settings) function quickly() result(settings)
-      settings = attractor_settings(t_transient=200.0_wp, t_observed=500.0_wp, &
+   pure type(attractor_settings_type) function quickly() result(settings)
+      settings = attractor_settings_type(t_transient=200.0_wp, t_observed=500.0_wp, &
                                     t_turning=50.0_wp, interval=5.0_wp, blocks=2, exponents=3, &
-                                    zero_level=1.0e-3_wp, longest_bar=1.0e-2_wp, doublings=1, &
-                                    sample_interval=0.1_wp, window="hann", segments=2, &
+                                         zero_level=1.0e-3_wp, longest_bar=1.0e-2_wp, doublings=1, &
+                                         sample_interval=0.1_wp, window="hann", segments=2, &
                                     overlap=0.5_wp, peak_floor=1.0e-6_wp, peak_prominence=10.0_wp)
    end function quickly
 
@@ -125,11 +126,12 @@ contains
       type(finding_type), allocatable :: alone(:), findings(:)
       type(point_type) :: points(3)
 
-      points(1) = point_type(block_parameters(0.0_wp, 0.3_wp, 0.8_wp, 0.8_wp))
-      points(2) = point_type(block_parameters(10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp), &
-                             [0.0_wp, 0.0_wp, 1.0e-300_wp])
-      points(3) = point_type(block_parameters(10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp), &
-                             [0.0_wp, 0.0_wp, 1.5_wp])
+      points%parameters = block_parameters_type(tau=10.0_wp, epsilon=0.5_wp, xi=0.8_wp, &
+                                                gamma=0.8_wp)
+      points(1)%parameters%tau = 0.0_wp
+      points(1)%parameters%epsilon = 0.3_wp
+      points(2)%history%v = 1.0e-300_wp
+      points(3)%history%v = 1.5_wp
       call find_attractors(points, quickly(), at_tolerance(1.0e-6_wp, "auto"), findings)
       call find_attractors(points(3:), quickly(), at_tolerance(1.0e-6_wp, "auto"), alone)
       call expect_success(error, findings(1)%problem)

@@ -1,6 +1,7 @@
 !> Attractors of the delayed block: those of the scenes, and what cannot be told.
 module test_attractors
-   use attractors, only: attractor_settings, attractor_type, find_attractor
+   use block_builder, only: build_block
+   use attractors, only: attractor_settings_type, attractor_type, find_attractor
    use dde, only: integration_options
    use dde_errors, only: failure_type => error_type
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
@@ -33,18 +34,18 @@ contains
    end subroutine collect_attractors
 
    !> Settings as in the configuration, with times of a scene's own.
-   pure type(attractor_settings) function after(t_transient, t_observed) result(settings)
+   pure type(attractor_settings_type) function after(t_transient, t_observed) result(settings)
       !> Time left out
       real(wp), intent(in) :: t_transient
       !> Time observed
       real(wp), intent(in) :: t_observed
 
-      settings = attractor_settings(t_transient=t_transient, t_observed=t_observed, &
-                                    t_turning=0.5_wp*t_observed, interval=5.0_wp, blocks=5, &
-                                    exponents=4, zero_level=3.0e-5_wp, longest_bar=1.0e-3_wp, &
-                                    doublings=0, sample_interval=0.1_wp, window="hann", &
-                                    segments=8, overlap=0.5_wp, peak_floor=1.0e-6_wp, &
-                                    peak_prominence=10.0_wp)
+      settings = attractor_settings_type(t_transient=t_transient, t_observed=t_observed, &
+                                         t_turning=0.5_wp*t_observed, interval=5.0_wp, blocks=5, &
+                                         exponents=4, zero_level=3.0e-5_wp, longest_bar=1.0e-3_wp, &
+                                         doublings=0, sample_interval=0.1_wp, window="hann", &
+                                         segments=8, overlap=0.5_wp, peak_floor=1.0e-6_wp, &
+                                         peak_prominence=10.0_wp)
    end function after
 
    !> A block that starts near steady sliding, gamma = 0.8.
@@ -52,7 +53,7 @@ contains
       !> Parameters
       real(wp), intent(in) :: tau, epsilon, xi
 
-      block = spring_block_type(tau, epsilon, xi, 0.8_wp, 0.0_wp, 0.0_wp, 1.1_wp)
+      block = build_block(tau=tau, epsilon=epsilon, xi=xi, gamma=0.8_wp, v=1.1_wp)
    end function disturbed
 
    !> The attractor of a block and its four classes.
@@ -60,7 +61,7 @@ contains
       !> The block
       type(spring_block_type), intent(in) :: block
       !> How
-      type(attractor_settings), intent(in) :: settings
+      type(attractor_settings_type), intent(in) :: settings
       !> What all witnesses say
       integer, intent(in) :: class
       !> What was found
@@ -184,7 +185,7 @@ contains
    subroutine test_doublings(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(attractor_settings) :: settings
+      type(attractor_settings_type) :: settings
       type(attractor_type) :: found, longer
 
       settings = after(3000.0_wp, 1500.0_wp)
@@ -222,7 +223,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(attractor_type) :: found
 
-      call find(spring_block_type(10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp, 0.0_wp, 0.0_wp, 1.0_wp), &
+      call find(build_block(tau=10.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp), &
                 after(100.0_wp, 500.0_wp), undecided, found, error)
       if (allocated(error)) return
       call expect(error, size(found%maxima) == 0 .and. size(found%section) == 0 .and. &
@@ -269,7 +270,7 @@ contains
    subroutine test_few_samples(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(attractor_settings) :: settings
+      type(attractor_settings_type) :: settings
       type(attractor_type) :: found
 
       settings = after(200.0_wp, 500.0_wp)

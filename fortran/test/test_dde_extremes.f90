@@ -1,5 +1,6 @@
 !> Events and continuations where it is hard: in stiff runs, and in steps far below a spacing of t.
 module test_dde_extremes
+   use block_builder, only: build_block
    use dde, only: continuation_type, elapsed, event_met, event_table, instant, integrate, &
                   integration_options, integration_result, methods, too_many_steps
    use dde_errors, only: failure_type => error_type, text
@@ -63,7 +64,7 @@ contains
       type(spring_block_type) :: block_model
       integer :: i
 
-      block_model = spring_block_type(1.0_wp, 0.7_wp, 0.5_wp, 1.0e6_wp, 0.0_wp, 0.0_wp, 1.5_wp)
+      block_model = build_block(tau=1.0_wp, epsilon=0.7_wp, xi=0.5_wp, gamma=1.0e6_wp, v=1.5_wp)
       one = event_table([index_of_ln_v], [0.0_wp], [-1], of_slope=[.true.])
       other = one
       call integrate(block_model, 0.0_wp, 20.0_wp, at_tolerance(1.0e-11_wp, "auto"), outcome, &
@@ -75,7 +76,8 @@ contains
       do i = 1, one%received
          if (one%time(i)%hi < 1.0e-9_wp) cycle
          associate (theta => one%y(1, i), u => one%y(2, i), w => one%y(3, i))
-            call expect_close(error, u + (theta + w)/block_model%xi, 0.0_wp, 1.0e-11_wp, "forces")
+            call expect_close(error, u + (theta + w)/block_model%parameters%xi, 0.0_wp, &
+                              1.0e-11_wp, "forces")
          end associate
       end do
       associate (times => pack(one%time(:one%received)%hi, &
@@ -219,7 +221,8 @@ contains
       real(wp), parameter :: t_end = 40.0_wp
       integer :: i, runs
 
-      problem = spring_block_type(0.0_wp, 0.7_wp, 0.5_wp, 1.0e12_wp, 0.0_wp, 0.5_wp, 1.1_wp)
+      problem = build_block(tau=0.0_wp, epsilon=0.7_wp, xi=0.5_wp, gamma=1.0e12_wp, u=0.5_wp, &
+                            v=1.1_wp)
       do i = 1, size(methods)
          if (any(methods(i) == ["explicit", "taylor  "])) cycle
          call integrate(problem, 0.0_wp, t_end, at_tolerance(1.0e-10_wp, methods(i)), whole, &

@@ -1,6 +1,7 @@
 !> The spring block without delay against GSL, which integrates the same equations in v.
 module test_dde_gsl
    use, intrinsic :: iso_c_binding, only: c_double, c_int
+   use block_builder, only: build_block
    use expectations, only: expect, expect_between, expect_close
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
@@ -76,7 +77,8 @@ contains
 
       status = integrate_by_gsl(epsilon, xi, gamma, 1.0e-13_wp, start, size(times), times, states)
       call expect(error, status == 0, "GSL reaches the end")
-      block = spring_block_type(0.0_wp, epsilon, xi, gamma, start(1), start(2), start(3))
+      block = build_block(tau=0.0_wp, epsilon=epsilon, xi=xi, gamma=gamma, theta=start(1), &
+                          u=start(2), v=start(3))
       call solve(block, times, at_tolerance(1.0e-13_wp), ours, error)
       call expect_close(error, ours(index_of_theta, :), states(1, :), within, "theta")
       call expect_close(error, ours(index_of_u, :), states(2, :), within, "u")

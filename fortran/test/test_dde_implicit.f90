@@ -1,5 +1,6 @@
 !> Whole runs of the implicit methods and of `auto`.
 module test_dde_implicit
+   use block_builder, only: build_block
    use dde, only: integrate, integration_options, integration_result, step_underflow, &
                   too_many_steps, value_not_finite
    use dde_errors, only: failure_type => error_type, text
@@ -148,7 +149,8 @@ contains
       integer :: i, j
 
       do i = 0, 1
-         block_model = spring_block_type(7.0_wp*i, 0.7_wp, 0.5_wp, 0.8_wp, 0.0_wp, 0.0_wp, 1.1_wp)
+         block_model = build_block(tau=7.0_wp*i, epsilon=0.7_wp, xi=0.5_wp, gamma=0.8_wp, &
+                                   v=1.1_wp)
          allocate (z(i), source=0.2_wp)
          allocate (by_z(3, i))
          call block_model%jacobian(0.0_wp, y, z, by_y, by_z)
@@ -176,12 +178,12 @@ contains
       type(integration_result) :: outcome
       type(plain_block) :: stiff
 
-      call integrate(spring_block_type(10.0_wp, 0.35_wp, 0.8_wp, 0.8_wp, 0.0_wp, 0.0_wp, 1.1_wp), &
+      call integrate(build_block(tau=10.0_wp, epsilon=0.35_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp), &
                      0.0_wp, 200.0_wp, at_tolerance(1.0e-9_wp, "auto"), outcome, failure)
       call expect_success(error, failure)
       call expect(error, outcome%implicit_steps == 0, "the mild scene stays explicit")
-      stiff%spring_block_type = spring_block_type(1.0_wp, 0.7_wp, 0.5_wp, 1.0e6_wp, 0.0_wp, &
-                                                  0.0_wp, 1.5_wp)
+      stiff%spring_block_type = build_block(tau=1.0_wp, epsilon=0.7_wp, xi=0.5_wp, &
+                                            gamma=1.0e6_wp, v=1.5_wp)
       call integrate(stiff, 0.0_wp, 100.0_wp, at_tolerance(1.0e-9_wp, "auto"), outcome, failure)
       call expect_success(error, failure)
       call expect(error, outcome%implicit_steps > 50 .and. outcome%switches >= 1, &

@@ -1,5 +1,6 @@
 !> Integrations side by side give the same bits as one after the other.
 module test_dde_reentrant
+   use block_builder, only: build_block
    use dde, only: dde_problem_type, integrate, integration_result, sampler_type, table_sampler
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_success
@@ -8,7 +9,6 @@ module test_dde_reentrant
    use omp_lib, only: omp_get_num_threads
    use published_problems, only: enzyme, infection, mackey_glass
    use solving, only: at_tolerance
-   use spring_block, only: spring_block_type
    use test_problems, only: linear, sine, wille_baker
    use undelayed_problems, only: oscillator, without_delays
    implicit none (type, external)
@@ -132,8 +132,8 @@ contains
       case (0)
          allocate (run%problem, source=sine())
       case (1)
-         allocate (run%problem, source=spring_block_type(10.0_wp, 0.35_wp, 0.8_wp, 0.8_wp, 0.0_wp, &
-                                                         0.0_wp, x))
+         allocate (run%problem, source=build_block(tau=10.0_wp, epsilon=0.35_wp, xi=0.8_wp, &
+                                                   gamma=0.8_wp, v=x))
       case (2)
          allocate (run%problem, source=mackey_glass(n=1, lag=[17.0_wp], component=[1], past=[x], &
                                                     first=[x]))

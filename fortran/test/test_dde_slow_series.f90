@@ -1,6 +1,7 @@
 !> Slow series: the balance they keep, when steps take them, what they pass over, and `auto` with
 !> them.
 module test_dde_slow_series
+   use block_builder, only: build_block
    use dde, only: integrate, integration_options, integration_result, too_many_steps
    use dde_interpolant, only: series_value
    use dde_series_reach, only: series_reach
@@ -72,8 +73,8 @@ contains
 
       do i = 1, size(gamma)
          do delays = 0, 1
-            problem = spring_block_type(7.0_wp*delays, 0.6_wp, 0.5_wp, gamma(i), 0.0_wp, 0.0_wp, &
-                                        1.1_wp)
+            problem = build_block(tau=7.0_wp*delays, epsilon=0.6_wp, xi=0.5_wp, gamma=gamma(i), &
+                                  v=1.1_wp)
             allocate (z(0:degree, delays), source=0.0_wp)
             if (delays > 0) z(:3, 1) = [0.2_wp, -0.1_wp, 0.03_wp, 0.01_wp]
             y = 0.0_wp
@@ -190,8 +191,8 @@ contains
 
       do i = 1, size(gamma)
          do delays = 0, 1
-            problem = spring_block_type(1.0_wp*delays, 0.7_wp, 0.5_wp, gamma(i), 0.0_wp, 0.0_wp, &
-                                        1.1_wp)
+            problem = build_block(tau=1.0_wp*delays, epsilon=0.7_wp, xi=0.5_wp, gamma=gamma(i), &
+                                  v=1.1_wp)
             call integrate(problem, 0.0_wp, 20.0_wp, at_tolerance(1.0e-12_wp, "radau13"), known, &
                            failure)
             call expect_success(error, failure)
@@ -220,7 +221,8 @@ contains
       type(spring_block_type) :: problem
       integer :: i, j
 
-      problem = spring_block_type(0.0_wp, 0.5_wp, 0.8_wp, 0.8_wp, 0.0_wp, 50.0_wp, 1.1_wp)
+      problem = build_block(tau=0.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, u=50.0_wp, &
+                            v=1.1_wp)
       call integrate(problem, 0.0_wp, 45.0_wp, at_tolerance(1.0e-12_wp, "radau13"), known, failure)
       call expect_success(error, failure)
       do j = 4, 10, 2
@@ -244,8 +246,8 @@ contains
       type(plain_block) :: problem
       integer :: i
 
-      problem%spring_block_type = spring_block_type(1.0_wp, 0.7_wp, 0.5_wp, 1.0e4_wp, 0.0_wp, &
-                                                    0.0_wp, 1.1_wp)
+      problem%spring_block_type = build_block(tau=1.0_wp, epsilon=0.7_wp, xi=0.5_wp, &
+                                              gamma=1.0e4_wp, v=1.1_wp)
       options = at_tolerance(1.0e-6_wp, "taylor")
       options%most_steps = 10000
       call integrate(problem, 0.0_wp, 20.0_wp, options, outcome, failure)
@@ -268,8 +270,8 @@ contains
       type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
 
-      call integrate(spring_block_type(1.0e-3_wp, 0.7_wp, 0.5_wp, 1.0e6_wp, 0.0_wp, 0.0_wp, &
-                                       1.1_wp), &
+      call integrate(build_block(tau=1.0e-3_wp, epsilon=0.7_wp, xi=0.5_wp, gamma=1.0e6_wp, &
+                                 v=1.1_wp), &
                      0.0_wp, 20.0_wp, at_tolerance(1.0e-6_wp, "auto"), outcome, failure)
       call expect_success(error, failure)
       call expect_between(error, real(outcome%accepted, wp), 20.0_wp, 2000.0_wp, "steps")
@@ -286,8 +288,8 @@ contains
 
       do i = 0, 1
          do j = 4, 10, 2
-            call integrate(spring_block_type(10.0_wp*i, 0.2_wp, 0.8_wp, 0.8_wp, 0.0_wp, 0.0_wp, &
-                                             1.1_wp), &
+            call integrate(build_block(tau=10.0_wp*i, epsilon=0.2_wp, xi=0.8_wp, gamma=0.8_wp, &
+                                       v=1.1_wp), &
                            0.0_wp, 1.0e6_wp, at_tolerance(10.0_wp**(-j), "auto"), outcome, failure)
             call expect_success(error, failure)
             call expect_between(error, real(outcome%accepted, wp), 20.0_wp, 4000.0_wp, &

@@ -1,6 +1,7 @@
 !> Stiff runs of the implicit methods and of `auto`: accuracy at and between the ends of steps,
 !> slips, and the fall of v after them.
 module test_dde_stiff
+   use block_builder, only: build_block
    use dde, only: integrate, integration_result
    use dde_errors, only: failure_type => error_type
    use expectations, only: expect_between, expect_close, expect_success
@@ -76,7 +77,8 @@ contains
       real(wp) :: first(3)
       integer :: i
 
-      block_model = spring_block_type(0.0_wp, 0.7_wp, 0.5_wp, 1.0e12_wp, 0.0_wp, 0.5_wp, 1.1_wp)
+      block_model = build_block(tau=0.0_wp, epsilon=0.7_wp, xi=0.5_wp, gamma=1.0e12_wp, &
+                                u=0.5_wp, v=1.1_wp)
       do i = 1, size(methods)
          call integrate(block_model, 0.0_wp, 100.0_wp, at_tolerance(1.0e-9_wp, methods(i)), &
                         outcome, failure)
@@ -97,7 +99,7 @@ contains
       real(wp), parameter :: tolerance(3) = [1.0e-4_wp, 1.0e-6_wp, 1.0e-9_wp]
       integer :: i, j
 
-      block_model = spring_block_type(0.0_wp, 5.0_wp, 0.5_wp, 1.0e4_wp, 0.0_wp, 0.0_wp, 1.1_wp)
+      block_model = build_block(tau=0.0_wp, epsilon=5.0_wp, xi=0.5_wp, gamma=1.0e4_wp, v=1.1_wp)
       do j = 1, size(tolerance)
          do i = 1, size(methods)
             call integrate(block_model, 0.0_wp, 50.0_wp, at_tolerance(tolerance(j), methods(i)), &

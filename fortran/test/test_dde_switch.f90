@@ -1,6 +1,7 @@
 !> When `auto` leaves explicit steps: whether one along a series is held back by more than the
 !> change of the solution.
 module test_dde_switch
+   use block_builder, only: build_block
    use dde, only: continuation_type, integrate, integration_result
    use dde_history, only: history_type
    use dde_problem, only: dde_problem_type
@@ -77,7 +78,7 @@ contains
       type(spring_block_type) :: problem
       integer :: digits
 
-      problem = spring_block_type(0.0_wp, 0.3_wp, 0.8_wp, 0.8_wp, 0.0_wp, 0.0_wp, 1.1_wp)
+      problem = build_block(tau=0.0_wp, epsilon=0.3_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp)
       do digits = 5, 11, 2
          call integrate(problem, 0.0_wp, 400.0_wp, at_tolerance(10.0_wp**(-digits), "auto"), &
                         outcome, failure)
@@ -135,8 +136,8 @@ contains
       integer :: digits
 
       do digits = 5, 7
-         call integrate(spring_block_type(0.0_wp, 0.7_wp, 0.5_wp, 0.8_wp, 0.0_wp, 0.0_wp, &
-                                          1.1_wp), 0.0_wp, 300.0_wp, &
+         call integrate(build_block(tau=0.0_wp, epsilon=0.7_wp, xi=0.5_wp, gamma=0.8_wp, &
+                                    v=1.1_wp), 0.0_wp, 300.0_wp, &
                         at_tolerance(10.0_wp**(-digits), "auto"), outcome, failure)
          call expect_success(error, failure)
          call expect(error, outcome%switches > 0, "a try at 1e-"//text(digits))
@@ -244,7 +245,7 @@ contains
       !> How much
       real(wp), intent(in) :: above
 
-      problem%spring_block_type = spring_block_type(0.0_wp, 0.0_wp, 1.0_wp, 1.0e3_wp, 0.0_wp, &
-                                                    0.0_wp, exp(above))
+      problem%spring_block_type = build_block(tau=0.0_wp, epsilon=0.0_wp, xi=1.0_wp, &
+                                              gamma=1.0e3_wp, v=exp(above))
    end function near_balance
 end module test_dde_switch

@@ -2,6 +2,7 @@
 !> and when `auto` takes it.
 module test_dde_taylor
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
+   use block_builder, only: build_block
    use dde, only: continuation_type, integrate, integration_options, integration_result, &
                   step_underflow, value_not_finite
    use dde_history, only: history_type
@@ -140,8 +141,8 @@ contains
 
       do i = 1, size(gamma)
          do delays = 0, 1
-            problem = spring_block_type(7.0_wp*delays, 0.3_wp*i, 0.4_wp + 0.2_wp*i, gamma(i), &
-                                        0.0_wp, 0.0_wp, 1.1_wp)
+            problem = build_block(tau=7.0_wp*delays, epsilon=0.3_wp*i, xi=0.4_wp + 0.2_wp*i, &
+                                  gamma=gamma(i), v=1.1_wp)
             allocate (delayed(0:degree, delays), source=0.0_wp)
             if (delays > 0) delayed(:3, 1) = [0.2_wp, -0.1_wp, 0.03_wp, 0.01_wp]
             coefficient = 0.0_wp
@@ -347,8 +348,8 @@ contains
       type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
 
-      call integrate(spring_block_type(1.0_wp, 0.7_wp, 0.5_wp, 0.8_wp, 0.0_wp, 0.0_wp, &
-                                       1.0e131_wp), &
+      call integrate(build_block(tau=1.0_wp, epsilon=0.7_wp, xi=0.5_wp, gamma=0.8_wp, &
+                                 v=1.0e131_wp), &
                      0.0_wp, 1.0_wp, at_tolerance(1.0e-9_wp, "taylor"), outcome, failure)
       call expect(error, outcome%reason == value_not_finite, "the reason is `value_not_finite`")
       call expect(error, outcome%accepted == 0, "no step passed")
@@ -356,6 +357,6 @@ contains
 
    !> The torus of the paper.
    type(spring_block_type) function torus() result(problem)
-      problem = spring_block_type(10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp, 0.0_wp, 0.0_wp, 1.5_wp)
+      problem = build_block(tau=10.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, v=1.5_wp)
    end function torus
 end module test_dde_taylor

@@ -1,12 +1,13 @@
 !> Lyapunov exponents against characteristic roots, published values, and what must be zero.
 module test_exponents
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use block_builder, only: build_block
    use dde, only: dde_problem_type, integration_options
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_success
    use exponent_averages, only: average_growth, dimension_of, exponent_type, without_sign
    use dde_kinds, only: wp
-   use lyapunov_spectrum, only: growth_settings, growth_type, measure_growth
+   use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use published_problems, only: mackey_glass
    use solving, only: at_tolerance
@@ -76,7 +77,7 @@ contains
    !> Exponents of a problem.
    subroutine solve(problem, settings, options, exponents, error)
       class(dde_problem_type), intent(in) :: problem
-      type(growth_settings), intent(in) :: settings
+      type(growth_settings_type), intent(in) :: settings
       type(integration_options), intent(in) :: options
       type(exponent_type), allocatable, intent(out) :: exponents(:)
       type(error_type), allocatable, intent(inout) :: error
@@ -101,8 +102,8 @@ contains
 
       do method = 1, size(names)
          call solve(linear(n=1, lag=[1.0_wp], component=[1], past=[1.0_wp], first=[1.0_wp]), &
-                    growth_settings(exponents=6, t_begin=50.0_wp, t_end=350.0_wp, &
-                                    t_turning=49.0_wp, interval=0.25_wp, blocks=3), &
+                    growth_settings_type(exponents=6, t_begin=50.0_wp, t_end=350.0_wp, &
+                                         t_turning=49.0_wp, interval=0.25_wp, blocks=3), &
                     at_tolerance(1.0e-10_wp, names(method)), exponents, error)
          if (allocated(error)) return
          do i = 0, 2
@@ -147,8 +148,8 @@ contains
                                         past=[1.0_wp, 1.0_wp, 1.0_wp], &
                                         first=[1.0_wp, 1.0_wp, 1.0_wp])
       call solve(problem, &
-                 growth_settings(exponents=3, t_begin=80.0_wp, t_end=100.0_wp, &
-                                 t_turning=70.0_wp, interval=0.5_wp, blocks=2), &
+                 growth_settings_type(exponents=3, t_begin=80.0_wp, t_end=100.0_wp, &
+                                      t_turning=70.0_wp, interval=0.5_wp, blocks=2), &
                  at_tolerance(1.0e-9_wp), exponents, error)
       if (allocated(error)) return
       call expect_close(error, exponents%value, roots, 1.0e-6_wp, "exponents")
@@ -161,9 +162,9 @@ contains
       real(wp) :: s
       integer :: iteration
 
-      call solve(spring_block_type(0.0_wp, 0.3_wp, 0.8_wp, 0.8_wp, 0.0_wp, 0.0_wp, 1.1_wp), &
-                 growth_settings(exponents=3, t_begin=200.0_wp, t_end=500.0_wp, &
-                                 t_turning=100.0_wp, interval=0.5_wp, blocks=2), &
+      call solve(build_block(tau=0.0_wp, epsilon=0.3_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp), &
+                 growth_settings_type(exponents=3, t_begin=200.0_wp, t_end=500.0_wp, &
+                                      t_turning=100.0_wp, interval=0.5_wp, blocks=2), &
                  at_tolerance(1.0e-9_wp), exponents, error)
       if (allocated(error)) return
       s = -2.0_wp
@@ -205,8 +206,8 @@ contains
       problem%mackey_glass = mackey_glass(n=1, lag=[tau], component=[1], past=[1.2_wp], &
                                           first=[1.2_wp])
       call solve(problem, &
-                 growth_settings(exponents=4, t_begin=1000.0_wp, t_end=25000.0_wp, &
-                                 t_turning=700.0_wp, interval=20.0_wp, blocks=4), &
+                 growth_settings_type(exponents=4, t_begin=1000.0_wp, t_end=25000.0_wp, &
+                                      t_turning=700.0_wp, interval=20.0_wp, blocks=4), &
                  at_tolerance(1.0e-5_wp), exponents, error)
       if (allocated(error)) return
       do i = 1, 4
@@ -235,7 +236,7 @@ contains
    subroutine test_error_control(error)
       type(error_type), allocatable, intent(out) :: error
       type(exponent_type), allocatable :: exponents(:), others(:)
-      type(growth_settings) :: settings
+      type(growth_settings_type) :: settings
 
       settings = cycle_settings()
       settings%t_begin = 300.0_wp
@@ -252,25 +253,25 @@ contains
 
    !> The block of figure 4b; its history lies near the cycle.
    type(spring_block_type) function oscillation() result(block)
-      block = spring_block_type(10.0_wp, 0.35_wp, 0.8_wp, 0.8_wp, 0.0_wp, 0.0_wp, 1.1_wp)
+      block = build_block(tau=10.0_wp, epsilon=0.35_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp)
    end function oscillation
 
    !> Its exponents.
-   type(growth_settings) function cycle_settings() result(settings)
-      settings = growth_settings(exponents=3, t_begin=7000.0_wp, t_end=9000.0_wp, &
-                                 t_turning=2000.0_wp, interval=5.0_wp, blocks=2)
+   type(growth_settings_type) function cycle_settings() result(settings)
+      settings = growth_settings_type(exponents=3, t_begin=7000.0_wp, t_end=9000.0_wp, &
+                                      t_turning=2000.0_wp, interval=5.0_wp, blocks=2)
    end function cycle_settings
 
    !> A frequency that the paper left out: implicit steps, the same exponents by two methods.
    subroutine test_stiff(error)
       type(error_type), allocatable, intent(out) :: error
       type(exponent_type), allocatable :: exponents(:), others(:)
-      type(growth_settings), parameter :: settings = &
-         growth_settings(exponents=4, t_begin=20.0_wp, t_end=60.0_wp, t_turning=15.0_wp, &
-                         interval=1.0_wp, blocks=2)
+      type(growth_settings_type), parameter :: settings = &
+         growth_settings_type(exponents=4, t_begin=20.0_wp, t_end=60.0_wp, t_turning=15.0_wp, &
+                              interval=1.0_wp, blocks=2)
       type(spring_block_type) :: block
 
-      block = spring_block_type(1.0_wp, 0.7_wp, 0.5_wp, 1.0e4_wp, 0.0_wp, 0.0_wp, 1.1_wp)
+      block = build_block(tau=1.0_wp, epsilon=0.7_wp, xi=0.5_wp, gamma=1.0e4_wp, v=1.1_wp)
       call solve(block, settings, at_tolerance(1.0e-7_wp, "auto"), exponents, error)
       call solve(block, settings, at_tolerance(1.0e-8_wp, "radau5"), others, error)
       if (allocated(error)) return

@@ -4,7 +4,7 @@ module test_gsl_roots
                                             ieee_set_halting_mode, ieee_value
    use dde_errors, only: failure_type => error_type
    use expectations, only: expect_close, expect_failure, expect_success
-   use gsl_roots, only: find_root, scalar_function
+   use gsl_roots, only: find_root, scalar_function_type
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    implicit none (type, external)
@@ -12,7 +12,7 @@ module test_gsl_roots
    public :: collect_gsl_roots
 
    !> cos x - slope x.
-   type, extends(scalar_function) :: cosine_less_line
+   type, extends(scalar_function_type) :: cosine_less_line
       !> Slope of the line
       real(wp) :: slope = 1.0_wp
    contains
@@ -20,7 +20,7 @@ module test_gsl_roots
    end type cosine_less_line
 
    !> -1 up to one x, 1 from another on, no number between.
-   type, extends(scalar_function) :: hole
+   type, extends(scalar_function_type) :: hole
       !> Where it begins and ends
       real(wp) :: left = 0.0_wp, right = 1.0_wp
    contains

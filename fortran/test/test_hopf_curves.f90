@@ -4,8 +4,8 @@ module test_hopf_curves
    use closed_form, only: closed_epsilon
    use dde_errors, only: text
    use expectations, only: expect, expect_between, expect_close
-   use hopf_curves, only: curve_point
-   use hopf_planes, only: curve_plane
+   use hopf_curves, only: curve_point_type
+   use hopf_planes, only: curve_plane_type
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use traced_planes, only: closed_delta, known_point, place_of, planes, root_near, trace, &
@@ -235,7 +235,7 @@ contains
    !> The omegas at which branch k enters and leaves the window.
    function ends_by_scan(plane, k) result(ends)
       !> The plane
-      class(curve_plane), intent(in) :: plane
+      class(curve_plane_type), intent(in) :: plane
       !> Branch
       integer, intent(in) :: k
       real(wp), allocatable :: ends(:)
@@ -257,7 +257,7 @@ contains
    !> The omegas at which the pieces of branch k begin and end.
    function ends_of_pieces(points, k) result(ends)
       !> Points of all pieces
-      type(curve_point), intent(in) :: points(:)
+      type(curve_point_type), intent(in) :: points(:)
       !> Branch
       integer, intent(in) :: k
       real(wp), allocatable :: ends(:)

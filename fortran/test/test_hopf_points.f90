@@ -6,7 +6,7 @@ module test_hopf_points
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_success
    use hopf_condition, only: hopf_epsilon, partner_omega
-   use hopf_points, only: find_hopf_points, hopf_point, judge_points
+   use hopf_points, only: find_hopf_points, hopf_point_type, judge_points
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use pseudo_random, only: uniform
@@ -50,7 +50,7 @@ contains
    !> The point without delay as by Routh and Hurwitz, nine double and six generalised points.
    subroutine test_figure_2(error)
       type(error_type), allocatable, intent(out) :: error
-      type(hopf_point), allocatable :: found(:)
+      type(hopf_point_type), allocatable :: found(:)
 
       call check_points(1, found, error)
       if (allocated(error)) return
@@ -68,7 +68,7 @@ contains
    !> Five double points, two generalised.
    subroutine test_figure_3(error)
       type(error_type), allocatable, intent(out) :: error
-      type(hopf_point), allocatable :: found(:)
+      type(hopf_point_type), allocatable :: found(:)
 
       call check_points(2, found, error)
       if (allocated(error)) return
@@ -83,7 +83,7 @@ contains
       !> Number of the plane
       integer, intent(in) :: i
       !> Special points
-      type(hopf_point), allocatable, intent(out) :: found(:)
+      type(hopf_point_type), allocatable, intent(out) :: found(:)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(traced_plane) :: traced

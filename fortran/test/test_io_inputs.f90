@@ -2,7 +2,7 @@
 module test_io_inputs
    use dde_errors, only: failure_type => error_type
    use expectations, only: expect_failure
-   use exponents_input, only: exponents_settings, read_exponents
+   use exponents_input, only: exponents_settings_type, read_exponents
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use scene_input, only: scene_type
    implicit none (type, external)
@@ -22,7 +22,7 @@ contains
    subroutine test_exponents_without_file(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(exponents_settings) :: settings
+      type(exponents_settings_type) :: settings
       type(scene_type) :: scene
 
       call read_exponents("no-such-file.nml", scene, settings, failure)

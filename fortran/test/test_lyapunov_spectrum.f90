@@ -1,15 +1,16 @@
 !> Growth of tangent vectors: measured in one go and in two, from where a run ended, in halves of an
 !> interval, and where vectors are lost.
 module test_lyapunov_spectrum
+   use block_builder, only: build_block
    use dde, only: continuation_type, dde_problem_type, integrate, integration_options, &
                   integration_result, table_sampler
    use dde_errors, only: failure_type => error_type
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use exponent_averages, only: average_growth, exponent_type
    use dde_kinds, only: wp
-   use lyapunov_spectrum, only: extend_growth, growth_settings, growth_type, measure_growth
+   use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, measure_growth
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use rest, only: exponents_at_rest
+   use steady_sliding, only: sliding_exponents
    use solving, only: at_tolerance
    use spring_block, only: index_of_ln_v, spring_block_type
    implicit none (type, external)
@@ -34,7 +35,7 @@ contains
 
    !> The oscillation of the paper.
    pure type(spring_block_type) function oscillation() result(block)
-      block = spring_block_type(10.0_wp, 0.35_wp, 0.8_wp, 0.8_wp, 0.0_wp, 0.0_wp, 1.1_wp)
+      block = build_block(tau=10.0_wp, epsilon=0.35_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp)
    end function oscillation
 
    !> A block without delay whose third vector shrinks by exp(-2e4) in a unit of time.
@@ -42,28 +43,28 @@ contains
       !> Displacement for t <= 0
       real(wp), intent(in) :: u
 
-      block = spring_block_type(0.0_wp, 0.3_wp, 0.5_wp, 100.0_wp, 0.0_wp, u, 1.0_wp)
+      block = build_block(tau=0.0_wp, epsilon=0.3_wp, xi=0.5_wp, gamma=100.0_wp, u=u)
    end function stiff
 
    !> Three exponents of it in four intervals of a given length, each a block.
-   pure type(growth_settings) function four_intervals(interval) result(settings)
+   pure type(growth_settings_type) function four_intervals(interval) result(settings)
       !> Length of an interval
       real(wp), intent(in) :: interval
 
-      settings = growth_settings(exponents=3, t_begin=1.0_wp, t_end=1.0_wp + 4*interval, &
-                                 t_turning=2*interval, interval=interval, blocks=4)
+      settings = growth_settings_type(exponents=3, t_begin=1.0_wp, t_end=1.0_wp + 4*interval, &
+                                      t_turning=2*interval, interval=interval, blocks=4)
    end function four_intervals
 
    !> Twice 100 in 2 blocks of 10 intervals each are 200 in 2 blocks of 20.
    subroutine test_two_halves(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(growth_settings) :: settings
+      type(growth_settings_type) :: settings
       type(growth_type) :: halves, whole
       integer :: i
 
-      settings = growth_settings(exponents=4, t_begin=150.0_wp, t_end=250.0_wp, &
-                                 t_turning=50.0_wp, interval=5.0_wp, blocks=2)
+      settings = growth_settings_type(exponents=4, t_begin=150.0_wp, t_end=250.0_wp, &
+                                      t_turning=50.0_wp, interval=5.0_wp, blocks=2)
       call measure_growth(oscillation(), settings, at_tolerance(1.0e-8_wp), halves, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
@@ -90,12 +91,12 @@ contains
    subroutine test_uneven(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(growth_settings) :: settings
+      type(growth_settings_type) :: settings
       type(growth_type) :: measured
       integer :: twice
 
-      settings = growth_settings(exponents=1, t_begin=100.0_wp, t_end=122.0_wp, &
-                                 interval=5.0_wp, blocks=2)
+      settings = growth_settings_type(exponents=1, t_begin=100.0_wp, t_end=122.0_wp, &
+                                      interval=5.0_wp, blocks=2)
       ! 22 in 2 blocks of at most 5: 3 each; 44 would be 5 each
       call measure_growth(oscillation(), settings, at_tolerance(1.0e-6_wp), measured, failure)
       call expect_success(error, failure)
@@ -115,10 +116,10 @@ contains
    !> A run that ended where the vectors would begin anyway makes no difference.
    subroutine test_undisturbed(error)
       type(error_type), allocatable, intent(out) :: error
-      type(growth_settings) :: alone, continued
+      type(growth_settings_type) :: alone, continued
 
-      alone = growth_settings(exponents=3, t_begin=150.0_wp, t_end=200.0_wp, t_turning=50.0_wp, &
-                              interval=5.0_wp, blocks=2)
+      alone = growth_settings_type(exponents=3, t_begin=150.0_wp, t_end=200.0_wp, &
+                                   t_turning=50.0_wp, interval=5.0_wp, blocks=2)
       continued = alone
       continued%t_begin = 0.0_wp
       call compare_goes(alone, 100.0_wp, continued, 0.0_wp, error)
@@ -127,21 +128,21 @@ contains
    !> Vectors have no past before the delay is over: they begin then.
    subroutine test_short_run(error)
       type(error_type), allocatable, intent(out) :: error
-      type(growth_settings) :: settings
+      type(growth_settings_type) :: settings
 
-      settings = growth_settings(exponents=3, t_begin=30.0_wp, t_end=60.0_wp, t_turning=20.0_wp, &
-                                 interval=5.0_wp, blocks=2)
+      settings = growth_settings_type(exponents=3, t_begin=30.0_wp, t_end=60.0_wp, &
+                                      t_turning=20.0_wp, interval=5.0_wp, blocks=2)
       call compare_goes(settings, 3.0_wp, settings, 1.0e-4_wp, error)
    end subroutine test_short_run
 
    !> Growth in one go is that from where a run ended, which is left as it was.
    subroutine compare_goes(alone, t_arrived, continued, tolerance, error)
       !> Of the one go
-      type(growth_settings), intent(in) :: alone
+      type(growth_settings_type), intent(in) :: alone
       !> End of the run before the other
       real(wp), intent(in) :: t_arrived
       !> Of the other
-      type(growth_settings), intent(in) :: continued
+      type(growth_settings_type), intent(in) :: continued
       !> Difference allowed
       real(wp), intent(in) :: tolerance
       type(error_type), allocatable, intent(inout) :: error
@@ -171,7 +172,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(exponent_type), allocatable :: exponents(:), known(:)
       type(failure_type), allocatable :: failure
-      type(growth_settings) :: settings
+      type(growth_settings_type) :: settings
       type(growth_type) :: measured
       real(wp), parameter :: trace = -(1.0_wp + 100.0_wp**2/0.5_wp)
 
@@ -179,7 +180,7 @@ contains
       call measure_growth(stiff(0.0_wp), settings, at_tolerance(1.0e-8_wp, "radau9"), measured, &
                           failure)
       call expect_success(error, failure)
-      call exponents_at_rest(stiff(0.0_wp), 3, known, failure)
+      call sliding_exponents(stiff(0.0_wp), 3, known, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
       call expect(error, size(known) == 2, "two roots are above -8")
@@ -198,7 +199,7 @@ contains
    subroutine test_divergence(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(growth_settings) :: settings
+      type(growth_settings_type) :: settings
       type(growth_type) :: measured
       type(integration_result) :: outcome
       type(table_sampler) :: samples
@@ -233,11 +234,11 @@ contains
    subroutine test_lost(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(growth_settings) :: settings
+      type(growth_settings_type) :: settings
       type(growth_type) :: measured
 
-      settings = growth_settings(exponents=3, t_begin=1.0_wp, t_end=3.0_wp, interval=1.0_wp, &
-                                 blocks=2)
+      settings = growth_settings_type(exponents=3, t_begin=1.0_wp, t_end=3.0_wp, interval=1.0_wp, &
+                                      blocks=2)
       call measure_growth(stiff(0.0_wp), settings, at_tolerance(1.0e-4_wp, "radau5"), measured, &
                           failure)
       call expect_failure(error, failure, &
@@ -256,9 +257,9 @@ contains
    !> What cannot be measured is refused in words.
    subroutine test_refusals(error)
       type(error_type), allocatable, intent(out) :: error
-      type(growth_settings), parameter :: good = &
-         growth_settings(exponents=1, t_begin=1.0_wp, t_end=2.0_wp, interval=0.5_wp, blocks=2)
-      type(growth_settings) :: settings
+      type(growth_settings_type), parameter :: good = &
+         growth_settings_type(exponents=1, t_begin=1.0_wp, t_end=2.0_wp, interval=0.5_wp, blocks=2)
+      type(growth_settings_type) :: settings
 
       settings = good
       settings%exponents = 0

@@ -1,21 +1,22 @@
 !> What long work tells of its progress.
 module test_progress
+   use block_parameters, only: block_history_type, block_parameters_type
    use dde, only: integration_options
    use dde_errors, only: failure_type => error_type
    use expectations, only: expect, expect_success
    use dde_kinds, only: int64, wp
-   use lyapunov_spectrum, only: growth_settings, growth_type, measure_growth
+   use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use measured_case, only: case_type
    use measured_run, only: measure_run, run_type, time_runs
-   use progress_receivers, only: progress_receiver
+   use progress_receiver, only: progress_receiver_type
    use test_problems, only: linear
    implicit none (type, external)
    private
    public :: collect_progress
 
    !> Keeps what it is told.
-   type, extends(progress_receiver) :: recorder
+   type, extends(progress_receiver_type) :: recorder
       !> Pieces done, call by call
       integer, allocatable :: done(:)
       !> Pieces in all, call by call
@@ -72,14 +73,14 @@ contains
    subroutine test_growth(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(growth_settings) :: settings
+      type(growth_settings_type) :: settings
       type(growth_type) :: alone, watched
       type(linear) :: problem
       type(recorder) :: receiver
 
       problem = linear(n=1, lag=[1.0_wp], component=[1], past=[1.0_wp], first=[1.0_wp])
-      settings = growth_settings(exponents=2, t_begin=6.0_wp, t_end=26.0_wp, t_turning=5.0_wp, &
-                                 interval=0.5_wp, blocks=4)
+      settings = growth_settings_type(exponents=2, t_begin=6.0_wp, t_end=26.0_wp, &
+                                      t_turning=5.0_wp, interval=0.5_wp, blocks=4)
       receiver = new_recorder()
       call measure_growth(problem, settings, integration_options(), watched, failure, &
                           progress=receiver)
@@ -125,7 +126,7 @@ contains
    pure function short_case() result(case)
       type(case_type) :: case
 
-      case = case_type(name="short", tau=1.0_wp, epsilon=0.5_wp, v=1.1_wp, t_end=10.0_wp, &
-                       sample_interval=0.5_wp)
+      case = case_type(name="short", parameters=block_parameters_type(tau=1.0_wp, epsilon=0.5_wp), &
+                       history=block_history_type(v=1.1_wp), t_end=10.0_wp, sample_interval=0.5_wp)
    end function short_case
 end module test_progress

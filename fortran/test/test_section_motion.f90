@@ -6,7 +6,7 @@ module test_section_motion
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use motion_classes, only: chaos, cycle_motion, torus, undecided
    use pseudo_random, only: uniform
-   use section_motion, only: judge_section, section_verdict
+   use section_motion, only: judge_section, section_verdict_type
    implicit none (type, external)
    private
    public :: collect_section_motion
@@ -39,7 +39,7 @@ contains
    end subroutine collect_section_motion
 
    !> A section judged.
-   pure type(section_verdict) function judged(points, times, bases) result(verdict)
+   pure type(section_verdict_type) function judged(points, times, bases) result(verdict)
       !> Points, shape (2, points)
       real(wp), intent(in) :: points(:, :)
       !> When each was met
@@ -100,7 +100,7 @@ contains
    !> Cycles of period 1, 2, 7 and 64 have their period; one of period 65 is none.
    subroutine test_cycles(error)
       type(error_type), allocatable, intent(out) :: error
-      type(section_verdict) :: verdict
+      type(section_verdict_type) :: verdict
       integer :: i
       integer, parameter :: n = 400, periods(4) = [1, 2, 7, 64]
 
@@ -117,7 +117,7 @@ contains
    !> same place sqrt(2/3 (a^2 + b^2)): just below and just above the level of 1e-3.
    subroutine test_scatter(error)
       type(error_type), allocatable, intent(out) :: error
-      type(section_verdict) :: verdict
+      type(section_verdict_type) :: verdict
       integer, parameter :: n = 1000
       real(wp) :: scatter(2, n)
       integer :: i, period
@@ -140,7 +140,7 @@ contains
    !> A cycle must come again four times.
    subroutine test_turns(error)
       type(error_type), allocatable, intent(out) :: error
-      type(section_verdict) :: verdict
+      type(section_verdict_type) :: verdict
 
       verdict = judged(cycle(20, 80), turns(80), none)
       call expect(error, verdict%period == 20, "four times")
@@ -152,7 +152,7 @@ contains
    !> the second phase.
    subroutine test_one_loop(error)
       type(error_type), allocatable, intent(out) :: error
-      type(section_verdict) :: verdict
+      type(section_verdict_type) :: verdict
       integer, parameter :: n = 300
       real(wp) :: times(n)
 
@@ -170,7 +170,7 @@ contains
    !> The section is met three times a turn, each time on a loop of its own.
    subroutine test_several_loops(error)
       type(error_type), allocatable, intent(out) :: error
-      type(section_verdict) :: verdict
+      type(section_verdict_type) :: verdict
       integer, parameter :: n = 600
       real(wp), parameter :: first_phase(0:2) = [0.0_wp, 0.3_wp, 0.55_wp]
       real(wp), parameter :: place(0:2) = [0.0_wp, 2.5_wp, -1.5_wp]
@@ -188,7 +188,7 @@ contains
    !> are no function, it is no torus.
    subroutine test_doubled_torus(error)
       type(error_type), allocatable, intent(out) :: error
-      type(section_verdict) :: verdict
+      type(section_verdict_type) :: verdict
       integer, parameter :: n = 600
       real(wp) :: points(2, n), times(n)
       integer :: i
@@ -205,7 +205,7 @@ contains
    !> A torus is not seen with another second frequency, nor without.
    subroutine test_other_bases(error)
       type(error_type), allocatable, intent(out) :: error
-      type(section_verdict) :: verdict
+      type(section_verdict_type) :: verdict
       integer, parameter :: n = 300
       real(wp) :: times(n)
 
@@ -220,7 +220,7 @@ contains
    !> Points in random order: roughness 1.
    subroutine test_noise(error)
       type(error_type), allocatable, intent(out) :: error
-      type(section_verdict) :: verdict
+      type(section_verdict_type) :: verdict
       integer, parameter :: n = 1000
 
       verdict = judged(noise(9, 1.0_wp, n), turns(n), both)
@@ -232,7 +232,7 @@ contains
    !> Noise that holds 2 or 10 per cent of the variance: roughness is its share.
    subroutine test_noise_on_torus(error)
       type(error_type), allocatable, intent(out) :: error
-      type(section_verdict) :: verdict
+      type(section_verdict_type) :: verdict
       integer, parameter :: n = 1000
       real(wp), parameter :: shares(2) = [0.02_wp, 0.10_wp]
       integer, parameter :: classes(2) = [torus, chaos]
@@ -254,7 +254,7 @@ contains
    !> The logistic map in full chaos and in two bands, beside a part that is smooth in both phases.
    subroutine test_logistic(error)
       type(error_type), allocatable, intent(out) :: error
-      type(section_verdict) :: verdict
+      type(section_verdict_type) :: verdict
       integer, parameter :: n = 1000
       real(wp), parameter :: r(2) = [4.0_wp, 3.6_wp]
       real(wp) :: map(n), points(2, n), times(n)
@@ -278,7 +278,7 @@ contains
    !> Fewer than 40 points tell nothing; of many the last 1000 count.
    subroutine test_number_of_points(error)
       type(error_type), allocatable, intent(out) :: error
-      type(section_verdict) :: verdict
+      type(section_verdict_type) :: verdict
       real(wp) :: points(2, 1500)
       integer :: n
 

@@ -1,14 +1,15 @@
 !> Changes of stability with the delay and with epsilon, against the number of roots between them.
 module test_stability_changes
    use block_roots, only: roots_of_block
-   use characteristic_function, only: block_parameters, relative_residual
+   use block_parameters, only: block_parameters_type
+   use characteristic_function, only: relative_residual
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use pseudo_random, only: uniform
    use root_counts, only: roots_right_of
-   use stability_changes, only: changes_with_epsilon, changes_with_tau, stability_change
+   use stability_changes, only: changes_with_epsilon, changes_with_tau, stability_change_type
    implicit none (type, external)
    private
    public :: collect_stability_changes
@@ -30,8 +31,8 @@ contains
    subroutine test_tau(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(block_parameters) :: p
-      type(stability_change), allocatable :: changes(:)
+      type(block_parameters_type) :: p
+      type(stability_change_type), allocatable :: changes(:)
       real(wp), parameter :: most = 25.0_wp
       integer :: i, total
 
@@ -51,8 +52,8 @@ contains
    subroutine test_epsilon(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(block_parameters) :: p
-      type(stability_change), allocatable :: changes(:)
+      type(block_parameters_type) :: p
+      type(stability_change_type), allocatable :: changes(:)
       real(wp), parameter :: most = 2.0_wp
       integer :: i, total
 
@@ -73,13 +74,13 @@ contains
    !> Crossings ascend, join, have their pair on the axis, and the roots between them are counted.
    subroutine check_changes(changes, places, ends, error)
       !> Crossings
-      type(stability_change), intent(in) :: changes(:)
+      type(stability_change_type), intent(in) :: changes(:)
       !> Where: tau or epsilon
       real(wp), intent(in) :: places(:)
       !> Ends of the search
       real(wp), intent(in) :: ends(2)
       type(error_type), allocatable, intent(inout) :: error
-      type(block_parameters) :: p
+      type(block_parameters_type) :: p
       real(wp) :: edges(0:size(changes) + 1)
       integer :: i
 
@@ -102,7 +103,7 @@ contains
       integer function pairs_at(place) result(pairs)
          !> tau or epsilon
          real(wp), intent(in) :: place
-         type(block_parameters) :: there
+         type(block_parameters_type) :: there
 
          there = p
          if (ends(1) < 0.0_wp) then
@@ -118,9 +119,10 @@ contains
    subroutine test_no_delay(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(stability_change), allocatable :: changes(:)
+      type(stability_change_type), allocatable :: changes(:)
 
-      call changes_with_epsilon(block_parameters(xi=0.5_wp, gamma=0.8_wp), 5.0_wp, changes, failure)
+      call changes_with_epsilon(block_parameters_type(xi=0.5_wp, gamma=0.8_wp), 5.0_wp, changes, &
+                                failure)
       call expect_success(error, failure)
       call expect_close(error, changes%parameters%epsilon, [0.32_wp/1.14_wp], 1.0e-14_wp, "epsilon")
    end subroutine test_no_delay
@@ -129,10 +131,10 @@ contains
    subroutine test_always_stable(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(stability_change), allocatable :: changes(:)
+      type(stability_change_type), allocatable :: changes(:)
 
-      call changes_with_tau(block_parameters(xi=0.5_wp, gamma=0.8_wp, epsilon=0.2_wp), 1.0e3_wp, &
-                            changes, failure)
+      call changes_with_tau(block_parameters_type(xi=0.5_wp, gamma=0.8_wp, epsilon=0.2_wp), &
+                            1.0e3_wp, changes, failure)
       call expect_success(error, failure)
       call expect(error, size(changes) == 0, "no crossing")
    end subroutine test_always_stable
@@ -141,10 +143,10 @@ contains
    subroutine test_roots(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(block_parameters) :: torus
+      type(block_parameters_type) :: torus
       complex(wp), allocatable :: roots(:)
 
-      torus = block_parameters(tau=10.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp)
+      torus = block_parameters_type(tau=10.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp)
       call roots_of_block(torus, -0.1_wp, roots, failure)
       call expect_success(error, failure)
       call expect(error, count(real(roots) > 0.0_wp) == 2, "one unstable pair")
@@ -154,13 +156,13 @@ contains
    end subroutine test_roots
 
    !> Random parameters.
-   pure type(block_parameters) function random_block(i) result(p)
+   pure type(block_parameters_type) function random_block(i) result(p)
       !> Number of the block
       integer, intent(in) :: i
       real(wp) :: x(4)
 
       x = uniform(i, 4, 0.0_wp, 1.0_wp)
-      p = block_parameters(tau=15.0_wp*x(1), epsilon=1.5_wp*x(2), xi=0.2_wp + x(3), &
-                           gamma=0.3_wp + x(4))
+      p = block_parameters_type(tau=15.0_wp*x(1), epsilon=1.5_wp*x(2), xi=0.2_wp + x(3), &
+                                gamma=0.3_wp + x(4))
    end function random_block
 end module test_stability_changes

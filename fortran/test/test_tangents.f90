@@ -1,6 +1,7 @@
 !> Tangent vectors, and averages of their growth.
 module test_tangents
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use block_builder, only: build_block
    use dde, only: continuation_type, integrate, integration_result
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_success
@@ -39,7 +40,8 @@ contains
       real(wp) :: by_y(9, 9), by_z(9, 3), dydt(9), ahead(3), back(3), y(9), z(3)
       integer :: i, j
 
-      block = spring_block_type(10.0_wp, 0.5_wp, 0.8_wp, 2.0_wp, 0.1_wp, 0.2_wp, 1.1_wp)
+      block = build_block(tau=10.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=2.0_wp, theta=0.1_wp, &
+                          u=0.2_wp, v=1.1_wp)
       problem = tangent_problem_type(block, 2)
       call expect(error, problem%n == 9, "equations")
       call expect(error, all(problem%component == [3, 6, 9]), "delayed components")

@@ -3,8 +3,8 @@ module traced_planes
    use closed_form, only: closed_epsilon, closed_tau, closed_xi
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_success
-   use hopf_curves, only: curve_point, trace_curves
-   use hopf_planes, only: curve_plane, tau_of_epsilon, xi_of_epsilon
+   use hopf_curves, only: curve_point_type, trace_curves
+   use hopf_planes, only: curve_plane_type, tau_plane_type, xi_plane_type
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type
    implicit none (type, external)
@@ -17,9 +17,9 @@ module traced_planes
    !> A plane and what was traced in it.
    type :: traced_plane
       !> The plane
-      class(curve_plane), allocatable :: plane
+      class(curve_plane_type), allocatable :: plane
       !> Points of all pieces
-      type(curve_point), allocatable :: points(:)
+      type(curve_point_type), allocatable :: points(:)
    end type traced_plane
 
 contains
@@ -37,17 +37,17 @@ contains
 
       select case (i)
       case (1)
-         traced%plane = tau_of_epsilon(0.8_wp, [0.0_wp, 1.5_wp], [0.0_wp, 30.0_wp], 0.5_wp)
+         traced%plane = tau_plane_type(0.8_wp, [0.0_wp, 1.5_wp], [0.0_wp, 30.0_wp], 0.5_wp)
       case (2)
-         traced%plane = xi_of_epsilon(0.8_wp, [0.0_wp, 1.5_wp], [1.0e-3_wp, 2.0_wp], 12.0_wp)
+         traced%plane = xi_plane_type(0.8_wp, [0.0_wp, 1.5_wp], [1.0e-3_wp, 2.0_wp], 12.0_wp)
       case (3)
-         traced%plane = tau_of_epsilon(0.8_wp, [0.3_wp, 1.2_wp], [2.0_wp, 28.0_wp], 0.5_wp)
+         traced%plane = tau_plane_type(0.8_wp, [0.3_wp, 1.2_wp], [2.0_wp, 28.0_wp], 0.5_wp)
       case (4)
-         traced%plane = xi_of_epsilon(2.0_wp, [-0.5_wp, 2.0_wp], [0.1_wp, 3.0_wp], 3.0_wp)
+         traced%plane = xi_plane_type(2.0_wp, [-0.5_wp, 2.0_wp], [0.1_wp, 3.0_wp], 3.0_wp)
       case (5)
-         traced%plane = tau_of_epsilon(0.75_wp, [0.0_wp, 0.25_wp], [0.0_wp, 30.0_wp], 0.5_wp)
+         traced%plane = tau_plane_type(0.75_wp, [0.0_wp, 0.25_wp], [0.0_wp, 30.0_wp], 0.5_wp)
       case default
-         traced%plane = tau_of_epsilon(1.0_wp, [0.0_wp, 1.5_wp], [0.0_wp, 30.0_wp], 0.01_wp)
+         traced%plane = tau_plane_type(1.0_wp, [0.0_wp, 1.5_wp], [0.0_wp, 30.0_wp], 0.01_wp)
       end select
       call trace_curves(traced%plane, traced%points, failure)
       call expect_success(error, failure)
@@ -57,7 +57,7 @@ contains
    !> (epsilon, ordinate) of branch k at omega in closed form.
    pure function known_point(plane, omega, k) result(point)
       !> The plane
-      class(curve_plane), intent(in) :: plane
+      class(curve_plane_type), intent(in) :: plane
       !> Frequency of the pair
       real(wp), intent(in) :: omega
       !> Branch
@@ -66,10 +66,10 @@ contains
 
       point = -10.0_wp
       select type (plane)
-      type is (tau_of_epsilon)
+      type is (tau_plane_type)
          point = [closed_epsilon(omega, plane%xi, plane%gamma), &
                   closed_tau(omega, plane%xi, plane%gamma, k)]
-      type is (xi_of_epsilon)
+      type is (xi_plane_type)
          point(2) = closed_xi(omega, plane%tau, plane%gamma, k)
          if (point(2) > 0.0_wp) point(1) = closed_epsilon(omega, point(2), plane%gamma)
       end select
@@ -78,7 +78,7 @@ contains
    !> The same in units of the window.
    pure function place_of(plane, point) result(place)
       !> The plane
-      class(curve_plane), intent(in) :: plane
+      class(curve_plane_type), intent(in) :: plane
       !> epsilon and ordinate
       real(wp), intent(in) :: point(2)
       real(wp) :: place(2)
@@ -92,7 +92,7 @@ contains
    !> Equation (5) as the product (s + 1)(s^2 + s gamma^2/xi + gamma^2) less its delayed term.
    pure complex(wp) function closed_delta(point, tau, s) result(value)
       !> Parameters but the delay
-      type(curve_point), intent(in) :: point
+      type(curve_point_type), intent(in) :: point
       !> Delay
       real(wp), intent(in) :: tau
       !> Place
@@ -106,7 +106,7 @@ contains
    !> The characteristic root near a point's i omega at another delay, by Newton's method.
    complex(wp) function root_near(point, tau) result(s)
       !> The point
-      type(curve_point), intent(in) :: point
+      type(curve_point_type), intent(in) :: point
       !> The delay
       real(wp), intent(in) :: tau
       complex(wp) :: slope

@@ -3,6 +3,7 @@
 !> hexadecimal digits of their bits.
 program trajectory_bits
    use, intrinsic :: iso_fortran_env, only: output_unit
+   use block_builder, only: build_block
    use dde, only: integrate, integration_options, integration_result, table_sampler
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
@@ -47,8 +48,8 @@ contains
       options = integration_options(method=method, relative=tolerance, absolute=tolerance)
       table = table_sampler([index_of_theta, index_of_u, index_of_ln_v], &
                             [(i*t_end/samples, i=0, samples)])
-      call integrate(spring_block_type(parameters(1), parameters(2), parameters(3), &
-                                       parameters(4), 0.0_wp, 0.0_wp, 1.1_wp), &
+      call integrate(build_block(tau=parameters(1), epsilon=parameters(2), xi=parameters(3), &
+                                 gamma=parameters(4), v=1.1_wp), &
                      0.0_wp, t_end, options, outcome, error, table)
       if (allocated(error)) error stop "trajectory_bits: "//error%message
       do i = 1, table%received

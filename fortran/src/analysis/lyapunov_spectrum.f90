@@ -6,12 +6,12 @@ module lyapunov_spectrum
                   integration_result
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: int64, wp
-   use progress_receivers, only: progress_receiver
+   use progress_receiver, only: progress_receiver_type
    use tangent_problem, only: tangent_problem_type
    use tangent_vectors, only: orthonormalise, start_vectors
    implicit none (type, external)
    private
-   public :: extend_growth, growth_settings, growth_type, measure_growth
+   public :: extend_growth, growth_settings_type, growth_type, measure_growth
 
    !> A part smaller than so many tolerances of the vector it is taken from is noise.
    real(wp), parameter :: noise = 10.0_wp
@@ -19,7 +19,7 @@ module lyapunov_spectrum
    integer, parameter :: most_halvings = 10
 
    !> What growth is measured over.
-   type :: growth_settings
+   type :: growth_settings_type
       !> Number of exponents
       integer :: exponents = 0
       !> Time at which measuring begins
@@ -38,7 +38,7 @@ module lyapunov_spectrum
       !> Whether a vector lost to noise gives a bound: what is left of it, noise and all, is its
       !> growth, and it goes on from there. Otherwise that is an error.
       logical :: bounds = .false.
-   end type growth_settings
+   end type growth_settings_type
 
    !> What was measured.
    type :: growth_type
@@ -71,7 +71,7 @@ contains
       !> The problem, with derivatives of its own
       class(dde_problem_type), intent(in) :: problem
       !> How many exponents, and when
-      type(growth_settings), intent(in) :: settings
+      type(growth_settings_type), intent(in) :: settings
       !> Method and tolerances
       type(integration_options), intent(in) :: options
       !> The growth
@@ -81,7 +81,7 @@ contains
       !> Where an earlier run of the problem ended
       type(continuation_type), intent(in), optional :: undisturbed
       !> Receiver of the number of intervals done
-      class(progress_receiver), intent(inout), optional :: progress
+      class(progress_receiver_type), intent(inout), optional :: progress
       type(continuation_type) :: approach
       type(integration_result) :: outcome
       type(tangent_problem_type) :: tangent
@@ -135,7 +135,7 @@ contains
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> How many exponents
-      type(growth_settings), intent(in) :: settings
+      type(growth_settings_type), intent(in) :: settings
       !> Method and tolerances
       type(integration_options), intent(in) :: options
       !> The growth
@@ -154,7 +154,7 @@ contains
       !> The problem with its tangent vectors
       type(tangent_problem_type), intent(in) :: tangent
       !> How many exponents
-      type(growth_settings), intent(in) :: settings
+      type(growth_settings_type), intent(in) :: settings
       !> Method and tolerances
       type(integration_options), intent(in) :: options
       !> Where to end
@@ -168,7 +168,7 @@ contains
       !> It cannot be measured
       type(error_type), allocatable, intent(out) :: error
       !> Receiver of the number of intervals done
-      class(progress_receiver), intent(inout), optional :: progress
+      class(progress_receiver_type), intent(inout), optional :: progress
       real(wp), allocatable :: growth(:, :)
       integer :: i
 
@@ -189,7 +189,7 @@ contains
       !> The time
       real(wp), intent(in) :: time
       !> Blocks, and the length of an interval
-      type(growth_settings), intent(in) :: settings
+      type(growth_settings_type), intent(in) :: settings
 
       associate (blocks => settings%blocks)
          intervals = blocks*max(1, ceiling(time/(blocks*settings%interval)*(1.0_wp - 1.0e-12_wp)))
@@ -202,7 +202,7 @@ contains
       !> The problem with its tangent vectors
       type(tangent_problem_type), intent(in) :: tangent
       !> Size of the vectors, and what to do where one is lost
-      type(growth_settings), intent(in) :: settings
+      type(growth_settings_type), intent(in) :: settings
       !> Method and tolerances
       type(integration_options), intent(in) :: options
       !> Where to
@@ -255,7 +255,7 @@ contains
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> How many exponents, and when
-      type(growth_settings), intent(in) :: settings
+      type(growth_settings_type), intent(in) :: settings
       !> What is wrong
       type(error_type), allocatable, intent(out) :: error
 

@@ -5,7 +5,7 @@ module section_motion
    use motion_classes, only: chaos, cycle_motion, torus, undecided
    implicit none (type, external)
    private
-   public :: judge_section, section_verdict
+   public :: judge_section, section_verdict_type
 
    !> Fewest points to judge by, how often a cycle must come again, and most points looked at.
    integer, parameter :: fewest_points = 40, fewest_turns = 4, most_points = 1000
@@ -17,7 +17,7 @@ module section_motion
    real(wp), parameter :: torus_roughness = 0.05_wp
 
    !> What was found.
-   type :: section_verdict
+   type :: section_verdict_type
       !> cycle_motion, torus, chaos or undecided
       integer :: class = undecided
       !> Points after which a cycle repeats, 0 where it is none
@@ -25,7 +25,7 @@ module section_motion
       !> Mean square distance of the points that are nearest in phase, over twice the variance: 1
       !> for points in random order, 0 for a smooth function of the phases; 1 without two phases
       real(wp) :: roughness = 1.0_wp
-   end type section_verdict
+   end type section_verdict_type
 
 contains
 
@@ -40,7 +40,7 @@ contains
       !> Base frequencies, 0 where there is none
       real(wp), intent(in) :: bases(2)
       !> What they tell
-      type(section_verdict), intent(out) :: verdict
+      type(section_verdict_type), intent(out) :: verdict
       real(wp), allocatable :: scaled(:, :)
       integer :: first, i
 

@@ -6,7 +6,7 @@ module gsl_roots
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: find_root, scalar_function
+   public :: find_root, scalar_function_type
 
    !> Most iterations of one search.
    integer, parameter :: most_iterations = 200
@@ -14,28 +14,28 @@ module gsl_roots
    integer(c_int), parameter :: gsl_success = 0
 
    !> A continuous function of one variable; its parameters are components of the extension.
-   type, abstract :: scalar_function
+   type, abstract :: scalar_function_type
    contains
       !> Value at x
       procedure(function_value), deferred :: value
-   end type scalar_function
+   end type scalar_function_type
 
    abstract interface
       !> Value of the function at x.
       real(wp) function function_value(self, x) result(value)
-         import :: scalar_function, wp
+         import :: scalar_function_type, wp
          implicit none (type, external)
          !> The function
-         class(scalar_function), intent(in) :: self
+         class(scalar_function_type), intent(in) :: self
          !> Where
          real(wp), intent(in) :: x
       end function function_value
    end interface
 
    !> What GSL hands back to the callback.
-   type :: callback_data
-      class(scalar_function), pointer :: f => null()
-   end type callback_data
+   type :: callback_data_type
+      class(scalar_function_type), pointer :: f => null()
+   end type callback_data_type
 
    !> The C type gsl_function.
    type, bind(c) :: gsl_function
@@ -111,7 +111,7 @@ contains
    !> The root of `f` between `lower` and `upper`, where its signs differ, to the last few bits.
    subroutine find_root(f, lower, upper, root, error)
       !> The function
-      class(scalar_function), intent(in), target :: f
+      class(scalar_function_type), intent(in), target :: f
       !> Lower end of the bracket
       real(wp), intent(in) :: lower
       !> Upper end
@@ -120,7 +120,7 @@ contains
       real(wp), intent(out) :: root
       !> No bracket, the signs do not differ, or no convergence
       type(error_type), allocatable, intent(out) :: error
-      type(callback_data), target :: context
+      type(callback_data_type), target :: context
       type(c_ptr) :: old_handler, solver
       integer(c_int) :: status
       integer :: i
@@ -165,10 +165,10 @@ contains
    function callback(x, params) result(value) bind(c)
       !> Where
       real(c_double), value :: x
-      !> The callback_data
+      !> The callback_data_type
       type(c_ptr), value :: params
       real(c_double) :: value
-      type(callback_data), pointer :: context
+      type(callback_data_type), pointer :: context
 
       ! params comes from c_loc (Fortran 2018, 18.2.3.3, case ii); flang 19 warns all the same
       call c_f_pointer(params, context)

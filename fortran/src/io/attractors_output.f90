@@ -2,14 +2,14 @@
 module attractors_output
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use attractor_points, only: finding_type
-   use attractors, only: attractor_settings
+   use attractors, only: attractor_settings_type
    use dde, only: integration_options
    use dde_errors, only: error_type
    use exponent_averages, only: sign_bound
    use dde_kinds, only: int64, wp
    use motion_classes, only: class_names
-   use netcdf_output, only: output_file
-   use points_input, only: points_settings
+   use netcdf_output, only: output_file_type
+   use points_input, only: points_settings_type
    implicit none (type, external)
    private
    public :: write_attractors
@@ -21,16 +21,16 @@ contains
       !> Path of the file
       character(len=*), intent(in) :: path
       !> Points, and what is kept of each
-      type(points_settings), intent(in) :: asked
+      type(points_settings_type), intent(in) :: asked
       !> How attractors were judged
-      type(attractor_settings), intent(in) :: settings
+      type(attractor_settings_type), intent(in) :: settings
       !> Method and tolerances
       type(integration_options), intent(in) :: options
       !> What was found
       type(finding_type), intent(in) :: findings(:)
       !> It could not be written
       type(error_type), allocatable, intent(out) :: error
-      type(output_file) :: file
+      type(output_file_type) :: file
       real(wp), dimension(size(findings)) :: least, most
       integer :: i, rows
 
@@ -43,9 +43,9 @@ contains
       associate (points => asked%points, found => findings%attractor)
          call put("epsilon", points%parameters%epsilon, "sensitivity of the velocity relaxation")
          call put("tau", points%parameters%tau, "delay")
-         call put("history_theta", points%history(1), "theta for t <= 0")
-         call put("history_u", points%history(2), "u for t <= 0")
-         call put("history_v", points%history(3), "v for t <= 0")
+         call put("history_theta", points%history%theta, "theta for t <= 0")
+         call put("history_u", points%history%u, "u for t <= 0")
+         call put("history_v", points%history%v, "v for t <= 0")
          call put_class("class", found%class, "class of the motion")
          call put_class("by_exponents", found%by_exponents, "class by Lyapunov exponents")
          call put_class("by_section", found%by_section, "class by the section v = 1, v rising")
@@ -151,9 +151,9 @@ contains
    !> How attractors were found.
    subroutine put_settings(file, settings, options)
       !> The file
-      type(output_file), intent(inout) :: file
+      type(output_file_type), intent(inout) :: file
       !> How they were judged
-      type(attractor_settings), intent(in) :: settings
+      type(attractor_settings_type), intent(in) :: settings
       !> Method and tolerances
       type(integration_options), intent(in) :: options
 
@@ -191,7 +191,7 @@ contains
    !> The last maxima and points of the section, if any are wanted; NaN where there are fewer.
    subroutine put_kept(file, kept, findings, rows)
       !> The file
-      type(output_file), intent(inout) :: file
+      type(output_file_type), intent(inout) :: file
       !> Most that are kept
       integer, intent(in) :: kept
       !> What was found
@@ -226,7 +226,7 @@ contains
    !> Why no attractor was found, blank where one was.
    subroutine put_problems(file, findings, rows)
       !> The file
-      type(output_file), intent(inout) :: file
+      type(output_file_type), intent(inout) :: file
       !> What was found
       type(finding_type), intent(in) :: findings(:)
       !> Dimension of the points

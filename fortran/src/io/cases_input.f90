@@ -1,9 +1,11 @@
 !> Cases to measure, from the namelist group &cases_list: one list a key, one element a case.
 module cases_input
+   use block_parameters, only: block_history_type, block_parameters_type, check_quantity
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use measured_case, only: case_name_length, case_type
-   use namelist_input, only: check_number, close_namelist, not_given, open_namelist, word_length
+   use namelist_input, only: close_namelist, not_given, open_namelist, word_length
+   use value_checks, only: check_number
    implicit none (type, external)
    private
    public :: read_cases
@@ -67,8 +69,11 @@ contains
       if (allocated(error)) return
       read (unit, nml=cases_list, iostat=status, iomsg=reason)
       call close_namelist(path, "cases_list", unit, status, reason, error)
-      cases = [(case_type(name(i) (:case_name_length), tau(i), epsilon(i), xi(i), gamma(i), &
-                          theta(i), u(i), v(i), t_end(i), sample_interval(i)), &
+      cases = [(case_type(name(i) (:case_name_length), &
+                          block_parameters_type(tau=tau(i), epsilon=epsilon(i), xi=xi(i), &
+                                                gamma=gamma(i)), &
+                          block_history_type(theta=theta(i), u=u(i), v=v(i)), &
+                          t_end=t_end(i), sample_interval=sample_interval(i)), &
                 i=1, count(name /= ""))]
       if (allocated(error)) return
       if (any(len_trim(name) > case_name_length)) then
@@ -86,13 +91,10 @@ contains
       !> A value is out of range
       type(error_type), allocatable, intent(inout) :: error
 
-      call check_number(error, place, "tau", case%tau, at_least=0.0_wp)
-      call check_number(error, place, "epsilon", case%epsilon, above=-1.0_wp)
-      call check_number(error, place, "xi", case%xi, above=0.0_wp)
-      call check_number(error, place, "gamma", case%gamma, above=0.0_wp)
-      call check_number(error, place, "theta", case%theta)
-      call check_number(error, place, "u", case%u)
-      call check_number(error, place, "v", case%v, above=0.0_wp)
+      call case%parameters%check(place, error)
+      call check_quantity(error, place, "theta", case%history%theta)
+      call check_quantity(error, place, "u", case%history%u)
+      call check_quantity(error, place, "v", case%history%v)
       call check_number(error, place, "t_end", case%t_end, above=0.0_wp)
       call check_number(error, place, "sample_interval", case%sample_interval, above=0.0_wp, &
                         at_most=case%t_end)

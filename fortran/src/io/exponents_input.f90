@@ -3,11 +3,13 @@ module exponents_input
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use dde_errors, only: error_type, text
    use dde_kinds, only: wp
-   use namelist_input, only: check_count, check_number, close_namelist, not_given, open_namelist
+   use namelist_input, only: close_namelist, not_given, open_namelist
    use scene_input, only: scene_type
+   use solver_checks, only: check_tolerance
+   use value_checks, only: check_count, check_number
    implicit none (type, external)
    private
-   public :: exponents_settings, read_exponents
+   public :: check_growth, exponents_settings_type, read_exponents
 
    !> Most tolerances and most lengths of steps to check by.
    integer, parameter :: most_checks = 8
@@ -15,7 +17,7 @@ module exponents_input
    integer, parameter :: most_exponents = 64, most_blocks = 1000
 
    !> What is measured.
-   type :: exponents_settings
+   type :: exponents_settings_type
       !> Number of exponents
       integer :: exponents = 0
       !> Time at which measuring ends
@@ -32,7 +34,7 @@ module exponents_input
       real(wp), allocatable :: check_tolerances(:)
       !> Longest steps with which all is measured once more
       real(wp), allocatable :: check_steps(:)
-   end type exponents_settings
+   end type exponents_settings_type
 
 contains
 
@@ -43,22 +45,19 @@ contains
       !> The scene
       type(scene_type), intent(in) :: scene
       !> The settings
-      type(exponents_settings), intent(out) :: settings
+      type(exponents_settings_type), intent(out) :: settings
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
       integer :: i
 
       call read_group(path, settings, error)
       if (allocated(error)) return
-      call check_count(error, path, "count", settings%exponents, at_least=1, at_most=most_exponents)
-      call check_count(error, path, "blocks", settings%blocks, at_least=2, at_most=most_blocks)
+      call check_growth(error, path, "count", settings%exponents, settings%blocks, &
+                        settings%t_turning, settings%interval, settings%zero_level)
       call check_number(error, path, "t_end", settings%t_end, above=scene%t_transient)
-      call check_number(error, path, "t_turning", settings%t_turning, at_least=0.0_wp)
-      call check_number(error, path, "interval", settings%interval, above=0.0_wp)
-      call check_number(error, path, "zero_level", settings%zero_level, at_least=0.0_wp)
       do i = 1, size(settings%check_tolerances)
-         call check_number(error, path, "check_tolerances("//text(i)//")", &
-                           settings%check_tolerances(i), at_least=1.0e-13_wp, at_most=1.0e-2_wp)
+         call check_tolerance(error, path, "check_tolerances("//text(i)//")", &
+                              settings%check_tolerances(i))
       end do
       do i = 1, size(settings%check_steps)
          call check_number(error, path, "check_steps("//text(i)//")", settings%check_steps(i), &
@@ -66,12 +65,39 @@ contains
       end do
    end subroutine read_exponents
 
+   !> Refuse what of the growth of tangent vectors cannot be measured; keep an earlier error.
+   pure subroutine check_growth(error, path, key, exponents, blocks, t_turning, interval, &
+                                zero_level)
+      !> First error met
+      type(error_type), allocatable, intent(inout) :: error
+      !> Path of the namelist file
+      character(len=*), intent(in) :: path
+      !> Key of the number of exponents
+      character(len=*), intent(in) :: key
+      !> Number of exponents
+      integer, intent(in) :: exponents
+      !> Number of blocks
+      integer, intent(in) :: blocks
+      !> Time before measuring in which the vectors turn
+      real(wp), intent(in) :: t_turning
+      !> Longest time between two orthonormalisations
+      real(wp), intent(in) :: interval
+      !> An exponent this close to zero has no sign
+      real(wp), intent(in) :: zero_level
+
+      call check_count(error, path, key, exponents, at_least=1, at_most=most_exponents)
+      call check_count(error, path, "blocks", blocks, at_least=2, at_most=most_blocks)
+      call check_number(error, path, "t_turning", t_turning, at_least=0.0_wp)
+      call check_number(error, path, "interval", interval, above=0.0_wp)
+      call check_number(error, path, "zero_level", zero_level, at_least=0.0_wp)
+   end subroutine check_growth
+
    !> Read the group &exponents.
    subroutine read_group(path, settings, error)
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> The settings
-      type(exponents_settings), intent(out) :: settings
+      type(exponents_settings_type), intent(out) :: settings
       !> They cannot be read
       type(error_type), allocatable, intent(out) :: error
       real(wp), dimension(most_checks) :: check_steps, check_tolerances
@@ -93,8 +119,10 @@ contains
       if (allocated(error)) return
       read (unit, nml=exponents, iostat=status, iomsg=reason)
       call close_namelist(path, "exponents", unit, status, reason, error)
-      settings = exponents_settings(count, t_end, t_turning, interval, blocks, zero_level, &
-                                    pack(check_tolerances, .not. ieee_is_nan(check_tolerances)), &
-                                    pack(check_steps, .not. ieee_is_nan(check_steps)))
+      settings = exponents_settings_type( &
+                 exponents=count, t_end=t_end, t_turning=t_turning, interval=interval, &
+                 blocks=blocks, zero_level=zero_level, &
+                 check_tolerances=pack(check_tolerances, .not. ieee_is_nan(check_tolerances)), &
+                 check_steps=pack(check_steps, .not. ieee_is_nan(check_steps)))
    end subroutine read_group
 end module exponents_input

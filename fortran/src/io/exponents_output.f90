@@ -1,14 +1,15 @@
 !> Files of exponents.
 module exponents_output
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use block_attributes, only: put_history, put_parameters
    use dde, only: integration_options
    use dde_errors, only: error_type
    use exponent_averages, only: average_growth, dimension_of, exponent_type, running_averages, &
                                 sign_bound, without_sign
-   use exponents_input, only: exponents_settings
+   use exponents_input, only: exponents_settings_type
    use dde_kinds, only: int64, wp
    use lyapunov_spectrum, only: growth_type
-   use netcdf_output, only: output_file
+   use netcdf_output, only: output_file_type
    use scene_input, only: scene_type
    implicit none (type, external)
    private
@@ -26,7 +27,7 @@ contains
       !> The scene
       type(scene_type), intent(in) :: scene
       !> How they were measured
-      type(exponents_settings), intent(in) :: settings
+      type(exponents_settings_type), intent(in) :: settings
       !> Tolerances and longest steps
       type(integration_options), intent(in) :: options(:)
       !> Growth with each
@@ -34,7 +35,7 @@ contains
       !> It could not be written
       type(error_type), allocatable, intent(out) :: error
       type(exponent_type), allocatable :: exponents(:)
-      type(output_file) :: file
+      type(output_file_type) :: file
       real(wp), dimension(settings%exponents, size(options)) :: bars, bounds, values
       real(wp), dimension(size(options)) :: dimension, dimension_error
       real(wp), allocatable :: averages(:, :), blocks(:, :), time(:)
@@ -77,13 +78,8 @@ contains
          call file%table("block_value", ids([1, 4]), blocks, "exponent in each block")
          call file%table("running_average", ids([1, 3]), averages, "plain average up to a time")
          call file%attribute("scene", trim(scene%name))
-         call file%attribute("tau", scene%tau)
-         call file%attribute("epsilon", scene%epsilon)
-         call file%attribute("xi", scene%xi)
-         call file%attribute("gamma", scene%gamma)
-         call file%attribute("history_theta", scene%history%theta)
-         call file%attribute("history_u", scene%history%u)
-         call file%attribute("history_v", scene%history%v)
+         call put_parameters(file, scene%parameters)
+         call put_history(file, scene%history)
          call file%attribute("method", trim(scene%method))
          call file%attribute("t_begin", first%t_begin)
          call file%attribute("t_end", settings%t_end)

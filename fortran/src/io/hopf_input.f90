@@ -1,19 +1,20 @@
 !> The plane and window of Hopf curves, from the namelist group &hopf_curves.
 module hopf_input
+   use block_parameters, only: check_quantity
    use dde_errors, only: error_type
-   use hopf_planes, only: curve_plane, tau_of_epsilon, xi_of_epsilon
+   use hopf_planes, only: curve_plane_type, tau_plane_type, xi_plane_type
    use dde_kinds, only: wp
-   use namelist_input, only: check_choice, check_count, check_number, close_namelist, not_given, &
-                             open_namelist, word_length
+   use namelist_input, only: close_namelist, not_given, open_namelist, word_length
+   use value_checks, only: check_choice, check_count, check_number
    implicit none (type, external)
    private
-   public :: hopf_settings, read_plane
+   public :: hopf_settings_type, read_plane
 
    !> What the curves show: the ordinate over epsilon.
    character(len=3), parameter :: ordinates(2) = ["tau", "xi "]
 
    !> A plane as the namelist gives it; all nondimensional.
-   type :: hopf_settings
+   type :: hopf_settings_type
       !> 'tau' or 'xi'
       character(len=word_length) :: ordinate = ""
       !> Value of the other of the two
@@ -26,7 +27,7 @@ module hopf_input
       real(wp) :: ordinate_window(2)
       !> Cells of the map of unstable pairs along each side of the window
       integer :: cells = 0
-   end type hopf_settings
+   end type hopf_settings_type
 
 contains
 
@@ -35,31 +36,28 @@ contains
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> The settings
-      type(hopf_settings), intent(out) :: settings
+      type(hopf_settings_type), intent(out) :: settings
       !> The plane they describe
-      class(curve_plane), allocatable, intent(out) :: plane
+      class(curve_plane_type), allocatable, intent(out) :: plane
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
+      character(len=3) :: other
 
       call read_group(path, settings, error)
       call check_choice(error, path, "ordinate", settings%ordinate, ordinates)
-      call check_number(error, path, "gamma", settings%gamma, above=0.0_wp)
+      call check_quantity(error, path, "gamma", settings%gamma)
       associate (x => settings%epsilon_window, y => settings%ordinate_window)
-         call check_number(error, path, "epsilon_window(1)", x(1), above=-1.0_wp)
+         call check_quantity(error, path, "epsilon", x(1), "epsilon_window(1)")
          call check_number(error, path, "epsilon_window(2)", x(2), above=max(x(1), 0.0_wp))
-         if (settings%ordinate == "tau") then
-            call check_number(error, path, "fixed (xi)", settings%fixed, above=0.0_wp)
-            call check_number(error, path, "ordinate_window(1)", y(1), at_least=0.0_wp)
-         else
-            call check_number(error, path, "fixed (tau)", settings%fixed, at_least=0.0_wp)
-            call check_number(error, path, "ordinate_window(1)", y(1), above=0.0_wp)
-         end if
+         other = merge("xi ", "tau", settings%ordinate == "tau")
+         call check_quantity(error, path, trim(other), settings%fixed, "fixed ("//trim(other)//")")
+         call check_quantity(error, path, trim(settings%ordinate), y(1), "ordinate_window(1)")
          call check_number(error, path, "ordinate_window(2)", y(2), above=y(1))
          call check_count(error, path, "cells", settings%cells, 1)
          if (settings%ordinate == "tau") then
-            plane = tau_of_epsilon(settings%gamma, x, y, settings%fixed)
+            plane = tau_plane_type(settings%gamma, x, y, settings%fixed)
          else
-            plane = xi_of_epsilon(settings%gamma, x, y, settings%fixed)
+            plane = xi_plane_type(settings%gamma, x, y, settings%fixed)
          end if
       end associate
    end subroutine read_plane
@@ -69,7 +67,7 @@ contains
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> The settings
-      type(hopf_settings), intent(out) :: settings
+      type(hopf_settings_type), intent(out) :: settings
       !> They cannot be read
       type(error_type), allocatable, intent(out) :: error
       character(len=len(settings%ordinate)) :: ordinate
@@ -88,6 +86,6 @@ contains
       if (allocated(error)) return
       read (unit, nml=hopf_curves, iostat=status, iomsg=reason)
       call close_namelist(path, "hopf_curves", unit, status, reason, error)
-      settings = hopf_settings(ordinate, fixed, gamma, epsilon_window, ordinate_window, cells)
+      settings = hopf_settings_type(ordinate, fixed, gamma, epsilon_window, ordinate_window, cells)
    end subroutine read_group
 end module hopf_input

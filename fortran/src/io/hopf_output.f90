@@ -1,11 +1,11 @@
 !> Files of Hopf curves.
 module hopf_output
    use dde_errors, only: error_type
-   use hopf_curves, only: curve_point
-   use hopf_input, only: hopf_settings
-   use hopf_points, only: hopf_point
+   use hopf_curves, only: curve_point_type
+   use hopf_input, only: hopf_settings_type
+   use hopf_points, only: hopf_point_type
    use dde_kinds, only: wp
-   use netcdf_output, only: output_file
+   use netcdf_output, only: output_file_type
    use stability_map, only: middles
    implicit none (type, external)
    private
@@ -18,16 +18,16 @@ contains
       !> Path of the file
       character(len=*), intent(in) :: path
       !> The plane
-      type(hopf_settings), intent(in) :: settings
+      type(hopf_settings_type), intent(in) :: settings
       !> Points
-      type(curve_point), intent(in) :: points(:)
+      type(curve_point_type), intent(in) :: points(:)
       !> Special points
-      type(hopf_point), intent(in) :: special(:)
+      type(hopf_point_type), intent(in) :: special(:)
       !> Number of unstable pairs in cells of the window, epsilon first
       integer, intent(in) :: pairs(:, :)
       !> It could not be written
       type(error_type), allocatable, intent(out) :: error
-      type(output_file) :: file
+      type(output_file_type) :: file
       integer :: branch, crossing, epsilon, l1, omega, others, piece, printed_residual
       integer :: printed_tau, residual, rows, tau, xi
 
@@ -69,9 +69,9 @@ contains
    !> The special points.
    subroutine put_special(file, special)
       !> The file
-      type(output_file), intent(inout) :: file
+      type(output_file_type), intent(inout) :: file
       !> Special points
-      type(hopf_point), intent(in) :: special(:)
+      type(hopf_point_type), intent(in) :: special(:)
       character(len=1), parameter :: number(2) = ["1", "2"]
       integer :: branch, i, l1, omega, place(3), pairs, rows
 
@@ -101,9 +101,9 @@ contains
    !> The number of unstable pairs over the window.
    subroutine put_map(file, settings, pairs)
       !> The file
-      type(output_file), intent(inout) :: file
+      type(output_file_type), intent(inout) :: file
       !> The plane
-      type(hopf_settings), intent(in) :: settings
+      type(hopf_settings_type), intent(in) :: settings
       !> Number of unstable pairs, epsilon first
       integer, intent(in) :: pairs(:, :)
       integer :: cells(2), x, y

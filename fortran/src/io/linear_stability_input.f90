@@ -1,22 +1,23 @@
 !> A state whose linear stability is asked for, from the namelist group &linear_stability.
 module linear_stability_input
-   use characteristic_function, only: block_parameters
+   use block_parameters, only: block_parameters_type
    use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use namelist_input, only: check_number, close_namelist, not_given, open_namelist
+   use namelist_input, only: close_namelist, not_given, open_namelist
+   use value_checks, only: check_number
    implicit none (type, external)
    private
-   public :: linear_stability_settings, read_linear_stability
+   public :: linear_stability_settings_type, read_linear_stability
 
    !> What is asked for; all nondimensional.
-   type :: linear_stability_settings
+   type :: linear_stability_settings_type
       !> Parameters of the block
-      type(block_parameters) :: parameters
+      type(block_parameters_type) :: parameters
       !> Roots with a real part above this are kept
       real(wp) :: root_bound
       !> Longest delay and largest epsilon at which a change of stability is looked for
       real(wp) :: tau_most, epsilon_most
-   end type linear_stability_settings
+   end type linear_stability_settings_type
 
 contains
 
@@ -25,17 +26,12 @@ contains
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> The settings
-      type(linear_stability_settings), intent(out) :: settings
+      type(linear_stability_settings_type), intent(out) :: settings
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
 
       call read_group(path, settings, error)
-      associate (p => settings%parameters)
-         call check_number(error, path, "tau", p%tau, at_least=0.0_wp)
-         call check_number(error, path, "epsilon", p%epsilon, above=-1.0_wp)
-         call check_number(error, path, "xi", p%xi, above=0.0_wp)
-         call check_number(error, path, "gamma", p%gamma, above=0.0_wp)
-      end associate
+      call settings%parameters%check(path, error)
       call check_number(error, path, "root_bound", settings%root_bound, at_most=0.0_wp)
       call check_number(error, path, "tau_most", settings%tau_most, above=0.0_wp)
       call check_number(error, path, "epsilon_most", settings%epsilon_most, above=0.0_wp)
@@ -46,7 +42,7 @@ contains
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> The settings
-      type(linear_stability_settings), intent(out) :: settings
+      type(linear_stability_settings_type), intent(out) :: settings
       !> They cannot be read
       type(error_type), allocatable, intent(out) :: error
       character(len=256) :: reason
@@ -65,7 +61,8 @@ contains
       if (allocated(error)) return
       read (unit, nml=linear_stability, iostat=status, iomsg=reason)
       call close_namelist(path, "linear_stability", unit, status, reason, error)
-      settings = linear_stability_settings(block_parameters(tau, epsilon, xi, gamma), root_bound, &
-                                           tau_most, epsilon_most)
+      settings = linear_stability_settings_type( &
+                 block_parameters_type(tau=tau, epsilon=epsilon, xi=xi, gamma=gamma), &
+                 root_bound=root_bound, tau_most=tau_most, epsilon_most=epsilon_most)
    end subroutine read_group
 end module linear_stability_input

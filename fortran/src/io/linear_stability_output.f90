@@ -1,10 +1,11 @@
 !> Files of linear stability.
 module linear_stability_output
+   use block_attributes, only: put_parameters
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
-   use linear_stability_input, only: linear_stability_settings
-   use netcdf_output, only: output_file
-   use stability_changes, only: stability_change
+   use linear_stability_input, only: linear_stability_settings_type
+   use netcdf_output, only: output_file_type
+   use stability_changes, only: stability_change_type
    implicit none (type, external)
    private
    public :: write_linear_stability
@@ -16,25 +17,22 @@ contains
       !> Path of the file
       character(len=*), intent(in) :: path
       !> What was asked for
-      type(linear_stability_settings), intent(in) :: settings
+      type(linear_stability_settings_type), intent(in) :: settings
       !> Roots, the rightmost first
       complex(wp), intent(in) :: roots(:)
       !> Number of unstable pairs, and the same without delay
       integer, intent(in) :: pairs(2)
       !> Changes as the delay grows
-      type(stability_change), intent(in) :: with_tau(:)
+      type(stability_change_type), intent(in) :: with_tau(:)
       !> Changes as epsilon grows
-      type(stability_change), intent(in) :: with_epsilon(:)
+      type(stability_change_type), intent(in) :: with_epsilon(:)
       !> It could not be written
       type(error_type), allocatable, intent(out) :: error
-      type(output_file) :: file
+      type(output_file_type) :: file
       integer :: imaginary, real_part, rows
 
       call file%create(path, "Linear stability of steady sliding")
-      call file%attribute("tau", settings%parameters%tau)
-      call file%attribute("epsilon", settings%parameters%epsilon)
-      call file%attribute("xi", settings%parameters%xi)
-      call file%attribute("gamma", settings%parameters%gamma)
+      call put_parameters(file, settings%parameters)
       call file%attribute("root_bound", settings%root_bound)
       call file%attribute("tau_most", settings%tau_most)
       call file%attribute("epsilon_most", settings%epsilon_most)
@@ -53,13 +51,13 @@ contains
    !> Changes of stability with one parameter.
    subroutine put_changes(file, parameter_name, values, changes)
       !> The file
-      type(output_file), intent(inout) :: file
+      type(output_file_type), intent(inout) :: file
       !> The parameter
       character(len=*), intent(in) :: parameter_name
       !> Its values
       real(wp), intent(in) :: values(:)
       !> The changes
-      type(stability_change), intent(in) :: changes(:)
+      type(stability_change_type), intent(in) :: changes(:)
       integer :: after, before, omega, place, rows
 
       rows = file%dimension("change_with_"//parameter_name, size(changes))

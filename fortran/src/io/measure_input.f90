@@ -4,11 +4,12 @@ module measure_input
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
    use measured_run, only: baseline_methods, run_type
-   use namelist_input, only: check_choice, check_count, check_number, close_namelist, not_given, &
-                             open_namelist, word_length
+   use namelist_input, only: close_namelist, not_given, open_namelist, word_length
+   use solver_checks, only: check_tolerance
+   use value_checks, only: check_choice, check_count, check_number
    implicit none (type, external)
    private
-   public :: measure_settings, read_measure
+   public :: measure_settings_type, read_measure
 
    !> Most methods, tolerances or lengths of steps.
    integer, parameter :: most = 100
@@ -17,7 +18,7 @@ module measure_input
                                                  baseline_methods]
 
    !> The runs of each case and how they are measured.
-   type :: measure_settings
+   type :: measure_settings_type
       !> Runs asked for: method and setting
       type(run_type), allocatable :: runs(:)
       !> Most steps of a run of the solver
@@ -26,7 +27,7 @@ module measure_input
       integer :: repeats = 0
       !> Shortest time to measure, in CPU seconds
       real(wp) :: least_seconds = 0.0_wp
-   end type measure_settings
+   end type measure_settings_type
 
 contains
 
@@ -35,7 +36,7 @@ contains
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> The settings
-      type(measure_settings), intent(out) :: settings
+      type(measure_settings_type), intent(out) :: settings
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
       character(len=word_length) :: methods(most)
@@ -71,8 +72,7 @@ contains
             end do
          else
             do j = 1, max(1, given(tolerances))
-               call check_number(error, path, "tolerances", tolerances(j), at_least=1.0e-13_wp, &
-                                 at_most=1.0e-1_wp)
+               call check_tolerance(error, path, "tolerances", tolerances(j))
                settings%runs = [settings%runs, run_type(methods(i), tolerances(j))]
             end do
          end if

@@ -4,18 +4,18 @@ module measure_output
    use dde_kinds, only: wp
    use measured_case, only: case_type
    use measured_run, only: run_type
-   use netcdf_output, only: output_file
+   use netcdf_output, only: output_file_type
    implicit none (type, external)
    private
-   public :: measured_runs, write_measured_runs
+   public :: measured_runs_type, write_measured_runs
 
    !> A case with its runs.
-   type :: measured_runs
+   type :: measured_runs_type
       !> The case
       type(case_type) :: case
       !> Its runs
       type(run_type), allocatable :: runs(:)
-   end type measured_runs
+   end type measured_runs_type
 
    !> Longest reason of an end.
    integer, parameter :: reason_length = 200
@@ -29,12 +29,12 @@ contains
       !> Path of the file
       character(len=*), intent(in) :: path
       !> Cases and their runs
-      type(measured_runs), intent(in) :: measured(:)
+      type(measured_runs_type), intent(in) :: measured(:)
       !> What stands where there is no sample
       real(wp), intent(in) :: filling
       !> It could not be written
       type(error_type), allocatable, intent(out) :: error
-      type(output_file) :: file
+      type(output_file_type) :: file
       type(case_type), allocatable :: cases(:)
       type(run_type), allocatable :: runs(:)
       real(wp), allocatable :: table(:, :)
@@ -60,13 +60,13 @@ contains
       call file%words("status", run, runs%status, "ok, or why the run ended before t_end")
       call file%words("reason", run, reasons, "the same in the solver's words")
       call put("setting", runs%setting, "tolerance, or length of the steps of rk4 methods")
-      call put("tau", cases%tau, "delay")
-      call put("epsilon", cases%epsilon, "sensitivity of the velocity relaxation")
-      call put("xi", cases%xi, "spring constant")
-      call put("gamma", cases%gamma, "frequency")
-      call put("history_theta", cases%theta, "friction state for t <= 0")
-      call put("history_u", cases%u, "displacement for t <= 0")
-      call put("history_v", cases%v, "velocity for t <= 0")
+      call put("tau", cases%parameters%tau, "delay")
+      call put("epsilon", cases%parameters%epsilon, "sensitivity of the velocity relaxation")
+      call put("xi", cases%parameters%xi, "spring constant")
+      call put("gamma", cases%parameters%gamma, "frequency")
+      call put("history_theta", cases%history%theta, "friction state for t <= 0")
+      call put("history_u", cases%history%u, "displacement for t <= 0")
+      call put("history_v", cases%history%v, "velocity for t <= 0")
       call put("t_end", cases%t_end, "last time asked for")
       call put("t_reached", runs%outcome%t, "last time reached")
       call put("steps_accepted", real(runs%outcome%accepted, wp), "steps accepted")

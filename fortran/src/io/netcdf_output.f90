@@ -10,10 +10,10 @@ module netcdf_output
    use version, only: project_version
    implicit none (type, external)
    private
-   public :: output_file
+   public :: output_file_type
 
    !> A file in the making; after the first error all further calls do nothing.
-   type :: output_file
+   type :: output_file_type
       private
       !> Where it stands
       type(unfinished_type) :: place
@@ -40,14 +40,14 @@ module netcdf_output
       procedure :: discard
       procedure, private :: note, text_attribute, real_attribute, integer_attribute
       procedure, private :: put_reals, put_integers
-   end type output_file
+   end type output_file_type
 
 contains
 
    !> Begin a file with the attributes that all files have.
    subroutine create(self, path, title)
       !> The file
-      class(output_file), intent(inout) :: self
+      class(output_file_type), intent(inout) :: self
       !> Its path once complete
       character(len=*), intent(in) :: path
       !> What it holds
@@ -64,7 +64,7 @@ contains
    !> Keep the first error and leave nothing behind.
    subroutine note(self, status)
       !> The file
-      class(output_file), intent(inout) :: self
+      class(output_file_type), intent(inout) :: self
       !> What a NetCDF call returned
       integer, intent(in) :: status
 
@@ -77,7 +77,7 @@ contains
    !> Define a dimension.
    integer function dimension(self, name, length) result(id)
       !> The file
-      class(output_file), intent(inout) :: self
+      class(output_file_type), intent(inout) :: self
       !> Its name
       character(len=*), intent(in) :: name
       !> Its length
@@ -91,7 +91,7 @@ contains
    !> Define a variable of real numbers over one dimension.
    integer function real_variable(self, name, dimension, long_name, units) result(id)
       !> The file
-      class(output_file), intent(inout) :: self
+      class(output_file_type), intent(inout) :: self
       !> Its name
       character(len=*), intent(in) :: name
       !> Its dimension
@@ -111,7 +111,7 @@ contains
    !> Define a variable of integers over one dimension.
    integer function integer_variable(self, name, dimension, long_name) result(id)
       !> The file
-      class(output_file), intent(inout) :: self
+      class(output_file_type), intent(inout) :: self
       !> Its name
       character(len=*), intent(in) :: name
       !> Its dimension
@@ -128,7 +128,7 @@ contains
    !> Define and write a variable of words over one dimension.
    subroutine words(self, name, dimension, values, long_name)
       !> The file
-      class(output_file), intent(inout) :: self
+      class(output_file_type), intent(inout) :: self
       !> Its name
       character(len=*), intent(in) :: name
       !> Its dimension
@@ -150,7 +150,7 @@ contains
    !> Define and write a compressed variable of nondimensional real numbers over two dimensions.
    subroutine table(self, name, dimensions, values, long_name)
       !> The file
-      class(output_file), intent(inout) :: self
+      class(output_file_type), intent(inout) :: self
       !> Its name
       character(len=*), intent(in) :: name
       !> Its dimensions, the faster first
@@ -172,7 +172,7 @@ contains
    !> A word or sentence.
    subroutine text_attribute(self, name, value, variable)
       !> The file
-      class(output_file), intent(inout) :: self
+      class(output_file_type), intent(inout) :: self
       !> Its name
       character(len=*), intent(in) :: name
       !> Its value
@@ -187,7 +187,7 @@ contains
    !> A real number.
    subroutine real_attribute(self, name, value, variable)
       !> The file
-      class(output_file), intent(inout) :: self
+      class(output_file_type), intent(inout) :: self
       !> Its name
       character(len=*), intent(in) :: name
       !> Its value
@@ -202,7 +202,7 @@ contains
    !> An integer.
    subroutine integer_attribute(self, name, value, variable)
       !> The file
-      class(output_file), intent(inout) :: self
+      class(output_file_type), intent(inout) :: self
       !> Its name
       character(len=*), intent(in) :: name
       !> Its value
@@ -231,7 +231,7 @@ contains
    !> Write real numbers, from index `first` on.
    subroutine put_reals(self, variable, values, first)
       !> The file
-      class(output_file), intent(inout) :: self
+      class(output_file_type), intent(inout) :: self
       !> Variable
       integer, intent(in) :: variable
       !> Values
@@ -249,7 +249,7 @@ contains
    !> Write integers.
    subroutine put_integers(self, variable, values)
       !> The file
-      class(output_file), intent(inout) :: self
+      class(output_file_type), intent(inout) :: self
       !> Variable
       integer, intent(in) :: variable
       !> Values
@@ -262,7 +262,7 @@ contains
    !> Close the file and give it its name; on an error nothing is left behind.
    subroutine finish(self, error)
       !> The file
-      class(output_file), intent(inout) :: self
+      class(output_file_type), intent(inout) :: self
       !> First error met
       type(error_type), allocatable, intent(out) :: error
 
@@ -276,7 +276,7 @@ contains
    !> Leave nothing behind.
    subroutine discard(self)
       !> The file
-      class(output_file), intent(inout) :: self
+      class(output_file_type), intent(inout) :: self
       integer :: status
 
       status = nf90_close(self%id)

@@ -1,18 +1,18 @@
 !> How attractors are found and judged, from the namelist group &observation.
 module observation_input
-   use attractors, only: attractor_settings
-   use dde, only: integration_options, methods
+   use attractors, only: attractor_settings_type
+   use dde, only: integration_options
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: int64, wp
-   use namelist_input, only: check_choice, check_count, check_number, close_namelist, not_given, &
-                             open_namelist, word_length
-   use spectrum_input, only: windows
+   use exponents_input, only: check_growth
+   use namelist_input, only: close_namelist, not_given, open_namelist, word_length
+   use solver_checks, only: check_method, check_tolerance
+   use spectrum_input, only: check_spectrum
+   use value_checks, only: check_count, check_number
    implicit none (type, external)
    private
    public :: read_observation
 
-   !> Most exponents and blocks.
-   integer, parameter :: most_exponents = 64, most_blocks = 1000
    !> Most doublings of the time that exponents take.
    integer, parameter :: most_doublings = 10
    !> Most samples at a point.
@@ -25,7 +25,7 @@ contains
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> How attractors are judged
-      type(attractor_settings), intent(out) :: settings
+      type(attractor_settings_type), intent(out) :: settings
       !> Method, tolerances and limits
       type(integration_options), intent(out) :: options
       !> They cannot be read, or a value is out of range
@@ -35,26 +35,17 @@ contains
       call read_group(path, settings, options, method, window, error)
       call check_number(error, path, "t_transient", settings%t_transient, above=0.0_wp)
       call check_number(error, path, "t_observed", settings%t_observed, above=0.0_wp)
-      call check_number(error, path, "t_turning", settings%t_turning, at_least=0.0_wp)
-      call check_number(error, path, "interval", settings%interval, above=0.0_wp)
-      call check_count(error, path, "blocks", settings%blocks, at_least=2, at_most=most_blocks)
-      call check_count(error, path, "exponents", settings%exponents, at_least=1, &
-                       at_most=most_exponents)
-      call check_number(error, path, "zero_level", settings%zero_level, at_least=0.0_wp)
+      call check_growth(error, path, "exponents", settings%exponents, settings%blocks, &
+                        settings%t_turning, settings%interval, settings%zero_level)
       call check_number(error, path, "longest_bar", settings%longest_bar, above=0.0_wp)
       call check_count(error, path, "doublings", settings%doublings, at_least=0, &
                        at_most=most_doublings)
       call check_number(error, path, "sample_interval", settings%sample_interval, above=0.0_wp, &
                         at_most=settings%t_observed)
-      call check_choice(error, path, "window", window, windows)
-      call check_count(error, path, "segments", settings%segments, at_least=1)
-      call check_number(error, path, "overlap", settings%overlap, at_least=0.0_wp, below=1.0_wp)
-      call check_number(error, path, "peak_floor", settings%peak_floor, above=0.0_wp, &
-                        at_most=1.0_wp)
-      call check_number(error, path, "peak_prominence", settings%peak_prominence, at_least=1.0_wp)
-      call check_number(error, path, "tolerance", options%relative, at_least=1.0e-13_wp, &
-                        at_most=1.0e-2_wp)
-      call check_choice(error, path, "method", method, methods)
+      call check_spectrum(error, path, window, settings%segments, settings%overlap, &
+                          settings%peak_floor, settings%peak_prominence)
+      call check_tolerance(error, path, "tolerance", options%relative)
+      call check_method(error, path, method)
       if (allocated(error)) return
       call check_number(error, path, "number of samples t_observed/sample_interval", &
                         settings%t_observed/settings%sample_interval, at_most=most_samples)
@@ -72,7 +63,7 @@ contains
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> How attractors are judged
-      type(attractor_settings), intent(out) :: settings
+      type(attractor_settings_type), intent(out) :: settings
       !> Tolerances and limits
       type(integration_options), intent(out) :: options
       !> Method
@@ -112,10 +103,12 @@ contains
       if (allocated(error)) return
       read (unit, nml=observation, iostat=status, iomsg=reason)
       call close_namelist(path, "observation", unit, status, reason, error)
-      settings = attractor_settings(t_transient, t_observed, t_turning, interval, blocks, &
-                                    exponents, zero_level, longest_bar, doublings, &
-                                    sample_interval, "", segments, overlap, peak_floor, &
-                                    peak_prominence)
+      settings = attractor_settings_type( &
+                 t_transient=t_transient, t_observed=t_observed, t_turning=t_turning, &
+                 interval=interval, blocks=blocks, exponents=exponents, zero_level=zero_level, &
+                 longest_bar=longest_bar, doublings=doublings, sample_interval=sample_interval, &
+                 segments=segments, overlap=overlap, peak_floor=peak_floor, &
+                 peak_prominence=peak_prominence)
       options = integration_options(relative=tolerance, absolute=tolerance, most_steps=most_steps)
    end subroutine read_group
 end module observation_input

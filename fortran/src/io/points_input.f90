@@ -3,14 +3,14 @@
 module points_input
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use attractor_points, only: point_type
-   use characteristic_function, only: block_parameters
+   use block_parameters, only: block_history_type, block_parameters_type, check_quantity
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use namelist_input, only: check_count, check_number, close_namelist, not_given, open_namelist, &
-                             word_length
+   use namelist_input, only: close_namelist, not_given, open_namelist, word_length
+   use value_checks, only: check_count, check_number
    implicit none (type, external)
    private
-   public :: points_settings, read_points
+   public :: points_settings_type, read_points
 
    !> Most histories.
    integer, parameter :: most_histories = 1000
@@ -32,14 +32,14 @@ module points_input
    end type axis_type
 
    !> What is looked for, and what is kept of it.
-   type :: points_settings
+   type :: points_settings_type
       !> Name of what the points belong to
       character(len=word_length) :: name = ""
       !> The points, of which epsilon runs fastest, histories slowest
       type(point_type), allocatable :: points(:)
       !> Most maxima and points of the section kept of each
       integer :: kept = 0
-   end type points_settings
+   end type points_settings_type
 
 contains
 
@@ -48,7 +48,7 @@ contains
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> The points
-      type(points_settings), intent(out) :: settings
+      type(points_settings_type), intent(out) :: settings
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
       type(axis_type) :: epsilon_axis, tau_axis
@@ -58,22 +58,22 @@ contains
       call read_group(path, settings, xi, gamma, epsilon_axis, tau_axis, theta, u, v, error)
       call check_count(error, path, "letters of name", len_trim(settings%name), at_least=1, &
                        at_most=longest_name)
-      call check_number(error, path, "xi", xi, above=0.0_wp)
-      call check_number(error, path, "gamma", gamma, above=0.0_wp)
+      call check_quantity(error, path, "xi", xi)
+      call check_quantity(error, path, "gamma", gamma)
       call check_count(error, path, "kept", settings%kept, at_least=0, at_most=most_kept)
       call check_axis(error, path, "epsilon", epsilon_axis)
       call check_axis(error, path, "tau", tau_axis)
       do i = 1, 2
-         call check_number(error, path, "epsilon_window", epsilon_axis%window(i), above=-1.0_wp)
-         call check_number(error, path, "tau_window", tau_axis%window(i), at_least=0.0_wp)
+         call check_quantity(error, path, "epsilon", epsilon_axis%window(i), "epsilon_window")
+         call check_quantity(error, path, "tau", tau_axis%window(i), "tau_window")
       end do
       histories = maxval([(i, i=1, most_histories)], &
                          mask=.not. (ieee_is_nan(theta) .and. ieee_is_nan(u) .and. ieee_is_nan(v)))
       call check_count(error, path, "number of histories", max(0, histories), at_least=1)
       do i = 1, histories
-         call check_number(error, path, "theta("//text(i)//")", theta(i))
-         call check_number(error, path, "u("//text(i)//")", u(i))
-         call check_number(error, path, "v("//text(i)//")", v(i), above=0.0_wp)
+         call check_quantity(error, path, "theta", theta(i), "theta("//text(i)//")")
+         call check_quantity(error, path, "u", u(i), "u("//text(i)//")")
+         call check_quantity(error, path, "v", v(i), "v("//text(i)//")")
       end do
       if (allocated(error)) return
       associate (columns => epsilon_axis%wanted, rows => tau_axis%wanted)
@@ -81,9 +81,11 @@ contains
                            real(histories, wp)*(columns(2) - columns(1) + 1) &
                            *(rows(2) - rows(1) + 1), at_most=real(most_points, wp))
          if (allocated(error)) return
-         settings%points = [(((point_type(block_parameters(value_at(tau_axis, j), &
-                                                           value_at(epsilon_axis, i), xi, gamma), &
-                                          [theta(k), u(k), v(k)]), &
+         settings%points = [(((point_type( &
+                               block_parameters_type(tau=value_at(tau_axis, j), xi=xi, &
+                                                     epsilon=value_at(epsilon_axis, i), &
+                                                     gamma=gamma), &
+                               block_history_type(theta=theta(k), u=u(k), v=v(k))), &
                                i=columns(1), columns(2)), j=rows(1), rows(2)), k=1, histories)]
       end associate
    end subroutine read_points
@@ -125,7 +127,7 @@ contains
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> Name and what is kept
-      type(points_settings), intent(out) :: settings
+      type(points_settings_type), intent(out) :: settings
       !> Spring constant
       real(wp), intent(out) :: xi
       !> Frequency

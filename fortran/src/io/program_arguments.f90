@@ -2,7 +2,7 @@
 module program_arguments
    use, intrinsic :: iso_fortran_env, only: error_unit
    use dde_errors, only: error_type, raise
-   use files, only: is_same_file
+   use file_system, only: is_same_file
    use process, only: end_at_once
    use unfinished_file, only: check_place
    implicit none (type, external)

@@ -5,7 +5,7 @@ module progress
    use dde_errors, only: text
    use dde_kinds, only: int64, wp
    use process, only: standard_error_is_terminal
-   use progress_receivers, only: progress_receiver
+   use progress_receiver, only: progress_receiver_type
    implicit none (type, external)
    private
    public :: progress_type
@@ -25,7 +25,7 @@ module progress
 
    !> Progress of work in one part, or in several of about the same length. Programs with several
    !> threads call it from one at a time, in a critical region.
-   type, extends(progress_receiver) :: progress_type
+   type, extends(progress_receiver_type) :: progress_type
       private
       !> What is being done
       character(len=:), allocatable :: label

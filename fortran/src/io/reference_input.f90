@@ -1,16 +1,16 @@
 !> How references are computed, from the namelist group &reference.
 module reference_input
-   use dde, only: methods
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
-   use namelist_input, only: check_choice, check_count, check_number, close_namelist, not_given, &
-                             open_namelist, word_length
+   use namelist_input, only: close_namelist, not_given, open_namelist, word_length
+   use solver_checks, only: check_method
+   use value_checks, only: check_count, check_number
    implicit none (type, external)
    private
-   public :: read_reference, reference_settings
+   public :: read_reference, reference_settings_type
 
    !> How each case is computed.
-   type :: reference_settings
+   type :: reference_settings_type
       !> One of the solver's methods
       character(len=10) :: method = ""
       !> The tolerance of the reference, and a larger one to check it by
@@ -19,7 +19,7 @@ module reference_input
       real(wp) :: disturbance = 0.0_wp
       !> Most steps of a run
       integer(int64) :: most_steps = 0
-   end type reference_settings
+   end type reference_settings_type
 
 contains
 
@@ -28,7 +28,7 @@ contains
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> The settings
-      type(reference_settings), intent(out) :: settings
+      type(reference_settings_type), intent(out) :: settings
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
       character(len=word_length) :: method
@@ -46,7 +46,7 @@ contains
       if (allocated(error)) return
       read (unit, nml=reference, iostat=status, iomsg=reason)
       call close_namelist(path, "reference", unit, status, reason, error)
-      call check_choice(error, path, "method", method, methods)
+      call check_method(error, path, method)
       call check_number(error, path, "tolerance", tolerance, at_least=1.0e-22_wp, &
                         at_most=1.0e-10_wp)
       call check_number(error, path, "check_tolerance", check_tolerance, above=tolerance, &
@@ -54,7 +54,7 @@ contains
       call check_number(error, path, "disturbance", disturbance, above=0.0_wp, &
                         at_most=1.0e-10_wp)
       call check_count(error, path, "most_steps", most_steps, 1)
-      settings = reference_settings(method(:10), tolerance, check_tolerance, disturbance, &
-                                    most_steps)
+      settings = reference_settings_type(method(:10), tolerance, check_tolerance, disturbance, &
+                                         most_steps)
    end subroutine read_reference
 end module reference_input

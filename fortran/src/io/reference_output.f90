@@ -8,7 +8,7 @@ module reference_output
    use unfinished_file, only: unfinished_type
    implicit none (type, external)
    private
-   public :: reference_file
+   public :: reference_file_type
 
    !> Between columns, and between rows.
    character(len=*), parameter :: tab = achar(9), line_end = new_line("a")
@@ -16,7 +16,7 @@ module reference_output
    integer, parameter :: row_length = 320
 
    !> A table in the making.
-   type :: reference_file
+   type :: reference_file_type
       private
       !> Where it stands
       type(unfinished_type) :: place
@@ -29,14 +29,14 @@ module reference_output
       procedure :: put
       !> Complete the file
       procedure :: finish
-   end type reference_file
+   end type reference_file_type
 
 contains
 
    !> Begin a file with the names of the columns; what cannot be written is told before the work.
    subroutine create(self, path, error)
       !> The file
-      class(reference_file), intent(inout) :: self
+      class(reference_file_type), intent(inout) :: self
       !> Its path once complete
       character(len=*), intent(in) :: path
       !> It cannot be written
@@ -53,7 +53,7 @@ contains
    !> how far that of a disturbed history, in units of the disturbance.
    subroutine put(self, case, disturbance, best, checking, disturbed)
       !> The file
-      class(reference_file), intent(inout) :: self
+      class(reference_file_type), intent(inout) :: self
       !> The case
       type(case_type), intent(in) :: case
       !> Change of theta and u and relative change of v for t <= 0 in the disturbed run
@@ -97,7 +97,7 @@ contains
    !> Write the file and give it its name; on an error nothing is left behind.
    subroutine finish(self, error)
       !> The file
-      class(reference_file), intent(inout) :: self
+      class(reference_file_type), intent(inout) :: self
       !> It could not be written
       type(error_type), allocatable, intent(out) :: error
 

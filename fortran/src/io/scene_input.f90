@@ -1,10 +1,11 @@
 !> A scene: one parameter set of the delayed block, from the namelist group &scene.
 module scene_input
-   use dde, only: methods
+   use block_parameters, only: block_history_type, block_parameters_type, check_quantity
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use namelist_input, only: check_choice, check_number, close_namelist, not_given, open_namelist, &
-                             word_length
+   use namelist_input, only: close_namelist, not_given, open_namelist, word_length
+   use solver_checks, only: check_method, check_tolerance
+   use value_checks, only: check_choice, check_number
    implicit none (type, external)
    private
    public :: read_scene, scene_type, variable_names
@@ -17,30 +18,14 @@ module scene_input
    !> Most samples: indices in NetCDF's Fortran interface have 32 bits.
    real(wp), parameter :: most_samples = 2.0e9_wp
 
-   !> Constant values for t <= 0, nondimensional.
-   type :: history_values
-      !> Friction state
-      real(wp) :: theta
-      !> Displacement
-      real(wp) :: u
-      !> Velocity
-      real(wp) :: v
-   end type history_values
-
    !> One parameter set; all nondimensional.
    type :: scene_type
       !> Name of the scene
       character(len=word_length) :: name = ""
-      !> Delay
-      real(wp) :: tau
-      !> Sensitivity of the velocity relaxation
-      real(wp) :: epsilon
-      !> Spring constant
-      real(wp) :: xi
-      !> Frequency
-      real(wp) :: gamma
+      !> Parameters
+      type(block_parameters_type) :: parameters
       !> Values for t <= 0
-      type(history_values) :: history
+      type(block_history_type) :: history
       !> Last time
       real(wp) :: t_end
       !> Time up to which spectra and portraits leave the trajectory out
@@ -49,7 +34,7 @@ module scene_input
       real(wp) :: sample_interval
       !> Relative and absolute tolerance of one step
       real(wp) :: tolerance
-      !> One of `methods`
+      !> One of the solver's methods
       character(len=word_length) :: method = ""
       !> Variables to store, blank where there are fewer
       character(len=word_length) :: variables(3) = ""
@@ -80,7 +65,7 @@ contains
       !> It cannot be read
       type(error_type), allocatable, intent(out) :: error
       character(len=word_length) :: name, method, variables(3)
-      type(history_values) :: history
+      type(block_history_type) :: history
       real(wp) :: tau, epsilon, xi, gamma, t_end, t_transient, sample_interval, tolerance
       character(len=256) :: reason
       integer :: status, unit
@@ -94,7 +79,7 @@ contains
       epsilon = tau
       xi = tau
       gamma = tau
-      history = history_values(tau, tau, tau)
+      history = block_history_type(tau, tau, tau)
       t_end = tau
       t_transient = tau
       sample_interval = tau
@@ -103,8 +88,11 @@ contains
       if (allocated(error)) return
       read (unit, nml=scene, iostat=status, iomsg=reason)
       call close_namelist(path, "scene", unit, status, reason, error)
-      filled = scene_type(name, tau, epsilon, xi, gamma, history, t_end, t_transient, &
-                          sample_interval, tolerance, method, variables)
+      filled = scene_type(name=name, history=history, t_end=t_end, t_transient=t_transient, &
+                          parameters=block_parameters_type(tau=tau, epsilon=epsilon, xi=xi, &
+                                                           gamma=gamma), &
+                          sample_interval=sample_interval, tolerance=tolerance, method=method, &
+                          variables=variables)
    end subroutine read_group
 
    !> Refuse what the config schema refuses.
@@ -121,25 +109,21 @@ contains
          call raise(error, place//": name of "//text(len_trim(scene%name)) &
                     //" letters; expected 1 to "//text(longest_name))
       end if
-      call check_number(error, place, "tau", scene%tau, at_least=0.0_wp)
-      call check_number(error, place, "epsilon", scene%epsilon, above=-1.0_wp)
-      call check_number(error, place, "xi", scene%xi, above=0.0_wp)
-      call check_number(error, place, "gamma", scene%gamma, above=0.0_wp)
-      call check_number(error, place, "history%theta", scene%history%theta)
-      call check_number(error, place, "history%u", scene%history%u)
-      call check_number(error, place, "history%v", scene%history%v, above=0.0_wp)
+      call scene%parameters%check(place, error)
+      call check_quantity(error, place, "theta", scene%history%theta, key="history%theta")
+      call check_quantity(error, place, "u", scene%history%u, key="history%u")
+      call check_quantity(error, place, "v", scene%history%v, key="history%v")
       call check_number(error, place, "t_end", scene%t_end, above=0.0_wp)
       call check_number(error, place, "t_transient", scene%t_transient, at_least=0.0_wp, &
                         below=scene%t_end)
       call check_number(error, place, "sample_interval", scene%sample_interval, above=0.0_wp, &
                         at_most=scene%t_end)
-      call check_number(error, place, "tolerance", scene%tolerance, at_least=1.0e-13_wp, &
-                        at_most=1.0e-2_wp)
+      call check_tolerance(error, place, "tolerance", scene%tolerance)
       if (.not. allocated(error)) then
          call check_number(error, place, "number of samples t_end/sample_interval", &
                            scene%t_end/scene%sample_interval, at_most=most_samples)
       end if
-      call check_choice(error, place, "method", scene%method, methods)
+      call check_method(error, place, scene%method)
       call check_choice(error, place, "variables", scene%variables(1), variable_names)
       do i = 2, size(scene%variables)
          if (allocated(error) .or. scene%variables(i) == "") cycle

@@ -3,10 +3,10 @@ module spectrum_output
    use base_frequencies, only: bases_type
    use dde_errors, only: error_type, text
    use dde_kinds, only: int64, wp
-   use netcdf_output, only: output_file
+   use netcdf_output, only: output_file_type
    use spectral_peaks, only: base_peak, combination_peak, harmonic_peak, other_peak, peak_type, &
                              second_base_peak
-   use spectrum_input, only: spectrum_settings
+   use spectrum_input, only: spectrum_settings_type
    use spectrum_verdict, only: continuum_share, line_share, spectrum_kind, spectrum_kind_name
    implicit none (type, external)
    private
@@ -21,7 +21,7 @@ contains
       !> Name of the scene
       character(len=*), intent(in) :: scene
       !> How it was made
-      type(spectrum_settings), intent(in) :: settings
+      type(spectrum_settings_type), intent(in) :: settings
       !> Frequencies
       real(wp), intent(in) :: frequency(:)
       !> Power spectral density
@@ -34,7 +34,7 @@ contains
       type(bases_type), intent(in) :: bases
       !> It could not be written
       type(error_type), allocatable, intent(out) :: error
-      type(output_file) :: file
+      type(output_file_type) :: file
       integer :: b, bins, f, k, m(2), p, pf, pp, rows
 
       call file%create(path, "Power spectrum of the velocity v")

@@ -1,26 +1,27 @@
 !> Trajectory files: samples go to disk in blocks while the integration runs, only the variables
 !> that the scene lists.
 module trajectory_output
+   use block_attributes, only: put_history, put_parameters
    use dde, only: integration_result, sampler_type
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
-   use netcdf_output, only: output_file
+   use netcdf_output, only: output_file_type
    use program_arguments, only: stop_on
    use progress, only: progress_type
    use scene_input, only: scene_type
    use spring_block, only: index_of_ln_v, index_of_theta, index_of_u
    implicit none (type, external)
    private
-   public :: trajectory_writer
+   public :: trajectory_writer_type
 
    !> Samples held before they are written.
    integer, parameter :: block_length = 8192
 
    !> Sampler that writes a trajectory file.
-   type, extends(sampler_type) :: trajectory_writer
+   type, extends(sampler_type) :: trajectory_writer_type
       private
       !> The file
-      type(output_file), public :: file
+      type(output_file_type), public :: file
       !> Samples received, told to the user
       type(progress_type) :: progress
       !> The scene
@@ -40,11 +41,11 @@ module trajectory_output
       !> Give the file up
       procedure :: discard
       procedure, private :: flush => flush_block
-   end type trajectory_writer
+   end type trajectory_writer_type
 
-   interface trajectory_writer
+   interface trajectory_writer_type
       module procedure :: new_writer
-   end interface trajectory_writer
+   end interface trajectory_writer_type
 
 contains
 
@@ -54,7 +55,7 @@ contains
       character(len=*), intent(in) :: path
       !> The scene
       type(scene_type), intent(in) :: scene
-      type(trajectory_writer) :: writer
+      type(trajectory_writer_type) :: writer
       integer :: dimension, i, variables
 
       writer%scene = scene
@@ -86,7 +87,7 @@ contains
    !> Take one sample.
    subroutine take(self, y)
       !> The writer
-      class(trajectory_writer), intent(inout) :: self
+      class(trajectory_writer_type), intent(inout) :: self
       !> theta, u, ln v as wanted
       real(wp), intent(in) :: y(:)
       integer :: taken
@@ -109,7 +110,7 @@ contains
    !> Write the block.
    subroutine flush_block(self)
       !> The writer
-      class(trajectory_writer), intent(inout) :: self
+      class(trajectory_writer_type), intent(inout) :: self
       integer :: i
 
       do i = 0, size(self%wanted)
@@ -122,7 +123,7 @@ contains
    !> Write what is left, the scene and what the integration did, and complete the file.
    subroutine finish(self, outcome, error)
       !> The writer
-      class(trajectory_writer), intent(inout) :: self
+      class(trajectory_writer_type), intent(inout) :: self
       !> What the integration did
       type(integration_result), intent(in) :: outcome
       !> It could not be written
@@ -132,13 +133,8 @@ contains
       call self%flush()
       associate (file => self%file, scene => self%scene)
          call file%attribute("scene", trim(scene%name))
-         call file%attribute("tau", scene%tau)
-         call file%attribute("epsilon", scene%epsilon)
-         call file%attribute("xi", scene%xi)
-         call file%attribute("gamma", scene%gamma)
-         call file%attribute("history_theta", scene%history%theta)
-         call file%attribute("history_u", scene%history%u)
-         call file%attribute("history_v", scene%history%v)
+         call put_parameters(file, scene%parameters)
+         call put_history(file, scene%history)
          call file%attribute("t_end", scene%t_end)
          call file%attribute("t_transient", scene%t_transient)
          call file%attribute("sample_interval", scene%sample_interval)
@@ -156,7 +152,7 @@ contains
    !> Leave nothing behind.
    subroutine discard(self)
       !> The writer
-      class(trajectory_writer), intent(inout) :: self
+      class(trajectory_writer_type), intent(inout) :: self
 
       call self%progress%finish()
       call self%file%discard()

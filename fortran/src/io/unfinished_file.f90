@@ -5,8 +5,8 @@
 !> finds nothing to rename, whenever it ends.
 module unfinished_file
    use dde_errors, only: error_type, raise, text
-   use files, only: missing, occupied, place_of_file, reason_of, remove_file, remove_marked, &
-                    rename_file, write_file
+   use file_system, only: missing, occupied, place_of_file, reason_of, remove_file, remove_marked, &
+                          rename_file, write_file
    use dde_kinds, only: int64
    use process, only: number_of_process
    implicit none (type, external)

@@ -1,10 +1,12 @@
 !> A velocity step and the friction law it tries, from the namelist group &velocity_step.
 module velocity_step_input
    use dde_errors, only: error_type
-   use friction_law, only: friction_parameters
+   use velocity_step_friction, only: friction_parameters_type
    use dde_kinds, only: wp
-   use namelist_input, only: check_count, check_number, not_given, open_namelist, close_namelist
-   use velocity_step, only: step_protocol
+   use namelist_input, only: close_namelist, not_given, open_namelist
+   use velocity_step, only: step_protocol_type
+   use solver_checks, only: check_tolerance
+   use value_checks, only: check_count, check_number
    implicit none (type, external)
    private
    public :: read_protocol
@@ -16,7 +18,7 @@ contains
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> The protocol
-      type(step_protocol), intent(out) :: protocol
+      type(step_protocol_type), intent(out) :: protocol
       !> It cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
 
@@ -33,8 +35,7 @@ contains
       call check_number(error, path, "slip_before", protocol%slip_before, above=0.0_wp)
       call check_number(error, path, "slip_after", protocol%slip_after, above=0.0_wp)
       call check_count(error, path, "samples", protocol%samples, at_least=2)
-      call check_number(error, path, "tolerance", protocol%tolerance, at_least=1.0e-13_wp, &
-                        at_most=1.0e-2_wp)
+      call check_tolerance(error, path, "tolerance", protocol%tolerance)
    end subroutine read_protocol
 
    !> Read the group &velocity_step.
@@ -42,7 +43,7 @@ contains
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> The protocol
-      type(step_protocol), intent(out) :: protocol
+      type(step_protocol_type), intent(out) :: protocol
       !> It cannot be read
       type(error_type), allocatable, intent(out) :: error
       character(len=256) :: reason
@@ -66,7 +67,9 @@ contains
       if (allocated(error)) return
       read (unit, nml=velocity_step, iostat=status, iomsg=reason)
       call close_namelist(path, "velocity_step", unit, status, reason, error)
-      protocol = step_protocol(friction_parameters(mu0, a, b, dc, v0, b_state), delta_v, &
-                               slip_before, slip_after, samples, tolerance)
+      protocol = step_protocol_type( &
+                 friction_parameters_type(mu0=mu0, a=a, b=b, dc=dc, v0=v0, b_state=b_state), &
+                 delta_v=delta_v, slip_before=slip_before, slip_after=slip_after, &
+                 samples=samples, tolerance=tolerance)
    end subroutine read_group
 end module velocity_step_input

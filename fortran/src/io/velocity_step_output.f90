@@ -1,9 +1,9 @@
 !> Files of the response to velocity steps.
 module velocity_step_output
    use dde_errors, only: error_type
-   use friction_law, only: friction_coefficient, steady_state
-   use netcdf_output, only: output_file
-   use velocity_step, only: friction_response, step_protocol
+   use velocity_step_friction, only: friction_coefficient, steady_state
+   use netcdf_output, only: output_file_type
+   use velocity_step, only: friction_response_type, step_protocol_type
    implicit none (type, external)
    private
    public :: write_response
@@ -15,12 +15,12 @@ contains
       !> Path of the file
       character(len=*), intent(in) :: path
       !> What was imposed
-      type(step_protocol), intent(in) :: protocol
+      type(step_protocol_type), intent(in) :: protocol
       !> What was seen
-      type(friction_response), intent(in) :: response
+      type(friction_response_type), intent(in) :: response
       !> It could not be written
       type(error_type), allocatable, intent(out) :: error
-      type(output_file) :: file
+      type(output_file_type) :: file
       integer :: mu, rows, slip, theta, time, velocity
 
       call file%create(path, "Response of friction to steps of the imposed velocity")

@@ -5,6 +5,7 @@
 !> nondimensional.
 module block_series
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use block_parameters, only: block_parameters_type
    use block_state, only: index_of_ln_v, index_of_theta, index_of_u, largest_ln_v, least_ln_v
    use dde_kinds, only: wp
    implicit none (type, external)
@@ -15,13 +16,9 @@ contains
 
    !> Series of the solution: v' = v w' is -gamma^2 [u + (theta + w)/xi], linear in the state, and
    !> w' follows from it term by term.
-   pure subroutine series_of_block(epsilon, xi, gamma, unit, degree, delays, z, y)
-      !> Sensitivity of the velocity relaxation
-      real(wp), intent(in) :: epsilon
-      !> Spring constant
-      real(wp), intent(in) :: xi
-      !> Frequency
-      real(wp), intent(in) :: gamma
+   pure subroutine series_of_block(p, unit, degree, delays, z, y)
+      !> Parameters of the block
+      type(block_parameters_type), intent(in) :: p
       !> Unit of time of the powers
       real(wp), intent(in) :: unit
       !> Degree of the series
@@ -47,8 +44,8 @@ contains
       v = exp(w)
       v_back(degree) = v
       by_v = 1.0_wp/v
-      compliance = 1.0_wp/xi
-      pull = -gamma**2*unit
+      compliance = 1.0_wp/p%xi
+      pull = -p%gamma**2*unit
       do k = 0, degree - 1
          ! first what has been known for long: the newest terms need not wait for it
          total = 0.0_wp
@@ -59,7 +56,7 @@ contains
          end do
          delayed_w = w
          if (delays > 0) delayed_w = z(k, 1)
-         relaxing(k) = theta + (1.0_wp + epsilon)*delayed_w
+         relaxing(k) = theta + (1.0_wp + p%epsilon)*delayed_w
          v_rate = pull*(u + compliance*(theta + w))
          rate(k) = by_v*(v_rate - earlier)
          share = 1.0_wp/(k + 1)
@@ -76,13 +73,9 @@ contains
 
    !> A better series of the slow solution: w = -theta - xi u - (xi/gamma^2) v' with v as it was,
    !> and theta and u by (4).
-   pure subroutine slow_series_of_block(epsilon, xi, gamma, unit, degree, delays, z, y)
-      !> Sensitivity of the velocity relaxation
-      real(wp), intent(in) :: epsilon
-      !> Spring constant
-      real(wp), intent(in) :: xi
-      !> Frequency
-      real(wp), intent(in) :: gamma
+   pure subroutine slow_series_of_block(p, unit, degree, delays, z, y)
+      !> Parameters of the block
+      type(block_parameters_type), intent(in) :: p
       !> Unit of time of the powers
       real(wp), intent(in) :: unit
       !> Degree of the series
@@ -100,10 +93,10 @@ contains
       integer :: j, k
 
       call rate_as_it_was(unit, degree, y, v_rate)
-      inertia = xi/(gamma**2*unit)
+      inertia = p%xi/(p%gamma**2*unit)
       theta = y(0, index_of_theta)
       u = y(0, index_of_u)
-      w = -theta - xi*u - inertia*v_rate(0)
+      w = -theta - p%xi*u - inertia*v_rate(0)
       if (.not. (w >= least_ln_v .and. w <= largest_ln_v)) then
          y = ieee_value(1.0_wp, ieee_quiet_nan)
          return
@@ -119,7 +112,7 @@ contains
             earlier = earlier + v_back(degree - k + j)*rate(j - 1)
          end do
          if (k > 0) then
-            w = -theta - xi*u - inertia*v_rate(k)
+            w = -theta - p%xi*u - inertia*v_rate(k)
             rate(k - 1) = k*w
             v = (earlier + v_first*rate(k - 1))/k
          end if
@@ -129,7 +122,7 @@ contains
          v_back(degree - k) = v
          delayed_w = w
          if (delays > 0) delayed_w = z(k, 1)
-         relaxing(k) = theta + (1.0_wp + epsilon)*delayed_w
+         relaxing(k) = theta + (1.0_wp + p%epsilon)*delayed_w
          total = total + v_first*relaxing(k)
          if (k > 0) total = total + v*relaxing(0)
          share = unit/(k + 1)

@@ -5,30 +5,18 @@
 !>
 !> All quantities are nondimensional.
 module characteristic_function
+   use block_parameters, only: block_parameters_type
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: block_parameters, delta, delta_by_s, delta_by_tau, relative_residual
-   public :: slope_bound, terms
-
-   !> Parameters of the delayed block.
-   type :: block_parameters
-      !> Delay
-      real(wp) :: tau = 0.0_wp
-      !> Sensitivity of the velocity relaxation
-      real(wp) :: epsilon = 0.0_wp
-      !> Spring constant
-      real(wp) :: xi = 1.0_wp
-      !> Frequency
-      real(wp) :: gamma = 1.0_wp
-   end type block_parameters
+   public :: delta, delta_by_s, delta_by_tau, relative_residual, slope_bound, terms
 
 contains
 
    !> The five terms of Delta(s).
    pure function terms(p, s) result(term)
       !> Parameters
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
       !> Point of the complex plane
       complex(wp), intent(in) :: s
       complex(wp) :: term(5)
@@ -40,7 +28,7 @@ contains
    !> The delayed term -s (1 + epsilon) (gamma^2/xi) exp(-s tau).
    pure complex(wp) function delayed_term(p, s) result(value)
       !> Parameters
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
       !> Point of the complex plane
       complex(wp), intent(in) :: s
 
@@ -50,7 +38,7 @@ contains
    !> Delta(s).
    pure complex(wp) function delta(p, s) result(value)
       !> Parameters
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
       !> Point of the complex plane
       complex(wp), intent(in) :: s
 
@@ -60,7 +48,7 @@ contains
    !> Derivative of Delta by s.
    pure complex(wp) function delta_by_s(p, s) result(value)
       !> Parameters
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
       !> Point of the complex plane
       complex(wp), intent(in) :: s
 
@@ -72,7 +60,7 @@ contains
    !> Sum of the sizes of the terms of the derivative of Delta by s.
    pure real(wp) function slope_bound(p, s) result(value)
       !> Parameters
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
       !> Point of the complex plane
       complex(wp), intent(in) :: s
 
@@ -85,7 +73,7 @@ contains
    !> Derivative of Delta by tau.
    pure complex(wp) function delta_by_tau(p, s) result(value)
       !> Parameters
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
       !> Point of the complex plane
       complex(wp), intent(in) :: s
 
@@ -95,7 +83,7 @@ contains
    !> |Delta(s)| over its largest term: how well s is a characteristic root.
    pure real(wp) function relative_residual(p, s) result(value)
       !> Parameters
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
       !> Point of the complex plane
       complex(wp), intent(in) :: s
 

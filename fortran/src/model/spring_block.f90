@@ -2,6 +2,7 @@
 !> docs/method.md, "What was corrected"). All quantities are nondimensional.
 module spring_block
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use block_parameters, only: block_history_type, block_parameters_type
    use block_series, only: series_of_block, slow_series_of_block
    use block_state, only: index_of_ln_v, index_of_theta, index_of_u, largest_ln_v, least_ln_v
    use dde, only: dde_problem_type
@@ -12,12 +13,8 @@ module spring_block
 
    !> The block with its parameters; all nondimensional.
    type, extends(dde_problem_type) :: spring_block_type
-      !> Sensitivity of the velocity relaxation, (B - A)/A
-      real(wp) :: epsilon = 0.0_wp
-      !> Spring constant, k L/A
-      real(wp) :: xi = 1.0_wp
-      !> Frequency, sqrt(k/M) L/v0
-      real(wp) :: gamma = 1.0_wp
+      !> Its parameters
+      type(block_parameters_type) :: parameters
       !> State theta, u, ln v for t <= 0
       real(wp) :: past(3) = 0.0_wp
    contains
@@ -37,32 +34,22 @@ module spring_block
 
 contains
 
-   !> A block at delay tau >= 0; tau = 0 is a problem without delays, equation (3).
-   pure function new_spring_block(tau, epsilon, xi, gamma, theta, u, v) result(block)
-      !> Delay
-      real(wp), intent(in) :: tau
-      !> Sensitivity of the velocity relaxation
-      real(wp), intent(in) :: epsilon
-      !> Spring constant
-      real(wp), intent(in) :: xi
-      !> Frequency
-      real(wp), intent(in) :: gamma
-      !> Friction state for t <= 0
-      real(wp), intent(in) :: theta
-      !> Displacement for t <= 0
-      real(wp), intent(in) :: u
-      !> Velocity for t <= 0
-      real(wp), intent(in) :: v
+   !> A block from its parameters and history; without delay it is equation (3).
+   pure function new_spring_block(parameters, history) result(block)
+      !> Parameters
+      type(block_parameters_type), intent(in) :: parameters
+      !> Values for t <= 0
+      type(block_history_type), intent(in) :: history
       type(spring_block_type) :: block
 
       block%n = 3
       block%analytic = .true.
-      allocate (block%lag, source=pack([tau], tau > 0.0_wp))
-      allocate (block%component, source=pack([index_of_ln_v], tau > 0.0_wp))
-      block%epsilon = epsilon
-      block%xi = xi
-      block%gamma = gamma
-      block%past = [theta, u, log(v)]
+      associate (tau => parameters%tau)
+         allocate (block%lag, source=pack([tau], tau > 0.0_wp))
+         allocate (block%component, source=pack([index_of_ln_v], tau > 0.0_wp))
+      end associate
+      block%parameters = parameters
+      block%past = [history%theta, history%u, log(history%v)]
    end function new_spring_block
 
    !> The constant history holds up to t = 0.
@@ -106,7 +93,8 @@ contains
       real(wp), intent(out) :: dydt(self%n)
       real(wp) :: delayed_w, v
 
-      associate (theta => y(index_of_theta), u => y(index_of_u), w => y(index_of_ln_v))
+      associate (p => self%parameters, theta => y(index_of_theta), u => y(index_of_u), &
+                 w => y(index_of_ln_v))
          if (w < least_ln_v .or. w > largest_ln_v) then
             dydt = ieee_value(1.0_wp, ieee_quiet_nan)
             return
@@ -114,9 +102,9 @@ contains
          delayed_w = w
          if (size(z) > 0) delayed_w = z(1)
          v = exp(w)
-         dydt(index_of_theta) = -v*(theta + (1.0_wp + self%epsilon)*delayed_w)
+         dydt(index_of_theta) = -v*(theta + (1.0_wp + p%epsilon)*delayed_w)
          dydt(index_of_u) = v - 1.0_wp
-         dydt(index_of_ln_v) = -self%gamma**2/v*(u + (theta + w)/self%xi)
+         dydt(index_of_ln_v) = -p%gamma**2/v*(u + (theta + w)/p%xi)
       end associate
    end subroutine equation_4
 
@@ -136,26 +124,27 @@ contains
       real(wp), intent(out) :: by_z(self%n, size(self%lag))
       real(wp) :: stiffness, v
 
-      associate (theta => y(index_of_theta), u => y(index_of_u), w => y(index_of_ln_v))
+      associate (p => self%parameters, theta => y(index_of_theta), u => y(index_of_u), &
+                 w => y(index_of_ln_v))
          if (w < least_ln_v .or. w > largest_ln_v) then
             by_y = ieee_value(1.0_wp, ieee_quiet_nan)
             by_z = by_y(1, 1)
             return
          end if
          v = exp(w)
-         stiffness = self%gamma**2/v
+         stiffness = p%gamma**2/v
          by_y = 0.0_wp
          by_y(index_of_theta, index_of_theta) = -v
          by_y(index_of_u, index_of_ln_v) = v
-         by_y(index_of_ln_v, index_of_theta) = -stiffness/self%xi
+         by_y(index_of_ln_v, index_of_theta) = -stiffness/p%xi
          by_y(index_of_ln_v, index_of_u) = -stiffness
-         by_y(index_of_ln_v, index_of_ln_v) = stiffness*(u + (theta + w - 1.0_wp)/self%xi)
+         by_y(index_of_ln_v, index_of_ln_v) = stiffness*(u + (theta + w - 1.0_wp)/p%xi)
          if (size(z) > 0) then
-            by_y(index_of_theta, index_of_ln_v) = -v*(theta + (1.0_wp + self%epsilon)*z(1))
+            by_y(index_of_theta, index_of_ln_v) = -v*(theta + (1.0_wp + p%epsilon)*z(1))
             by_z = 0.0_wp
-            by_z(index_of_theta, 1) = -v*(1.0_wp + self%epsilon)
+            by_z(index_of_theta, 1) = -v*(1.0_wp + p%epsilon)
          else
-            by_y(index_of_theta, index_of_ln_v) = -v*(theta + (1.0_wp + self%epsilon)*(w + 1.0_wp))
+            by_y(index_of_theta, index_of_ln_v) = -v*(theta + (1.0_wp + p%epsilon)*(w + 1.0_wp))
          end if
       end associate
    end subroutine derivatives_of_4
@@ -175,8 +164,7 @@ contains
       !> Coefficients of theta, u, w; y(0, :) is given
       real(wp), intent(inout) :: y(0:degree, self%n)
 
-      call series_of_block(self%epsilon, self%xi, self%gamma, unit, degree, size(z, 2), &
-                           z, y)
+      call series_of_block(self%parameters, unit, degree, size(z, 2), z, y)
    end subroutine series_of_4
 
    !> Rate at which w comes to -theta - xi u, by (4).
@@ -190,7 +178,9 @@ contains
       !> The rate
       real(wp) :: rate
 
-      rate = self%gamma**2/self%xi*exp(-max(least_ln_v, y(index_of_ln_v)))
+      associate (p => self%parameters)
+         rate = p%gamma**2/p%xi*exp(-max(least_ln_v, y(index_of_ln_v)))
+      end associate
    end function relaxation_of_w
 
    !> A better Taylor series of the slow solution of (4).
@@ -208,8 +198,7 @@ contains
       !> Coefficients of theta, u, w as they were; better ones
       real(wp), intent(inout) :: y(0:degree, self%n)
 
-      call slow_series_of_block(self%epsilon, self%xi, self%gamma, unit, degree, size(z, 2), &
-                           z, y)
+      call slow_series_of_block(self%parameters, unit, degree, size(z, 2), z, y)
    end subroutine slow_series_of_4
 
    !> Series of the constant history.

@@ -1,14 +1,14 @@
 !> Planes of two parameters in which Hopf curves are drawn, each with its window.
 module hopf_planes
-   use characteristic_function, only: block_parameters
+   use block_parameters, only: block_parameters_type
    use hopf_condition, only: hopf_epsilon, hopf_tau, hopf_xi, two_pi
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: curve_plane, tau_of_epsilon, xi_of_epsilon
+   public :: curve_plane_type, tau_plane_type, xi_plane_type
 
    !> A plane (epsilon, ordinate) with a window; gamma is fixed, nondimensional.
-   type, abstract :: curve_plane
+   type, abstract :: curve_plane_type
       !> Frequency of the block
       real(wp) :: gamma = 1.0_wp
       !> Window on epsilon: least, most
@@ -24,15 +24,15 @@ module hopf_planes
       procedure(ordinate_of), deferred, nopass :: ordinate
       !> Least omega, and highest branch, that the window can hold
       procedure(reach), deferred :: bounds
-   end type curve_plane
+   end type curve_plane_type
 
    abstract interface
       !> Parameters at which branch k has the pair i omega; xi <= 0 where it has none.
-      pure type(block_parameters) function branch_at(self, omega, k) result(value)
-         import :: block_parameters, curve_plane, wp
+      pure type(block_parameters_type) function branch_at(self, omega, k) result(value)
+         import :: block_parameters_type, curve_plane_type, wp
          implicit none (type, external)
          !> The plane
-         class(curve_plane), intent(in) :: self
+         class(curve_plane_type), intent(in) :: self
          !> Frequency of the pair
          real(wp), intent(in) :: omega
          !> Branch
@@ -40,11 +40,11 @@ module hopf_planes
       end function branch_at
 
       !> Parameters at a place of the plane.
-      pure type(block_parameters) function parameters_at(self, epsilon, ordinate) result(value)
-         import :: block_parameters, curve_plane, wp
+      pure type(block_parameters_type) function parameters_at(self, epsilon, ordinate) result(value)
+         import :: block_parameters_type, curve_plane_type, wp
          implicit none (type, external)
          !> The plane
-         class(curve_plane), intent(in) :: self
+         class(curve_plane_type), intent(in) :: self
          !> Abscissa
          real(wp), intent(in) :: epsilon
          !> Ordinate
@@ -53,18 +53,18 @@ module hopf_planes
 
       !> The ordinate among the parameters.
       pure real(wp) function ordinate_of(p) result(value)
-         import :: block_parameters, wp
+         import :: block_parameters_type, wp
          implicit none (type, external)
          !> Parameters
-         type(block_parameters), intent(in) :: p
+         type(block_parameters_type), intent(in) :: p
       end function ordinate_of
 
       !> Least omega and highest branch in the window, given the largest omega.
       pure subroutine reach(self, omega_most, omega_least, k_most)
-         import :: curve_plane, wp
+         import :: curve_plane_type, wp
          implicit none (type, external)
          !> The plane
-         class(curve_plane), intent(in) :: self
+         class(curve_plane_type), intent(in) :: self
          !> Largest omega in the window
          real(wp), intent(in) :: omega_most
          !> Least omega
@@ -75,7 +75,7 @@ module hopf_planes
    end interface
 
    !> Figure 2: tau over epsilon at fixed xi.
-   type, extends(curve_plane) :: tau_of_epsilon
+   type, extends(curve_plane_type) :: tau_plane_type
       !> Spring constant
       real(wp) :: xi = 1.0_wp
    contains
@@ -83,10 +83,10 @@ module hopf_planes
       procedure :: parameters => tau_parameters
       procedure, nopass :: ordinate => tau_ordinate
       procedure :: bounds => tau_bounds
-   end type tau_of_epsilon
+   end type tau_plane_type
 
    !> Figure 3: xi over epsilon at fixed tau.
-   type, extends(curve_plane) :: xi_of_epsilon
+   type, extends(curve_plane_type) :: xi_plane_type
       !> Delay
       real(wp) :: tau = 0.0_wp
    contains
@@ -94,39 +94,39 @@ module hopf_planes
       procedure :: parameters => xi_parameters
       procedure, nopass :: ordinate => xi_ordinate
       procedure :: bounds => xi_bounds
-   end type xi_of_epsilon
+   end type xi_plane_type
 
 contains
 
    !> Equations (7) and (10) at fixed xi.
-   pure type(block_parameters) function tau_branch(self, omega, k) result(p)
+   pure type(block_parameters_type) function tau_branch(self, omega, k) result(p)
       !> The plane
-      class(tau_of_epsilon), intent(in) :: self
+      class(tau_plane_type), intent(in) :: self
       !> Frequency of the pair
       real(wp), intent(in) :: omega
       !> Branch
       integer, intent(in) :: k
 
-      p = block_parameters(tau=hopf_tau(omega, self%xi, self%gamma, k), xi=self%xi, &
-                           epsilon=hopf_epsilon(omega, self%xi, self%gamma), gamma=self%gamma)
+      p = block_parameters_type(tau=hopf_tau(omega, self%xi, self%gamma, k), xi=self%xi, &
+                                epsilon=hopf_epsilon(omega, self%xi, self%gamma), gamma=self%gamma)
    end function tau_branch
 
    !> At fixed xi.
-   pure type(block_parameters) function tau_parameters(self, epsilon, ordinate) result(p)
+   pure type(block_parameters_type) function tau_parameters(self, epsilon, ordinate) result(p)
       !> The plane
-      class(tau_of_epsilon), intent(in) :: self
+      class(tau_plane_type), intent(in) :: self
       !> Abscissa
       real(wp), intent(in) :: epsilon
       !> tau
       real(wp), intent(in) :: ordinate
 
-      p = block_parameters(tau=ordinate, epsilon=epsilon, xi=self%xi, gamma=self%gamma)
+      p = block_parameters_type(tau=ordinate, epsilon=epsilon, xi=self%xi, gamma=self%gamma)
    end function tau_parameters
 
    !> tau.
    pure real(wp) function tau_ordinate(p) result(value)
       !> Parameters
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
 
       value = p%tau
    end function tau_ordinate
@@ -135,7 +135,7 @@ contains
    !> where (2 pi k - pi)/omega_most exceeds tau.
    pure subroutine tau_bounds(self, omega_most, omega_least, k_most)
       !> The plane
-      class(tau_of_epsilon), intent(in) :: self
+      class(tau_plane_type), intent(in) :: self
       !> Largest omega in the window
       real(wp), intent(in) :: omega_most
       !> Least omega
@@ -148,15 +148,16 @@ contains
    end subroutine tau_bounds
 
    !> Equations (7) and (9) at fixed tau, as far as (10) gives that tau back on branch k.
-   pure type(block_parameters) function xi_branch(self, omega, k) result(p)
+   pure type(block_parameters_type) function xi_branch(self, omega, k) result(p)
       !> The plane
-      class(xi_of_epsilon), intent(in) :: self
+      class(xi_plane_type), intent(in) :: self
       !> Frequency of the pair
       real(wp), intent(in) :: omega
       !> Branch
       integer, intent(in) :: k
 
-      p = block_parameters(tau=self%tau, xi=hopf_xi(omega, self%tau, self%gamma), gamma=self%gamma)
+      p = block_parameters_type(tau=self%tau, xi=hopf_xi(omega, self%tau, self%gamma), &
+                                gamma=self%gamma)
       if (.not. p%xi > 0.0_wp) return
       if (abs(omega*(hopf_tau(omega, p%xi, p%gamma, k) - self%tau)) > 1.0_wp) then
          p%xi = -1.0_wp
@@ -166,21 +167,21 @@ contains
    end function xi_branch
 
    !> At fixed tau.
-   pure type(block_parameters) function xi_parameters(self, epsilon, ordinate) result(p)
+   pure type(block_parameters_type) function xi_parameters(self, epsilon, ordinate) result(p)
       !> The plane
-      class(xi_of_epsilon), intent(in) :: self
+      class(xi_plane_type), intent(in) :: self
       !> Abscissa
       real(wp), intent(in) :: epsilon
       !> xi
       real(wp), intent(in) :: ordinate
 
-      p = block_parameters(tau=self%tau, epsilon=epsilon, xi=ordinate, gamma=self%gamma)
+      p = block_parameters_type(tau=self%tau, epsilon=epsilon, xi=ordinate, gamma=self%gamma)
    end function xi_parameters
 
    !> xi.
    pure real(wp) function xi_ordinate(p) result(value)
       !> Parameters
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
 
       value = p%xi
    end function xi_ordinate
@@ -188,7 +189,7 @@ contains
    !> Least omega: as in `tau_bounds` for the least xi; highest branch: from omega_most and tau.
    pure subroutine xi_bounds(self, omega_most, omega_least, k_most)
       !> The plane
-      class(xi_of_epsilon), intent(in) :: self
+      class(xi_plane_type), intent(in) :: self
       !> Largest omega in the window
       real(wp), intent(in) :: omega_most
       !> Least omega

@@ -1,8 +1,9 @@
 !> Characteristic function and Hopf condition: equation (5) against the determinant of the block's
 !> own linearisation, (6) to (10) against the curves in closed form.
-module test_hopf
-   use characteristic_function, only: block_parameters, delta, delta_by_s, delta_by_tau, &
-                                      relative_residual
+module test_hopf_condition
+   use block_builder, only: build_block
+   use block_parameters, only: block_parameters_type
+   use characteristic_function, only: delta, delta_by_s, delta_by_tau, relative_residual
    use closed_form, only: closed_epsilon, closed_tau
    use dde_errors, only: text
    use expectations, only: expect, expect_between, expect_close
@@ -13,7 +14,7 @@ module test_hopf
    use spring_block, only: spring_block_type
    implicit none (type, external)
    private
-   public :: collect_hopf
+   public :: collect_hopf_condition
 
    !> Number of random points.
    integer, parameter :: points = 200
@@ -23,7 +24,7 @@ module test_hopf
 contains
 
    !> All tests of this suite.
-   subroutine collect_hopf(testsuite)
+   subroutine collect_hopf_condition(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("equation (5) from the block", test_linearisation), &
@@ -34,13 +35,13 @@ contains
                    new_unittest("xi from tau", test_xi), &
                    new_unittest("Hopf point without delay", test_no_delay), &
                    new_unittest("equation (10) as printed", test_printed)]
-   end subroutine collect_hopf
+   end subroutine collect_hopf_condition
 
    !> Delta(s) is the determinant of s - A0 - A1 exp(-s tau), with the matrices taken from the
    !> right-hand side of the block by differences.
    subroutine test_linearisation(error)
       type(error_type), allocatable, intent(out) :: error
-      type(block_parameters) :: p
+      type(block_parameters_type) :: p
       type(spring_block_type) :: block
       complex(wp) :: matrix(3, 3), s
       real(wp), parameter :: small = 1.0e-5_wp
@@ -49,7 +50,7 @@ contains
 
       do i = 1, points
          call random_point(i, p, s)
-         block = spring_block_type(p%tau, p%epsilon, p%xi, p%gamma, 0.0_wp, 0.0_wp, 1.0_wp)
+         block = build_block(tau=p%tau, epsilon=p%epsilon, xi=p%xi, gamma=p%gamma)
          matrix = 0.0_wp
          do j = 1, 4
             shift = 0.0_wp
@@ -72,7 +73,7 @@ contains
    !> Derivatives by s and by tau against differences of fourth order.
    subroutine test_derivatives(error)
       type(error_type), allocatable, intent(out) :: error
-      type(block_parameters) :: p
+      type(block_parameters_type) :: p
       complex(wp) :: by_differences, s
       real(wp), parameter :: h = 2.0e-3_wp
       integer :: i
@@ -95,7 +96,7 @@ contains
       complex(wp) function at_tau(shift) result(value)
          !> Difference of delays
          real(wp), intent(in) :: shift
-         type(block_parameters) :: neighbour
+         type(block_parameters_type) :: neighbour
 
          neighbour = p
          neighbour%tau = p%tau + shift
@@ -107,7 +108,7 @@ contains
    !> root there is no residual.
    subroutine test_residual(error)
       type(error_type), allocatable, intent(out) :: error
-      type(block_parameters) :: p
+      type(block_parameters_type) :: p
 
       call expect_close(error, relative_residual(p, (1.0_wp, 0.0_wp)), 2.5_wp, 1.0e-15_wp, &
                         "residual")
@@ -140,15 +141,15 @@ contains
    !> i omega is a root of (5) at the epsilon and tau of every branch.
    subroutine test_roots(error)
       type(error_type), allocatable, intent(out) :: error
-      type(block_parameters) :: p
+      type(block_parameters_type) :: p
       real(wp) :: x(3)
       integer :: i, k
 
       do i = 1, points
          x = random_omega(i)
          do k = 0, 3
-            p = block_parameters(tau=hopf_tau(x(1), x(2), x(3), k), xi=x(2), gamma=x(3), &
-                                 epsilon=hopf_epsilon(x(1), x(2), x(3)))
+            p = block_parameters_type(tau=hopf_tau(x(1), x(2), x(3), k), xi=x(2), gamma=x(3), &
+                                      epsilon=hopf_epsilon(x(1), x(2), x(3)))
             call expect_between(error, relative_residual(p, cmplx(0.0_wp, x(1), kind=wp)), 0.0_wp, &
                                 1.0e-13_wp, "residual of branch "//text(k)//", point "//text(i))
          end do
@@ -193,7 +194,7 @@ contains
    !> (10) as printed, by hand at xi = gamma = 1, and its residual: nowhere a root.
    subroutine test_printed(error)
       type(error_type), allocatable, intent(out) :: error
-      type(block_parameters) :: p
+      type(block_parameters_type) :: p
       real(wp) :: omega
       integer :: i
 
@@ -204,8 +205,8 @@ contains
                         "printed tau at omega = 2")
       do i = 1, 20
          omega = 0.1_wp*i
-         p = block_parameters(tau=printed_tau(omega, 0.5_wp, 0.8_wp, 1), xi=0.5_wp, gamma=0.8_wp, &
-                              epsilon=hopf_epsilon(omega, 0.5_wp, 0.8_wp))
+         p = block_parameters_type(tau=printed_tau(omega, 0.5_wp, 0.8_wp, 1), xi=0.5_wp, &
+                                   gamma=0.8_wp, epsilon=hopf_epsilon(omega, 0.5_wp, 0.8_wp))
          call expect_between(error, relative_residual(p, cmplx(0.0_wp, omega, kind=wp)), &
                              1.0e-3_wp, 2.0_wp, "residual as printed at omega = "//text(omega))
       end do
@@ -216,13 +217,13 @@ contains
       !> Number of the point
       integer, intent(in) :: i
       !> Parameters
-      type(block_parameters), intent(out) :: p
+      type(block_parameters_type), intent(out) :: p
       !> Place
       complex(wp), intent(out) :: s
       real(wp) :: x(6)
 
       x = uniform(i, 6, 0.1_wp, 2.0_wp)
-      p = block_parameters(tau=2.0_wp*x(1), epsilon=x(2) - 1.0_wp, xi=x(3), gamma=x(4))
+      p = block_parameters_type(tau=2.0_wp*x(1), epsilon=x(2) - 1.0_wp, xi=x(3), gamma=x(4))
       s = cmplx(x(5) - 1.0_wp, 2.0_wp*x(6) - 2.0_wp, kind=wp)
    end subroutine random_point
 
@@ -239,7 +240,7 @@ contains
    !> Size of the terms of Delta(s).
    pure real(wp) function size_of(p, s) result(value)
       !> Parameters
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
       !> Place
       complex(wp), intent(in) :: s
 
@@ -256,4 +257,4 @@ contains
               - m(1, 2)*(m(2, 1)*m(3, 3) - m(2, 3)*m(3, 1)) &
               + m(1, 3)*(m(2, 1)*m(3, 2) - m(2, 2)*m(3, 1))
    end function determinant
-end module test_hopf
+end module test_hopf_condition

@@ -2,7 +2,8 @@
 !> argument: along s = bound + i w, w = 0..infinity, the argument of Delta(s) grows by
 !> (3/2 - Z) pi, where Z is their number.
 module root_counts
-   use characteristic_function, only: block_parameters, delta, slope_bound, terms
+   use block_parameters, only: block_parameters_type
+   use characteristic_function, only: delta, slope_bound, terms
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -24,7 +25,7 @@ contains
    !> Number of roots with real part above `bound`.
    pure integer function roots_right_of(p, bound) result(number)
       !> Parameters
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
       !> Real part of the line, on which no root lies
       real(wp), intent(in) :: bound
 
@@ -35,7 +36,7 @@ contains
    !> imaginary axis, which are left out.
    pure integer function pairs_beside(p, omega) result(number)
       !> Parameters
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
       !> Frequencies of the pairs on the axis, ascending
       real(wp), intent(in) :: omega(:)
       real(wp) :: from, growth, radius
@@ -57,7 +58,7 @@ contains
    !> s^3.
    pure integer function number_of(p, growth, bound) result(number)
       !> Parameters
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
       !> Growth of the argument
       real(wp), intent(in) :: growth
       !> Real part of the line
@@ -71,7 +72,7 @@ contains
    !> A w from which on s^3 outweighs all other terms.
    pure real(wp) function far_end(p, bound) result(w)
       !> Parameters
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
       !> Real part of the line
       real(wp), intent(in) :: bound
       real(wp) :: term(5)
@@ -87,7 +88,7 @@ contains
    !> Growth of the argument of Delta along s = bound + i w.
    pure real(wp) function line_growth(p, bound, from, to) result(growth)
       !> Parameters
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
       !> Real part
       real(wp), intent(in) :: bound
       !> First w
@@ -117,7 +118,7 @@ contains
    !> Growth of the argument of Delta along the half circle to the right of i omega.
    pure real(wp) function arc_growth(p, omega, radius) result(growth)
       !> Parameters
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
       !> Centre
       real(wp), intent(in) :: omega
       !> Radius

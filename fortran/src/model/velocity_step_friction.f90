@@ -1,14 +1,14 @@
 !> The friction law of Dieterich and Ruina, equations (1.1) and (1.2) of the paper, at an imposed
-!> velocity. SI units.
-module friction_law
+!> velocity, for Figure 8 only: the block's own friction is in `spring_block`. SI units.
+module velocity_step_friction
    use dde, only: dde_problem_type
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: friction_parameters, friction_coefficient, steady_state, state_evolution
+   public :: friction_parameters_type, friction_coefficient, steady_state, state_evolution_type
 
    !> Parameters of the law.
-   type :: friction_parameters
+   type :: friction_parameters_type
       !> Friction at v = v0 without the two logarithms (dimensionless)
       real(wp) :: mu0 = 0.0_wp
       !> Size of the direct effect (dimensionless)
@@ -21,12 +21,12 @@ module friction_law
       real(wp) :: v0 = 1.0_wp
       !> Constant b beside the state, s
       real(wp) :: b_state = 1.0_wp
-   end type friction_parameters
+   end type friction_parameters_type
 
    !> Evolution of the state theta, equation (1.2), at constant velocity.
-   type, extends(dde_problem_type) :: state_evolution
+   type, extends(dde_problem_type) :: state_evolution_type
       !> The law
-      type(friction_parameters) :: law
+      type(friction_parameters_type) :: law
       !> Imposed velocity, m/s
       real(wp) :: v = 0.0_wp
       !> State at the start, s
@@ -35,18 +35,18 @@ module friction_law
       procedure :: initial => theta_at_start
       procedure :: history => no_history
       procedure :: rhs => equation_1_2
-   end type state_evolution
+   end type state_evolution_type
 
-   interface state_evolution
+   interface state_evolution_type
       module procedure :: new_state_evolution
-   end interface state_evolution
+   end interface state_evolution_type
 
 contains
 
    !> Equation (1.1): mu = mu0 - A ln(v0/v + 1) + B ln(theta/b + 1).
    elemental real(wp) function friction_coefficient(law, v, theta) result(mu)
       !> The law
-      type(friction_parameters), intent(in) :: law
+      type(friction_parameters_type), intent(in) :: law
       !> Velocity, m/s
       real(wp), intent(in) :: v
       !> State, s
@@ -58,7 +58,7 @@ contains
    !> State at which (1.2) is at rest, s.
    elemental real(wp) function steady_state(law, v) result(theta)
       !> The law
-      type(friction_parameters), intent(in) :: law
+      type(friction_parameters_type), intent(in) :: law
       !> Velocity, m/s
       real(wp), intent(in) :: v
 
@@ -68,12 +68,12 @@ contains
    !> The problem without delays that (1.2) is at constant velocity.
    pure function new_state_evolution(law, v, theta_start) result(problem)
       !> The law
-      type(friction_parameters), intent(in) :: law
+      type(friction_parameters_type), intent(in) :: law
       !> Imposed velocity, m/s
       real(wp), intent(in) :: v
       !> State at the start, s
       real(wp), intent(in) :: theta_start
-      type(state_evolution) :: problem
+      type(state_evolution_type) :: problem
 
       problem%n = 1
       allocate (problem%lag(0), problem%component(0))
@@ -85,7 +85,7 @@ contains
    !> State at the start.
    pure subroutine theta_at_start(self, y)
       !> The problem
-      class(state_evolution), intent(in) :: self
+      class(state_evolution_type), intent(in) :: self
       !> theta, s
       real(wp), intent(out) :: y(self%n)
 
@@ -95,7 +95,7 @@ contains
    !> Nothing is delayed here; the state at the start stands in.
    pure function no_history(self, t, component) result(value)
       !> The problem
-      class(state_evolution), intent(in) :: self
+      class(state_evolution_type), intent(in) :: self
       !> Time, without influence
       real(wp), intent(in) :: t
       !> Component, without influence
@@ -108,7 +108,7 @@ contains
    !> Equation (1.2): dtheta/dt = 1 - v theta/Dc.
    pure subroutine equation_1_2(self, t, y, z, dydt)
       !> The problem
-      class(state_evolution), intent(in) :: self
+      class(state_evolution_type), intent(in) :: self
       !> Time, without influence
       real(wp), intent(in) :: t
       !> theta, s
@@ -120,4 +120,4 @@ contains
 
       dydt = 1.0_wp - self%v*y/self%law%dc
    end subroutine equation_1_2
-end module friction_law
+end module velocity_step_friction

@@ -2,18 +2,18 @@
 !> beside the one on the axis, and the points at which the kind of the bifurcation changes.
 module hopf_points
    use block_equation, only: block_equation_type
-   use characteristic_function, only: block_parameters
+   use block_parameters, only: block_parameters_type
    use dde_errors, only: error_type
-   use gsl_roots, only: find_root, scalar_function
+   use gsl_roots, only: find_root, scalar_function_type
    use hopf_condition, only: hopf_tau, partner_omega, two_pi
-   use hopf_curves, only: curve_point
-   use hopf_planes, only: curve_plane, tau_of_epsilon
+   use hopf_curves, only: curve_point_type
+   use hopf_planes, only: curve_plane_type, tau_plane_type
    use dde_kinds, only: wp
    use normal_form, only: first_lyapunov_coefficient
    use root_counts, only: pairs_beside
    implicit none (type, external)
    private
-   public :: find_hopf_points, hopf_point, judge_points, kind_length
+   public :: find_hopf_points, hopf_point_type, judge_points, kind_length
 
    !> Letters of a kind of point.
    integer, parameter :: kind_length = 20
@@ -21,11 +21,11 @@ module hopf_points
    real(wp), parameter :: small_coefficient = 1.0e-7_wp
 
    !> A point at which two pairs of roots are imaginary, or the coefficient is 0, or the delay is 0.
-   type :: hopf_point
+   type :: hopf_point_type
       !> 'generalised_hopf', 'double_hopf' or 'hopf_without_delay'
       character(len=kind_length) :: kind = ""
       !> Parameters, nondimensional
-      type(block_parameters) :: parameters
+      type(block_parameters_type) :: parameters
       !> Frequency of the pair, and of the second one (0: none)
       real(wp) :: omega(2) = 0.0_wp
       !> Branches of equation (10) (-1: none)
@@ -34,42 +34,42 @@ module hopf_points
       real(wp) :: l1(2) = 0.0_wp
       !> Unstable pairs beside these
       integer :: unstable_pairs = 0
-   end type hopf_point
+   end type hopf_point_type
 
    !> First Lyapunov coefficient along a branch.
-   type, extends(scalar_function) :: coefficient_function
+   type, extends(scalar_function_type) :: coefficient_function_type
       !> The plane
-      class(curve_plane), allocatable :: plane
+      class(curve_plane_type), allocatable :: plane
       !> Branch
       integer :: k = 0
    contains
       procedure :: value => coefficient_along
-   end type coefficient_function
+   end type coefficient_function_type
 
    !> Along a branch, number of the branch that a second frequency would be on, less a given one.
-   type, extends(scalar_function) :: meeting_function
+   type, extends(scalar_function_type) :: meeting_function_type
       !> The plane
-      class(curve_plane), allocatable :: plane
+      class(curve_plane_type), allocatable :: plane
       !> Branch, and the one to meet
       integer :: k = 0, other = 0
    contains
       procedure :: value => distance_to_meeting
-   end type meeting_function
+   end type meeting_function_type
 
    !> omega tau on branch 0, which falls from pi/2 as omega grows.
-   type, extends(scalar_function) :: delay_function
+   type, extends(scalar_function_type) :: delay_function_type
       !> The plane
-      type(tau_of_epsilon) :: plane
+      type(tau_plane_type) :: plane
    contains
       procedure :: value => delay_along
-   end type delay_function
+   end type delay_function_type
 
 contains
 
    !> First Lyapunov coefficients and numbers of unstable pairs of points on curves.
    subroutine judge_points(points, error)
       !> The points
-      type(curve_point), intent(inout) :: points(:)
+      type(curve_point_type), intent(inout) :: points(:)
       !> No coefficient: another root at 2 i omega
       type(error_type), allocatable, intent(out) :: error
       integer :: i
@@ -87,15 +87,15 @@ contains
    !> All special points on curves that have been judged.
    subroutine find_hopf_points(plane, points, found, error)
       !> The plane
-      class(curve_plane), intent(in) :: plane
+      class(curve_plane_type), intent(in) :: plane
       !> Points of its curves
-      type(curve_point), intent(in) :: points(:)
+      type(curve_point_type), intent(in) :: points(:)
       !> Special points
-      type(hopf_point), allocatable, intent(out) :: found(:)
+      type(hopf_point_type), allocatable, intent(out) :: found(:)
       !> A root was not found
       type(error_type), allocatable, intent(out) :: error
-      type(coefficient_function) :: coefficient
-      type(meeting_function) :: meeting
+      type(coefficient_function_type) :: coefficient
+      type(meeting_function_type) :: meeting
       real(wp) :: omega
       integer :: i, m
 
@@ -137,16 +137,16 @@ contains
    !> The point without delay, where the plane shows it.
    subroutine find_start(plane, found, error)
       !> The plane
-      class(curve_plane), intent(in) :: plane
+      class(curve_plane_type), intent(in) :: plane
       !> Points so far
-      type(hopf_point), allocatable, intent(inout) :: found(:)
+      type(hopf_point_type), allocatable, intent(inout) :: found(:)
       !> A root was not found
       type(error_type), allocatable, intent(out) :: error
-      type(delay_function) :: delay
+      type(delay_function_type) :: delay
       real(wp) :: lower, omega, upper
 
       select type (plane)
-      type is (tau_of_epsilon)
+      type is (tau_plane_type)
          if (plane%ordinate_window(1) > 0.0_wp) return
          delay%plane = plane
          lower = 1.0_wp
@@ -169,18 +169,18 @@ contains
    !> A further point with all that is known of it.
    subroutine add(found, kind, plane, omega, branch, error)
       !> Points so far
-      type(hopf_point), allocatable, intent(inout) :: found(:)
+      type(hopf_point_type), allocatable, intent(inout) :: found(:)
       !> Its kind
       character(len=*), intent(in) :: kind
       !> The plane
-      class(curve_plane), intent(in) :: plane
+      class(curve_plane_type), intent(in) :: plane
       !> Frequencies, ascending
       real(wp), intent(in) :: omega(:)
       !> Their branches
       integer, intent(in) :: branch(:)
       !> No coefficient
       type(error_type), allocatable, intent(out) :: error
-      type(hopf_point) :: point
+      type(hopf_point_type) :: point
       integer :: i
 
       point%kind = kind
@@ -200,7 +200,7 @@ contains
    !> The coefficient at a frequency; 0 where there is none, which `add` then reports.
    real(wp) function coefficient_along(self, x) result(value)
       !> Plane and branch
-      class(coefficient_function), intent(in) :: self
+      class(coefficient_function_type), intent(in) :: self
       !> omega
       real(wp), intent(in) :: x
       type(error_type), allocatable :: error
@@ -212,7 +212,7 @@ contains
    !> Zero where the second frequency is a root's, too.
    real(wp) function distance_to_meeting(self, x) result(value)
       !> Plane and branches
-      class(meeting_function), intent(in) :: self
+      class(meeting_function_type), intent(in) :: self
       !> omega
       real(wp), intent(in) :: x
       real(wp) :: partner
@@ -226,7 +226,7 @@ contains
    !> Zero where the delay is.
    real(wp) function delay_along(self, x) result(value)
       !> The plane
-      class(delay_function), intent(in) :: self
+      class(delay_function_type), intent(in) :: self
       !> omega
       real(wp), intent(in) :: x
 

@@ -1,9 +1,10 @@
 !> Linear stability: characteristic roots, their number, and the first Lyapunov coefficient.
-module test_linear
+module test_linear_stability
    use block_equation, only: block_equation_type
-   use characteristic_function, only: block_parameters, relative_residual
+   use block_parameters, only: block_parameters_type
+   use characteristic_function, only: relative_residual
    use characteristic_roots, only: find_roots
-   use delay_equation, only: linear_system
+   use delay_equation, only: linear_system_type
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use hopf_condition, only: hopf_epsilon, hopf_tau
@@ -16,12 +17,12 @@ module test_linear
    use root_counts, only: pairs_beside, roots_right_of
    implicit none (type, external)
    private
-   public :: collect_linear
+   public :: collect_linear_stability
 
 contains
 
    !> All tests of this suite.
-   subroutine collect_linear(testsuite)
+   subroutine collect_linear_stability(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("branches of Lambert's W", test_lambert), &
@@ -34,7 +35,7 @@ contains
                    new_unittest("two neurons", test_neurons), &
                    new_unittest("linear part of the block", test_linear_part), &
                    new_unittest("coordinates do not matter", test_coordinates)]
-   end subroutine collect_linear
+   end subroutine collect_linear_stability
 
    !> x' = -x(t - 1): the roots are the branches of W(-1), s = -exp(-s).
    subroutine test_lambert(error)
@@ -75,7 +76,7 @@ contains
    subroutine test_no_delay(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(linear_system) :: system
+      type(linear_system_type) :: system
       complex(wp), allocatable :: roots(:)
 
       allocate (system%a(3, 3, 2))
@@ -96,7 +97,7 @@ contains
    subroutine test_block_roots(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(block_parameters) :: p
+      type(block_parameters_type) :: p
       type(block_equation_type) :: equation
       complex(wp), allocatable :: roots(:)
       real(wp), parameter :: bounds(3) = [-0.15_wp, -0.05_wp, 0.0_wp]
@@ -106,8 +107,8 @@ contains
       most = 0
       do i = 1, 40
          x = uniform(i, 4, 0.0_wp, 1.0_wp)
-         p = block_parameters(tau=6.0_wp*x(1), epsilon=2.0_wp*x(2) - 0.5_wp, &
-                              xi=0.1_wp + 2.0_wp*x(3), gamma=0.2_wp + 1.5_wp*x(4))
+         p = block_parameters_type(tau=6.0_wp*x(1), epsilon=2.0_wp*x(2) - 0.5_wp, &
+                                   xi=0.1_wp + 2.0_wp*x(3), gamma=0.2_wp + 1.5_wp*x(4))
          if (modulo(i, 8) == 0) p%tau = 0.0_wp
          equation = block_equation_type(p)
          call find_roots(equation%linear, minval(bounds), roots, failure)
@@ -131,7 +132,7 @@ contains
    subroutine test_curve_roots(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(block_parameters) :: p
+      type(block_parameters_type) :: p
       type(block_equation_type) :: equation
       complex(wp), allocatable :: roots(:)
       real(wp) :: omega
@@ -141,8 +142,8 @@ contains
       do i = 1, 10
          omega = 0.2_wp + 0.1_wp*i
          do k = merge(1, 0, omega > 0.5_wp), 2
-            p = block_parameters(tau=hopf_tau(omega, 0.5_wp, 0.8_wp, k), xi=0.5_wp, &
-                                 gamma=0.8_wp, epsilon=hopf_epsilon(omega, 0.5_wp, 0.8_wp))
+            p = block_parameters_type(tau=hopf_tau(omega, 0.5_wp, 0.8_wp, k), xi=0.5_wp, &
+                                      gamma=0.8_wp, epsilon=hopf_epsilon(omega, 0.5_wp, 0.8_wp))
             equation = block_equation_type(p)
             call find_roots(equation%linear, -0.01_wp, roots, failure)
             call expect_success(error, failure)
@@ -161,14 +162,14 @@ contains
    !> Without delay Routh and Hurwitz say where the pair is lost, also for gamma = 1e10.
    subroutine test_extremes(error)
       type(error_type), allocatable, intent(out) :: error
-      type(block_parameters) :: p
+      type(block_parameters_type) :: p
       real(wp) :: gamma, lost
       integer :: i, j
 
       do i = -2, 10
          gamma = 10.0_wp**i
          do j = -2, 2
-            p = block_parameters(xi=10.0_wp**j, gamma=gamma)
+            p = block_parameters_type(xi=10.0_wp**j, gamma=gamma)
             lost = gamma**2*p%xi/(p%xi + gamma**2)
             p%epsilon = 0.9_wp*lost
             call expect(error, roots_right_of(p, 0.0_wp) == 0, "stable at gamma = "//text(gamma) &
@@ -215,11 +216,11 @@ contains
    !> From the Jacobian of the block that is integrated, and by hand.
    subroutine test_linear_part(error)
       type(error_type), allocatable, intent(out) :: error
-      type(block_parameters) :: p
+      type(block_parameters_type) :: p
       type(block_equation_type) :: equation
       type(block_in_v) :: by_hand
 
-      p = block_parameters(tau=3.0_wp, epsilon=0.4_wp, xi=0.6_wp, gamma=1.7_wp)
+      p = block_parameters_type(tau=3.0_wp, epsilon=0.4_wp, xi=0.6_wp, gamma=1.7_wp)
       equation = block_equation_type(p)
       by_hand = new_block_in_v(p)
       call expect_close(error, maxval(abs(equation%linear%a - by_hand%linear%a)), 0.0_wp, &
@@ -231,7 +232,7 @@ contains
    subroutine test_coordinates(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(block_parameters) :: p
+      type(block_parameters_type) :: p
       real(wp) :: in_ln_v, in_v, omega
       integer :: i, k, signs(-1:1)
 
@@ -239,8 +240,8 @@ contains
       do i = 1, 30
          omega = 0.05_wp*i
          do k = 1, 3
-            p = block_parameters(tau=hopf_tau(omega, 0.5_wp, 0.8_wp, k), xi=0.5_wp, &
-                                 gamma=0.8_wp, epsilon=hopf_epsilon(omega, 0.5_wp, 0.8_wp))
+            p = block_parameters_type(tau=hopf_tau(omega, 0.5_wp, 0.8_wp, k), xi=0.5_wp, &
+                                      gamma=0.8_wp, epsilon=hopf_epsilon(omega, 0.5_wp, 0.8_wp))
             call first_lyapunov_coefficient(block_equation_type(p), omega, in_ln_v, failure)
             call expect_success(error, failure)
             call first_lyapunov_coefficient(new_block_in_v(p), omega, in_v, failure)
@@ -259,9 +260,9 @@ contains
       real(wp), intent(in) :: a(:)
       !> Lags
       real(wp), intent(in) :: lag(:)
-      type(linear_system) :: system
+      type(linear_system_type) :: system
 
       allocate (system%a, source=reshape(a, [1, 1, size(a)]))
       allocate (system%lag, source=lag)
    end function scalar_system
-end module test_linear
+end module test_linear_stability

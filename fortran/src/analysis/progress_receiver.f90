@@ -1,27 +1,27 @@
 !> Where long work tells how far it has come; what is done with it is the receiver's.
-module progress_receivers
+module progress_receiver
    implicit none (type, external)
    private
-   public :: progress_receiver
+   public :: progress_receiver_type
 
    !> Receiver of progress.
-   type, abstract :: progress_receiver
+   type, abstract :: progress_receiver_type
    contains
       !> Receive how much is done
       procedure(take_progress), deferred :: advance
-   end type progress_receiver
+   end type progress_receiver_type
 
    abstract interface
       !> Receive how much is done; the work calls it as often as it likes, one thread at a time.
       subroutine take_progress(self, done, total)
-         import :: progress_receiver
+         import :: progress_receiver_type
          implicit none (type, external)
          !> The receiver
-         class(progress_receiver), intent(inout) :: self
+         class(progress_receiver_type), intent(inout) :: self
          !> Number of pieces done, 0..total
          integer, intent(in) :: done
          !> Number of pieces in all, at least 1
          integer, intent(in) :: total
       end subroutine take_progress
    end interface
-end module progress_receivers
+end module progress_receiver

@@ -1,7 +1,7 @@
 !> Characteristic roots of the delayed block, found and counted in two independent ways.
 module block_roots
    use block_equation, only: block_equation_type
-   use characteristic_function, only: block_parameters
+   use block_parameters, only: block_parameters_type
    use characteristic_roots, only: find_roots
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
@@ -15,7 +15,7 @@ contains
    !> All roots of (5) with real part above `bound`, the rightmost first.
    subroutine roots_of_block(p, bound, roots, error)
       !> Parameters
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
       !> Least real part
       real(wp), intent(in) :: bound
       !> The roots

@@ -1,17 +1,18 @@
 !> Response of friction to velocity steps against the exact solution of (1.2),
 !> theta = Dc/v + (theta_0 - Dc/v) exp(-v t/Dc), with (1.1).
-module test_friction
+module test_velocity_step
    use dde, only: integration_result, integrate
    use dde_errors, only: failure_type => error_type
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
-   use friction_law, only: friction_coefficient, friction_parameters, state_evolution, steady_state
+   use velocity_step_friction, only: friction_coefficient, friction_parameters_type, &
+                                     state_evolution_type, steady_state
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use solving, only: at_tolerance
-   use velocity_step, only: friction_response, respond, step_protocol
+   use velocity_step, only: friction_response_type, respond, step_protocol_type
    implicit none (type, external)
    private
-   public :: collect_friction
+   public :: collect_velocity_step
 
    !> Samples in each phase.
    integer, parameter :: n = 50
@@ -19,7 +20,7 @@ module test_friction
 contains
 
    !> All tests of this suite.
-   subroutine collect_friction(testsuite)
+   subroutine collect_velocity_step(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("friction coefficient", test_coefficient), &
@@ -28,7 +29,7 @@ contains
                    new_unittest("continuity", test_continuity), &
                    new_unittest("direct and evolution effect", test_effects), &
                    new_unittest("bad tolerance", test_bad_tolerance)]
-   end subroutine collect_friction
+   end subroutine collect_velocity_step
 
    !> Equation (1.1) by hand.
    subroutine test_coefficient(error)
@@ -53,7 +54,7 @@ contains
 
       rest = steady_state(law_of_figure(), 4.0e-6_wp)
       call expect_close(error, rest, 2.5_wp, 1.0e-15_wp, "Dc/v")
-      call integrate(state_evolution(law_of_figure(), 4.0e-6_wp, rest), 0.0_wp, 100.0_wp, &
+      call integrate(state_evolution_type(law_of_figure(), 4.0e-6_wp, rest), 0.0_wp, 100.0_wp, &
                      at_tolerance(1.0e-10_wp), outcome, failure)
       call expect_success(error, failure)
       call expect_close(error, outcome%y, [2.5_wp], 1.0e-14_wp, "state")
@@ -63,7 +64,7 @@ contains
    !> 3 Dc, at 10 um/s over 9 Dc, and at v0 again.
    subroutine test_exact(error)
       type(error_type), allocatable, intent(out) :: error
-      type(friction_response) :: response
+      type(friction_response_type) :: response
       real(wp) :: after_step_up, exact(3*n), time(3*n), slip(3*n), velocity(3*n)
       real(wp) :: part(n)
       integer :: i
@@ -88,7 +89,7 @@ contains
    !> At the steps the velocity jumps while state, slip and time do not.
    subroutine test_continuity(error)
       type(error_type), allocatable, intent(out) :: error
-      type(friction_response) :: response
+      type(friction_response_type) :: response
       integer, parameter :: last(2) = [n, 2*n]
 
       call respond_as_in_figure(response, error)
@@ -104,7 +105,7 @@ contains
    !> further since B > A.
    subroutine test_effects(error)
       type(error_type), allocatable, intent(out) :: error
-      type(friction_response) :: response
+      type(friction_response_type) :: response
       real(wp), parameter :: direct = 0.01_wp*log(2.0_wp/1.1_wp)
 
       call respond_as_in_figure(response, error)
@@ -123,8 +124,8 @@ contains
    subroutine test_bad_tolerance(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(friction_response) :: response
-      type(step_protocol) :: protocol
+      type(friction_response_type) :: response
+      type(step_protocol_type) :: protocol
 
       protocol = protocol_of_figure()
       protocol%tolerance = -1.0_wp
@@ -135,7 +136,7 @@ contains
    !> The response drawn in Figure 8.
    subroutine respond_as_in_figure(response, error)
       !> The response
-      type(friction_response), intent(out) :: response
+      type(friction_response_type), intent(out) :: response
       !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       type(failure_type), allocatable :: failure
@@ -146,14 +147,14 @@ contains
    end subroutine respond_as_in_figure
 
    !> Its protocol.
-   pure type(step_protocol) function protocol_of_figure() result(protocol)
-      protocol = step_protocol(law=law_of_figure(), delta_v=9.0e-6_wp, slip_before=3.0_wp, &
-                               slip_after=9.0_wp, samples=n, tolerance=1.0e-10_wp)
+   pure type(step_protocol_type) function protocol_of_figure() result(protocol)
+      protocol = step_protocol_type(law=law_of_figure(), delta_v=9.0e-6_wp, slip_before=3.0_wp, &
+                                    slip_after=9.0_wp, samples=n, tolerance=1.0e-10_wp)
    end function protocol_of_figure
 
    !> Its law.
-   pure type(friction_parameters) function law_of_figure() result(law)
-      law = friction_parameters(mu0=0.6_wp, a=0.01_wp, b=0.015_wp, dc=1.0e-5_wp, v0=1.0e-6_wp, &
-                                b_state=10.0_wp)
+   pure type(friction_parameters_type) function law_of_figure() result(law)
+      law = friction_parameters_type(mu0=0.6_wp, a=0.01_wp, b=0.015_wp, dc=1.0e-5_wp, &
+                                     v0=1.0e-6_wp, b_state=10.0_wp)
    end function law_of_figure
-end module test_friction
+end module test_velocity_step

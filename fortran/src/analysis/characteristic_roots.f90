@@ -2,7 +2,7 @@
 !> generator (Breda, Maset and Vermiglio 2005), each eigenvalue refined by Newton's method on
 !> det Delta(s), with so many nodes that twice as many change nothing.
 module characteristic_roots
-   use delay_equation, only: linear_system
+   use delay_equation, only: linear_system_type
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use lapack, only: eigenvalues, solve
@@ -28,7 +28,7 @@ contains
    !> the real axis first.
    subroutine find_roots(system, bound, roots, error)
       !> The system
-      type(linear_system), intent(in) :: system
+      type(linear_system_type), intent(in) :: system
       !> Least real part
       real(wp), intent(in) :: bound
       !> The roots
@@ -65,7 +65,7 @@ contains
    !> differentiation of the history elsewhere.
    pure function generator(system, intervals) result(matrix)
       !> The system
-      type(linear_system), intent(in) :: system
+      type(linear_system_type), intent(in) :: system
       !> Intervals between the nodes
       integer, intent(in) :: intervals
       real(wp), allocatable :: matrix(:, :)
@@ -126,7 +126,7 @@ contains
    !> The roots that approximate ones lead to, each once.
    function refined(system, bound, approximate) result(roots)
       !> The system
-      type(linear_system), intent(in) :: system
+      type(linear_system_type), intent(in) :: system
       !> Least real part
       real(wp), intent(in) :: bound
       !> Approximations
@@ -164,7 +164,7 @@ contains
    !> Newton's method on det Delta(s), whose logarithm has the derivative trace(Delta^-1 Delta').
    subroutine follow_newton(system, start, s, found)
       !> The system
-      type(linear_system), intent(in) :: system
+      type(linear_system_type), intent(in) :: system
       !> Where to start, on or above the real axis
       complex(wp), intent(in) :: start
       !> The root, on or above the real axis

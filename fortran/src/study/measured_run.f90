@@ -9,9 +9,9 @@ module measured_run
    use fixed_step_rk4, only: integrate_rk4
    use dde_kinds, only: int64, wp
    use measured_case, only: case_type
-   use progress_receivers, only: progress_receiver
+   use progress_receiver, only: progress_receiver_type
    use spring_block, only: spring_block_type
-   use watching_sampler, only: watcher
+   use extremes_sampler, only: extremes_sampler_type
    implicit none (type, external)
    private
    public :: baseline_methods, measure_run, run_type, time_runs
@@ -55,15 +55,15 @@ contains
       !> Method and setting; filled with the rest
       type(run_type), intent(inout) :: run
       !> Receiver of the number of samples
-      class(progress_receiver), intent(inout), target, optional :: progress
+      class(progress_receiver_type), intent(inout), target, optional :: progress
       type(error_type), allocatable :: error
       type(spring_block_type) :: block_model
-      type(watcher) :: sampler
+      type(extremes_sampler_type) :: sampler
       real(wp) :: no_number, now, start
 
       no_number = ieee_value(1.0_wp, ieee_quiet_nan)
       block_model = case%problem(disturbance)
-      sampler = watcher(block_model%n, case%sample_times(), no_number)
+      sampler = extremes_sampler_type(block_model%n, case%sample_times(), no_number)
       if (present(progress)) sampler%progress => progress
       call cpu_time(start)
       call solve(block_model, as_double(case%t_end), most_steps, run, error, sampler)
@@ -92,7 +92,7 @@ contains
       !> The runs, each run once; their seconds are replaced
       type(run_type), intent(inout) :: runs(:)
       !> Receiver of the number of turns
-      class(progress_receiver), intent(inout), optional :: progress
+      class(progress_receiver_type), intent(inout), optional :: progress
       logical :: timed(size(runs))
       real(wp) :: measured(repeats, size(runs))
       integer :: i, j
@@ -123,7 +123,7 @@ contains
       !> Why it did not reach t_end
       type(error_type), allocatable, intent(out) :: error
       !> Receiver of samples
-      type(watcher), intent(inout), optional :: sampler
+      type(extremes_sampler_type), intent(inout), optional :: sampler
 
       if (any(baseline_methods == run%method)) then
          call integrate_rk4(block_model, t_end, run%setting, run%method == "rk4_cubic", &

@@ -1,18 +1,18 @@
 !> Samples in a table, and the extremes of ln v over a finer grid between them.
-module watching_sampler
+module extremes_sampler
    use dde, only: sampler_type
    use dde_kinds, only: wp
-   use progress_receivers, only: progress_receiver
+   use progress_receiver, only: progress_receiver_type
    use spring_block, only: index_of_ln_v
    implicit none (type, external)
    private
-   public :: watcher
+   public :: extremes_sampler_type
 
    !> Looks at the state from one sample to the next.
    integer, parameter :: looks = 8
 
    !> Sampler that keeps every eighth state and the extremes of all.
-   type, extends(sampler_type) :: watcher
+   type, extends(sampler_type) :: extremes_sampler_type
       !> Times of samples, ascending from the first instant
       real(wp), allocatable :: time(:)
       !> Samples, shape (n, times); those not reached are what they were filled with
@@ -22,40 +22,40 @@ module watching_sampler
       !> Smallest and largest ln v
       real(wp) :: least = huge(1.0_wp), most = -huge(1.0_wp)
       !> Receiver of the number of samples received, if any
-      class(progress_receiver), pointer :: progress => null()
+      class(progress_receiver_type), pointer :: progress => null()
       !> Looks since the last sample
       integer, private :: looked = 0
    contains
       procedure :: take
-   end type watcher
+   end type extremes_sampler_type
 
-   interface watcher
-      module procedure :: new_watcher
-   end interface watcher
+   interface extremes_sampler_type
+      module procedure :: new_sampler
+   end interface extremes_sampler_type
 
 contains
 
    !> Nothing seen yet.
-   pure function new_watcher(n, time, filling) result(sampler)
+   pure function new_sampler(n, time, filling) result(sampler)
       !> Number of equations
       integer, intent(in) :: n
       !> Times of samples, ascending from the first instant
       real(wp), intent(in) :: time(:)
       !> What a sample not reached holds
       real(wp), intent(in) :: filling
-      type(watcher) :: sampler
+      type(extremes_sampler_type) :: sampler
       integer :: i
 
       sampler%wanted = [(i, i=1, n)]
       sampler%time = time
       allocate (sampler%values(n, size(time)), source=filling)
       sampler%next = time(1)
-   end function new_watcher
+   end function new_sampler
 
    !> Look at the state; keep it where a sample is due.
    subroutine take(self, y)
       !> The sampler
-      class(watcher), intent(inout) :: self
+      class(extremes_sampler_type), intent(inout) :: self
       !> The state
       real(wp), intent(in) :: y(:)
 
@@ -80,4 +80,4 @@ contains
          end if
       end associate
    end subroutine take
-end module watching_sampler
+end module extremes_sampler

@@ -7,10 +7,10 @@ module delay_equation
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: delay_equation_type, linear_system
+   public :: delay_equation_type, linear_system_type
 
    !> A linear system with constant lags; an instantaneous term has lag 0.
-   type :: linear_system
+   type :: linear_system_type
       !> Matrices A_j, shape (n, n, number of lags)
       real(wp), allocatable :: a(:, :, :)
       !> Lags, each >= 0
@@ -20,13 +20,13 @@ module delay_equation
       procedure :: characteristic_matrix
       !> Its derivative by s
       procedure :: characteristic_slope
-   end type linear_system
+   end type linear_system_type
 
    !> A right-hand side by its derivatives at the stationary state. The arguments of the forms are
    !> histories: column j holds their values at t - lag_j.
    type, abstract :: delay_equation_type
       !> First derivative
-      type(linear_system) :: linear
+      type(linear_system_type) :: linear
    contains
       !> B(x, y)
       procedure(second_form), deferred :: second
@@ -63,7 +63,7 @@ contains
    !> Delta(s), singular at characteristic roots.
    pure function characteristic_matrix(self, s) result(matrix)
       !> The system
-      class(linear_system), intent(in) :: self
+      class(linear_system_type), intent(in) :: self
       !> Point of the complex plane
       complex(wp), intent(in) :: s
       complex(wp) :: matrix(size(self%a, 1), size(self%a, 1))
@@ -81,7 +81,7 @@ contains
    !> Derivative of Delta(s).
    pure function characteristic_slope(self, s) result(matrix)
       !> The system
-      class(linear_system), intent(in) :: self
+      class(linear_system_type), intent(in) :: self
       !> Point of the complex plane
       complex(wp), intent(in) :: s
       complex(wp) :: matrix(size(self%a, 1), size(self%a, 1))

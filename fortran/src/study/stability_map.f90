@@ -1,6 +1,6 @@
 !> The number of unstable pairs of characteristic roots over a plane of parameters.
 module stability_map
-   use hopf_planes, only: curve_plane
+   use hopf_planes, only: curve_plane_type
    use dde_kinds, only: wp
    use root_counts, only: roots_right_of
    implicit none (type, external)
@@ -12,7 +12,7 @@ contains
    !> Number of unstable pairs in the middle of each cell of the plane's window.
    pure function unstable_pairs(plane, cells) result(pairs)
       !> The plane
-      class(curve_plane), intent(in) :: plane
+      class(curve_plane_type), intent(in) :: plane
       !> Cells along each side
       integer, intent(in) :: cells
       integer :: pairs(cells, cells)

@@ -1,24 +1,25 @@
-!> Blocks that come to rest, and the exponents of steady sliding.
-module test_rest
+!> Blocks that approach steady sliding, and the exponents there.
+module test_steady_sliding
+   use block_builder, only: build_block
    use dde, only: continuation_type, integrate, integration_result
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_close, expect_success
    use exponent_averages, only: average_growth, exponent_type
    use dde_kinds, only: wp
    use lapack, only: eigenvalues
-   use lyapunov_spectrum, only: growth_settings, growth_type, measure_growth
+   use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use rest, only: comes_to_rest, exponents_at_rest
+   use steady_sliding, only: settles, sliding_exponents
    use solving, only: at_tolerance
    use spring_block, only: spring_block_type
    implicit none (type, external)
    private
-   public :: collect_rest
+   public :: collect_steady_sliding
 
 contains
 
    !> All tests of this suite.
-   subroutine collect_rest(testsuite)
+   subroutine collect_steady_sliding(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("decay, growth and neither", test_signals), &
@@ -26,14 +27,14 @@ contains
                    new_unittest("Hopf points in closed form", test_hopf_points), &
                    new_unittest("measured exponents with delay", test_measured), &
                    new_unittest("roots beyond the last bound", test_beyond)]
-   end subroutine collect_rest
+   end subroutine collect_steady_sliding
 
    !> A block at the steady state.
    pure type(spring_block_type) function steady(tau, epsilon, xi, gamma) result(block)
       !> Parameters
       real(wp), intent(in) :: tau, epsilon, xi, gamma
 
-      block = spring_block_type(tau, epsilon, xi, gamma, 0.0_wp, 0.0_wp, 1.0_wp)
+      block = build_block(tau=tau, epsilon=epsilon, xi=xi, gamma=gamma)
    end function steady
 
    !> An oscillation of ln v that grows at a rate, from an amplitude, in 400 units of time.
@@ -55,21 +56,21 @@ contains
       real(wp), parameter :: fifth = -log(0.8_wp)/200.0_wp
       real(wp) :: constant(100)
 
-      call expect(error, comes_to_rest(oscillation(1.0_wp, -0.1_wp)), "fast decay")
-      call expect(error, comes_to_rest(oscillation(0.1_wp, -1.1_wp*fifth)), "a little over a fifth")
-      call expect(error, .not. comes_to_rest(oscillation(0.1_wp, -0.9_wp*fifth)), &
+      call expect(error, settles(oscillation(1.0_wp, -0.1_wp)), "fast decay")
+      call expect(error, settles(oscillation(0.1_wp, -1.1_wp*fifth)), "a little over a fifth")
+      call expect(error, .not. settles(oscillation(0.1_wp, -0.9_wp*fifth)), &
                   "a little less than a fifth")
-      call expect(error, .not. comes_to_rest(oscillation(1.0_wp, -1.1_wp*fifth)), &
+      call expect(error, .not. settles(oscillation(1.0_wp, -1.1_wp*fifth)), &
                   "still far away")
-      call expect(error, .not. comes_to_rest(oscillation(0.1_wp, 0.0_wp)), "no decay")
-      call expect(error, .not. comes_to_rest(oscillation(0.01_wp, 0.002_wp)), "growth")
-      call expect(error, comes_to_rest(oscillation(0.9e-3_wp, 0.0_wp)), "no decay, very small")
-      call expect(error, .not. comes_to_rest(oscillation(1.1e-3_wp, 0.0_wp)), "not so small")
-      call expect(error, comes_to_rest(-oscillation(1.0_wp, -0.1_wp)), "the sign does not matter")
+      call expect(error, .not. settles(oscillation(0.1_wp, 0.0_wp)), "no decay")
+      call expect(error, .not. settles(oscillation(0.01_wp, 0.002_wp)), "growth")
+      call expect(error, settles(oscillation(0.9e-3_wp, 0.0_wp)), "no decay, very small")
+      call expect(error, .not. settles(oscillation(1.1e-3_wp, 0.0_wp)), "not so small")
+      call expect(error, settles(-oscillation(1.0_wp, -0.1_wp)), "the sign does not matter")
       constant = 0.1_wp
-      call expect(error, .not. comes_to_rest(constant), "a constant away from 0")
+      call expect(error, .not. settles(constant), "a constant away from 0")
       constant = 0.0_wp
-      call expect(error, comes_to_rest(constant), "always at rest")
+      call expect(error, settles(constant), "always at rest")
    end subroutine test_signals
 
    !> Without delay: the eigenvalues of the cubic's companion matrix by LAPACK.
@@ -94,7 +95,7 @@ contains
                call expect_success(error, failure)
                known = [maxval(roots%re), sum(roots%re) - maxval(roots%re) - minval(roots%re), &
                         minval(roots%re)]
-               call exponents_at_rest(steady(0.0_wp, epsilon, xi, all_gamma(j)), 3, exponents, &
+               call sliding_exponents(steady(0.0_wp, epsilon, xi, all_gamma(j)), 3, exponents, &
                                       failure)
             end associate
             call expect_success(error, failure)
@@ -125,7 +126,7 @@ contains
                epsilon = sqrt((1.0_wp + omega**2)*(1.0_wp + b**2)) - 1.0_wp
                tau = (atan(b) - atan(omega) + 2.0_wp*pi*k)/omega
             end associate
-            call exponents_at_rest(steady(tau, epsilon, xi, gamma), 12, exponents, failure)
+            call sliding_exponents(steady(tau, epsilon, xi, gamma), 12, exponents, failure)
             call expect_success(error, failure)
             if (allocated(error)) return
             call expect(error, count(abs(exponents%value) <= 1.0e-9_wp) == 2, &
@@ -147,16 +148,16 @@ contains
       type(spring_block_type) :: block
       integer, parameter :: number = 5
 
-      block = spring_block_type(10.0_wp, 0.1_wp, 0.8_wp, 0.8_wp, 0.0_wp, 0.0_wp, 1.1_wp)
+      block = build_block(tau=10.0_wp, epsilon=0.1_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp)
       call integrate(block, 0.0_wp, 300.0_wp, at_tolerance(1.0e-9_wp), outcome, failure, &
                      continuation=arrived)
       call expect_success(error, failure)
       if (allocated(error)) return
-      call measure_growth(block, growth_settings(exponents=number, t_turning=300.0_wp, &
-                                                 t_end=1200.0_wp, interval=5.0_wp, blocks=4), &
+      call measure_growth(block, growth_settings_type(exponents=number, t_turning=300.0_wp, &
+                                                      t_end=1200.0_wp, interval=5.0_wp, blocks=4), &
                           at_tolerance(1.0e-9_wp), measured, failure, arrived)
       call expect_success(error, failure)
-      call exponents_at_rest(block, number, exponents, failure)
+      call sliding_exponents(block, number, exponents, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
       call expect(error, size(exponents) == number, "as many exponents as asked for")
@@ -171,7 +172,7 @@ contains
       type(failure_type), allocatable :: failure
       type(exponent_type), allocatable :: exponents(:)
 
-      call exponents_at_rest(steady(0.0_wp, 0.3_wp, 1.0_wp, 10.0_wp), 3, exponents, failure)
+      call sliding_exponents(steady(0.0_wp, 0.3_wp, 1.0_wp, 10.0_wp), 3, exponents, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
       call expect(error, size(exponents) == 2, "two exponents")
@@ -191,4 +192,4 @@ contains
          end do
       end function real_root
    end subroutine test_beyond
-end module test_rest
+end module test_steady_sliding

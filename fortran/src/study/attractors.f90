@@ -9,18 +9,18 @@ module attractors
    use dde_errors, only: error_type
    use exponent_averages, only: average_growth, exponent_type
    use dde_kinds, only: wp
-   use lyapunov_spectrum, only: extend_growth, growth_settings, growth_type, measure_growth
+   use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, measure_growth
    use motion_classes, only: agreed, chaos, class_by_exponents, cycle_motion, fixed_point, torus, &
                              undecided
-   use rest, only: comes_to_rest, exponents_at_rest
-   use section_motion, only: judge_section, section_verdict
+   use steady_sliding, only: settles, sliding_exponents
+   use section_motion, only: judge_section, section_verdict_type
    use spectral_peaks, only: find_peaks, peak_type
    use spectrum, only: power_spectrum
    use spectrum_verdict, only: continuum, line_share, one_base, spectrum_kind, two_bases
    use spring_block, only: index_of_ln_v, index_of_theta, index_of_u, spring_block_type
    implicit none (type, external)
    private
-   public :: attractor_settings, attractor_type, find_attractor
+   public :: attractor_settings_type, attractor_type, find_attractor
 
    !> Numbers of the two event functions.
    enum, bind(c)
@@ -28,7 +28,7 @@ module attractors
    end enum
 
    !> How an attractor is found and judged.
-   type :: attractor_settings
+   type :: attractor_settings_type
       !> Time of the approach, left out
       real(wp) :: t_transient = 0.0_wp
       !> Time in which it is observed, and exponents are measured
@@ -56,7 +56,7 @@ module attractors
       real(wp) :: overlap = 0.0_wp
       !> Least height of its peaks over the highest, and over the valleys beside them
       real(wp) :: peak_floor = 0.0_wp, peak_prominence = 1.0_wp
-   end type attractor_settings
+   end type attractor_settings_type
 
    !> What was found.
    type :: attractor_type
@@ -67,7 +67,7 @@ module attractors
       type(exponent_type), allocatable :: exponents(:)
       !> Points after which a cycle repeats in the section, 0 where none
       integer :: period = 0
-      !> Roughness of the section as a function of two phases, see `section_verdict`
+      !> Roughness of the section as a function of two phases, see `section_verdict_type`
       real(wp) :: roughness = 1.0_wp
       !> Base frequencies of v, 0 where none
       real(wp) :: bases(2) = 0.0_wp
@@ -88,7 +88,7 @@ contains
       !> The block and its history
       type(spring_block_type), intent(in) :: block_model
       !> How
-      type(attractor_settings), intent(in) :: settings
+      type(attractor_settings_type), intent(in) :: settings
       !> Method and tolerances
       type(integration_options), intent(in) :: options
       !> What was found
@@ -118,8 +118,8 @@ contains
       if (allocated(error)) return
       call keep_events(events, attractor)
 
-      if (comes_to_rest(samples%values(3, :))) then
-         call exponents_at_rest(block_model, exponents_of(block_model, settings), &
+      if (settles(samples%values(3, :))) then
+         call sliding_exponents(block_model, exponents_of(block_model, settings), &
                                 attractor%exponents, error)
          if (allocated(error)) return
          if (all(attractor%exponents%value < 0.0_wp)) then
@@ -140,7 +140,7 @@ contains
       !> The block
       type(spring_block_type), intent(in) :: block_model
       !> How many are wanted
-      type(attractor_settings), intent(in) :: settings
+      type(attractor_settings_type), intent(in) :: settings
 
       exponents = settings%exponents
       if (size(block_model%lag) == 0) exponents = min(exponents, block_model%n)
@@ -172,7 +172,7 @@ contains
       !> The block
       type(spring_block_type), intent(in) :: block_model
       !> How
-      type(attractor_settings), intent(in) :: settings
+      type(attractor_settings_type), intent(in) :: settings
       !> Method and tolerances
       type(integration_options), intent(in) :: options
       !> Where the approach ended
@@ -183,15 +183,15 @@ contains
       type(attractor_type), intent(inout) :: attractor
       !> Exponents cannot be measured
       type(error_type), allocatable, intent(out) :: error
-      type(growth_settings) :: wanted
+      type(growth_settings_type) :: wanted
       type(growth_type) :: measured
-      type(section_verdict) :: in_section
+      type(section_verdict_type) :: in_section
       integer :: i
 
-      wanted = growth_settings(exponents=exponents_of(block_model, settings), &
-                               t_turning=settings%t_turning, &
-                               t_end=settings%t_transient + settings%t_turning &
-                                     + settings%t_observed, &
+      wanted = growth_settings_type(exponents=exponents_of(block_model, settings), &
+                                    t_turning=settings%t_turning, &
+                                    t_end=settings%t_transient + settings%t_turning &
+                                    + settings%t_observed, &
                                interval=settings%interval, blocks=settings%blocks, bounds=.true.)
       call measure_growth(block_model, wanted, options, measured, error, arrived)
       do i = 0, settings%doublings
@@ -217,7 +217,7 @@ contains
       !> Samples of v
       real(wp), intent(in) :: v(:)
       !> How
-      type(attractor_settings), intent(in) :: settings
+      type(attractor_settings_type), intent(in) :: settings
       !> The attractor
       type(attractor_type), intent(inout) :: attractor
       !> Too few samples

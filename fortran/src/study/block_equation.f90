@@ -5,7 +5,7 @@
 !>     u'     =  exp(w) - 1
 !>     w'     = -gamma^2 exp(-w) [u + (theta + w)/xi].
 module block_equation
-   use characteristic_function, only: block_parameters
+   use block_parameters, only: block_history_type, block_parameters_type
    use delay_equation, only: delay_equation_type
    use dde_kinds, only: wp
    use spring_block, only: index_of_ln_v, index_of_theta, index_of_u, spring_block_type
@@ -16,7 +16,7 @@ module block_equation
    !> The block by its derivatives; lag 1 is 0, lag 2 is tau.
    type, extends(delay_equation_type) :: block_equation_type
       !> Parameters, nondimensional
-      type(block_parameters) :: parameters
+      type(block_parameters_type) :: parameters
    contains
       procedure :: second => second_form_of_4
       procedure :: third => third_form_of_4
@@ -31,23 +31,24 @@ contains
    !> The block at these parameters.
    pure function new_block_equation(parameters) result(equation)
       !> Parameters
-      type(block_parameters), intent(in) :: parameters
+      type(block_parameters_type), intent(in) :: parameters
       type(block_equation_type) :: equation
       type(spring_block_type) :: block
       ! the delayed part has the same form for every tau > 0
       real(wp), parameter :: some_delay = 1.0_wp
+      type(block_parameters_type) :: delayed
       real(wp) :: by_z(3, 1)
 
-      associate (p => parameters)
-         equation%parameters = p
-         block = spring_block_type(some_delay, p%epsilon, p%xi, p%gamma, 0.0_wp, 0.0_wp, 1.0_wp)
-         allocate (equation%linear%a(3, 3, 2), equation%linear%lag(2))
-         call block%jacobian(0.0_wp, [0.0_wp, 0.0_wp, 0.0_wp], [0.0_wp], &
-                             equation%linear%a(:, :, 1), by_z)
-         equation%linear%a(:, :, 2) = 0.0_wp
-         equation%linear%a(:, index_of_ln_v, 2) = by_z(:, 1)
-         equation%linear%lag = [0.0_wp, p%tau]
-      end associate
+      equation%parameters = parameters
+      delayed = parameters
+      delayed%tau = some_delay
+      block = spring_block_type(delayed, block_history_type())
+      allocate (equation%linear%a(3, 3, 2), equation%linear%lag(2))
+      call block%jacobian(0.0_wp, [0.0_wp, 0.0_wp, 0.0_wp], [0.0_wp], &
+                          equation%linear%a(:, :, 1), by_z)
+      equation%linear%a(:, :, 2) = 0.0_wp
+      equation%linear%a(:, index_of_ln_v, 2) = by_z(:, 1)
+      equation%linear%lag = [0.0_wp, parameters%tau]
    end function new_block_equation
 
    !> Second derivatives of (4).
@@ -86,7 +87,7 @@ contains
    !> theta + (1 + epsilon) w(t - tau).
    pure complex(wp) function friction(p, x) result(value)
       !> Parameters
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
       !> History at t and t - tau
       complex(wp), intent(in) :: x(:, :)
 
@@ -96,7 +97,7 @@ contains
    !> u + (theta + w)/xi.
    pure complex(wp) function force(p, x) result(value)
       !> Parameters
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
       !> History at t and t - tau
       complex(wp), intent(in) :: x(:, :)
 

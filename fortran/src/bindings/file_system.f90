@@ -1,6 +1,6 @@
 !> Writing, renaming and removing files, by the C library: gfortran's own formatted output does not
 !> report a full disk, and no Fortran reports why a file cannot be written.
-module files
+module file_system
    use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_null_char, c_ptr, c_size_t
    implicit none (type, external)
    private
@@ -155,4 +155,4 @@ contains
          words(i:i) = letters(i)
       end do
    end function reason_of
-end module files
+end module file_system

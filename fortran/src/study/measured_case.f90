@@ -1,6 +1,7 @@
 !> A case to measure: one parameter set of the delayed block, its history and its sample times. All
 !> quantities are nondimensional.
 module measured_case
+   use block_parameters, only: block_history_type, block_parameters_type
    use double_numbers, only: as_double, evenly_spaced
    use dde_kinds, only: wp
    use spring_block, only: spring_block_type
@@ -15,20 +16,10 @@ module measured_case
    type :: case_type
       !> Name
       character(len=case_name_length) :: name = ""
-      !> Delay
-      real(wp) :: tau = 0.0_wp
-      !> Sensitivity of the velocity relaxation
-      real(wp) :: epsilon = 0.0_wp
-      !> Spring constant
-      real(wp) :: xi = 1.0_wp
-      !> Frequency
-      real(wp) :: gamma = 1.0_wp
-      !> Friction state for t <= 0
-      real(wp) :: theta = 0.0_wp
-      !> Displacement for t <= 0
-      real(wp) :: u = 0.0_wp
-      !> Velocity for t <= 0
-      real(wp) :: v = 1.0_wp
+      !> Parameters
+      type(block_parameters_type) :: parameters
+      !> Values for t <= 0
+      type(block_history_type) :: history
       !> Last time
       real(wp) :: t_end = 1.0_wp
       !> Time between samples
@@ -50,10 +41,14 @@ contains
       real(wp), intent(in) :: disturbance
       type(spring_block_type) :: block
 
-      block = spring_block_type(as_double(self%tau), as_double(self%epsilon), as_double(self%xi), &
-                                as_double(self%gamma), as_double(self%theta) + disturbance, &
-                                as_double(self%u) + disturbance, &
-                                as_double(self%v)*(1.0_wp + disturbance))
+      associate (p => self%parameters, past => self%history)
+         block = spring_block_type( &
+                 block_parameters_type(tau=as_double(p%tau), epsilon=as_double(p%epsilon), &
+                                       xi=as_double(p%xi), gamma=as_double(p%gamma)), &
+                 block_history_type(theta=as_double(past%theta) + disturbance, &
+                                    u=as_double(past%u) + disturbance, &
+                                    v=as_double(past%v)*(1.0_wp + disturbance)))
+      end associate
    end function problem
 
    !> Times of samples: multiples of the interval up to t_end.

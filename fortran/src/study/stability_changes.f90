@@ -1,66 +1,67 @@
 !> The delays and the sensitivities epsilon at which a pair of characteristic roots crosses the
 !> imaginary axis, all else kept: equations (7) and (10), solved for the frequency.
 module stability_changes
-   use characteristic_function, only: block_parameters, delta_by_s, delta_by_tau
+   use block_parameters, only: block_parameters_type
+   use characteristic_function, only: delta_by_s, delta_by_tau
    use dde_errors, only: error_type
-   use gsl_roots, only: find_root, scalar_function
+   use gsl_roots, only: find_root, scalar_function_type
    use hopf_condition, only: hopf_epsilon, hopf_tau, partner_omega
    use dde_kinds, only: wp
    use root_counts, only: pairs_beside
    implicit none (type, external)
    private
-   public :: changes_with_epsilon, changes_with_tau, stability_change
+   public :: changes_with_epsilon, changes_with_tau, stability_change_type
 
    !> A crossing.
-   type :: stability_change
+   type :: stability_change_type
       !> Parameters, nondimensional
-      type(block_parameters) :: parameters
+      type(block_parameters_type) :: parameters
       !> Frequency of the pair
       real(wp) :: omega = 0.0_wp
       !> Unstable pairs before and after it
       integer :: pairs_before = 0, pairs_after = 0
-   end type stability_change
+   end type stability_change_type
 
    !> Epsilon of a frequency, less a given one.
-   type, extends(scalar_function) :: epsilon_function
+   type, extends(scalar_function_type) :: epsilon_function_type
       !> Parameters
-      type(block_parameters) :: p
+      type(block_parameters_type) :: p
    contains
       procedure :: value => epsilon_above
-   end type epsilon_function
+   end type epsilon_function_type
 
    !> The other frequency of the same epsilon, less this one: falls as omega grows.
-   type, extends(scalar_function) :: partner_function
+   type, extends(scalar_function_type) :: partner_function_type
       !> Parameters
-      type(block_parameters) :: p
+      type(block_parameters_type) :: p
    contains
       procedure :: value => partner_above
-   end type partner_function
+   end type partner_function_type
 
    !> omega tau of a branch, less that of a given delay: falls as omega grows, and has one root.
-   type, extends(scalar_function) :: angle_function
+   type, extends(scalar_function_type) :: angle_function_type
       !> Parameters
-      type(block_parameters) :: p
+      type(block_parameters_type) :: p
       !> Branch
       integer :: k = 0
    contains
       procedure :: value => angle_above
-   end type angle_function
+   end type angle_function_type
 
 contains
 
    !> All crossings at delays from above 0 up to a bound, ascending.
    subroutine changes_with_tau(p, tau_most, changes, error)
       !> Parameters; tau does not matter
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
       !> Longest delay
       real(wp), intent(in) :: tau_most
       !> Crossings
-      type(stability_change), allocatable, intent(out) :: changes(:)
+      type(stability_change_type), allocatable, intent(out) :: changes(:)
       !> A root was not found
       type(error_type), allocatable, intent(out) :: error
-      type(block_parameters) :: there
-      type(epsilon_function) :: excess
+      type(block_parameters_type) :: there
+      type(epsilon_function_type) :: excess
       real(wp) :: bottom, lower, omega(2), upper
       integer :: i, k
 
@@ -100,15 +101,15 @@ contains
    !> All crossings at epsilons from above -1 up to a bound, ascending.
    subroutine changes_with_epsilon(p, epsilon_most, changes, error)
       !> Parameters; epsilon does not matter
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
       !> Largest epsilon
       real(wp), intent(in) :: epsilon_most
       !> Crossings
-      type(stability_change), allocatable, intent(out) :: changes(:)
+      type(stability_change_type), allocatable, intent(out) :: changes(:)
       !> A root was not found
       type(error_type), allocatable, intent(out) :: error
-      type(block_parameters) :: there
-      type(angle_function) :: angle
+      type(block_parameters_type) :: there
+      type(angle_function_type) :: angle
       complex(wp) :: by_epsilon, s
       real(wp) :: lower, omega, omega_most
 
@@ -138,12 +139,12 @@ contains
    !> The frequency at which epsilon is least: where both frequencies of an epsilon are the same.
    subroutine least_epsilon_at(p, omega, error)
       !> Parameters
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
       !> The frequency
       real(wp), intent(out) :: omega
       !> No root found
       type(error_type), allocatable, intent(out) :: error
-      type(partner_function) :: partner
+      type(partner_function_type) :: partner
       real(wp) :: lower, upper
 
       partner%p = p
@@ -159,9 +160,9 @@ contains
    end subroutine least_epsilon_at
 
    !> A crossing at the pair i omega.
-   pure type(stability_change) function change_at(p, omega, speed) result(change)
+   pure type(stability_change_type) function change_at(p, omega, speed) result(change)
       !> Parameters
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
       !> Frequency
       real(wp), intent(in) :: omega
       !> How fast the pair moves to the right
@@ -169,7 +170,7 @@ contains
       integer :: beside
 
       beside = pairs_beside(p, [omega])
-      change = stability_change(p, omega, beside, beside)
+      change = stability_change_type(p, omega, beside, beside)
       if (speed > 0.0_wp) then
          change%pairs_after = beside + 1
       else
@@ -180,9 +181,9 @@ contains
    !> Put a crossing in its place.
    pure subroutine insert(changes, change, earlier)
       !> Crossings so far
-      type(stability_change), allocatable, intent(inout) :: changes(:)
+      type(stability_change_type), allocatable, intent(inout) :: changes(:)
       !> The new one
-      type(stability_change), intent(in) :: change
+      type(stability_change_type), intent(in) :: change
       !> Which of the others come first; they are ascending
       logical, intent(in) :: earlier(:)
       integer :: n
@@ -194,7 +195,7 @@ contains
    !> Zero where epsilon is the given one.
    real(wp) function epsilon_above(self, x) result(value)
       !> Parameters
-      class(epsilon_function), intent(in) :: self
+      class(epsilon_function_type), intent(in) :: self
       !> omega
       real(wp), intent(in) :: x
 
@@ -204,7 +205,7 @@ contains
    !> Zero where both frequencies are the same.
    real(wp) function partner_above(self, x) result(value)
       !> Parameters
-      class(partner_function), intent(in) :: self
+      class(partner_function_type), intent(in) :: self
       !> omega
       real(wp), intent(in) :: x
 
@@ -214,7 +215,7 @@ contains
    !> Zero where the delay is the given one.
    real(wp) function angle_above(self, x) result(value)
       !> Parameters and branch
-      class(angle_function), intent(in) :: self
+      class(angle_function_type), intent(in) :: self
       !> omega
       real(wp), intent(in) :: x
 

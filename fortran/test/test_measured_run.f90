@@ -1,6 +1,7 @@
 !> The baseline with fixed steps on problems with exact solutions, and measured runs.
-module test_measure
+module test_measured_run
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use block_parameters, only: block_history_type, block_parameters_type
    use dde, only: dde_problem_type, integration_result, table_sampler, value_not_finite
    use double_numbers, only: as_double, evenly_spaced
    use dde_errors, only: failure_type => error_type
@@ -14,14 +15,14 @@ module test_measure
    use undelayed_problems, only: falls_out, oscillator, without_delays
    implicit none (type, external)
    private
-   public :: collect_measure
+   public :: collect_measured_run
 
    real(wp), parameter :: pi = acos(-1.0_wp)
 
 contains
 
    !> All tests of this suite.
-   subroutine collect_measure(testsuite)
+   subroutine collect_measured_run(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("order of rk4, kinks on the grid", test_order_kinks), &
@@ -31,9 +32,9 @@ contains
                    new_unittest("refusals of rk4", test_rk4_refusals), &
                    new_unittest("double numbers", test_double_numbers), &
                    new_unittest("sample times", test_sample_times), &
-                   new_unittest("measured run", test_measured_run), &
+                   new_unittest("measured run", test_one_run), &
                    new_unittest("measured run that stops", test_stopped_run)]
-   end subroutine collect_measure
+   end subroutine collect_measured_run
 
    !> y' = -y(t-1), y = 1 up to t = 0, at t = 10.
    subroutine test_order_kinks(error)
@@ -169,14 +170,15 @@ contains
    end subroutine test_sample_times
 
    !> A case that decays, by the solver and by the baseline.
-   subroutine test_measured_run(error)
+   subroutine test_one_run(error)
       type(error_type), allocatable, intent(out) :: error
       type(run_type) :: runs(2)
       type(case_type) :: case
       integer :: i
 
-      case = case_type("decay", 10.0_wp, 0.2_wp, 0.8_wp, 0.8_wp, 0.0_wp, 0.0_wp, 1.1_wp, 50.0_wp, &
-                       0.5_wp)
+      case = case_type(name="decay", history=block_history_type(v=1.1_wp), t_end=50.0_wp, &
+                       parameters=block_parameters_type(tau=10.0_wp, epsilon=0.2_wp, xi=0.8_wp, &
+                                                        gamma=0.8_wp), sample_interval=0.5_wp)
       runs%method = ["auto     ", "rk4_cubic"]
       runs%setting = [1.0e-10_wp, 0.01_wp]
       do i = 1, 2
@@ -192,7 +194,7 @@ contains
       do i = 1, 2
          call expect_between(error, runs(i)%seconds, 1.0e-7_wp, 1.0_wp, "seconds")
       end do
-   end subroutine test_measured_run
+   end subroutine test_one_run
 
    !> It keeps its samples and says why it ended.
    subroutine test_stopped_run(error)
@@ -200,8 +202,9 @@ contains
       type(run_type) :: run(1)
       type(case_type) :: case
 
-      case = case_type("stiff", 1.0_wp, 0.7_wp, 0.5_wp, 1.0e2_wp, 0.0_wp, 0.0_wp, 1.1_wp, 50.0_wp, &
-                       0.05_wp)
+      case = case_type(name="stiff", history=block_history_type(v=1.1_wp), t_end=50.0_wp, &
+                       parameters=block_parameters_type(tau=1.0_wp, epsilon=0.7_wp, xi=0.5_wp, &
+                                                        gamma=1.0e2_wp), sample_interval=0.05_wp)
       run%method = "explicit"
       run%setting = 1.0e-8_wp
       call measure_run(case, 0.0_wp, 500_int64, run(1))
@@ -214,4 +217,4 @@ contains
       call time_runs(case, 500_int64, 3, 0.0_wp, run)
       call expect_close(error, run%seconds, [-1.0_wp], 0.0_wp, "seconds of a run that stopped")
    end subroutine test_stopped_run
-end module test_measure
+end module test_measured_run

@@ -1,5 +1,6 @@
 !> The spring block against equations (3) and (4) written in v.
-module test_model
+module test_spring_block
+   use block_builder, only: build_block
    use dde_errors, only: text
    use expectations, only: expect, expect_close
    use dde_kinds, only: wp
@@ -8,20 +9,20 @@ module test_model
    use spring_block, only: index_of_ln_v, index_of_theta, index_of_u, spring_block_type
    implicit none (type, external)
    private
-   public :: collect_model
+   public :: collect_spring_block
 
 contains
 
    !> All tests of this suite.
-   subroutine collect_model(testsuite)
+   subroutine collect_spring_block(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("equation (4)", test_equation_4), &
                    new_unittest("equation (3)", test_equation_3), &
-                   new_unittest("rest", test_rest), &
+                   new_unittest("rest", test_steady_sliding), &
                    new_unittest("delayed values", test_delayed_values), &
                    new_unittest("start and history", test_start)]
-   end subroutine collect_model
+   end subroutine collect_spring_block
 
    !> With a delay, at random states and parameters; dw/dt = (dv/dt)/v.
    subroutine test_equation_4(error)
@@ -35,7 +36,7 @@ contains
          x(5:6) = x(5:6) - 1.5_wp
          associate (epsilon => x(1), xi => x(2), gamma => x(3), v => x(4), theta => x(5), u => x(6))
             delayed_v = x(7)
-            block = spring_block_type(10.0_wp, epsilon, xi, gamma, 0.0_wp, 0.0_wp, 1.0_wp)
+            block = build_block(tau=10.0_wp, epsilon=epsilon, xi=xi, gamma=gamma)
             call block%rhs(x(8), [theta, u, log(v)], [log(delayed_v)], dydt)
             call expect_close(error, dydt(index_of_theta), &
                               -v*(theta + (1.0_wp + epsilon)*log(delayed_v)), 1.0e-12_wp, &
@@ -55,7 +56,7 @@ contains
       type(spring_block_type) :: block
       real(wp) :: dydt(3)
 
-      block = spring_block_type(0.0_wp, 0.5_wp, 0.8_wp, 2.0_wp, 0.0_wp, 0.0_wp, 1.0_wp)
+      block = build_block(tau=0.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=2.0_wp)
       call block%rhs(0.0_wp, [0.3_wp, -0.2_wp, log(2.0_wp)], [real(wp) ::], dydt)
       call expect_close(error, dydt(index_of_theta), -0.6_wp - 3.0_wp*log(2.0_wp), 1.0e-15_wp, &
                         "dtheta/dt")
@@ -65,29 +66,29 @@ contains
    end subroutine test_equation_3
 
    !> At theta = 0, u = 0, v = 1 nothing moves, with and without delay.
-   subroutine test_rest(error)
+   subroutine test_steady_sliding(error)
       type(error_type), allocatable, intent(out) :: error
       type(spring_block_type) :: block
       real(wp) :: dydt(3), y(3)
 
-      block = spring_block_type(0.0_wp, 0.5_wp, 0.8_wp, 1.0e6_wp, 0.0_wp, 0.0_wp, 1.0_wp)
+      block = build_block(tau=0.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=1.0e6_wp)
       call block%initial(y)
       call block%rhs(0.0_wp, y, [real(wp) ::], dydt)
       call expect_close(error, dydt, [0.0_wp, 0.0_wp, 0.0_wp], 0.0_wp, "derivatives")
-      block = spring_block_type(10.0_wp, 0.5_wp, 0.8_wp, 1.0e6_wp, 0.0_wp, 0.0_wp, 1.0_wp)
+      block = build_block(tau=10.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=1.0e6_wp)
       call block%rhs(0.0_wp, y, [block%history(-10.0_wp, index_of_ln_v)], dydt)
       call expect_close(error, dydt, [0.0_wp, 0.0_wp, 0.0_wp], 0.0_wp, "derivatives")
-   end subroutine test_rest
+   end subroutine test_steady_sliding
 
    !> Without a delay there are no delayed values, with one there is one: that of ln v.
    subroutine test_delayed_values(error)
       type(error_type), allocatable, intent(out) :: error
       type(spring_block_type) :: block
 
-      block = spring_block_type(0.0_wp, 0.5_wp, 0.8_wp, 0.8_wp, 0.0_wp, 0.0_wp, 1.1_wp)
+      block = build_block(tau=0.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp)
       call expect(error, block%n == 3, "three equations")
       call expect(error, size(block%lag) == 0 .and. size(block%component) == 0, "no delayed value")
-      block = spring_block_type(7.5_wp, 0.5_wp, 0.8_wp, 0.8_wp, 0.0_wp, 0.0_wp, 1.1_wp)
+      block = build_block(tau=7.5_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp)
       call expect_close(error, block%lag, [7.5_wp], 0.0_wp, "delay")
       call expect(error, size(block%component) == 1, "one delayed value")
       call expect(error, all(block%component == index_of_ln_v), "that of ln v")
@@ -100,11 +101,12 @@ contains
       real(wp) :: past(3), y(3)
       integer :: i
 
-      block = spring_block_type(7.5_wp, 0.5_wp, 0.8_wp, 0.8_wp, 0.25_wp, -0.5_wp, exp(2.0_wp))
+      block = build_block(tau=7.5_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, theta=0.25_wp, &
+                          u=-0.5_wp, v=exp(2.0_wp))
       call block%initial(y)
       call expect_close(error, y([index_of_theta, index_of_u, index_of_ln_v]), &
                         [0.25_wp, -0.5_wp, 2.0_wp], 1.0e-15_wp, "state at t = 0")
       past = [(block%history(-3.0_wp, i), i=1, 3)]
       call expect_close(error, past, y, 0.0_wp, "history")
    end subroutine test_start
-end module test_model
+end module test_spring_block

@@ -3,16 +3,17 @@
 module velocity_step
    use dde, only: integrate, integration_options, integration_result, table_sampler
    use dde_errors, only: error_type
-   use friction_law, only: friction_coefficient, friction_parameters, state_evolution, steady_state
+   use velocity_step_friction, only: friction_coefficient, friction_parameters_type, &
+                                     state_evolution_type, steady_state
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: friction_response, respond, step_protocol
+   public :: friction_response_type, respond, step_protocol_type
 
    !> What is imposed.
-   type :: step_protocol
+   type :: step_protocol_type
       !> The law, SI units
-      type(friction_parameters) :: law
+      type(friction_parameters_type) :: law
       !> Velocity step, m/s
       real(wp) :: delta_v = 0.0_wp
       !> Slip in the first phase and in each of the others, in units of Dc
@@ -21,10 +22,10 @@ module velocity_step
       integer :: samples = 0
       !> Relative tolerance of the integration
       real(wp) :: tolerance = 0.0_wp
-   end type step_protocol
+   end type step_protocol_type
 
    !> What is seen; all arrays of shape (3 samples), the ends of two phases at the same slip.
-   type :: friction_response
+   type :: friction_response_type
       !> Time, s
       real(wp), allocatable :: time(:)
       !> Slip, m
@@ -35,16 +36,16 @@ module velocity_step
       real(wp), allocatable :: theta(:)
       !> Friction coefficient
       real(wp), allocatable :: mu(:)
-   end type friction_response
+   end type friction_response_type
 
 contains
 
    !> Impose the steps on a block that slides steadily.
    subroutine respond(protocol, response, error)
       !> What is imposed
-      type(step_protocol), intent(in) :: protocol
+      type(step_protocol_type), intent(in) :: protocol
       !> What is seen
-      type(friction_response), intent(out) :: response
+      type(friction_response_type), intent(out) :: response
       !> The integration failed
       type(error_type), allocatable, intent(out) :: error
       type(integration_options) :: options
@@ -70,7 +71,7 @@ contains
          table = table_sampler([1], time)
          options%relative = protocol%tolerance
          options%absolute = protocol%tolerance*theta
-         call integrate(state_evolution(protocol%law, v, theta), 0.0_wp, duration, options, &
+         call integrate(state_evolution_type(protocol%law, v, theta), 0.0_wp, duration, options, &
                         outcome, error, table)
          if (allocated(error)) return
          response%time = [response%time, time_start + time]

@@ -1,15 +1,16 @@
 !> Hopf curves in a plane of two parameters, drawn over the frequency omega: the pieces inside a
 !> window are found by a scan, their ends by root finding, and points are set where the line bends.
 module hopf_curves
-   use characteristic_function, only: block_parameters, delta_by_s, delta_by_tau, relative_residual
+   use block_parameters, only: block_parameters_type
+   use characteristic_function, only: delta_by_s, delta_by_tau, relative_residual
    use dde_errors, only: error_type
-   use gsl_roots, only: find_root, scalar_function
+   use gsl_roots, only: find_root, scalar_function_type
    use hopf_condition, only: printed_tau
-   use hopf_planes, only: curve_plane
+   use hopf_planes, only: curve_plane_type
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: curve_point, trace_curves
+   public :: curve_point_type, trace_curves
 
    !> Omegas of the scan for pieces inside the window.
    integer, parameter :: scan_points = 20000
@@ -19,9 +20,9 @@ module hopf_curves
    integer, parameter :: most_halvings = 14
 
    !> One point of a Hopf curve.
-   type :: curve_point
+   type :: curve_point_type
       !> Parameters, nondimensional
-      type(block_parameters) :: parameters
+      type(block_parameters_type) :: parameters
       !> Frequency of the pair
       real(wp) :: omega = 0.0_wp
       !> Branch k of equation (10)
@@ -40,29 +41,29 @@ module hopf_curves
       real(wp) :: printed_tau = 0.0_wp
       !> Residual there
       real(wp) :: printed_residual = 0.0_wp
-   end type curve_point
+   end type curve_point_type
 
    !> How far inside the window branch k is at omega, -1..1 (negative: outside).
-   type, extends(scalar_function) :: margin_function
+   type, extends(scalar_function_type) :: margin_function_type
       !> The plane
-      class(curve_plane), allocatable :: plane
+      class(curve_plane_type), allocatable :: plane
       !> Branch
       integer :: k = 0
    contains
       procedure :: value => window_margin
-   end type margin_function
+   end type margin_function_type
 
 contains
 
    !> All points of all branches in the window of `plane`, piece by piece, omega ascending.
    subroutine trace_curves(plane, points, error)
       !> The plane and its window
-      class(curve_plane), intent(in) :: plane
+      class(curve_plane_type), intent(in) :: plane
       !> Points
-      type(curve_point), allocatable, intent(out) :: points(:)
+      type(curve_point_type), allocatable, intent(out) :: points(:)
       !> A root was not found
       type(error_type), allocatable, intent(out) :: error
-      type(margin_function) :: margin
+      type(margin_function_type) :: margin
       real(wp), allocatable :: omega(:)
       logical, allocatable :: inside(:)
       real(wp) :: ends(2), omega_least, omega_most
@@ -100,7 +101,7 @@ contains
    !> Where a piece leaves the window, between scan points `inner` and `outer`.
    subroutine refine_end(margin, omega, inner, outer, end_of_piece, error)
       !> Margin to the window
-      type(margin_function), intent(in) :: margin
+      type(margin_function_type), intent(in) :: margin
       !> Scan points
       real(wp), intent(in) :: omega(0:)
       !> Last one inside
@@ -121,10 +122,10 @@ contains
    !> Distance of branch k at omega to the nearest edge of the window, in units of the window.
    real(wp) function window_margin(self, x) result(margin)
       !> Plane and branch
-      class(margin_function), intent(in) :: self
+      class(margin_function_type), intent(in) :: self
       !> omega
       real(wp), intent(in) :: x
-      type(block_parameters) :: p
+      type(block_parameters_type) :: p
       real(wp) :: place(2)
 
       margin = -1.0_wp
@@ -137,9 +138,9 @@ contains
    !> (epsilon, ordinate) in units of the window, 0..1 inside.
    pure function place_in_window(plane, p) result(place)
       !> The plane
-      class(curve_plane), intent(in) :: plane
+      class(curve_plane_type), intent(in) :: plane
       !> Parameters
-      type(block_parameters), intent(in) :: p
+      type(block_parameters_type), intent(in) :: p
       real(wp) :: place(2)
 
       associate (x => plane%epsilon_window, y => plane%ordinate_window)
@@ -150,14 +151,14 @@ contains
    !> Points of branch k between two omegas, set so close that the chords look like the curve.
    pure function piece_of_curve(plane, k, ends, piece) result(points)
       !> The plane
-      class(curve_plane), intent(in) :: plane
+      class(curve_plane_type), intent(in) :: plane
       !> Branch
       integer, intent(in) :: k
       !> First and last omega
       real(wp), intent(in) :: ends(2)
       !> Number of the piece
       integer, intent(in) :: piece
-      type(curve_point), allocatable :: points(:)
+      type(curve_point_type), allocatable :: points(:)
       real(wp), allocatable :: omega(:)
       logical, allocatable :: bent(:)
       integer :: halving, i
@@ -175,7 +176,7 @@ contains
    !> Whether the chord between two omegas misses the curve's middle or is too long.
    pure logical function chord_is_bad(plane, k, omega_1, omega_2) result(value)
       !> The plane
-      class(curve_plane), intent(in) :: plane
+      class(curve_plane_type), intent(in) :: plane
       !> Branch
       integer, intent(in) :: k
       !> One end
@@ -195,16 +196,16 @@ contains
    end function chord_is_bad
 
    !> The point of branch k at omega with all that is known of it.
-   pure type(curve_point) function point_of_curve(plane, k, omega, piece) result(point)
+   pure type(curve_point_type) function point_of_curve(plane, k, omega, piece) result(point)
       !> The plane
-      class(curve_plane), intent(in) :: plane
+      class(curve_plane_type), intent(in) :: plane
       !> Branch
       integer, intent(in) :: k
       !> Frequency of the pair
       real(wp), intent(in) :: omega
       !> Number of the piece
       integer, intent(in) :: piece
-      type(block_parameters) :: printed
+      type(block_parameters_type) :: printed
       complex(wp) :: s
 
       s = cmplx(0.0_wp, omega, kind=wp)
