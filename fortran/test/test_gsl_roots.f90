@@ -4,7 +4,7 @@ module test_gsl_roots
                                             ieee_set_halting_mode, ieee_value
    use dde_errors, only: failure_type => error_type
    use expectations, only: expect_close, expect_failure, expect_success
-   use gsl_roots, only: find_root, scalar_function_type
+   use gsl_roots, only: find_falling_root, find_root, scalar_function_type
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    implicit none (type, external)
@@ -37,6 +37,7 @@ contains
                    new_unittest("a parameter of the function", test_parameter), &
                    new_unittest("a root at the end", test_root_at_end), &
                    new_unittest("a jump", test_jump), &
+                   new_unittest("where a function falls", test_falling), &
                    new_unittest("signs that do not differ", test_same_signs), &
                    new_unittest("a reversed bracket", test_reversed), &
                    new_unittest("no convergence", test_no_convergence)]
@@ -63,6 +64,21 @@ contains
       call expect_success(error, failure)
       call expect_close(error, root, 1.5_wp*acos(-1.0_wp), 5.0e-15_wp, "root")
    end subroutine test_parameter
+
+   !> cos x = x from starts far below and above the root.
+   subroutine test_falling(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      real(wp), parameter :: starts(4) = [1.0e-3_wp, 0.7_wp, 0.8_wp, 1.0e3_wp]
+      real(wp) :: root
+      integer :: i
+
+      do i = 1, size(starts)
+         call find_falling_root(cosine_less_line(), starts(i), root, failure)
+         call expect_success(error, failure)
+         call expect_close(error, root, 0.73908513321516064166_wp, 1.0e-15_wp, "root")
+      end do
+   end subroutine test_falling
 
    !> 0.73908... or its neighbour as one end of the bracket.
    subroutine test_root_at_end(error)

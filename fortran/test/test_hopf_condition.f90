@@ -3,7 +3,8 @@
 module test_hopf_condition
    use block_builder, only: build_block
    use block_parameters, only: block_parameters_type
-   use characteristic_function, only: delta, delta_by_s, delta_by_tau, relative_residual
+   use characteristic_function, only: delta, delta_by_epsilon, delta_by_s, delta_by_tau, &
+                                      relative_residual
    use closed_form, only: closed_epsilon, closed_tau
    use dde_errors, only: text
    use expectations, only: expect, expect_between, expect_close
@@ -70,10 +71,11 @@ contains
       end do
    end subroutine test_linearisation
 
-   !> Derivatives by s and by tau against differences of fourth order.
+   !> Derivatives by s, tau and epsilon against differences of fourth order; in epsilon Delta is
+   !> linear.
    subroutine test_derivatives(error)
       type(error_type), allocatable, intent(out) :: error
-      type(block_parameters_type) :: p
+      type(block_parameters_type) :: other, p
       complex(wp) :: by_differences, s
       real(wp), parameter :: h = 2.0e-3_wp
       integer :: i
@@ -88,6 +90,12 @@ contains
                            - (at_tau(2.0_wp*h) - at_tau(-2.0_wp*h)))/(12.0_wp*h)
          call expect_close(error, abs(delta_by_tau(p, s) - by_differences)/size_of(p, s), 0.0_wp, &
                            1.0e-9_wp, "misfit of the derivative by tau at point "//text(i))
+         other = p
+         other%epsilon = p%epsilon + 1.0_wp
+         by_differences = delta(other, s) - delta(p, s)
+         call expect_close(error, abs(delta_by_epsilon(p, s) - by_differences)/size_of(p, s), &
+                           0.0_wp, 1.0e-13_wp, &
+                           "misfit of the derivative by epsilon at point "//text(i))
       end do
 
    contains

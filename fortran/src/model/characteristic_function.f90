@@ -9,7 +9,8 @@ module characteristic_function
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: delta, delta_by_s, delta_by_tau, relative_residual, slope_bound, terms
+   public :: delta, delta_by_epsilon, delta_by_s, delta_by_tau, relative_residual, root_by_epsilon
+   public :: root_by_tau, slope_bound, terms
 
 contains
 
@@ -79,6 +80,36 @@ contains
 
       value = -s*delayed_term(p, s)
    end function delta_by_tau
+
+   !> Derivative of Delta by epsilon.
+   pure complex(wp) function delta_by_epsilon(p, s) result(value)
+      !> Parameters
+      type(block_parameters_type), intent(in) :: p
+      !> Point of the complex plane
+      complex(wp), intent(in) :: s
+
+      value = -s*p%gamma**2/p%xi*exp(-s*p%tau)
+   end function delta_by_epsilon
+
+   !> Derivative of a root by tau.
+   pure complex(wp) function root_by_tau(p, s) result(value)
+      !> Parameters
+      type(block_parameters_type), intent(in) :: p
+      !> The root
+      complex(wp), intent(in) :: s
+
+      value = -delta_by_tau(p, s)/delta_by_s(p, s)
+   end function root_by_tau
+
+   !> Derivative of a root by epsilon.
+   pure complex(wp) function root_by_epsilon(p, s) result(value)
+      !> Parameters
+      type(block_parameters_type), intent(in) :: p
+      !> The root
+      complex(wp), intent(in) :: s
+
+      value = -delta_by_epsilon(p, s)/delta_by_s(p, s)
+   end function root_by_epsilon
 
    !> |Delta(s)| over its largest term: how well s is a characteristic root.
    pure real(wp) function relative_residual(p, s) result(value)

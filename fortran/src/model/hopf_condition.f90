@@ -10,7 +10,7 @@ module hopf_condition
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: hopf_epsilon, hopf_tau, hopf_xi, partner_omega, printed_tau, two_pi
+   public :: hopf_epsilon, hopf_tau, hopf_xi, largest_omega, partner_omega, printed_tau, two_pi
 
    !> One turn.
    real(wp), parameter :: two_pi = 2.0_wp*acos(-1.0_wp)
@@ -53,6 +53,15 @@ contains
       epsilon = -1.0_wp + hypot(cosine_part(omega, xi, gamma), sine_part(omega, xi, gamma)) &
                 /(omega*gamma**2/xi)
    end function hopf_epsilon
+
+   !> Largest frequency of a pair i omega at this epsilon or a smaller one: by (7) and (8)
+   !> 1 + epsilon >= sqrt(1 + omega^2).
+   elemental real(wp) function largest_omega(epsilon) result(omega)
+      !> Sensitivity of the velocity relaxation
+      real(wp), intent(in) :: epsilon
+
+      omega = sqrt(max((1.0_wp + epsilon)**2 - 1.0_wp, 0.0_wp))
+   end function largest_omega
 
    !> Equation (9): the xi of a pair i omega at delay tau; it holds where hopf_tau gives tau back.
    elemental real(wp) function hopf_xi(omega, tau, gamma) result(xi)

@@ -7,6 +7,7 @@
 module block_equation
    use block_parameters, only: block_history_type, block_parameters_type
    use delay_equation, only: delay_equation_type
+   use dde, only: find_jacobian
    use dde_kinds, only: wp
    use spring_block, only: index_of_ln_v, index_of_theta, index_of_u, spring_block_type
    implicit none (type, external)
@@ -33,10 +34,10 @@ contains
       !> Parameters
       type(block_parameters_type), intent(in) :: parameters
       type(block_equation_type) :: equation
+      type(block_parameters_type) :: delayed
       type(spring_block_type) :: block
       ! the delayed part has the same form for every tau > 0
       real(wp), parameter :: some_delay = 1.0_wp
-      type(block_parameters_type) :: delayed
       real(wp) :: by_z(3, 1)
 
       equation%parameters = parameters
@@ -44,8 +45,8 @@ contains
       delayed%tau = some_delay
       block = spring_block_type(delayed, block_history_type())
       allocate (equation%linear%a(3, 3, 2), equation%linear%lag(2))
-      call block%jacobian(0.0_wp, [0.0_wp, 0.0_wp, 0.0_wp], [0.0_wp], &
-                          equation%linear%a(:, :, 1), by_z)
+      call find_jacobian(block, 0.0_wp, [0.0_wp, 0.0_wp, 0.0_wp], [0.0_wp], &
+                         equation%linear%a(:, :, 1), by_z)
       equation%linear%a(:, :, 2) = 0.0_wp
       equation%linear%a(:, index_of_ln_v, 2) = by_z(:, 1)
       equation%linear%lag = [0.0_wp, parameters%tau]

@@ -2,10 +2,10 @@
 !> window are found by a scan, their ends by root finding, and points are set where the line bends.
 module hopf_curves
    use block_parameters, only: block_parameters_type
-   use characteristic_function, only: delta_by_s, delta_by_tau, relative_residual
+   use characteristic_function, only: relative_residual, root_by_tau
    use dde_errors, only: error_type
    use gsl_roots, only: find_root, scalar_function_type
-   use hopf_condition, only: printed_tau
+   use hopf_condition, only: largest_omega, printed_tau
    use hopf_planes, only: curve_plane_type
    use dde_kinds, only: wp
    implicit none (type, external)
@@ -71,8 +71,7 @@ contains
 
       allocate (points(0), omega(0:scan_points), inside(0:scan_points))
       allocate (margin%plane, source=plane)
-      ! 1 + epsilon >= sqrt(1 + omega^2) on every Hopf curve
-      omega_most = sqrt((1.0_wp + plane%epsilon_window(2))**2 - 1.0_wp)
+      omega_most = largest_omega(plane%epsilon_window(2))
       call plane%bounds(omega_most, omega_least, k_most)
       omega(:) = [(omega_least + (omega_most - omega_least)*i/scan_points, i=0, scan_points)]
       piece = 0
@@ -215,7 +214,7 @@ contains
       point%parameters = plane%at(omega, k)
       associate (p => point%parameters)
          point%residual = relative_residual(p, s)
-         point%crossing = nint(sign(1.0_wp, real(-delta_by_tau(p, s)/delta_by_s(p, s))))
+         point%crossing = nint(sign(1.0_wp, real(root_by_tau(p, s))))
          printed = p
          printed%tau = printed_tau(omega, p%xi, p%gamma, k)
       end associate

@@ -4,7 +4,7 @@ module hopf_points
    use block_equation, only: block_equation_type
    use block_parameters, only: block_parameters_type
    use dde_errors, only: error_type
-   use gsl_roots, only: find_root, scalar_function_type
+   use gsl_roots, only: find_falling_root, find_root, scalar_function_type
    use hopf_condition, only: hopf_tau, partner_omega, two_pi
    use hopf_curves, only: curve_point_type
    use hopf_planes, only: curve_plane_type, tau_plane_type
@@ -143,21 +143,13 @@ contains
       !> A root was not found
       type(error_type), allocatable, intent(out) :: error
       type(delay_function_type) :: delay
-      real(wp) :: lower, omega, upper
+      real(wp) :: omega
 
       select type (plane)
       type is (tau_plane_type)
          if (plane%ordinate_window(1) > 0.0_wp) return
          delay%plane = plane
-         lower = 1.0_wp
-         do while (delay%value(lower) <= 0.0_wp)
-            lower = 0.5_wp*lower
-         end do
-         upper = 2.0_wp*lower
-         do while (delay%value(upper) >= 0.0_wp)
-            upper = 2.0_wp*upper
-         end do
-         call find_root(delay, lower, upper, omega, error)
+         call find_falling_root(delay, 1.0_wp, omega, error)
          if (allocated(error)) return
          associate (p => plane%at(omega, 0), window => plane%epsilon_window)
             if (p%epsilon < window(1) .or. p%epsilon > window(2)) return

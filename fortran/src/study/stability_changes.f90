@@ -2,10 +2,10 @@
 !> imaginary axis, all else kept: equations (7) and (10), solved for the frequency.
 module stability_changes
    use block_parameters, only: block_parameters_type
-   use characteristic_function, only: delta_by_s, delta_by_tau
+   use characteristic_function, only: root_by_epsilon, root_by_tau
    use dde_errors, only: error_type
-   use gsl_roots, only: find_root, scalar_function_type
-   use hopf_condition, only: hopf_epsilon, hopf_tau, partner_omega
+   use gsl_roots, only: find_falling_root, find_root, scalar_function_type
+   use hopf_condition, only: hopf_epsilon, hopf_tau, largest_omega, partner_omega
    use dde_kinds, only: wp
    use root_counts, only: pairs_beside
    implicit none (type, external)
@@ -90,8 +90,7 @@ contains
             k = k + 1
             if (there%tau <= 0.0_wp) cycle
             associate (s => cmplx(0.0_wp, omega(i), kind=wp))
-               call insert(changes, change_at(there, omega(i), &
-                                              real(-delta_by_tau(there, s)/delta_by_s(there, s))), &
+               call insert(changes, change_at(there, omega(i), real(root_by_tau(there, s))), &
                            changes%parameters%tau < there%tau)
             end associate
          end do
@@ -110,13 +109,12 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(block_parameters_type) :: there
       type(angle_function_type) :: angle
-      complex(wp) :: by_epsilon, s
+      complex(wp) :: s
       real(wp) :: lower, omega, omega_most
 
       allocate (changes(0))
       angle%p = p
-      ! 1 + epsilon >= sqrt(1 + omega^2) on every Hopf curve
-      omega_most = sqrt(max((1.0_wp + epsilon_most)**2 - 1.0_wp, 0.0_wp))
+      omega_most = largest_omega(epsilon_most)
       there = p
       do
          if (angle%value(omega_most) >= 0.0_wp) exit
@@ -130,8 +128,7 @@ contains
          there%epsilon = hopf_epsilon(omega, p%xi, p%gamma)
          if (there%epsilon > epsilon_most) cycle
          s = cmplx(0.0_wp, omega, kind=wp)
-         by_epsilon = -s*p%gamma**2/p%xi*exp(-s*p%tau)
-         call insert(changes, change_at(there, omega, real(-by_epsilon/delta_by_s(there, s))), &
+         call insert(changes, change_at(there, omega, real(root_by_epsilon(there, s))), &
                      changes%parameters%epsilon < there%epsilon)
       end do
    end subroutine changes_with_epsilon
@@ -145,18 +142,9 @@ contains
       !> No root found
       type(error_type), allocatable, intent(out) :: error
       type(partner_function_type) :: partner
-      real(wp) :: lower, upper
 
       partner%p = p
-      lower = p%gamma
-      do while (partner%value(lower) <= 0.0_wp)
-         lower = 0.5_wp*lower
-      end do
-      upper = 2.0_wp*lower
-      do while (partner%value(upper) >= 0.0_wp)
-         upper = 2.0_wp*upper
-      end do
-      call find_root(partner, lower, upper, omega, error)
+      call find_falling_root(partner, p%gamma, omega, error)
    end subroutine least_epsilon_at
 
    !> A crossing at the pair i omega.
