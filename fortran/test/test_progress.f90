@@ -1,4 +1,4 @@
-!> What long work tells of its progress.
+!> Progress that long work reports.
 module test_progress
    use block_parameters, only: block_history_type, block_parameters_type
    use dde, only: integration_options

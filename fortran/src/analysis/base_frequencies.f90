@@ -11,23 +11,23 @@ module base_frequencies
    private
    public :: bases_type, label_peaks
 
-   !> Bins by which a line may be off even where nothing is seen beside it; a background adds as
-   !> many bins as its amplitude over the line's.
+   !> Error of a line's frequency in bins where there is no background; a background adds as many
+   !> bins as its amplitude over the line's.
    real(wp), parameter :: bins_of_interpolation = 0.005_wp
-   !> Bins that part two lines at least if both are to be seen.
+   !> Least distance of two lines that are both resolved, in bins.
    real(wp), parameter :: bins_apart = 1.0_wp
-   !> Chance that a random frequency is a fraction of the base: up to the first the two have one
-   !> common base, up to the second it cannot be told.
+   !> Chance that a random frequency is a fraction of the base: up to the first value the two have
+   !> one common base, up to the second it is undecided.
    real(wp), parameter :: chance_sure = 0.02_wp, chance_open = 0.1_wp
    !> Chance that a random frequency is a combination, for each second base tried.
    real(wp), parameter :: chance_of_combination = 0.03_wp
-   !> Orders and denominators beyond any use.
+   !> Bounds of orders and denominators in the search.
    integer, parameter :: highest_order = 40, highest_denominator = 1000
    !> Peaks tried as second base, and peaks that a lower one must explain beyond a higher one's.
    integer, parameter :: most_tried = 8, least_gain = 2
    real(wp), parameter :: pi = acos(-1.0_wp)
 
-   !> What the labels rest on.
+   !> The base frequencies behind the labels.
    type :: bases_type
       !> f1 and f2; 0 where there is none
       real(wp) :: frequency(2) = 0.0_wp

@@ -87,7 +87,7 @@ contains
       end do
    end subroutine running_averages
 
-   !> Whether an exponent is zero as far as can be told.
+   !> Whether an exponent is zero within its error.
    elemental logical function without_sign(exponent, zero_level) result(value)
       !> The exponent
       type(exponent_type), intent(in) :: exponent

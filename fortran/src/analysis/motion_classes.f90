@@ -1,4 +1,4 @@
-!> The classes of motion, and the one that exponents tell.
+!> The classes of motion, and the class by Lyapunov exponents.
 module motion_classes
    use exponent_averages, only: error_bars, exponent_type, without_sign
    use dde_kinds, only: wp
@@ -18,15 +18,16 @@ module motion_classes
 
 contains
 
-   !> The class that leading exponents tell: all negative, a fixed point; one zero, the others
-   !> negative, a cycle; two zero, a torus; positive ones, chaos. Undecided where a zero is missed
-   !> among them, or one that counts as zero has too long an error bar.
+   !> The class by leading exponents: all negative, a fixed point; one zero, the others negative, a
+   !> cycle; two zero, a torus; positive ones, chaos. It is undecided if there are positive and
+   !> negative exponents but no zero one, if all or more than two are zero, or if the error bar of a
+   !> zero exponent is too long.
    pure integer function class_by_exponents(exponents, zero_level, longest_bar) result(found)
       !> Exponents, descending
       type(exponent_type), intent(in) :: exponents(:)
-      !> What is as good as zero, whatever the error bar
+      !> An exponent this close to zero is zero
       real(wp), intent(in) :: zero_level
-      !> Longest error bar (of three standard errors) that still tells a zero
+      !> Longest error bar (of three standard errors) of a zero exponent
       real(wp), intent(in) :: longest_bar
       logical :: zero(size(exponents))
       integer :: positive, zeros
@@ -52,13 +53,13 @@ contains
       end if
    end function class_by_exponents
 
-   !> The verdict: that of the exponents where one of the others confirms it and none contradicts.
+   !> The class by exponents, if at least one of the others confirms it and none contradicts it.
    pure integer function agreed(by_exponents, by_section, by_spectrum) result(found)
       !> Class by exponents
       integer, intent(in) :: by_exponents
-      !> Class by the section; `undecided` abstains
+      !> Class by the section; `undecided` neither confirms nor contradicts
       integer, intent(in) :: by_section
-      !> Class by the spectrum; `undecided` abstains
+      !> Class by the spectrum; `undecided` neither confirms nor contradicts
       integer, intent(in) :: by_spectrum
 
       associate (others => [by_section, by_spectrum])

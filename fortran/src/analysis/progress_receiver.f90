@@ -1,4 +1,4 @@
-!> Where long work tells how far it has come; what is done with it is the receiver's.
+!> Receiver of the progress of long work.
 module progress_receiver
    implicit none (type, external)
    private
@@ -12,7 +12,7 @@ module progress_receiver
    end type progress_receiver_type
 
    abstract interface
-      !> Receive how much is done; the work calls it as often as it likes, one thread at a time.
+      !> Receive how much is done. The work may call it often, from one thread at a time.
       subroutine take_progress(self, done, total)
          import :: progress_receiver_type
          implicit none (type, external)

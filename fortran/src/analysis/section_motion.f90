@@ -1,4 +1,4 @@
-!> What the points of a Poincare section tell: a few points that come again and again are a cycle;
+!> The class of motion by the points of a Poincare section: a few points that repeat are a cycle;
 !> points that are a smooth function of two phases, each turning at a base frequency, are a torus.
 module section_motion
    use dde_kinds, only: wp
@@ -7,11 +7,11 @@ module section_motion
    private
    public :: judge_section, section_verdict_type
 
-   !> Fewest points to judge by, how often a cycle must come again, and most points looked at.
+   !> Fewest points for a class, fewest repetitions of a cycle, and most points used.
    integer, parameter :: fewest_points = 40, fewest_turns = 4, most_points = 1000
    !> Longest period of a cycle, in points.
    integer, parameter :: longest_period = 64
-   !> Points of a cycle come again within this share of the scale.
+   !> Points of a cycle repeat within this share of the scale.
    real(wp), parameter :: same_point = 1.0e-3_wp
    !> Largest roughness of a torus.
    real(wp), parameter :: torus_roughness = 0.05_wp
@@ -35,11 +35,11 @@ contains
       real(wp), intent(in) :: points(:, :)
       !> When each was met, shape (points)
       real(wp), intent(in) :: times(:)
-      !> How far the motion reaches in each coordinate, > 0
+      !> Scale of the motion in each coordinate, > 0
       real(wp), intent(in) :: scale(:)
       !> Base frequencies, 0 where there is none
       real(wp), intent(in) :: bases(2)
-      !> What they tell
+      !> What was found
       type(section_verdict_type), intent(out) :: verdict
       real(wp), allocatable :: scaled(:, :)
       integer :: first, i

@@ -11,8 +11,8 @@ module spectral_peaks
       enumerator :: base_peak, harmonic_peak, second_base_peak, combination_peak, other_peak
    end enum
 
-   !> Bins on either side of a peak that tell what else there is: beyond the main lobe of a line
-   !> through a Hann window.
+   !> Bins on either side of a peak that show the background: beyond the main lobe of a line through
+   !> a Hann window.
    integer, parameter :: nearest_beside = 3, farthest_beside = 8
 
    !> One peak.

@@ -32,7 +32,7 @@ module gsl_roots
       end function function_value
    end interface
 
-   !> What GSL hands back to the callback.
+   !> What GSL passes to the callback.
    type :: callback_data_type
       class(scalar_function_type), pointer :: f => null()
    end type callback_data_type

@@ -1,4 +1,4 @@
-!> The program as a process: its number, who reads what it says, and its end.
+!> The program as a process: its number, whether its messages go to a terminal, and its end.
 module process
    use, intrinsic :: iso_c_binding, only: c_int
    implicit none (type, external)
@@ -32,14 +32,14 @@ contains
       value = c_isatty(2_c_int) == 1
    end function standard_error_is_terminal
 
-   !> The number that tells the process from all others of its computer.
+   !> The number of the process, which no other process of this computer has.
    integer function number_of_process() result(value)
 
       value = c_getpid()
    end function number_of_process
 
-   !> End the program without what libraries do at its end: after a write that failed HDF5 tries to
-   !> write once more there, and crashes.
+   !> End the program without the exit handlers of libraries: after a failed write, HDF5 tries to
+   !> write again in its handler, and crashes.
    subroutine end_at_once(status)
       !> Exit status
       integer, intent(in) :: status

@@ -20,7 +20,7 @@ module exponents_output
 
 contains
 
-   !> Write the exponents of a scene in its own way, the first, and in others.
+   !> Write the exponents of a scene: the first run has its own settings, the others are checks.
    subroutine write_exponents(path, scene, settings, options, measured, error)
       !> Path of the file
       character(len=*), intent(in) :: path

@@ -1,4 +1,4 @@
-!> NetCDF-4 files that are whole or absent.
+!> NetCDF-4 files, which appear only when they are complete.
 module netcdf_output
    use, intrinsic :: iso_fortran_env, only: compiler_version
    use dde_errors, only: error_type, raise

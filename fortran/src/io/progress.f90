@@ -1,5 +1,5 @@
 !> Progress of a long program on standard error: on a terminal one line that is rewritten, elsewhere
-!> a line every 5 %. Short programs say nothing.
+!> a line every 5 %. Short programs write nothing.
 module progress
    use, intrinsic :: iso_fortran_env, only: error_unit
    use dde_errors, only: text
@@ -33,23 +33,23 @@ module progress
       integer :: parts = 1, part = 1
       !> Whether lines are rewritten, and whether there is one now
       logical :: rewritten = .false., shown = .false.
-      !> Whether standard error takes nothing
+      !> Whether writing to standard error failed
       logical :: silent = .false.
       !> When the work began, and when the last line was written, in ticks of the clock
-      integer(int64) :: begun = 0, told = 0
+      integer(int64) :: begun = 0, written_at = 0
       !> Ticks in a second
       integer(int64) :: ticks = 1
       !> Pieces done when the clock is looked at next
       integer :: next = 0
-      !> Per cent told last
+      !> Per cent in the last line
       integer :: percent = 0
    contains
       procedure :: advance
       !> Begin another part
       procedure :: begin_part
-      !> Nothing more will come: leave an empty line on a terminal
+      !> End of the work: leave an empty line on a terminal
       procedure :: finish
-      procedure, private :: tell, put, pieces_done, percent_of, time_left
+      procedure, private :: write_line, put, pieces_done, percent_of, time_left
    end type progress_type
 
    interface progress_type
@@ -83,7 +83,7 @@ contains
       self%next = 0
    end subroutine begin_part
 
-   !> Tell how much of a part is done, if it is time to.
+   !> Report how much of a part is done, if a line is due.
    subroutine advance(self, done, total)
       !> The progress
       class(progress_type), intent(inout) :: self
@@ -98,14 +98,16 @@ contains
       call system_clock(now)
       if (now - self%begun < patience*self%ticks) return
       if (self%rewritten) then
-         if ((now - self%told)*lines_a_second >= self%ticks) call self%tell(done, total, now)
+         if ((now - self%written_at)*lines_a_second >= self%ticks) then
+            call self%write_line(done, total, now)
+         end if
       else if (self%percent_of(done, total)/step > self%percent/step) then
-         call self%tell(done, total, now)
+         call self%write_line(done, total, now)
       end if
    end subroutine advance
 
    !> Write a line.
-   subroutine tell(self, done, total, now)
+   subroutine write_line(self, done, total, now)
       !> The progress
       class(progress_type), intent(inout) :: self
       !> Number of pieces done
@@ -116,7 +118,7 @@ contains
       integer(int64), intent(in) :: now
       character(len=:), allocatable :: line
 
-      self%told = now
+      self%written_at = now
       self%percent = self%percent_of(done, total)
       line = self%label//": "//text(self%percent)//" %, "
       if (self%parts > 1) line = line//"part "//text(self%part)//" of "//text(self%parts)//", "
@@ -124,7 +126,7 @@ contains
       if (self%rewritten) line = line_start//line(:min(len(line), width))//clear_rest
       call self%put(line)
       self%shown = self%rewritten
-   end subroutine tell
+   end subroutine write_line
 
    !> Leave an empty line on a terminal.
    subroutine finish(self)
@@ -135,7 +137,7 @@ contains
       self%shown = .false.
    end subroutine finish
 
-   !> Write to standard error. Where it takes nothing the work goes on in silence.
+   !> Write to standard error. If that fails, the work goes on without reports.
    subroutine put(self, line)
       !> The progress
       class(progress_type), intent(inout) :: self
@@ -186,7 +188,7 @@ contains
       integer(int64) :: pieces
       real(wp) :: taken
 
-      taken = real(self%told - self%begun, wp)/self%ticks
+      taken = real(self%written_at - self%begun, wp)/self%ticks
       pieces = self%pieces_done(done, total)
       if (pieces == 0) then
          words = "just begun"

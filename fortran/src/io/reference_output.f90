@@ -1,5 +1,5 @@
 !> Reference files: tables of text with 20 digits, more than a number in double precision holds.
-!> They are whole or absent.
+!> A file appears only when it is complete.
 module reference_output
    use dde_errors, only: error_type
    use dde_kinds, only: wp
@@ -33,7 +33,8 @@ module reference_output
 
 contains
 
-   !> Begin a file with the names of the columns; what cannot be written is told before the work.
+   !> Begin a file with the names of the columns: a path that cannot be written is an error before
+   !> the work begins.
    subroutine create(self, path, error)
       !> The file
       class(reference_file_type), intent(inout) :: self

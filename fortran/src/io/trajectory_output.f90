@@ -22,7 +22,7 @@ module trajectory_output
       private
       !> The file
       type(output_file_type), public :: file
-      !> Samples received, told to the user
+      !> Report of the samples received
       type(progress_type) :: progress
       !> The scene
       type(scene_type) :: scene

@@ -1,8 +1,8 @@
-!> Files that are whole or absent: written under another name, renamed when complete. Each run has
-!> another name of its own, and removes those of earlier runs for the same file when it begins. So
-!> nothing is left of runs that were killed. And of several runs that write the same file at once,
-!> as when a workflow was killed and its programs live on, the last to begin does so: an older one
-!> finds nothing to rename, whenever it ends.
+!> Files that appear only when they are complete: they are written under another name and renamed
+!> at the end. Each run has its own other name. When it begins, it removes unfinished files of
+!> earlier runs for the same path, so that nothing remains of a killed run. Several runs may write
+!> the same file at once, for instance when a workflow was killed and its programs go on. The last
+!> one to begin writes the file: an older run finds nothing to rename.
 module unfinished_file
    use dde_errors, only: error_type, raise, text
    use file_system, only: missing, occupied, place_of_file, reason_of, remove_file, remove_marked, &
@@ -28,7 +28,7 @@ module unfinished_file
       !> Whether it was written once
       logical, private :: there = .false.
    contains
-      !> Choose the other path; earlier runs for the same file lose theirs
+      !> Choose the other path and remove unfinished files of earlier runs
       procedure :: begin
       !> Write all of the file
       procedure :: write => write_all
@@ -73,8 +73,8 @@ contains
       end select
    end subroutine explain
 
-   !> Choose the other path; earlier runs for the same file lose theirs. The file is to be made at
-   !> once, and not once more: one that is gone belongs to a later run.
+   !> Choose the other path and remove unfinished files of earlier runs. The caller creates the file
+   !> at once and only once: a file that has disappeared was removed by a later run.
    subroutine begin(self, path, error)
       !> The file
       class(unfinished_type), intent(inout) :: self
@@ -86,7 +86,7 @@ contains
 
       call system_clock(now)
       self%path = path
-      ! the clock tells processes of the same number on two computers apart
+      ! processes on two computers may have the same number; the clock makes the names differ
       self%other_path = path//"."//text(number_of_process())//"-"//text(now)//ending
       call remove_marked(path, ending)
       call check_place(path, error)

@@ -43,9 +43,9 @@ module attractors
       integer :: exponents = 0
       !> An exponent this close to zero has no sign
       real(wp) :: zero_level = 0.0_wp
-      !> Longest error bar that still tells a zero
+      !> Longest error bar of a zero exponent
       real(wp) :: longest_bar = 0.0_wp
-      !> How often the time of measuring exponents is doubled where they tell no class
+      !> How often the time of measuring exponents is doubled while their class is undecided
       integer :: doublings = 0
       !> Time between the samples of the spectrum
       real(wp) :: sample_interval = 0.0_wp
@@ -167,7 +167,7 @@ contains
       end associate
    end subroutine keep_events
 
-   !> A block in motion: three witnesses.
+   !> A block in motion: its class by exponents, by the section and by the spectrum.
    subroutine judge_motion(block_model, settings, options, arrived, samples, attractor, error)
       !> The block
       type(spring_block_type), intent(in) :: block_model
@@ -212,7 +212,7 @@ contains
       attractor%roughness = in_section%roughness
    end subroutine judge_motion
 
-   !> What the lines in the spectrum of v tell.
+   !> The class by the lines in the spectrum of v.
    subroutine judge_spectrum(v, settings, attractor, error)
       !> Samples of v
       real(wp), intent(in) :: v(:)
