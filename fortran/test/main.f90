@@ -5,6 +5,7 @@ program tester
    use test_attractor_points, only: collect_attractor_points
    use test_attractors, only: collect_attractors
    use test_base_frequencies, only: collect_base_frequencies
+   use test_block_parameters, only: collect_block_parameters
    use test_dde_extremes, only: collect_dde_extremes
    use test_dde_gsl, only: collect_dde_gsl
    use test_dde_implicit, only: collect_dde_implicit
@@ -41,6 +42,7 @@ program tester
    allocate (suites, source=[new_testsuite("attractor_points", collect_attractor_points), &
                              new_testsuite("attractors", collect_attractors), &
                              new_testsuite("base_frequencies", collect_base_frequencies), &
+                             new_testsuite("block_parameters", collect_block_parameters), &
                              new_testsuite("dde_extremes", collect_dde_extremes), &
                              new_testsuite("dde_gsl", collect_dde_gsl), &
                              new_testsuite("dde_implicit", collect_dde_implicit), &
