@@ -8,7 +8,7 @@ min_version("9.0")
 configfile: "config/config.yaml"
 
 
-report: "scripts/report.rst"
+report: "scripts/page/report.rst"
 
 
 include: "rules/common.smk"

@@ -5,12 +5,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from accuracy import Reference, distances, read_references
-from check_config import checked
-from read_config import read
-from study_cases import case_of_scene
-from tables import read_table
-from write_measured_scene import horizon_of
+
+from scripts.config.check_config import checked
+from scripts.config.read_config import read
+from scripts.files.tsv import read_table
+from scripts.namelists.study_cases import case_of_scene
+from scripts.namelists.write_measured_scene import horizon_of
+from scripts.tables.accuracy import Reference, distances, read_references
 
 ROOT = Path(__file__).resolve().parent.parent
 HORIZONS = ROOT / "results" / "tables" / "trusted-horizons.tsv"

@@ -7,26 +7,26 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-sys.path.insert(0, f"{workflow.basedir}/scripts")
-import packages
+# The workflow imports the package `scripts`, and so do the scripts that it runs.
+sys.path.insert(0, str(workflow.basedir))
+os.environ["PYTHONPATH"] = os.pathsep.join(
+    [str(workflow.basedir), *filter(None, [os.environ.get("PYTHONPATH")])]
+)
+from scripts.workflow import packages
 
 try:
     packages.refuse_missing()
-    import missing_files
+    from scripts.workflow import missing_files
 
     missing_files.make_again()
 except packages.PackageError as problem:
     raise SystemExit(f"error: {problem}") from None
 
-import attractor_surveys
-import before_run
-import check_config
-import claims_config
-import git_commit
-import page_assets
-import read_config
-import script_imports
-import study_cases
+from scripts.claims import claims_config
+from scripts.config import check_config, read_config
+from scripts.namelists import attractor_surveys, study_cases
+from scripts.page import page_assets
+from scripts.workflow import before_run, git_commit, script_imports
 
 
 def merged_config():

@@ -3,30 +3,30 @@
 
 rule figure_1:
     input:
-        code=code_of("figure_1.py"),
+        code=code_of("figures/figure_1.py"),
     output:
         pdf="results/figures/figure_1.pdf",
         png=report(
             "results/figures/figure_1.png",
-            caption="../scripts/figure_1.rst",
+            caption="../scripts/figures/figure_1.rst",
             category="Figures",
         ),
         svg="results/figures/figure_1.svg",
     log:
         "results/logs/figures/figure_1.log",
     script:
-        "../scripts/figure_1.py"
+        "../scripts/figures/figure_1.py"
 
 
 rule figure_2:
     input:
         curves="results/hopf/tau_of_epsilon.nc",
-        code=code_of("figure_2.py"),
+        code=code_of("figures/figure_2.py"),
     output:
         pdf="results/figures/figure_2.pdf",
         png=report(
             "results/figures/figure_2.png",
-            caption="../scripts/figure_2.rst",
+            caption="../scripts/figures/figure_2.rst",
             category="Figures",
         ),
         svg="results/figures/figure_2.svg",
@@ -35,18 +35,18 @@ rule figure_2:
     params:
         scenes=places_of_scenes(),
     script:
-        "../scripts/figure_2.py"
+        "../scripts/figures/figure_2.py"
 
 
 rule figure_3:
     input:
         curves="results/hopf/xi_of_epsilon.nc",
-        code=code_of("figure_3.py"),
+        code=code_of("figures/figure_3.py"),
     output:
         pdf="results/figures/figure_3.pdf",
         png=report(
             "results/figures/figure_3.png",
-            caption="../scripts/figure_3.rst",
+            caption="../scripts/figures/figure_3.rst",
             category="Figures",
         ),
         svg="results/figures/figure_3.svg",
@@ -55,18 +55,18 @@ rule figure_3:
     params:
         scenes=places_of_scenes(),
     script:
-        "../scripts/figure_3.py"
+        "../scripts/figures/figure_3.py"
 
 
 rule figure_4:
     input:
         trajectories=trajectories_of("figure_4"),
-        code=code_of("figure_4.py"),
+        code=code_of("figures/figure_4.py"),
     output:
         pdf="results/figures/figure_4.pdf",
         png=report(
             "results/figures/figure_4.png",
-            caption="../scripts/figure_4.rst",
+            caption="../scripts/figures/figure_4.rst",
             category="Figures",
         ),
         svg="results/figures/figure_4.svg",
@@ -75,19 +75,19 @@ rule figure_4:
     params:
         settings=config["figures"]["figure_4"],
     script:
-        "../scripts/figure_4.py"
+        "../scripts/figures/figure_4.py"
 
 
 rule figure_5:
     input:
         trajectories=trajectories_of("figure_5"),
         spectra=spectra_of("figure_5"),
-        code=code_of("figure_5.py"),
+        code=code_of("figures/figure_5.py"),
     output:
         pdf="results/figures/figure_5.pdf",
         png=report(
             "results/figures/figure_5.png",
-            caption="../scripts/figure_5.rst",
+            caption="../scripts/figures/figure_5.rst",
             category="Figures",
         ),
         svg="results/figures/figure_5.svg",
@@ -96,18 +96,18 @@ rule figure_5:
     params:
         settings=config["figures"]["figure_5"],
     script:
-        "../scripts/figure_5.py"
+        "../scripts/figures/figure_5.py"
 
 
 rule figure_6:
     input:
         spectra=spectra_of("figure_6"),
-        code=code_of("figure_6.py"),
+        code=code_of("figures/figure_6.py"),
     output:
         pdf="results/figures/figure_6.pdf",
         png=report(
             "results/figures/figure_6.png",
-            caption="../scripts/figure_6.rst",
+            caption="../scripts/figures/figure_6.rst",
             category="Figures",
         ),
         svg="results/figures/figure_6.svg",
@@ -116,18 +116,18 @@ rule figure_6:
     params:
         settings=config["figures"]["figure_6"],
     script:
-        "../scripts/figure_6.py"
+        "../scripts/figures/figure_6.py"
 
 
 rule figure_7:
     input:
         spectra=spectra_of("figure_7"),
-        code=code_of("figure_7.py"),
+        code=code_of("figures/figure_7.py"),
     output:
         pdf="results/figures/figure_7.pdf",
         png=report(
             "results/figures/figure_7.png",
-            caption="../scripts/figure_7.rst",
+            caption="../scripts/figures/figure_7.rst",
             category="Figures",
         ),
         svg="results/figures/figure_7.svg",
@@ -136,22 +136,22 @@ rule figure_7:
     params:
         settings=config["figures"]["figure_7"],
     script:
-        "../scripts/figure_7.py"
+        "../scripts/figures/figure_7.py"
 
 
 rule figure_8:
     input:
         response="results/friction/velocity_step.nc",
-        code=code_of("figure_8.py"),
+        code=code_of("figures/figure_8.py"),
     output:
         pdf="results/figures/figure_8.pdf",
         png=report(
             "results/figures/figure_8.png",
-            caption="../scripts/figure_8.rst",
+            caption="../scripts/figures/figure_8.rst",
             category="Figures",
         ),
         svg="results/figures/figure_8.svg",
     log:
         "results/logs/figures/figure_8.log",
     script:
-        "../scripts/figure_8.py"
+        "../scripts/figures/figure_8.py"

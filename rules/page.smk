@@ -12,7 +12,7 @@ rule page:
         readme="README.md",
         template="page/index.html.jinja",
         assets=assets_of_page,
-        code=code_of("write_page.py"),
+        code=code_of("page/write_page.py"),
     output:
         page="results/index.html",
         assets=expand("results/page/{asset}", asset=page_assets.ASSETS),
@@ -23,4 +23,4 @@ rule page:
         benchmarks=patterns_of_benchmarks(),
         commit=commit_at_work(),
     script:
-        "../scripts/write_page.py"
+        "../scripts/page/write_page.py"

@@ -4,7 +4,7 @@
 
 rule stability_namelists:
     input:
-        code=code_of("write_study_namelists.py"),
+        code=code_of("namelists/write_study_namelists.py"),
     output:
         measurement="results/namelists/measurements/stability/{family}.nml",
         reference="results/namelists/references/stability/{family}.nml",
@@ -13,12 +13,12 @@ rule stability_namelists:
     params:
         groups=family_groups,
     script:
-        "../scripts/write_study_namelists.py"
+        "../scripts/namelists/write_study_namelists.py"
 
 
 rule trust_namelists:
     input:
-        code=code_of("write_study_namelists.py"),
+        code=code_of("namelists/write_study_namelists.py"),
     output:
         measurement="results/namelists/measurements/trust/{work_scene}.nml",
         reference="results/namelists/references/trust/{work_scene}.nml",
@@ -27,7 +27,7 @@ rule trust_namelists:
     params:
         groups=trust_groups_of,
     script:
-        "../scripts/write_study_namelists.py"
+        "../scripts/namelists/write_study_namelists.py"
 
 
 rule reference:
@@ -71,7 +71,7 @@ rule stability_table:
             "results/measurements/stability/{family}.nc", family=FAMILIES
         ),
         references=references_of_families(),
-        code=code_of("stability_table.py"),
+        code=code_of("tables/stability_table.py"),
     output:
         "results/tables/stability.tsv",
     log:
@@ -82,32 +82,32 @@ rule stability_table:
             for name, family in config["stability"]["families"].items()
         },
     script:
-        "../scripts/stability_table.py"
+        "../scripts/tables/stability_table.py"
 
 
 rule stability:
     input:
         table="results/tables/stability.tsv",
-        code=code_of("stability.py"),
+        code=code_of("figures/stability.py"),
     output:
         pdf="results/figures/stability.pdf",
         png=report(
             "results/figures/stability.png",
-            caption="../scripts/stability.rst",
+            caption="../scripts/figures/stability.rst",
             category="Solver",
         ),
         svg="results/figures/stability.svg",
     log:
         "results/logs/figures/stability.log",
     script:
-        "../scripts/stability.py"
+        "../scripts/figures/stability.py"
 
 
 rule trusted_horizons:
     input:
         measurements=expand("results/measurements/trust/{scene}.nc", scene=WORK_SCENES),
         references=expand("results/references/trust/{scene}.tsv", scene=WORK_SCENES),
-        code=code_of("trusted_horizons.py"),
+        code=code_of("tables/trusted_horizons.py"),
     output:
         "results/tables/trusted-horizons.tsv",
     log:
@@ -115,13 +115,13 @@ rule trusted_horizons:
     params:
         trusted_error=config["work_precision"]["trusted_error"],
     script:
-        "../scripts/trusted_horizons.py"
+        "../scripts/tables/trusted_horizons.py"
 
 
 rule work_precision_namelist:
     input:
         horizons="results/tables/trusted-horizons.tsv",
-        code=code_of("write_measured_scene.py"),
+        code=code_of("namelists/write_measured_scene.py"),
     output:
         "results/namelists/measurements/work_precision/{work_scene}.nml",
     log:
@@ -129,7 +129,7 @@ rule work_precision_namelist:
     params:
         study=config["work_precision"],
     script:
-        "../scripts/write_measured_scene.py"
+        "../scripts/namelists/write_measured_scene.py"
 
 
 # The runs of a scene take turns, so that what else the machine does hits all methods alike.
@@ -157,30 +157,30 @@ rule work_precision_table:
             "results/measurements/work_precision/{scene}.nc", scene=WORK_SCENES
         ),
         references=expand("results/references/trust/{scene}.tsv", scene=WORK_SCENES),
-        code=code_of("work_precision_table.py"),
+        code=code_of("tables/work_precision_table.py"),
     output:
         errors="results/tables/work-precision.tsv",
         proportionality="results/tables/tolerance-proportionality.tsv",
     log:
         "results/logs/tables/work-precision.log",
     script:
-        "../scripts/work_precision_table.py"
+        "../scripts/tables/work_precision_table.py"
 
 
 rule work_precision:
     input:
         table="results/tables/work-precision.tsv",
         others=tables_of_others,
-        code=code_of("work_precision.py"),
+        code=code_of("figures/work_precision.py"),
     output:
         pdf="results/figures/work_precision.pdf",
         png=report(
             "results/figures/work_precision.png",
-            caption="../scripts/work_precision.rst",
+            caption="../scripts/figures/work_precision.rst",
             category="Solver",
         ),
         svg="results/figures/work_precision.svg",
     log:
         "results/logs/figures/work_precision.log",
     script:
-        "../scripts/work_precision.py"
+        "../scripts/figures/work_precision.py"

@@ -65,7 +65,7 @@ ask_for_packages() {
 # What the virtual environment must have been made from: the locked packages, the interpreter,
 # and the folder, since the scripts of a virtual environment hold its path.
 venv_source() {
-    sha256sum setup/requirements.lock "$lock"
+    sha256sum setup/requirements.lock "$lock" setup/setup.sh
     /usr/bin/python3 --version
     pwd
 }
@@ -126,8 +126,8 @@ read_as_the_project() {
     local body='
     import sys
 
-    sys.path.append(str(Path(sys.prefix).parent / "scripts"))
-    import read_config
+    sys.path.append(str(Path(sys.prefix).parent))
+    from scripts.config import read_config
 
     try:
         return read_config.read(configpath)

@@ -3,7 +3,8 @@
 import copy
 
 import xarray as xr
-from write_namelist import write_groups
+
+from scripts.namelists.write_namelist import write_groups
 
 OBSERVATION = {
     "t_transient": 100.0,

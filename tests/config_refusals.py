@@ -3,8 +3,9 @@
 import math
 
 import pytest
-from check_config import checked
-from read_config import ConfigError
+
+from scripts.config.check_config import checked
+from scripts.config.read_config import ConfigError
 
 NO_NUMBERS = ["0.5", True, None, [0.5], {"a": 0.5}, math.nan, math.inf, -math.inf]
 

@@ -12,9 +12,10 @@ from pathlib import Path
 
 import pytest
 import xarray as xr
-from check_config import checked
-from read_config import merged, read
-from write_namelist import write_namelist
+
+from scripts.config.check_config import checked
+from scripts.config.read_config import merged, read
+from scripts.namelists.write_namelist import write_namelist
 
 ROOT = Path(__file__).parent.parent
 SMOKE = ("--configfile", "config/smoke.yaml")

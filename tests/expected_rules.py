@@ -3,7 +3,8 @@
 import re
 
 from conftest import ROOT
-from read_config import read
+
+from scripts.config.read_config import read
 
 
 def data_of(*scenes: str) -> set[str]:

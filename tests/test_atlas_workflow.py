@@ -3,13 +3,14 @@
 import re
 from pathlib import Path
 
-import attractor_tables
 import pytest
 import xarray as xr
-from attractor_surveys import atlas_groups
 from conftest import ROOT, SMOKE, Programs, rules_in
-from tables import read_table, write_table
-from write_namelist import write_groups
+
+from scripts.files.tsv import read_table, write_table
+from scripts.namelists.attractor_surveys import atlas_groups
+from scripts.namelists.write_namelist import write_groups
+from scripts.tables import attractor_tables
 
 PARTS = "results/attractors/atlas"
 RULES = {"build", "attractors_namelist", "attractors_runs", "atlas_table"}
@@ -51,9 +52,8 @@ def test_fine_atlas_resumes(scratch):
 
 def test_atlas_has_a_caption():
     """That of the coarse one: the same figure."""
-    captions = [
-        (ROOT / "scripts" / f"{name}.rst").read_text() for name in ("atlas", "atlas_coarse")
-    ]
+    figures = ROOT / "scripts" / "figures"
+    captions = [(figures / f"{name}.rst").read_text() for name in ("atlas", "atlas_coarse")]
     assert captions[0] == captions[1]
 
 

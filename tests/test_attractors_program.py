@@ -5,9 +5,10 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
-from attractor_tables import scene_rows
 from attractors_runs import OBSERVATION, good_groups, made
-from tables import read_table, write_table
+
+from scripts.files.tsv import read_table, write_table
+from scripts.tables.attractor_tables import scene_rows
 
 
 @pytest.fixture

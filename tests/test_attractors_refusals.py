@@ -4,7 +4,8 @@ import math
 
 import pytest
 from attractors_runs import OBSERVATION, POINTS, good_groups, made, run
-from write_namelist import write_groups
+
+from scripts.namelists.write_namelist import write_groups
 
 BAD = [
     *[("t_transient", value, "a finite number > 0") for value in (0.0, -1.0, math.nan, math.inf)],

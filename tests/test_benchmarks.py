@@ -12,9 +12,10 @@ import pytest
 import ratios
 import scenes
 import workers
-from accuracy import Reference
 from conftest import ROOT
-from tables import read_table
+
+from scripts.files.tsv import read_table
+from scripts.tables.accuracy import Reference
 
 SCENE = scenes.Scene("torus", 10.0, 0.5, 0.8, 0.8, (0.0, 0.0, 0.25), 1.0, 0.5)
 NAMES = ("fixed_point", "oscillation", "torus", "chaos", "stick", "stiff")

@@ -3,13 +3,20 @@
 import csv
 import json
 
-import claims
 import pytest
-from claims_config import listed
-from claims_results import NOT_REPRODUCED, NOT_TESTABLE, REPRODUCED, VERDICTS, read_results
 from conftest import ROOT, SMOKE
 from made_up_results import attractor_row, hopf_curve, results, stability_row
-from tables import write_table
+
+from scripts.claims import ledger
+from scripts.claims.claims_config import listed
+from scripts.claims.claims_results import (
+    NOT_REPRODUCED,
+    NOT_TESTABLE,
+    REPRODUCED,
+    VERDICTS,
+    read_results,
+)
+from scripts.files.tsv import write_table
 
 CLAIMS = {
     "moves": {
@@ -54,7 +61,7 @@ def ledger_of(met: str) -> list[dict]:
         attractors=[attractor_row(met)],
         linear_stability=[stability_row()],
     )
-    return claims.rows_of(CLAIMS, made)
+    return ledger.rows_of(CLAIMS, made)
 
 
 def test_a_row_for_every_claim():
@@ -100,7 +107,7 @@ def test_files_are_read_by_name(tmp_path):
 def test_json_is_whole_or_absent(tmp_path):
     """And holds the rows."""
     rows = ledger_of("cycle")
-    claims.write_json(tmp_path / "claims.json", rows)
+    ledger.write_json(tmp_path / "claims.json", rows)
     assert json.loads((tmp_path / "claims.json").read_text()) == rows
     assert [path.name for path in tmp_path.iterdir()] == ["claims.json"]
 

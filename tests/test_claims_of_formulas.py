@@ -1,11 +1,12 @@
 """Verdicts on the printed equations, on Hopf curves in closed form."""
 
-import claims_of_formulas as tests_of
 import numpy as np
 import pytest
-from claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED
 from made_up_results import changed, hopf_curve, on_plane, results
-from printed_formulas import epsilon_of_8, points_of, residual_of_5, xi_of_9
+
+from scripts.claims import claims_of_formulas as tests_of
+from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED
+from scripts.claims.printed_formulas import epsilon_of_8, points_of, residual_of_5, xi_of_9
 
 LIMIT = 1e-10
 BELOW_ROUNDING = 1e-20

@@ -182,7 +182,8 @@ def debian_packages(folder: str = "setup") -> list[str]:
 
 def made_from(folder: Path) -> str:
     """What the set-up notes of the .venv that it made there."""
-    command = "sha256sum setup/requirements.lock requirements.lock; /usr/bin/python3 --version; pwd"
+    files = "setup/requirements.lock requirements.lock setup/setup.sh"
+    command = f"sha256sum {files}; /usr/bin/python3 --version; pwd"
     run = subprocess.run(["bash", "-c", command], cwd=folder, capture_output=True, text=True)
     return run.stdout
 

@@ -3,10 +3,11 @@
 from collections.abc import Iterator
 
 import pytest
-from check_config import checked, variables_used
 from config_refusals import NO_NUMBERS, line_about, out_of_range, put, refusal
 from conftest import ROOT
-from read_config import read
+
+from scripts.config.check_config import checked, variables_used
+from scripts.config.read_config import read
 
 SCENE_RANGES = {
     "tau": (">= 0", [-1e-300, -1.0]),

@@ -1,9 +1,10 @@
 """Checking what a configuration says about attractors, the atlas and the route to chaos."""
 
 import pytest
-from check_attractors import FEWEST_SAMPLES
-from check_config import checked
 from config_refusals import NO_NUMBERS, line_about, out_of_range, put, refusal
+
+from scripts.config.check_attractors import FEWEST_SAMPLES
+from scripts.config.check_config import checked
 
 OF_SCENES = ("attractors", "observation")
 COARSE = ("atlas", "grids", "coarse")

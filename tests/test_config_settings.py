@@ -3,9 +3,10 @@
 import contextlib
 
 import pytest
-from check_config import checked
 from config_refusals import NO_NUMBERS, line_about, out_of_range, put, refusal
-from read_config import ConfigError
+
+from scripts.config.check_config import checked
+from scripts.config.read_config import ConfigError
 
 SETTING_RANGES = {
     ("figures", "figure_4", "end_shown"): ("> 0", [0.0]),

@@ -1,8 +1,9 @@
 """Checking what a configuration says about stability and work against precision."""
 
 import pytest
-from check_config import checked
 from config_refusals import line_about, out_of_range, put, refusal
+
+from scripts.config.check_config import checked
 
 FAMILY = ("stability", "families", "growth")
 SCENE = ("work_precision", "scenes", "torus")

@@ -9,7 +9,8 @@ import pytest
 from conftest import GROUPS, SMOKE, rules_in
 from disks import FULL, READ_ONLY, on_disk
 from test_measure import CASES, GROUP_OF
-from write_namelist import write_groups
+
+from scripts.namelists.write_namelist import write_groups
 
 REMEDY = "; see that its folder is there, can be written and has room, then run again\n"
 SNAKEMAKE = Path(sys.executable).parent / "snakemake"

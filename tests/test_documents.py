@@ -10,11 +10,12 @@ from functools import cache
 from pathlib import PurePath
 
 import pytest
-from check_config import checked
-from claims_config import checked as checked_claims
 from conftest import ROOT, project_files
-from read_config import parsed, read
 from snakemake.utils import update_config
+
+from scripts.claims.claims_config import checked as checked_claims
+from scripts.config.check_config import checked
+from scripts.config.read_config import parsed, read
 
 DOCUMENTS = [
     "README.md",

@@ -2,19 +2,20 @@
 
 import math
 
-import exponents
-import exponents_table
 import numpy as np
 import pytest
 import xarray as xr
-from check_config import checked
 from config_refusals import NO_NUMBERS, line_about, out_of_range, put, refusal
 from conftest import of_trajectory
-from drawing import STYLE
 from figure_contents import title_of, words_in
 from matplotlib import pyplot as plt
-from tables import read_table
-from write_namelist import write_groups
+
+from scripts.config.check_config import checked
+from scripts.drawing.style import STYLE
+from scripts.figures import exponents
+from scripts.files.tsv import read_table
+from scripts.namelists.write_namelist import write_groups
+from scripts.tables import exponents_table
 
 SCENES = ["oscillation", "torus", "chaos", "true_torus"]
 COLUMNS = "scene i exponent error sign dimension dimension_error t tolerance longest_step mean_step"

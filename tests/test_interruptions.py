@@ -13,7 +13,8 @@ import pytest
 from conftest import GROUPS, SMOKE, Programs, Project, unfinished, wait_for
 from disks import NAMESPACE, need_namespaces
 from test_measure import CASES, GROUP_OF
-from write_namelist import write_groups, write_namelist
+
+from scripts.namelists.write_namelist import write_groups, write_namelist
 
 SNAKEMAKE = Path(sys.executable).parent / "snakemake"
 LONG = "results/references/stability/grid_fault.tsv"

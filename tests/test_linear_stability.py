@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 from config_refusals import refusal
-from hopf_points_table import death_rows_of
-from linear_stability_table import amplitude_death, row_of
-from tables import read_table
 from test_hopf import count_by_crossings, residual
+
+from scripts.files.tsv import read_table
+from scripts.tables.hopf_points_table import death_rows_of
+from scripts.tables.linear_stability_table import amplitude_death, row_of
 
 SCENES = {"fixed_point": 0, "oscillation": 1, "torus": 1, "chaos": 1, "true_torus": 1}
 """Number of unstable pairs."""

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 import xarray as xr
 from scipy.integrate import solve_ivp
-from write_namelist import write_groups
+
+from scripts.namelists.write_namelist import write_groups
 
 CASES = {
     "name": ["decay", "stiff"],

@@ -7,12 +7,13 @@ import sys
 from importlib.metadata import packages_distributions
 from pathlib import Path
 
-import missing_files
 import pytest
 import snakemake
 from conftest import ROOT, Project, rules_in
-from packages import PACKAGES, PackageError
 from test_workflow_changes import names_imported
+
+from scripts.workflow import missing_files
+from scripts.workflow.packages import PACKAGES, PackageError
 
 INSTALLED = Path(snakemake.__file__).parent.parent
 BUILD_NEEDS = ROOT / "setup" / "build_needs.sh"
@@ -54,9 +55,9 @@ def run_with(python: Path, project: Project, *targets: str) -> subprocess.Comple
 
 def test_packages_are_those_that_scripts_import():
     """And the one by which xarray reads NetCDF."""
-    scripts = [path.name for path in (ROOT / "scripts").glob("*.py")]
+    scripts = [path.relative_to(ROOT) for path in (ROOT / "scripts").rglob("*.py")]
     named = {name.partition(".")[0] for script in scripts for name in names_imported(script)}
-    outside = named - sys.stdlib_module_names - {Path(script).stem for script in scripts}
+    outside = named - sys.stdlib_module_names - {"scripts"}
     found = packages_distributions()
     assert {found[name][0].lower() for name in outside} | {"netcdf4"} == {
         name.lower() for name in PACKAGES
@@ -145,7 +146,7 @@ def test_nothing_is_missing_here():
 
 def test_missing_library_of_the_page_is_named(project):
     """One line, before anything is computed; figures do not need it."""
-    assets = project.folder / "scripts" / "page_assets.py"
+    assets = project.folder / "scripts" / "page" / "page_assets.py"
     assets.write_text(assets.read_text().replace("/usr/share/javascript", "/nowhere"))
     run = project.snakemake("--dry-run")
     assert run.returncode != 0

@@ -10,7 +10,8 @@ from typing import IO
 
 import pytest
 from conftest import GROUPS, SMOKE, Programs
-from write_namelist import write_namelist
+
+from scripts.namelists.write_namelist import write_namelist
 
 TOLD = re.compile(r"trajectory of torus: (\d+) %, (\d+) of (\d+), (?:\d+ min )?\d+ s (left|in all)")
 """A line of progress: per cent, samples done, samples in all."""

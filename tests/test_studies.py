@@ -4,18 +4,25 @@ import math
 
 import numpy as np
 import pytest
-import stability
-import stability_table
-import work_precision
-from accuracy import Reference, distances, errors_of, largest, read_references, read_runs
 from conftest import ROOT
-from drawing import STYLE
 from matplotlib import pyplot as plt
-from study_cases import cases_of_family, columns, work_precision_groups
-from tables import read_table, write_table
-from trusted_horizons import horizon, row_of
-from work_precision_table import proportionality
-from write_measured_scene import horizon_of
+
+from scripts.drawing.style import STYLE
+from scripts.figures import stability, work_precision
+from scripts.files.tsv import read_table, write_table
+from scripts.namelists.study_cases import cases_of_family, columns, work_precision_groups
+from scripts.namelists.write_measured_scene import horizon_of
+from scripts.tables import stability_table
+from scripts.tables.accuracy import (
+    Reference,
+    distances,
+    errors_of,
+    largest,
+    read_references,
+    read_runs,
+)
+from scripts.tables.trusted_horizons import horizon, row_of
+from scripts.tables.work_precision_table import proportionality
 
 COLUMNS = {
     "stability": (
@@ -238,4 +245,4 @@ def test_work_precision_figure(tables, style):
 @pytest.mark.parametrize("name", ["stability", "work_precision"])
 def test_caption_is_there(name):
     """In whole sentences."""
-    assert (ROOT / "scripts" / f"{name}.rst").read_text().rstrip().endswith(".")
+    assert (ROOT / "scripts" / "figures" / f"{name}.rst").read_text().rstrip().endswith(".")

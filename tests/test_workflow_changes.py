@@ -4,7 +4,6 @@ import ast
 import re
 import shutil
 from collections.abc import Iterator
-from pathlib import Path
 
 from conftest import ROOT, SMOKE, rules_in
 from expected_rules import FIGURES, outputs_in
@@ -15,23 +14,25 @@ COMPUTE = {
     *("reference", "spectrum", "trajectory", "velocity_step", "work_precision_runs"),
 }
 """Rules that run a program."""
+STYLE = "scripts/drawing/paper.mplstyle"
 
 
 def names_imported(script: str) -> Iterator[str]:
-    """Modules that a script names in its imports."""
-    for node in ast.walk(ast.parse((ROOT / "scripts" / script).read_text())):
+    """Modules, and what may be one, that a file of the project names in its imports."""
+    for node in ast.walk(ast.parse((ROOT / script).read_text())):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
             yield node.module
+            yield from (f"{node.module}.{alias.name}" for alias in node.names)
 
 
 def imports_of(script: str) -> set[str]:
-    """Scripts that a script imports, directly or not."""
+    """Files of the project that one of them imports, directly or not."""
     found, unread = set(), {script}
     while unread:
-        files = {f"{name}.py" for name in names_imported(unread.pop())}
-        new = {name for name in files - found if (ROOT / "scripts" / name).exists()}
+        files = {f"{name.replace('.', '/')}.py" for name in names_imported(unread.pop())}
+        new = {name for name in files - found if (ROOT / name).exists()}
         unread |= new
         found |= new
     return found
@@ -41,7 +42,7 @@ def test_results_of_scripts_depend_on_what_these_import(smoke):
     """All of it, for every rule with a script; what draws depends on the style, too."""
     records = records_of(smoke).values()
     of_rule = {
-        record["rule"]: (Path(record["code"].strip(' "\n')).name, record["input"])
+        record["rule"]: (record["code"].strip(' "\n').removeprefix("../"), record["input"])
         for record in records
         if record["code"].strip(' "\n').endswith(".py")
     }
@@ -49,16 +50,16 @@ def test_results_of_scripts_depend_on_what_these_import(smoke):
     assert len(of_rule) == written.count("    script:\n")
     fine = smoke.snakemake("--dry-run", "results/figures/atlas.pdf", *SMOKE).stdout
     (given,) = re.findall(r"^ +input: (\S+atlas-fine.tsv.*)$", fine, flags=re.MULTILINE)
-    of_rule["atlas"] = ("atlas.py", given.split(", "))
+    of_rule["atlas"] = ("scripts/figures/atlas.py", given.split(", "))
     for rule, (script, given) in of_rule.items():
         expected = imports_of(script)
-        expected |= {"paper.mplstyle"} if "drawing.py" in expected else set()
-        assert {f"scripts/{name}" for name in expected} <= set(given), rule
+        expected |= {STYLE} if "scripts/drawing/style.py" in expected else set()
+        assert expected <= set(given), rule
 
 
 def test_changed_norm_of_errors_makes_three_tables_anew(scratch):
     """And what is drawn from them; nothing is computed but the runs up to another horizon."""
-    with open(scratch.folder / "scripts" / "accuracy.py", "a") as norm:
+    with open(scratch.folder / "scripts" / "tables" / "accuracy.py", "a") as norm:
         norm.write("\n# another norm\n")
     run = scratch.snakemake("--dry-run", *SMOKE)
     tables = {"stability_table", "trusted_horizons", "work_precision_table"}
@@ -162,7 +163,7 @@ def test_changed_setting_of_a_figure_redraws_only_that_figure(smoke, tmp_path):
 
 def test_changed_style_redraws_and_computes_nothing(scratch):
     """All figures look alike."""
-    with open(scratch.folder / "scripts" / "paper.mplstyle", "a") as style:
+    with open(scratch.folder / STYLE, "a") as style:
         style.write("\nlines.linewidth: 2\n")
     run = scratch.snakemake("--dry-run", *SMOKE)
     assert rules_in(run.stdout) == {"all", *FIGURES, "page"}
