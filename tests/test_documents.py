@@ -186,7 +186,8 @@ def test_commands_that_are_named_exist(document):
     """Those of the project, with a part of ./test where one is named."""
     parts = re.findall(r"\b(\w+)\)", (ROOT / "test").read_text())
     text = "\n".join([*blocks_of(document, "sh"), *ticked(document)])
-    for command, first in re.findall(r"^(\./\w+|\w+/(?:run|draw))(?: +(\w+))?", text, re.MULTILINE):
+    named = r"^(\./\w+|\w+/(?:run|draw)\b)(?: +(\w+))?"
+    for command, first in re.findall(named, text, re.MULTILINE):
         assert (ROOT / command).is_file()
         if command == "./test" and first:
             assert first in parts
