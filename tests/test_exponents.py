@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
-from config_refusals import NO_NUMBERS, line_about, out_of_range, put, refusal
+from config_refusals import line_about, refusal
 from conftest import of_trajectory
 from figure_contents import title_of, words_in
 from matplotlib import pyplot as plt
@@ -19,15 +19,6 @@ from scripts.tables import exponents_table
 
 SCENES = ["oscillation", "torus", "chaos", "true_torus"]
 COLUMNS = "scene i exponent error sign dimension dimension_error t tolerance longest_step mean_step"
-SETTING_RANGES = {
-    ("exponents", "t_turning"): (">= 0", [-1.0]),
-    ("exponents", "interval"): ("> 0", [0.0, -1.0]),
-    ("exponents", "blocks"): ("a whole number >= 2", [1, 1001, 2.5]),
-    ("exponents", "zero_level"): (">= 0", [-1e-9]),
-    ("scenes", "torus", "exponents", "count"): ("a whole number >= 1", [0, 65, 2.5]),
-    ("scenes", "torus", "exponents", "t_end"): ("> t_transient", [0.0, -1.0, 2000.0]),
-}
-"""For each number: words of its range, and values out of range."""
 
 
 @pytest.fixture
@@ -121,23 +112,6 @@ def test_end_is_that_of_the_scene_where_none_is_given(config):
     scenes = checked(config)["scenes"]
     assert scenes["torus"]["exponents"] == {"count": 6, "t_end": scenes["torus"]["t_end"]}
     assert "exponents" not in scenes["fixed_point"]
-
-
-@pytest.mark.parametrize(("path", "value", "words"), out_of_range(SETTING_RANGES))
-def test_setting_out_of_range_is_refused(config, path, value, words):
-    """The line names key, value and range."""
-    put(config, path, value)
-    line = line_about(refusal(config), path[-1])
-    assert f"{path[-1]} = {value!r}; expected " in line
-    assert words in line
-
-
-@pytest.mark.parametrize("value", NO_NUMBERS)
-@pytest.mark.parametrize("path", SETTING_RANGES)
-def test_setting_that_is_no_finite_number_is_refused(config, path, value):
-    """Text, truth, nothing, lists, NaN and infinity."""
-    put(config, path, value)
-    assert f"{path[-1]} = {value!r}; expected " in line_about(refusal(config), path[-1])
 
 
 def test_more_exponents_than_equations_are_refused_without_delay(config):

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from config_refusals import refusal
 from test_hopf import count_by_crossings, residual
 
 from scripts.files.tsv import read_table
@@ -107,20 +106,3 @@ def test_bound_too_far_is_refused(programs, good_inputs):
     assert run.returncode == 1
     assert "a bound nearer to 0 expected" in run.stderr
     assert programs.left_behind() == []
-
-
-@pytest.mark.parametrize(
-    ("key", "value", "words"),
-    [
-        ("root_bound", 0.1, "<= 0"),
-        ("root_bound", "low", "<= 0"),
-        ("tau_most", 0.0, "> 0"),
-        ("epsilon_most", -0.5, "> 0"),
-    ],
-)
-def test_setting_out_of_range_is_refused(config, key, value, words):
-    """The line names place, key, value and range."""
-    config["linear_stability"] = {key: value}
-    (line,) = refusal(config).splitlines()[1:]
-    assert line.startswith(f"config linear_stability: {key} = {value!r}; expected ")
-    assert words in line
