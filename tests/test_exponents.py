@@ -1,7 +1,5 @@
 """Exponents: the program against known roots, its refusals, the config, table and figure."""
 
-import math
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -14,7 +12,6 @@ from scripts.config.check_config import checked
 from scripts.drawing.style import STYLE
 from scripts.figures import exponents
 from scripts.files.tsv import read_table
-from scripts.namelists.write_namelist import write_groups
 from scripts.tables import exponents_table
 
 SCENES = ["oscillation", "torus", "chaos", "true_torus"]
@@ -33,18 +30,9 @@ def groups(config) -> dict[str, dict]:
     }
 
 
-def run(programs, groups: dict[str, dict]):
-    """Run the program with these groups."""
-    write_groups(programs.folder / "input.nml", groups)
-    return programs.run("exponents", "input.nml", programs.output.name)
-
-
 def test_exponents_of_a_fixed_point_are_its_roots(programs, groups):
     """Real parts of the roots of (5) without delay, at each tolerance."""
-    done = run(programs, groups)
-    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
-    assert programs.left_behind() == ["output.nc"]
-    made = xr.load_dataset(programs.output)
+    made = programs.made_of("exponents", groups)
     ratio = 0.8**2 / 0.8
     roots = np.roots([1, 1 + ratio, 0.8**2 + ratio - 1.3 * ratio, 0.8**2])
     known = np.sort(roots.real)[::-1]
@@ -60,48 +48,19 @@ def test_exponents_of_a_fixed_point_are_its_roots(programs, groups):
     assert made.attrs["zero_exponents"] == 0
 
 
-@pytest.mark.parametrize(
-    ("key", "value", "words"),
-    [
-        ("count", 0, "count = 0; expected a whole number >= 1"),
-        ("count", 65, "count = 65; expected a whole number <= 64"),
-        ("count", 4, "4 asked for of 3 equations without delay"),
-        ("blocks", 1, "blocks = 1; expected a whole number >= 2"),
-        ("t_end", 200.0, "t_end = 200.0; expected a finite number > 200"),
-        ("interval", 0.0, "interval = 0.0; expected a finite number > 0"),
-        ("t_turning", math.nan, "t_turning = NaN; expected a finite number >= 0"),
-        ("zero_level", -1.0, "zero_level = -1.0; expected a finite number >= 0"),
-        ("check_tolerances", [1e-5, 0.1], "check_tolerances(2) = 0.1; expected a finite number"),
-        ("check_steps", [0.2, 0.0], "check_steps(2) = 0.0; expected a finite number > 0"),
-        ("colour", 1, "&exponents"),
-    ],
-)
-def test_bad_input_is_refused(programs, groups, key, value, words):
-    """In one line; nothing is left behind."""
-    groups["exponents"][key] = value
-    done = run(programs, groups)
-    assert (done.returncode, done.stdout) == (1, "")
-    assert programs.left_behind() == []
-    (line,) = done.stderr.splitlines()
-    assert line.startswith("error: ")
-    assert words in line
-
-
-@pytest.mark.parametrize("group", ["scene", "exponents"])
-def test_file_without_a_group_is_refused(programs, groups, group):
-    """The line names it."""
-    del groups[group]
-    done = run(programs, groups)
+def test_more_exponents_than_equations_are_refused(programs, groups):
+    """In words, with nothing left behind."""
+    groups["exponents"]["count"] = 4
+    done = programs.run_groups("exponents", groups)
     assert done.returncode == 1
-    assert f"&{group}" in done.stderr
+    assert "4 asked for of 3 equations without delay" in done.stderr
+    assert programs.left_behind() == []
 
 
 def test_long_intervals_are_halved(programs, groups):
     """The third vector shrinks by exp(-50) in an interval; its exponent comes out all the same."""
     groups["exponents"] |= {"interval": 100.0, "check_tolerances": [1.0e-7], "check_steps": []}
-    done = run(programs, groups)
-    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
-    made = xr.load_dataset(programs.output)
+    made = programs.made_of("exponents", groups)
     ratio = 0.8**2 / 0.8
     np.testing.assert_allclose(made.value[0].sum(), -(1 + ratio), atol=1e-4)
 
