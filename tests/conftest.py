@@ -1,13 +1,15 @@
 """What several test files share: a copy of the project, its smoke run and its programs."""
 
+import contextlib
 import copy
 import fcntl
+import os
 import re
 import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -49,6 +51,15 @@ MADE = {
 """Folders that hold none of the project's own files."""
 
 
+@contextlib.contextmanager
+def locked(path: Path) -> Iterator[None]:
+    """No other process that locks this file is within."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with open(path, "a") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
+
+
 def timeless(path: Path) -> bytes:
     """Contents of a file; of a table without its column of measured seconds."""
     content = path.read_bytes()
@@ -68,14 +79,16 @@ class Project:
     def snakemake(self, *arguments: str) -> subprocess.CompletedProcess[str]:
         """Run Snakemake on two cores; all it says is in stdout."""
         snakemake = Path(sys.executable).parent / "snakemake"
-        return subprocess.run(
-            [snakemake, "--cores", "2", *arguments],
-            cwd=self.folder,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            timeout=900,
-        )
+        # another process of the test run may be at work in the same folder
+        with locked(self.folder.with_name(f"{self.folder.name}.lock")):
+            return subprocess.run(
+                [snakemake, "--cores", "2", *arguments],
+                cwd=self.folder,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                text=True,
+                timeout=900,
+            )
 
     def copy_to(self, folder: Path) -> "Project":
         """A copy with results, programs and Snakemake's records."""
@@ -104,10 +117,11 @@ def unfinished(path: Path) -> set[Path]:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Tests with a copy of the project run Snakemake."""
+    """Tests with a copy of the project run Snakemake; they come last."""
     for item in items:
-        if {"smoke_run", "project"} & set(item.fixturenames):
+        if {"smoke_run", "project", "fresh"} & set(item.fixturenames):
             item.add_marker("workflow")
+    items.sort(key=lambda item: item.get_closest_marker("workflow") is not None)
 
 
 def wait_for(done: Callable[[], bool]) -> None:
@@ -169,7 +183,6 @@ class Programs:
         """What a program makes of good groups."""
         run = self.run_groups(program, groups)
         assert (run.returncode, run.stdout, run.stderr) == (0, "", "")
-        assert self.left_behind() == [self.output.name]
         return xr.load_dataset(self.output)
 
     def made_by(self, program: str, values: dict) -> xr.Dataset:
@@ -238,11 +251,22 @@ def project(tmp_path) -> Project:
 
 
 @pytest.fixture(scope="session")
+def fresh(tmp_path_factory) -> Project:
+    """A fresh copy in which nothing was built; not to be changed."""
+    return copy_of_project(tmp_path_factory.mktemp("fresh") / "a project")
+
+
+@pytest.fixture(scope="session")
+def shared(tmp_path_factory) -> Path:
+    """A folder for all processes of a test run; without pytest-xdist there is one process."""
+    folder = tmp_path_factory.getbasetemp()
+    return folder.parent if "PYTEST_XDIST_WORKER" in os.environ else folder
+
+
+@pytest.fixture(scope="session")
 def binaries() -> Path:
     """The folder of the project's own programs; they are built where they are not up to date."""
-    (ROOT / "build").mkdir(exist_ok=True)
-    with open(ROOT / "build" / "lock", "a") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
+    with locked(ROOT / "build" / "lock"):
         for command in (["--preset", "release", "-S", "fortran"], ["--build", "build/release"]):
             run = subprocess.run(["cmake", *command], cwd=ROOT, capture_output=True, text=True)
             assert run.returncode == 0, run.stdout + run.stderr
@@ -250,16 +274,20 @@ def binaries() -> Path:
 
 
 @pytest.fixture(scope="session")
-def smoke_run(binaries, tmp_path_factory) -> tuple[Project, subprocess.CompletedProcess[str]]:
+def smoke_run(binaries, shared) -> tuple[Project, str]:
     """The whole workflow in smoke size, and its log; it builds one program of all."""
-    project = copy_of_project(tmp_path_factory.mktemp("smoke") / "a project")
-    given = project.folder / "build" / "release" / "bin"
-    given.mkdir(parents=True)
-    for program in set(PROGRAMS) - {BUILT}:
-        shutil.copy(binaries / program, given)
-    run = project.snakemake(*SMOKE)
-    assert run.returncode == 0, run.stdout
-    return project, run
+    project, log = Project(shared / "smoke" / "a project"), shared / "smoke" / "log"
+    with locked(shared / "smoke.lock"):
+        if not log.exists():
+            copy_of_project(project.folder)
+            given = project.folder / "build" / "release" / "bin"
+            given.mkdir(parents=True)
+            for program in set(PROGRAMS) - {BUILT}:
+                shutil.copy(binaries / program, given)
+            run = project.snakemake(*SMOKE)
+            assert run.returncode == 0, run.stdout
+            log.write_text(run.stdout)
+    return project, log.read_text()
 
 
 @pytest.fixture(scope="session")

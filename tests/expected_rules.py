@@ -1,7 +1,5 @@
 """Which rules, programs and data each figure needs."""
 
-import re
-
 from conftest import ROOT
 
 from scripts.config.read_config import read
@@ -102,9 +100,3 @@ OUTPUTS_OF = {
 """Programs and data that figures need."""
 OF_OTHERS = {"exponents", "attractors"}
 """Keys of a scene that are not for its trajectory."""
-
-
-def outputs_in(log: str) -> set[str]:
-    """Programs and data files, each by folder and name, in the log of a dry run."""
-    paths = re.findall(r"^ +output: (\S+(?:\.nc|/bin/\w+))$", log, flags=re.MULTILINE)
-    return {"/".join(path.split("/")[-2:]) for path in paths}

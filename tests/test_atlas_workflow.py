@@ -13,25 +13,11 @@ from scripts.namelists.write_namelist import write_groups
 from scripts.tables import attractor_tables
 
 PARTS = "results/attractors/atlas"
-RULES = {"build", "attractors_namelist", "attractors_runs", "atlas_table"}
 
 
 def parts_in(log: str) -> list[str]:
     """Parts that a run or a dry run computes."""
     return re.findall(rf"^ +output: {PARTS}/(\S+\.nc)$", log, flags=re.MULTILINE)
-
-
-def test_fine_atlas_is_a_target_of_its_own(project, default_config):
-    """All its parts in both planes, and nothing of it without being asked for."""
-    run = project.snakemake("--dry-run", "atlas")
-    assert run.returncode == 0, run.stdout
-    assert rules_in(run.stdout) == {*RULES, "hopf_namelist", "hopf_curves", "atlas"}
-    atlas = default_config["atlas"]
-    parts = range(1, atlas["grids"]["fine"]["parts"] + 1)
-    expected = {f"fine/{plane}/{part:04}.nc" for plane in atlas["planes"] for part in parts}
-    assert len(parts_in(run.stdout)) == len(expected)
-    assert set(parts_in(run.stdout)) == expected
-    assert "fine" not in "".join(parts_in(project.snakemake("--dry-run").stdout))
 
 
 def test_fine_atlas_resumes(scratch):

@@ -4,7 +4,7 @@ import csv
 import json
 
 import pytest
-from conftest import ROOT, SMOKE
+from conftest import SMOKE
 from made_up_results import attractor_row, hopf_curve, results, stability_row
 
 from scripts.claims import ledger
@@ -44,14 +44,6 @@ attractors:
   observation: {{ t_observed: 6000.0, t_turning: 3000.0 }}
 """
 """The oscillation as in the full reproduction, at an epsilon."""
-needs_attractors = pytest.mark.skipif(
-    not any(
-        "results/tables/attractors.tsv" in path.read_text()
-        for path in (ROOT / "rules").glob("*.smk")
-        if path.name != "common.smk"
-    ),
-    reason="no rule makes attractors.tsv yet",
-)
 
 
 def ledger_of(met: str) -> list[dict]:
@@ -118,7 +110,6 @@ def read_ledger(folder) -> dict[str, dict]:
         return {row["id"]: row for row in csv.DictReader(file, delimiter="\t")}
 
 
-@needs_attractors
 def test_ledger_of_the_workflow(smoke):
     """Every claim has a verdict with evidence, the same in both files; what it shows is there."""
     rows = read_ledger(smoke.folder)
@@ -132,8 +123,10 @@ def test_ledger_of_the_workflow(smoke):
         assert row["verdict"] == NOT_TESTABLE or (smoke.folder / row["look_at"]).is_file()
 
 
-@needs_attractors
-@pytest.mark.parametrize(("epsilon", "verdict"), [(0.35, REPRODUCED), (0.2, NOT_REPRODUCED)])
+@pytest.mark.parametrize(
+    ("epsilon", "verdict"),
+    [pytest.param(0.35, REPRODUCED, marks=pytest.mark.long), (0.2, NOT_REPRODUCED)],
+)
 def test_scene_below_the_hopf_curve_oscillates_no_more(scratch, epsilon, verdict):
     """From the configuration to the verdict, through the whole workflow."""
     (scratch.folder / "mine.yaml").write_text(MOVED.format(epsilon=epsilon))
@@ -144,7 +137,6 @@ def test_scene_below_the_hopf_curve_oscillates_no_more(scratch, epsilon, verdict
     assert f"epsilon = {epsilon}" in row["evidence"]
 
 
-@needs_attractors
 def test_bad_list_of_claims_is_refused_in_words(scratch):
     """Before anything runs, without a traceback of Python."""
     path = scratch.folder / "config" / "claims.yaml"

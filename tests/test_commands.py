@@ -93,7 +93,16 @@ def test_test_runs_everything(recording, tmp_path):
     status, calls = calls_of(recording / "test", cwd=tmp_path)
     assert status == 0
     assert {call.split()[0] for call in calls} == set(TOOLS)
-    assert calls[-1] == "pytest "
+    assert calls[-1] == "pytest --numprocesses 2"
+
+
+def test_quick_test_needs_no_browser_and_no_workflow(recording):
+    """Lint, Fortran, and what is left of Python."""
+    write_script(recording / "setup" / "setup.sh", "[[ ! ${1-} ]] || exit 7")
+    status, calls = calls_of(recording / "test", "quick")
+    assert status == 0
+    assert {call.split()[0] for call in calls} == set(TOOLS)
+    assert calls[-1] == "pytest --numprocesses 2 -m not workflow and not browser and not long"
 
 
 @pytest.mark.parametrize(
@@ -102,6 +111,7 @@ def test_test_runs_everything(recording, tmp_path):
         ("lint", {"ruff", "snakefmt", "fortitude", "snakemake"}),
         ("fortran", {"cmake", "ctest"}),
         ("python", {"pytest"}),
+        ("long", {"pytest"}),
     ],
 )
 def test_test_runs_one_part(recording, part, tools):

@@ -42,13 +42,17 @@ def refusal(programs: Programs, run) -> str:
 
 @every_program
 def test_good_input_makes_one_file(programs, good_groups, program):
-    """Nothing on the screen; namelist and output may stand in a folder with a space."""
+    """Nothing on the screen; a second run makes the same bytes, in a folder with a space too."""
     run = programs.run_groups(program, good_groups[program])
     assert (run.returncode, run.stdout, run.stderr) == (0, "", "")
     assert programs.left_behind() == ["output.nc"]
     run = programs.run(program, programs.folder / "input.nml", programs.folder / "once more.nc")
     assert run.returncode == 0
     assert programs.left_behind() == ["once more.nc", "output.nc"]
+    # the times that `measure` writes differ
+    if program != "measure":
+        again = (programs.folder / "once more.nc").read_bytes()
+        assert again == programs.output.read_bytes()
 
 
 @every_program
@@ -62,9 +66,9 @@ def test_bad_input_is_refused(programs, good_groups, program):
         return refusal(programs, programs.run_groups(program, changed))
 
     assert refused(**{key: value}).startswith(f"error: input.nml: {words}")
-    line = refused(colour=1.0)
+    line = refused(absent=1.0)
     assert f"input.nml: namelist group &{group}: " in line
-    assert "colour" in line
+    assert "absent" in line
     for other in groups:
         others = {name: values for name, values in groups.items() if name != other}
         line = refusal(programs, programs.run_groups(program, others))
