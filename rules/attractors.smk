@@ -37,8 +37,8 @@ rule attractors_runs:
 
 rule attractors_table:
     input:
-        runs=expand(
-            "results/attractors/scenes/{scene}.nc", scene=SCENES_WITH_ATTRACTORS
+        runs=result_files.paths_of_scenes(
+            "attractors/scenes", result_files.scenes_with(config, "attractors")
         ),
         code=code_of("tables/attractor_tables.py"),
     output:
@@ -53,7 +53,7 @@ rule attractors_table:
 
 rule route_table:
     input:
-        runs=parts_of_route(),
+        runs=result_files.parts_of_route(config),
         code=code_of("tables/attractor_tables.py"),
     output:
         "results/tables/route-to-chaos.tsv",

@@ -7,11 +7,7 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-# The workflow imports the package `scripts`, and so do the scripts that it runs.
 sys.path.insert(0, str(workflow.basedir))
-os.environ["PYTHONPATH"] = os.pathsep.join(
-    [str(workflow.basedir), *filter(None, [os.environ.get("PYTHONPATH")])]
-)
 from scripts.workflow import packages
 
 try:
@@ -19,14 +15,17 @@ try:
     from scripts.workflow import missing_files
 
     missing_files.make_again()
+    packages.let_jobs_import(workflow.basedir)
 except packages.PackageError as problem:
     raise SystemExit(f"error: {problem}") from None
 
 from scripts.claims import claims_config
 from scripts.config import check_config, read_config
+from scripts.figures import entries
+from scripts.figures.entries import FIGURES
 from scripts.namelists import attractor_surveys, study_cases
 from scripts.page import page_assets
-from scripts.workflow import before_run, git_commit, script_imports
+from scripts.workflow import before_run, git_commit, result_files, script_imports
 
 
 def merged_config():
@@ -47,21 +46,6 @@ except (before_run.FolderError, read_config.ConfigError) as problems:
     raise WorkflowError(problems) from None
 
 
-FIGURES = [
-    *(f"figure_{n}" for n in range(1, 9)),
-    "exponents",
-    "stability",
-    "work_precision",
-    "atlas_coarse",
-    "true_torus",
-    "route_to_chaos",
-]
-SCENES_WITH_EXPONENTS = [
-    name for name, scene in config["scenes"].items() if "exponents" in scene
-]
-SCENES_WITH_ATTRACTORS = [
-    name for name, scene in config["scenes"].items() if "attractors" in scene
-]
 FAMILIES = list(config["stability"]["families"])
 WORK_SCENES = list(config["work_precision"]["scenes"])
 LONG_RULES = {
@@ -88,40 +72,6 @@ wildcard_constraints:
     survey=f"scenes|route|atlas/(coarse|fine)/({'|'.join(config['atlas']['planes'])})",
     part=r"\w+",
     grid="coarse|fine",
-
-
-def scenes_of(figure):
-    """Scenes of a figure, row by row."""
-    return [row["scene"] for row in config["figures"][figure]["rows"].values()]
-
-
-def trajectories_of(figure):
-    """Trajectory files that a figure shows."""
-    return expand("results/trajectories/{scene}.nc", scene=scenes_of(figure))
-
-
-def spectra_of(figure):
-    """Spectrum files that a figure shows."""
-    return expand("results/spectra/{scene}.nc", scene=scenes_of(figure))
-
-
-def attractors_of(figure):
-    """Attractor files that a figure shows."""
-    return expand("results/attractors/scenes/{scene}.nc", scene=scenes_of(figure))
-
-
-def places_of_scenes():
-    """Parameters of the scenes that figures show, as marked beside the Hopf curves."""
-    shown = dict.fromkeys(
-        scene
-        for figure in config["figures"]
-        if figure.startswith("figure_")
-        for scene in scenes_of(figure)
-    )
-    keys = ["tau", "epsilon", "xi", "gamma"]
-    return {
-        scene: {key: config["scenes"][scene][key] for key in keys} for scene in shown
-    }
 
 
 def code_of(script):
@@ -197,48 +147,9 @@ def survey_groups(wildcards):
     return {"runs": groups}
 
 
-def numbered(parts):
-    """Names of so many parts, in order."""
-    return [f"{part:04}" for part in range(1, parts + 1)]
-
-
-def parts_of_route():
-    """Files of the route."""
-    return expand(
-        "results/attractors/route/{part}.nc", part=numbered(config["route"]["parts"])
-    )
-
-
 def parts_of_atlas(wildcards):
     """Files of all planes of the atlas on one grid."""
-    return expand(
-        "results/attractors/atlas/{grid}/{plane}/{part}.nc",
-        grid=wildcards.grid,
-        plane=config["atlas"]["planes"],
-        part=numbered(config["atlas"]["grids"][wildcards.grid]["parts"]),
-    )
-
-
-def curves_of_atlas():
-    """Files of Hopf curves that lie in planes of the atlas."""
-    stiffnesses = [plane["xi"] for plane in config["atlas"]["planes"].values()]
-    planes = [
-        name
-        for name, plane in config["hopf_curves"].items()
-        if plane["ordinate"] == "tau"
-        and plane["gamma"] == config["atlas"]["gamma"]
-        and plane["fixed"] in stiffnesses
-    ]
-    return expand("results/hopf/{plane}.nc", plane=planes)
-
-
-def places_in_atlas():
-    """Parameters of the scenes that the atlas marks: those whose attractors are looked for."""
-    return {
-        name: {key: config["scenes"][name][key] for key in ["tau", "epsilon", "xi"]}
-        for name in SCENES_WITH_ATTRACTORS
-        if config["scenes"][name]["gamma"] == config["atlas"]["gamma"]
-    }
+    return result_files.parts_of_atlas(config, wildcards.grid)
 
 
 def linear_stability_values(wildcards):
@@ -288,12 +199,6 @@ def references_of_families():
     ]
 
 
-def tables_of_others(wildcards):
-    """The table of other solvers, measured by a command of its own, where there is one."""
-    table = Path("results/tables/benchmarks.tsv")
-    return [table] if table.exists() else []
-
-
 def claims_listed():
     """The paper's claims with their tests, checked."""
     shown = {*FIGURES, *(Path(table).name for table in LEDGER_TABLES.values())}
@@ -303,39 +208,22 @@ def claims_listed():
         raise WorkflowError(problems) from None
 
 
-def on_page(*figures):
-    """What the page shows of figures beside their files: category, caption and data of their rules."""
-    shown = []
-    for name in (name for name in figures if name in FIGURES):
-        its_rule = getattr(rules, name).rule
-        shown_as = its_rule.output.png.flags["report"]
-        data = [
-            str(path) for path in its_rule.input if str(path).startswith("results/")
-        ]
-        shown.append(
-            {
-                "name": name,
-                "category": shown_as.category,
-                "caption": os.path.relpath(shown_as.caption, workflow.basedir),
-                "data": data,
-            }
-        )
-    return shown
-
-
-def tables_of(figure):
-    """Tables that a figure draws, none where there is no such figure."""
+def on_page():
+    """What the page shows of each figure beside its files."""
     return [
-        path
-        for shown in on_page(figure)
-        for path in shown["data"]
-        if path.endswith(".tsv")
+        {
+            "name": name,
+            "category": entries.ENTRIES[name].category,
+            "caption": entries.caption_of(name),
+            "data": entries.files_of(name, config),
+        }
+        for name in FIGURES
     ]
 
 
 def trajectories_on_page():
     """Trajectory files that can be zoomed into: those that figures draw."""
-    drawn = (path for figure in on_page(*FIGURES) for path in figure["data"])
+    drawn = (path for name in FIGURES for path in entries.files_of(name, config))
     return list(
         dict.fromkeys(
             path for path in drawn if path.startswith("results/trajectories/")

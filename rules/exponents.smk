@@ -34,7 +34,7 @@ rule exponents_runs:
 
 rule exponents_table:
     input:
-        runs=expand("results/exponents/{scene}.nc", scene=SCENES_WITH_EXPONENTS),
+        runs=result_files.exponents_of_scenes(config),
         code=code_of("tables/exponents_table.py"),
     output:
         "results/tables/exponents.tsv",
@@ -42,22 +42,3 @@ rule exponents_table:
         "results/logs/tables/exponents.log",
     script:
         "../scripts/tables/exponents_table.py"
-
-
-rule exponents:
-    input:
-        runs=expand("results/exponents/{scene}.nc", scene=SCENES_WITH_EXPONENTS),
-        table="results/tables/exponents.tsv",
-        code=code_of("figures/exponents.py"),
-    output:
-        pdf="results/figures/exponents.pdf",
-        png=report(
-            "results/figures/exponents.png",
-            caption="../scripts/figures/exponents.rst",
-            category="Supplement",
-        ),
-        svg="results/figures/exponents.svg",
-    log:
-        "results/logs/figures/exponents.log",
-    script:
-        "../scripts/figures/exponents.py"

@@ -7,8 +7,8 @@ rule page:
         claims="results/tables/claims.json",
         attractors=LEDGER_TABLES["attractors"],
         trajectories=trajectories_on_page(),
-        atlas=tables_of("atlas_coarse"),
-        captions=[figure["caption"] for figure in on_page(*FIGURES)],
+        atlas="results/tables/atlas-coarse.tsv",
+        captions=[figure["caption"] for figure in on_page()],
         readme="README.md",
         template="page/index.html.jinja",
         assets=assets_of_page,
@@ -19,7 +19,7 @@ rule page:
     log:
         "results/logs/page.log",
     params:
-        figures=on_page(*FIGURES),
+        figures=on_page(),
         benchmarks=patterns_of_benchmarks(),
         commit=commit_at_work(),
     script:

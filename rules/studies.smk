@@ -85,24 +85,6 @@ rule stability_table:
         "../scripts/tables/stability_table.py"
 
 
-rule stability:
-    input:
-        table="results/tables/stability.tsv",
-        code=code_of("figures/stability.py"),
-    output:
-        pdf="results/figures/stability.pdf",
-        png=report(
-            "results/figures/stability.png",
-            caption="../scripts/figures/stability.rst",
-            category="Solver",
-        ),
-        svg="results/figures/stability.svg",
-    log:
-        "results/logs/figures/stability.log",
-    script:
-        "../scripts/figures/stability.py"
-
-
 rule trusted_horizons:
     input:
         measurements=expand("results/measurements/trust/{scene}.nc", scene=WORK_SCENES),
@@ -165,22 +147,3 @@ rule work_precision_table:
         "results/logs/tables/work-precision.log",
     script:
         "../scripts/tables/work_precision_table.py"
-
-
-rule work_precision:
-    input:
-        table="results/tables/work-precision.tsv",
-        others=tables_of_others,
-        code=code_of("figures/work_precision.py"),
-    output:
-        pdf="results/figures/work_precision.pdf",
-        png=report(
-            "results/figures/work_precision.png",
-            caption="../scripts/figures/work_precision.rst",
-            category="Solver",
-        ),
-        svg="results/figures/work_precision.svg",
-    log:
-        "results/logs/figures/work_precision.log",
-    script:
-        "../scripts/figures/work_precision.py"

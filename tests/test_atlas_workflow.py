@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 import xarray as xr
-from conftest import ROOT, SMOKE, Programs, rules_in
+from conftest import SMOKE, Programs, rules_in
 
 from scripts.files.tsv import read_table, write_table
 from scripts.namelists.attractor_surveys import atlas_groups
@@ -34,13 +34,6 @@ def test_fine_atlas_resumes(scratch):
     assert parts_in(run.stdout) == ["fine/xi_08/0002.nc"]
     assert rules_in(run.stdout) == {"attractors_runs", "atlas_table", "atlas"}
     assert scratch.outputs() == before
-
-
-def test_atlas_has_a_caption():
-    """That of the coarse one: the same figure."""
-    figures = ROOT / "scripts" / "figures"
-    captions = [(figures / f"{name}.rst").read_text() for name in ("atlas", "atlas_coarse")]
-    assert captions[0] == captions[1]
 
 
 def test_coarse_table_holds_the_grid_of_each_plane(smoke, smoke_config):

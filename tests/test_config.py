@@ -6,8 +6,9 @@ import pytest
 from config_refusals import line_about, put, refusal
 from conftest import ROOT
 
-from scripts.config.check_config import checked, variables_used
+from scripts.config.check_config import checked
 from scripts.config.read_config import read
+from scripts.figures.entries import ENTRIES, FIGURES, Entry, variables_used
 
 
 def places(config: dict, path: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
@@ -79,6 +80,24 @@ def test_scene_with_a_spectrum_only_stores_v(config):
     config["figures"]["figure_5"]["rows"].pop("b")
     assert variables_used(config, "chaos") == {"v"}
     assert checked(config)["scenes"]["chaos"]["variables"] == ["v"]
+
+
+def test_scenes_store_what_a_new_figure_draws(config, monkeypatch):
+    """Its entry names the trajectory and the variables."""
+    path = "results/trajectories/chaos.nc"
+    entry = Entry(category="Figures", inputs={"trajectory": path}, variables=("theta",))
+    monkeypatch.setitem(ENTRIES, "figure_9", entry)
+    assert checked(config)["scenes"]["chaos"]["variables"] == ["theta", "u", "v"]
+
+
+def test_figures_with_rows_are_those_of_the_schema(config):
+    """An entry with rows has its settings in the configuration."""
+    assert {name for name, entry in ENTRIES.items() if entry.rows} == set(config["figures"])
+
+
+def test_figures_of_the_paper_come_first():
+    """All eight, in its order."""
+    assert FIGURES[:8] == [f"figure_{number}" for number in range(1, 9)]
 
 
 def test_variables_of_ones_own_are_kept(config):

@@ -12,11 +12,11 @@ import pytest
 import xarray as xr
 from conftest import ROOT, SMOKE, rules_in
 from docutils.utils import SystemMessage
-from expected_rules import FIGURES
 from jinja2 import UndefinedError
 from made_up_page import attractor, claim, content, figure, run
 
 from scripts.claims.claims_results import VERDICTS
+from scripts.figures.entries import FIGURES, caption_of
 from scripts.page import captions, page_content, page_provenance, page_views, write_page
 
 
@@ -48,9 +48,7 @@ def smoke_page(smoke) -> Elements:
 @pytest.mark.parametrize("name", FIGURES)
 def test_caption_has_a_first_sentence_in_plain_signs(name):
     """For those who do not see the figure."""
-    sentence = captions.first_sentence(
-        captions.as_html(ROOT / "scripts" / "figures" / f"{name}.rst")
-    )
+    sentence = captions.first_sentence(captions.as_html(ROOT / caption_of(name)))
     assert len(sentence.split()) >= 4
     assert sentence.endswith(".")
     assert not re.search(r"[\\<>`:]{2}|\\", sentence)
@@ -228,7 +226,7 @@ def test_every_figure_stands_in_the_page(smoke_page):
     text = " ".join(smoke_page.text.split())
     assert set(images) == {f"figures/{name}.svg" for name in FIGURES}
     for name in FIGURES:
-        markup = captions.as_html(ROOT / "scripts" / "figures" / f"{name}.rst")
+        markup = captions.as_html(ROOT / caption_of(name))
         assert images[f"figures/{name}.svg"] == captions.first_sentence(markup)
         assert f"Rule {name}." in text
 

@@ -9,15 +9,16 @@ from conftest import ROOT, SMOKE, rules_in
 from dry_runs import Job, data_of_jobs, jobs_in, needed_for, rules_of
 from expected_rules import (
     FAMILIES,
-    FIGURES,
     OF_OTHERS,
     OPTIONAL,
-    OUTPUTS_OF,
-    RULES_OF,
     RULES_OF_ATTRACTORS,
     SCENES,
     WORK_SCENES,
+    expected_outputs_of,
+    expected_rules_of,
 )
+
+from scripts.figures.entries import FIGURES
 
 
 def test_every_rule_ran(smoke_run):
@@ -146,8 +147,8 @@ def planned(fresh) -> list[Job]:
 def test_figure_needs_only_its_own_rules(planned, figure):
     """From nothing: its data, their programs, and no other."""
     needed = needed_for(figure, planned)
-    assert rules_of(needed) == RULES_OF[figure] | {figure}
-    assert data_of_jobs(needed) == OUTPUTS_OF[figure]
+    assert rules_of(needed) == expected_rules_of(figure) | {figure}
+    assert data_of_jobs(needed) == expected_outputs_of(figure)
 
 
 @pytest.mark.parametrize(
@@ -183,7 +184,7 @@ def test_everything_from_one_command(planned):
     """Without a target: all figures and no computation that none of them needs."""
     tables = {"hopf_points", "linear_stability_namelist", "linear_stability"}
     tables |= {"linear_stability_table", "claims", "page", *RULES_OF_ATTRACTORS}
-    everything = set.union({"all", *tables, *FIGURES}, *RULES_OF.values())
+    everything = set.union({"all", *tables, *FIGURES}, *map(expected_rules_of, FIGURES))
     assert rules_of(planned) == everything
     assert not any("/fine/" in path for job in planned for path in job.made)
 

@@ -8,8 +8,9 @@ from collections.abc import Iterator
 import pytest
 from conftest import ROOT, SMOKE, rules_in
 from dry_runs import data_of_jobs, jobs_in
-from expected_rules import FIGURES
 from snakemake_records import records_of
+
+from scripts.figures.entries import FIGURES, script_of
 
 COMPUTE = {
     *("attractors_runs", "exponents_runs", "hopf_curves", "linear_stability", "measurement"),
@@ -48,8 +49,11 @@ def test_results_of_scripts_depend_on_what_these_import(smoke):
         for record in records
         if record["code"].strip(' "\n').endswith(".py")
     }
+    for figure in FIGURES:
+        of_rule[figure] = (f"scripts/figures/{script_of(figure)}.py", of_rule[figure][1])
     written = "".join(path.read_text() for path in (ROOT / "rules").glob("*.smk"))
-    assert len(of_rule) == written.count("    script:\n")
+    # one text stands for the rules of all figures
+    assert len(of_rule) == written.count("    script:\n") - 1 + len(FIGURES)
     fine = smoke.snakemake("--dry-run", "results/figures/atlas.pdf", *SMOKE).stdout
     (given,) = re.findall(r"^ +input: (\S+atlas-fine.tsv.*)$", fine, flags=re.MULTILINE)
     of_rule["atlas"] = ("scripts/figures/atlas.py", given.split(", "))

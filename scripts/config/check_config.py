@@ -10,19 +10,10 @@ import jsonschema
 
 from scripts.config import check_attractors
 from scripts.config.read_config import ConfigError, parsed, read
+from scripts.figures.entries import variables_used
 from scripts.namelists.study_cases import cases_of_family
 
 SCHEMA = Path(__file__).parents[2] / "config" / "schema.yaml"
-
-FIGURE_VARIABLES = {
-    "figure_4": {"u", "v"},
-    "figure_5": {"u", "v"},
-    "figure_6": {"v"},
-    "figure_7": {"v"},
-    "true_torus": {"v"},
-}
-"""Variables of a trajectory that each figure uses."""
-
 
 EQUATIONS = 3
 """Equations of the block: exponents that it has without delay."""
@@ -46,15 +37,6 @@ def checked(config: dict) -> dict:
     if problems:
         raise ConfigError("\n".join(["the configuration is refused:", *sorted(set(problems))]))
     return config
-
-
-def variables_used(config: dict, scene: str) -> set[str]:
-    """Variables of a scene that its figures use."""
-    used = set()
-    for figure, settings in config["figures"].items():
-        if any(row["scene"] == scene for row in settings["rows"].values()):
-            used |= FIGURE_VARIABLES[figure]
-    return used
 
 
 @cache

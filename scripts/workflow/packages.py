@@ -1,7 +1,9 @@
 """Python packages that results or the page go through."""
 
+import os
 import sys
 from importlib import metadata
+from pathlib import Path
 
 PACKAGES = [
     "snakemake",
@@ -35,3 +37,9 @@ def refuse_missing() -> None:
             f"{sys.executable} lacks {', '.join(missing)}; run ./reproduce, which sets up what is"
             " missing, or . .venv/bin/activate where it did so before"
         )
+
+
+def let_jobs_import(folder: str | Path) -> None:
+    """Put the project's folder first where Python looks for packages in the scripts of jobs."""
+    before = os.environ.get("PYTHONPATH")
+    os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [str(folder), before]))
