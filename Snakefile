@@ -14,12 +14,6 @@ report: "scripts/page/report.rst"
 include: "rules/common.smk"
 
 
-onstart:
-    # The limit of jobs a second wakes the scheduler each second once more for every job that ended,
-    # until that costs more than some of the jobs.
-    workflow.scheduler.job_rate_limiter = None
-
-
 rule all:
     default_target: True
     input:
@@ -50,5 +44,5 @@ include: "rules/page.smk"
 include: "rules/documents.smk"
 
 
-# On a cluster all but the long rules run where Snakemake does: they take seconds.
-workflow.localrules(*({rule.name for rule in workflow.rules} - LONG_RULES))
+# All but the long rules take seconds.
+snakemake_internals.run_here_all_but(workflow, LONG_RULES)

@@ -12,10 +12,12 @@ from scripts.workflow import packages
 
 try:
     packages.refuse_missing()
-    from scripts.workflow import missing_files
-
-    missing_files.make_again()
     packages.let_jobs_import(workflow.basedir)
+    from scripts.workflow import snakemake_internals
+
+    snakemake_internals.make_missing_files_again()
+    snakemake_internals.start_jobs_at_once(workflow)
+    config_sources = snakemake_internals.config_sources(workflow)
 except packages.PackageError as problem:
     raise SystemExit(f"error: {problem}") from None
 
@@ -27,21 +29,10 @@ from scripts.namelists import attractor_surveys, study_cases
 from scripts.page import page_assets
 from scripts.workflow import before_run, git_commit, result_files, script_imports
 
-
-def merged_config():
-    """The configuration, read anew by the project's rules: files and entries as Snakemake has them."""
-    given = workflow.config_settings
-    overlays = list(given.configfiles)
-    defaults = workflow.configfiles[len(overlays) :]
-    if given.replace_workflow_config and (overlays or given.config_args):
-        defaults = []
-    return read_config.merged([*defaults, *overlays], given.config_args or [])
-
-
 try:
     before_run.refuse_unwritable(Path.cwd())
     before_run.free_folder(Path.cwd())
-    config = check_config.checked(merged_config())
+    config = check_config.checked(read_config.merged(*config_sources))
 except (before_run.FolderError, read_config.ConfigError) as problems:
     raise WorkflowError(problems) from None
 
@@ -237,12 +228,6 @@ def assets_of_page(wildcards):
         return page_assets.sources()
     except page_assets.AssetError as problem:
         raise SystemExit(f"error: {problem}") from None
-
-
-def patterns_of_benchmarks():
-    """Benchmark files of each rule that has some."""
-    names = [each.name for each in workflow.rules if each.benchmark]
-    return {name: str(getattr(rules, name).benchmark) for name in names}
 
 
 def commit_at_work():

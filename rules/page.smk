@@ -20,7 +20,7 @@ rule page:
         "results/logs/page.log",
     params:
         figures=on_page(),
-        benchmarks=patterns_of_benchmarks(),
+        benchmarks=snakemake_internals.benchmarks_of(workflow),
         commit=commit_at_work(),
     script:
         "../scripts/page/write_page.py"

@@ -12,8 +12,7 @@ import snakemake
 from conftest import ROOT, Project, rules_in
 from test_workflow_changes import names_imported
 
-from scripts.workflow import missing_files
-from scripts.workflow.packages import PACKAGES, PackageError
+from scripts.workflow.packages import PACKAGES
 
 INSTALLED = Path(snakemake.__file__).parent.parent
 BUILD_NEEDS = ROOT / "setup" / "build_needs.sh"
@@ -76,18 +75,6 @@ def test_packages_that_are_missing_are_named(project, tmp_path):
         " what is missing, or . .venv/bin/activate where it did so before"
     )
     assert [path.name for path in (project.folder / "results").iterdir()] == ["README.md"]
-
-
-@pytest.mark.parametrize("gone", ["check_incomplete", "DAG"])
-def test_snakemake_that_judges_otherwise_is_refused(monkeypatch, gone):
-    """Missing files would stay missing in silence."""
-    if gone == "DAG":
-        monkeypatch.setattr(snakemake.workflow, "DAG", object)
-    else:
-        monkeypatch.delattr(snakemake.dag.DAG, gone)
-        monkeypatch.setattr(snakemake.workflow, "DAG", snakemake.dag.DAG)
-    with pytest.raises(PackageError, match=r"^Snakemake 9\S+ does not judge by"):
-        missing_files.make_again()
 
 
 def test_it_works_where_the_packages_are(project, tmp_path):
