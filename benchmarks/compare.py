@@ -236,7 +236,7 @@ def compute_references(names: tuple[str, ...]) -> None:
 def main(given: list[str]) -> None:
     """Measure, write the tables, print the ratios."""
     study = read_study()
-    names = tuple(study["scenes"])
+    names = tuple(study["cases"])
     options = arguments(given, names)
     try:
         compute_references(names)

@@ -9,7 +9,7 @@ import numpy as np
 from scripts.config.check_config import checked
 from scripts.config.read_config import read
 from scripts.files.tsv import read_table
-from scripts.namelists.study_cases import case_of_scene
+from scripts.namelists.study_cases import case_of, measured_study
 from scripts.namelists.write_measured_scene import horizon_of
 from scripts.tables.accuracy import Reference, distances, read_references
 
@@ -37,8 +37,8 @@ class Scene:
 
 
 def read_study() -> dict:
-    """Section work_precision of the project's configuration, with its defaults."""
-    return checked(read(ROOT / "config" / "config.yaml"))["work_precision"]
+    """The study of work against precision of the project's configuration."""
+    return measured_study(checked(read(ROOT / "config" / "config.yaml")))
 
 
 def reference_path(name: str) -> Path:
@@ -53,7 +53,7 @@ def reference_of(scene: Scene) -> Reference:
 
 def scene_of(study: dict, horizons: list[dict], name: str) -> Scene:
     """A scene of the study, up to the time in the table of horizons."""
-    case = case_of_scene(name, study["scenes"][name])
+    case = case_of(name, study["cases"][name])
     parameters = [float(case[key]) for key in ("tau", "epsilon", "xi", "gamma")]
     past = (float(case["theta"]), float(case["u"]), math.log(case["v"]))
     return Scene(name, *parameters, past, horizon_of(horizons, name), case["sample_interval"])

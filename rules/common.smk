@@ -38,7 +38,8 @@ except (before_run.FolderError, read_config.ConfigError) as problems:
 
 
 FAMILIES = list(config["stability"]["families"])
-WORK_SCENES = list(config["work_precision"]["scenes"])
+MEASURED = study_cases.measured_study(config)
+WORK_SCENES = list(MEASURED["cases"])
 LONG_RULES = {
     "attractors_runs",
     "exponents_runs",
@@ -170,14 +171,14 @@ def family_groups(wildcards):
 
 def trust_groups_of(wildcards):
     """Namelists of a scene whose horizon of trust is sought."""
-    return study_cases.trust_groups(config["work_precision"], wildcards.work_scene)
+    return study_cases.trust_groups(MEASURED, wildcards.work_scene)
 
 
 def study_groups(wildcards):
     """Namelists of a study: of a family of cases, or of a scene whose horizon of trust is sought."""
     if wildcards.study == "stability":
         return family_groups(wildcards)
-    return study_cases.trust_groups(config["work_precision"], wildcards.family)
+    return study_cases.trust_groups(MEASURED, wildcards.family)
 
 
 def references_of_families():

@@ -95,7 +95,7 @@ rule trusted_horizons:
     log:
         "results/logs/tables/trusted-horizons.log",
     params:
-        trusted_error=config["work_precision"]["trusted_error"],
+        trusted_error=MEASURED["trusted_error"],
     script:
         "../scripts/tables/trusted_horizons.py"
 
@@ -109,7 +109,7 @@ rule work_precision_namelist:
     log:
         "results/logs/namelists/work_precision/{work_scene}.log",
     params:
-        study=config["work_precision"],
+        study=MEASURED,
     script:
         "../scripts/namelists/write_measured_scene.py"
 
@@ -127,7 +127,7 @@ rule work_precision_runs:
         "results/benchmarks/measurements/work_precision/{work_scene}.tsv"
     priority: 1
     params:
-        study=config["work_precision"],
+        study=MEASURED,
         sources=digest_of("measure"),
     shell:
         "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"

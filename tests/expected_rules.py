@@ -18,7 +18,7 @@ CONFIG = settings()
 OPTIONAL = {"docs", *(name for name, entry in ENTRIES.items() if entry.optional)}
 """Rules that are no part of everything."""
 FAMILIES = settings("stability", "families")
-WORK_SCENES = settings("work_precision", "scenes")
+WORK_SCENES = [*settings("work_precision", "scenes"), *settings("work_precision", "cases")]
 PLANES = settings("atlas", "planes")
 SCENES = ["oscillation", "torus", "chaos", "true_torus"]
 """Scenes that move."""

@@ -84,12 +84,12 @@ def test_ratios_are_of_runs_that_ended_well():
 def test_scenes_are_those_of_work_against_precision():
     """With their histories, up to when they can be trusted."""
     study = scenes.read_study()
-    assert tuple(study["scenes"]) == NAMES
+    assert tuple(study["cases"]) == NAMES
     horizons = [{"scene": name, "horizon": 100.0 + i} for i, name in enumerate(NAMES)]
     found = {name: scenes.scene_of(study, horizons, name) for name in NAMES}
     torus = found["torus"]
     assert (torus.tau, torus.epsilon, torus.t_end, torus.sample_interval) == (10.0, 0.5, 102.0, 1.0)
-    assert torus.past == (0.0, 0.0, math.log(1.5))
+    assert torus.past == (0.0, 0.0, math.log(1.1))
     assert found["stick"].past == found["chaos"].past == (0.0, 0.0, math.log(1.1))
     assert (
         found["stiff"].line() == f"1 0.69999999999999996 0.5 1000000 0 0 {math.log(1.1):.17g} 105 1"

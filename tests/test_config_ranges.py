@@ -59,7 +59,8 @@ OBSERVED = {
     "kept": ("a whole number >= 0", [-1, 1.5, 100001]),
 }
 FAMILY = ("stability", "families", "growth")
-MEASURED = ("work_precision", "scenes", "torus")
+MEASURED = ("work_precision", "cases", "stick")
+MEASURED_SCENE = ("work_precision", "scenes", "torus")
 REFERENCE = {
     "tolerance": ("[1e-22, 1e-16]", [9e-23, 1.1e-16]),
     "check_tolerance": ("[1e-21, 1e-14]", [9e-22, 1.1e-14]),
@@ -168,7 +169,9 @@ RANGES = {
     ),
     **below("work_precision", "reference", **REFERENCE),
     **block(*MEASURED),
-    **below(*MEASURED, v=POSITIVE, t_end=POSITIVE, sample_interval=POSITIVE),
+    **below(*MEASURED, t_end=POSITIVE, sample_interval=POSITIVE),
+    **below(*MEASURED, "history", v=HISTORY_V),
+    **below(*MEASURED_SCENE, t_end=POSITIVE, sample_interval=POSITIVE),
     **{(*place, key): rule for place in OBSERVATIONS for key, rule in OBSERVED.items()},
     **{(*place, "t_transient"): POSITIVE for place in OBSERVATIONS[1:]},
     **below("attractors", "histories", seed=("a whole number >= 0", [-1, 0.5, None])),
@@ -235,6 +238,7 @@ MISSING = [
     ("stability", "families"),
     ("work_precision", "scenes"),
     *((*place, key) for place in (FAMILY, MEASURED) for key in ("tau", "xi", "t_end")),
+    (*MEASURED_SCENE, "t_end"),
     *(("attractors", key) for key in ("histories", "observation")),
     *(("attractors", "histories", key) for key in ("seed", "theta", "u", "ln_v")),
     *(("atlas", key) for key in ("gamma", "epsilon_window", "tau_window", "planes", "grids")),
@@ -245,7 +249,8 @@ MISSING = [
     *((*place, key) for place in OBSERVATIONS for key in ("t_observed", "t_turning")),
 ]
 """Keys without a default."""
-NAMED = {("atlas", "planes"), ("stability", "families"), ("work_precision", "scenes")}
+NAMED = {("atlas", "planes"), ("stability", "families")}
+NAMED |= {("work_precision", "scenes"), ("work_precision", "cases")}
 """Sections whose keys are names of the user's choice."""
 
 

@@ -3,21 +3,39 @@
 import pytest
 from config_refusals import line_about, put, refusal
 
+from scripts.config.check_config import checked
+from scripts.namelists.study_cases import case_of, measured_study
+
 FAMILY = ("stability", "families", "growth")
+CASE = ("work_precision", "cases", "stick")
 SCENE = ("work_precision", "scenes", "torus")
 
 
-def test_scenes_of_the_paper_are_measured_as_they_are(default_config):
-    """Scenes of one name have the same parameters in both sections."""
-    measured, scenes = default_config["work_precision"]["scenes"], default_config["scenes"]
-    both = measured.keys() & scenes.keys()
-    assert both >= {"fixed_point", "oscillation", "torus", "chaos"}
-    for name in both:
-        for key in ("tau", "epsilon", "xi", "gamma"):
-            assert measured[name][key] == scenes[name][key]
+def test_scenes_of_the_paper_are_measured_as_they_are(config):
+    """With the parameters and the history of the scene, whatever these are."""
+    config["scenes"]["torus"] |= {"epsilon": 0.4, "history": {"v": 1.3}}
+    cases = measured_study(checked(config))["cases"]
+    assert list(cases) == ["fixed_point", "oscillation", "torus", "chaos", "stick", "stiff"]
+    measured = case_of("torus", cases["torus"])
+    assert (measured["tau"], measured["epsilon"], measured["v"]) == (10.0, 0.4, 1.3)
+    assert measured["t_end"] == 1000.0
 
 
-@pytest.mark.parametrize("place", [FAMILY[:2], SCENE[:2]])
+def test_measured_scene_that_is_none_is_refused(config):
+    """The line names the scenes and the way out."""
+    config["work_precision"]["scenes"]["mine"] = {"t_end": 1.0}
+    (line,) = [line for line in refusal(config).splitlines() if "'mine'" in line]
+    assert line.startswith("config work_precision scenes: 'mine'; expected one of: fixed_point, ")
+
+
+def test_measured_case_with_the_name_of_a_scene_is_refused(config):
+    """One name is one thing."""
+    config["work_precision"]["cases"]["chaos"] = dict(config["work_precision"]["cases"]["stick"])
+    (line,) = [line for line in refusal(config).splitlines() if "'chaos'" in line]
+    assert line.startswith("config work_precision cases: 'chaos'; expected a name that no scene ")
+
+
+@pytest.mark.parametrize("place", [FAMILY[:2], CASE[:2]])
 @pytest.mark.parametrize("name", ["Torus", "a b", "", 5])
 def test_name_that_makes_no_file_name_is_refused(config, place, name):
     """Of a family and of a scene."""

@@ -19,6 +19,7 @@ from expected_rules import (
 )
 
 from scripts.figures.entries import FIGURES
+from scripts.namelists.study_cases import measured_study
 
 
 def test_every_rule_ran(smoke_run):
@@ -96,8 +97,8 @@ def test_namelists_of_studies_hold_the_config(smoke, smoke_config):
             assert np.unique(cases["gamma"]).tolist() == family["gamma"]
             assert np.unique(cases["v"]).tolist() == family["v"]
             assert set(np.atleast_1d(cases["t_end"])) == {family["t_end"]}
-    study = smoke_config["work_precision"]
-    for name, scene in study["scenes"].items():
+    study = measured_study(smoke_config)
+    for name, scene in study["cases"].items():
         groups = f90nml.read(folder / "measurements" / "work_precision" / f"{name}.nml").todict()
         assert groups["cases_list"]["t_end"] <= scene["t_end"]
         assert groups["measure"]["tolerances"] == study["tolerances"]

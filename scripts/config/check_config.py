@@ -83,6 +83,7 @@ def _names_that_are_no_text(config: dict):
         ["hopf_curves"],
         ["stability", "families"],
         ["work_precision", "scenes"],
+        ["work_precision", "cases"],
         ["atlas", "planes"],
     ):
         named = config
@@ -262,10 +263,28 @@ def _contradictions_of_studies(config: dict):
                 f"config stability families {name}: t_end = {family['t_end']}; expected a finite"
                 f" number >= {LONG} where the reference is the stationary state"
             )
-    for name, scene in config["work_precision"]["scenes"].items():
-        if scene["sample_interval"] > scene["t_end"]:
+    yield from _contradictions_of_measured(config["work_precision"], config["scenes"])
+
+
+def _contradictions_of_measured(study: dict, scenes: dict):
+    """Names that mean nothing or two things, and samples farther apart than the run is long."""
+    for name in study["scenes"]:
+        if name not in scenes:
             yield (
-                f"config work_precision scenes {name}: sample_interval ="
-                f" {scene['sample_interval']}; expected a finite number > 0 and <= t_end ="
-                f" {scene['t_end']}"
+                f"config work_precision scenes: {name!r}; expected one of: {', '.join(scenes)} (or"
+                " a case with its parameters under work_precision cases)"
             )
+    for name in study["cases"]:
+        if name in scenes:
+            yield (
+                f"config work_precision cases: {name!r}; expected a name that no scene has (or the"
+                " scene under work_precision scenes)"
+            )
+    for kind in ("scenes", "cases"):
+        for name, case in study[kind].items():
+            if case["sample_interval"] > case["t_end"]:
+                yield (
+                    f"config work_precision {kind} {name}: sample_interval ="
+                    f" {case['sample_interval']}; expected a finite number > 0 and <= t_end ="
+                    f" {case['t_end']}"
+                )

@@ -22,9 +22,21 @@ def cases_of_family(family: str, settings: dict) -> list[dict]:
     return cases
 
 
-def case_of_scene(scene: str, settings: dict) -> dict:
-    """One scene up to its t_end."""
-    return {"name": scene, "theta": 0.0, "u": 0.0, **settings}
+def measured_study(config: dict) -> dict:
+    """The study of work against precision, in which its scenes are cases among the others."""
+    study = config["work_precision"]
+    keys = [*PARAMETERS, "history"]
+    scenes = {
+        name: {key: config["scenes"][name][key] for key in keys} | settings
+        for name, settings in study["scenes"].items()
+    }
+    return {**study, "cases": scenes | study["cases"]}
+
+
+def case_of(name: str, settings: dict) -> dict:
+    """One case up to its t_end."""
+    own = {key: value for key, value in settings.items() if key != "history"}
+    return {"name": name, **settings["history"], **own}
 
 
 def columns(cases: list[dict]) -> dict:
@@ -49,9 +61,9 @@ def stability_groups(study: dict, family: str) -> dict:
     }
 
 
-def trust_groups(study: dict, scene: str) -> dict:
-    """Namelists of a scene in full length: a run at the least tolerance and the reference."""
-    cases = columns([case_of_scene(scene, study["scenes"][scene])])
+def trust_groups(study: dict, name: str) -> dict:
+    """Namelists of a case in full length: a run at the least tolerance, and the reference."""
+    cases = columns([case_of(name, study["cases"][name])])
     measure = {
         "methods": ["auto"],
         "tolerances": [min(study["tolerances"])],
@@ -65,9 +77,9 @@ def trust_groups(study: dict, scene: str) -> dict:
     }
 
 
-def work_precision_groups(study: dict, scene: str, t_end: float) -> dict:
-    """Namelist of a scene's measured runs up to `t_end`."""
-    cases = columns([case_of_scene(scene, {**study["scenes"][scene], "t_end": t_end})])
+def work_precision_groups(study: dict, name: str, t_end: float) -> dict:
+    """Namelist of a case's measured runs up to `t_end`."""
+    cases = columns([case_of(name, {**study["cases"][name], "t_end": t_end})])
     keys = ["methods", "tolerances", "steps", "most_steps", "repeats", "least_seconds"]
     return {"measurement": {"cases_list": cases, "measure": {key: study[key] for key in keys}}}
 
