@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parent.parent
 HORIZONS = ROOT / "results" / "tables" / "trusted-horizons.tsv"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Scene:
     """Parameters, the constant past in theta, u, ln v, last and sample times; nondimensional."""
 
@@ -54,9 +54,13 @@ def reference_of(scene: Scene) -> Reference:
 def scene_of(study: dict, horizons: list[dict], name: str) -> Scene:
     """A scene of the study, up to the time in the table of horizons."""
     case = case_of(name, study["cases"][name])
-    parameters = [float(case[key]) for key in ("tau", "epsilon", "xi", "gamma")]
-    past = (float(case["theta"]), float(case["u"]), math.log(case["v"]))
-    return Scene(name, *parameters, past, horizon_of(horizons, name), case["sample_interval"])
+    return Scene(
+        name=name,
+        **{key: float(case[key]) for key in ("tau", "epsilon", "xi", "gamma")},
+        past=(float(case["theta"]), float(case["u"]), math.log(case["v"])),
+        t_end=horizon_of(horizons, name),
+        sample_interval=case["sample_interval"],
+    )
 
 
 def read_horizons() -> list[dict]:

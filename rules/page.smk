@@ -20,7 +20,7 @@ rule page:
         "results/logs/page.log",
     params:
         figures=on_page(),
-        benchmarks=snakemake_internals.benchmarks_of(workflow),
+        benchmarks=snakemake_internals.benchmarks_of(workflow, rules),
         commit=commit_at_work(),
     script:
         "../scripts/page/write_page.py"

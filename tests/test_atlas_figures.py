@@ -223,7 +223,9 @@ def a_scene(name: str, met: str) -> true_torus.Scene:
     )
     errors = {"exponent_1": 1e-6, "error_1": 0.0, "exponent_2": 2e-3 if two else -0.04}
     row = attractor_row(met, name, **errors)
-    return true_torus.Scene(trajectory, attractors, spectrum, row)
+    return true_torus.Scene(
+        trajectory=trajectory, attractors=attractors, spectrum=spectrum, row=row
+    )
 
 
 def test_true_torus_is_drawn_beside_the_papers():

@@ -17,7 +17,16 @@ from conftest import ROOT
 from scripts.files.tsv import read_table
 from scripts.tables.accuracy import Reference
 
-SCENE = scenes.Scene("torus", 10.0, 0.5, 0.8, 0.8, (0.0, 0.0, 0.25), 1.0, 0.5)
+SCENE = scenes.Scene(
+    name="torus",
+    tau=10.0,
+    epsilon=0.5,
+    xi=0.8,
+    gamma=0.8,
+    past=(0.0, 0.0, 0.25),
+    t_end=1.0,
+    sample_interval=0.5,
+)
 NAMES = ("fixed_point", "oscillation", "torus", "chaos", "stick", "stiff")
 
 
@@ -26,7 +35,13 @@ def reference() -> Reference:
     """Zero but for a large theta at the end, and longer than the scene."""
     state = np.zeros((3, 4))
     state[0, 2] = -10.0
-    return Reference("ok", 0.5 * np.arange(4.0), state, np.zeros(4), np.ones(4))
+    return Reference(
+        status="ok",
+        time=0.5 * np.arange(4.0),
+        state=state,
+        uncertainty=np.zeros(4),
+        amplification=np.ones(4),
+    )
 
 
 def samples_of(reference: Reference) -> np.ndarray:

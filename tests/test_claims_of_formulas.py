@@ -27,7 +27,9 @@ def test_corrected_formulas_hold_on_closed_form(gamma, k):
     assert residual_of_5(points, points.epsilon, points.tau).max() < 1e-13
     assert residual_of_5(points, points.epsilon + 0.1, points.tau).min() > 1e-3
     np.testing.assert_allclose(epsilon_of_8(points, 2), points.epsilon, rtol=1e-12)
-    np.testing.assert_allclose(xi_of_9(points.omega, points.tau, gamma), points.xi, rtol=1e-9)
+    np.testing.assert_allclose(
+        xi_of_9(omega=points.omega, tau=points.tau, gamma=gamma), points.xi, rtol=1e-9
+    )
 
 
 @pytest.mark.parametrize("test", ["equation_3", "equation_4"])

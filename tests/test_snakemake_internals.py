@@ -20,7 +20,7 @@ def made_up_workflow() -> SimpleNamespace:
         ),
         rules=[
             SimpleNamespace(name="long", benchmark=None),
-            SimpleNamespace(name="short", benchmark="{scene}.tsv"),
+            SimpleNamespace(name="short", benchmark="{scene,a|b}.tsv"),
         ],
         here=here,
         localrules=lambda *names: here.extend(names),
@@ -30,6 +30,12 @@ def made_up_workflow() -> SimpleNamespace:
 def run_here(workflow: SimpleNamespace) -> None:
     """All but one rule."""
     internals.run_here_all_but(workflow, {"long"})
+
+
+def benchmarks_of(workflow: SimpleNamespace) -> dict[str, str]:
+    """Of its rules."""
+    rules = SimpleNamespace(short=SimpleNamespace(benchmark="{scene}.tsv"))
+    return internals.benchmarks_of(workflow, rules)
 
 
 @pytest.mark.parametrize(
@@ -59,8 +65,8 @@ def test_snakemake_that_judges_otherwise_is_refused(monkeypatch, holder, gone, n
         (internals.config_sources, "config_settings.replace_workflow_config"),
         (run_here, "rules"),
         (run_here, "localrules"),
-        (internals.benchmarks_of, "rules"),
-        (internals.benchmarks_of, "rules.benchmark"),
+        (benchmarks_of, "rules"),
+        (benchmarks_of, "rules.benchmark"),
     ],
 )
 def test_name_that_snakemake_lacks_is_named(use, path):
@@ -82,7 +88,7 @@ def test_names_that_are_there_are_used():
     assert internals.config_sources(workflow) == (["config.yaml", "mine.yaml"], [])
     run_here(workflow)
     assert workflow.here == ["short"]
-    assert internals.benchmarks_of(workflow) == {"short": "{scene}.tsv"}
+    assert benchmarks_of(workflow) == {"short": "{scene}.tsv"}
 
 
 def test_file_in_place_of_the_configuration_is_read_alone():

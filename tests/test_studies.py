@@ -57,7 +57,13 @@ def reference() -> Reference:
     """A made-up case of five samples."""
     time = np.arange(5.0)
     uncertainty = np.full(5, 1e-17)
-    return Reference("ok", time, np.zeros((3, 5)), uncertainty, 10.0**time)
+    return Reference(
+        status="ok",
+        time=time,
+        state=np.zeros((3, 5)),
+        uncertainty=uncertainty,
+        amplification=10.0**time,
+    )
 
 
 def made_up_run(errors: list[float]) -> dict:

@@ -1,5 +1,7 @@
 """Claims about the printed equations: each put into (5) on the Hopf curves of results/hopf/."""
 
+import dataclasses
+
 import numpy as np
 
 from scripts.claims.claims_results import Finding, Results, decided, decided_after_correction, short
@@ -79,12 +81,15 @@ def equation_8(results: Results, *, plane: str, limit: float) -> Finding:
 def equation_9(results: Results, *, plane: str, limit: float) -> Finding:
     """Whether (9) gives the curve, and nothing beside it."""
     points = points_of(results.curves[plane])
-    on_curve = np.abs(xi_of_9(points.omega, points.tau, points.gamma) / points.xi - 1).max()
+    given = xi_of_9(omega=points.omega, tau=points.tau, gamma=points.gamma)
+    on_curve = np.abs(given / points.xi - 1).max()
     omega = np.linspace(points.omega.min(), points.omega.max(), FREQUENCIES)
     tau = np.full_like(omega, points.tau[0])
-    xi = xi_of_9(omega, tau, points.gamma)
+    xi = xi_of_9(omega=omega, tau=tau, gamma=points.gamma)
     kept = (xi >= points.xi.min()) & (xi <= points.xi.max())
-    tried = type(points)(0 * xi[kept], tau[kept], xi[kept], omega[kept], points.gamma)
+    tried = dataclasses.replace(
+        points, epsilon=0 * xi[kept], tau=tau[kept], xi=xi[kept], omega=omega[kept]
+    )
     residual = residual_of_5(tried, epsilon_of_8(tried, 2), tried.tau)
     false = int((residual > limit).sum())
     return decided_after_correction(

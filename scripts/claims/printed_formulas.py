@@ -13,7 +13,7 @@ NUDGE = 1e-30
 """Step of a complex-step derivative: small enough to leave no error of its own."""
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Points:
     """Points of Hopf curves: parameters and the frequency omega of the pair on the axis."""
 
@@ -78,7 +78,7 @@ def epsilon_of_8(points: Points, power: int) -> np.ndarray:
     return -1 + np.hypot(real, imaginary) / (w * points.stiffness)
 
 
-def xi_of_9(omega: np.ndarray, tau: np.ndarray | float, gamma: float) -> np.ndarray:
+def xi_of_9(*, omega: np.ndarray, tau: np.ndarray | float, gamma: float) -> np.ndarray:
     """(9) as printed."""
     sine, cosine = np.sin(omega * tau), np.cos(omega * tau)
     above = omega * gamma**2 * sine + omega**2 * gamma**2 * cosine

@@ -41,7 +41,14 @@ def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
         ends.append((float(y[last]), float(x[last]), branch, colour))
     points = mark_special_points(axes, curves)
     label_branches(axes, ends)
-    marked = mark_scenes(axes, scenes, ordinate, fixed, curves.attrs[fixed], curves.attrs["gamma"])
+    marked = mark_scenes(
+        axes,
+        scenes,
+        ordinate=ordinate,
+        fixed=fixed,
+        fixed_value=curves.attrs[fixed],
+        gamma=curves.attrs["gamma"],
+    )
     axes.set_title(
         rf"{SYMBOLS[fixed]} = {curves.attrs[fixed]:g}, $\gamma$ = {curves.attrs['gamma']:g}",
         pad=14,
@@ -125,6 +132,7 @@ def label_branches(axes: Axes, ends: list[tuple[float, float, int, str]]) -> Non
 def mark_scenes(
     axes: Axes,
     scenes: dict[str, dict[str, float]],
+    *,
     ordinate: str,
     fixed: str,
     fixed_value: float,

@@ -16,14 +16,14 @@ ARM = 1.6
 """Where the arm of the loader plate hangs."""
 
 
-def rough_surface(left: float, right: float, height: float, bumps: int) -> np.ndarray:
+def rough_surface(*, left: float, right: float, height: float, bumps: int) -> np.ndarray:
     """Vertices of a rough line, shape (2 bumps + 1, 2), in units of the drawing."""
     x = np.linspace(left, right, 2 * bumps + 1)
     wave = 0.45 + 0.35 * np.sin(2.3 * np.arange(x.size)) + 0.2 * np.sin(5.1 * np.arange(x.size))
     return np.column_stack([x, height * np.where(np.arange(x.size) % 2, wave, -wave)])
 
 
-def spring(left: float, right: float, y: float, turns: int, width: float) -> np.ndarray:
+def spring(*, left: float, right: float, y: float, turns: int, width: float) -> np.ndarray:
     """Vertices of a coil spring with straight ends, shape (2 turns + 4, 2)."""
     coil = np.linspace(left + 0.35, right - 0.35, 2 * turns + 2)
     zigzag = np.where(np.arange(coil.size) % 2, width, -width)
@@ -42,7 +42,7 @@ def arrow(axes: Axes, start: tuple[float, float], end: tuple[float, float]) -> N
 def draw() -> Figure:
     """The drawing."""
     figure, axes = plt.subplots(figsize=(5.0, 2.0))
-    surface = rough_surface(0.2, 10.4, 0.14, 34)
+    surface = rough_surface(left=0.2, right=10.4, height=0.14, bumps=34)
     surface[:, 1] += BLOCK[1] - 0.14
     ground = np.vstack([surface, [[10.4, 0.1], [0.2, 0.1]]])
     axes.add_patch(Polygon(ground, closed=True, facecolor="0.85", edgecolor="none"))
@@ -62,7 +62,8 @@ def draw() -> Figure:
         va="center",
     )
     axes.plot([ARM, ARM], [PLATE[1], middle - 0.25], color=INK, lw=3, solid_capstyle="butt")
-    axes.plot(*spring(ARM, left, middle, 9, 0.24).T, color=INK, lw=1.1)
+    coil = spring(left=ARM, right=left, y=middle, turns=9, width=0.24)
+    axes.plot(*coil.T, color=INK, lw=1.1)
     axes.text(
         (ARM + left) / 2,
         middle + 0.42,

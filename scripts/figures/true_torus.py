@@ -22,7 +22,7 @@ DOTS = {"ls": "", "marker": "o", "color": "C1", "ms": 2.5, "mew": 0}
 NUMBERS = {0: "no", 1: "one", 2: "two", 3: "three"}
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Scene:
     """What is shown of a scene."""
 
@@ -117,8 +117,13 @@ if __name__ == "__main__":
         own = {row["scene"]: row for row in read_table(given.table) if row["history"] == 1}
         shown = snakemake.params.settings
         scenes = {
-            label: Scene(*map(read, paths), own[row["scene"]])
-            for (label, row), *paths in zip(
+            label: Scene(
+                trajectory=read(trajectory),
+                attractors=read(attractors),
+                spectrum=read(spectrum),
+                row=own[row["scene"]],
+            )
+            for (label, row), trajectory, attractors, spectrum in zip(
                 shown["rows"].items(),
                 given.trajectories,
                 given.attractors,

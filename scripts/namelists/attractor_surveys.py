@@ -4,8 +4,6 @@ import math
 
 import numpy as np
 
-PARAMETERS = ["epsilon", "tau"]
-
 
 def drawn_histories(own: dict, count: int, ranges: dict) -> list[dict]:
     """The scene's own history first, then others drawn evenly from the ranges, always the same."""
@@ -28,6 +26,7 @@ def observation_group(observation: dict, spectra: dict) -> dict:
 
 def points_group(
     name: str,
+    *,
     parameters: dict,
     epsilon: dict,
     tau: dict,
@@ -61,13 +60,13 @@ def scene_groups(config: dict, scene: str) -> dict:
         settings["history"], settings["attractors"]["histories"], study["histories"]
     )
     observation = {**study["observation"], "t_transient": settings["t_transient"]}
-    parameters = {key: settings[key] for key in ("xi", "gamma")}
     points = points_group(
         scene,
-        parameters,
-        *(single(settings[axis]) for axis in PARAMETERS),
-        histories,
-        observation["kept"],
+        parameters={key: settings[key] for key in ("xi", "gamma")},
+        epsilon=single(settings["epsilon"]),
+        tau=single(settings["tau"]),
+        histories=histories,
+        kept=observation["kept"],
     )
     return {"observation": observation_group(observation, config["spectra"]), "points": points}
 
@@ -79,11 +78,11 @@ def atlas_groups(config: dict, plane: str, grid: str, part: int) -> dict:
     rows = part_of(settings["tau_count"], settings["parts"], part)
     points = points_group(
         f"{plane} part {part} of {settings['parts']}",
-        {"xi": atlas["planes"][plane]["xi"], "gamma": atlas["gamma"]},
-        {"window": atlas["epsilon_window"], "count": count, "part": [1, count]},
-        {"window": atlas["tau_window"], "count": settings["tau_count"], "part": rows},
-        [atlas["history"]],
-        settings["observation"]["kept"],
+        parameters={"xi": atlas["planes"][plane]["xi"], "gamma": atlas["gamma"]},
+        epsilon={"window": atlas["epsilon_window"], "count": count, "part": [1, count]},
+        tau={"window": atlas["tau_window"], "count": settings["tau_count"], "part": rows},
+        histories=[atlas["history"]],
+        kept=settings["observation"]["kept"],
     )
     observation = observation_group(settings["observation"], config["spectra"])
     return {"observation": observation, "points": points}
@@ -95,15 +94,15 @@ def route_groups(config: dict, part: int) -> dict:
     count = route["epsilon_count"]
     points = points_group(
         f"route part {part} of {route['parts']}",
-        {key: route[key] for key in ("xi", "gamma")},
-        {
+        parameters={key: route[key] for key in ("xi", "gamma")},
+        epsilon={
             "window": route["epsilon_window"],
             "count": count,
             "part": part_of(count, route["parts"], part),
         },
-        single(route["tau"]),
-        [route["history"]],
-        route["observation"]["kept"],
+        tau=single(route["tau"]),
+        histories=[route["history"]],
+        kept=route["observation"]["kept"],
     )
     observation = observation_group(route["observation"], config["spectra"])
     return {"observation": observation, "points": points}

@@ -12,7 +12,7 @@ STATE = ["theta", "u", "ln_v"]
 WORDS = ["case", "method", "status", "reason"]
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Reference:
     """A case in quadruple precision, by sample."""
 
@@ -30,11 +30,11 @@ def read_references(path: str | Path) -> dict[str, Reference]:
         by_case.setdefault(row["case"], []).append(row)
     return {
         case: Reference(
-            rows[0]["status"],
-            np.array([row["time"] for row in rows]),
-            np.array([[row[name] for row in rows] for name in STATE]),
-            np.array([row["uncertainty"] for row in rows]),
-            np.array([row["amplification"] for row in rows]),
+            status=rows[0]["status"],
+            time=np.array([row["time"] for row in rows]),
+            state=np.array([[row[name] for row in rows] for name in STATE]),
+            uncertainty=np.array([row["uncertainty"] for row in rows]),
+            amplification=np.array([row["amplification"] for row in rows]),
         )
         for case, rows in by_case.items()
     }

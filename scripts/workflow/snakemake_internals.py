@@ -82,10 +82,14 @@ def run_here_all_but(workflow, long_rules: set[str]) -> None:
     workflow.localrules(*({rule.name for rule in workflow.rules} - long_rules))
 
 
-def benchmarks_of(workflow) -> dict[str, str]:
-    """Patterns of benchmark files, by rule, of the rules so far that have them."""
+def benchmarks_of(workflow, rules) -> dict[str, str]:
+    """Patterns of benchmark files, by rule, of the rules so far that have them.
+
+    `rules` is the object that a Snakefile has, whose patterns hold no constraints of wildcards.
+    """
     use = "by which the page finds the seconds of each rule"
     expect(workflow, "rules", use)
     for rule in workflow.rules:
         expect(rule, "benchmark", use)
-    return {rule.name: str(rule.benchmark) for rule in workflow.rules if rule.benchmark}
+    names = [rule.name for rule in workflow.rules if rule.benchmark]
+    return {name: str(getattr(rules, name).benchmark) for name in names}
