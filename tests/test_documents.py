@@ -16,6 +16,7 @@ from snakemake.utils import update_config
 from scripts.claims.claims_config import checked as checked_claims
 from scripts.config.check_config import checked
 from scripts.config.read_config import parsed, read
+from scripts.figures.entries import ENTRIES
 
 RESULTS = "results/README.md"
 """Stands beside what it names, and no other document links to it."""
@@ -81,7 +82,7 @@ def words() -> set[str]:
 def rules() -> set[str]:
     """Names of the rules of the workflow."""
     workflow = "".join(path.read_text() for path in [ROOT / "Snakefile", *ROOT.glob("rules/*.smk")])
-    return set(re.findall(r"^(?:rule|use rule \w+ as) (\w+)", workflow, re.MULTILINE))
+    return {*re.findall(r"^rule (\w+)", workflow, re.MULTILINE), *ENTRIES}
 
 
 @cache
@@ -89,6 +90,7 @@ def made() -> list[str]:
     """Patterns of the files that are made, by the workflow, the benchmarks or Snakemake itself."""
     texts = [path.read_text() for path in sorted(ROOT.glob("rules/*.smk"))]
     texts += [path.read_text() for path in sorted(ROOT.glob("benchmarks/*.py"))]
+    texts.append((ROOT / "scripts" / "workflow" / "result_files.py").read_text())
     found = re.findall(r'"((?:results|build)/[^"\s]+|[\w-]+\.tsv)"', "\n".join(texts))
     return [re.sub(r"\{[^{}]*\}", "*", path) for path in found] + ["results/report.zip"]
 
