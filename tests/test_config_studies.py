@@ -8,7 +8,6 @@ from scripts.namelists.study_cases import case_of, measured_study
 
 FAMILY = ("stability", "families", "growth")
 CASE = ("work_precision", "cases", "stick")
-SCENE = ("work_precision", "scenes", "torus")
 
 
 def test_scenes_of_the_paper_are_measured_as_they_are(config):
