@@ -3,6 +3,8 @@
 import math
 from collections.abc import Iterator
 
+from scripts.config.ranges import range_of
+
 LEAST_LN_V, LARGEST_LN_V = -700.0, 700.0
 """Between these exp(ln v) is a positive finite number."""
 MOST_POINTS = 1_000_000
@@ -25,8 +27,8 @@ def _of_scenes(config: dict) -> Iterator[str]:
     place = "config attractors"
     ranges = config["attractors"]["histories"]
     for key in ("theta", "u"):
-        yield from _of_window(f"{place} histories", key, ranges[key])
-    yield from _of_window(
+        yield from window(f"{place} histories", key, ranges[key])
+    yield from window(
         f"{place} histories", "ln_v", ranges["ln_v"], least=LEAST_LN_V, most=LARGEST_LN_V
     )
     observation = config["attractors"]["observation"]
@@ -47,8 +49,8 @@ def _of_scenes(config: dict) -> Iterator[str]:
 def _of_atlas(atlas: dict, spectra: dict) -> Iterator[str]:
     """The plane of epsilon and tau, cut into rows."""
     place = "config atlas"
-    yield from _of_window(place, "epsilon_window", atlas["epsilon_window"], above=-1.0)
-    yield from _of_window(place, "tau_window", atlas["tau_window"], least=0.0)
+    yield from window(place, "epsilon_window", atlas["epsilon_window"], **range_of("epsilon"))
+    yield from window(place, "tau_window", atlas["tau_window"], **range_of("tau"))
     for name, grid in atlas["grids"].items():
         inside = f"{place} grids {name}"
         yield from _of_parts(inside, grid, "tau_count", grid["epsilon_count"])
@@ -59,22 +61,23 @@ def _of_atlas(atlas: dict, spectra: dict) -> Iterator[str]:
 def _of_route(route: dict, spectra: dict) -> Iterator[str]:
     """A line of growing epsilon, cut into pieces."""
     place = "config route"
-    yield from _of_window(place, "epsilon_window", route["epsilon_window"], above=-1.0)
+    yield from window(place, "epsilon_window", route["epsilon_window"], **range_of("epsilon"))
     yield from _of_parts(place, route, "epsilon_count", 1)
     yield from _of_approach(f"{place} observation", route["observation"])
     yield from _of_observation(f"{place} observation", route["observation"], spectra)
 
 
-def _of_window(
+def window(
     place: str,
     key: str,
-    window: list[float],
+    values: list[float],
+    *,
     above: float = -math.inf,
     least: float = -math.inf,
     most: float = math.inf,
 ) -> Iterator[str]:
     """Two ascending numbers inside a range, not so far apart that their distance is infinite."""
-    low, high = window
+    low, high = values
     if above < low < high <= most and low >= least and math.isfinite(high - low):
         return
     bounds = [
@@ -82,7 +85,7 @@ def _of_window(
         for sign, bound in ((">", above), (">=", least), ("<=", most))
         if math.isfinite(bound)
     ]
-    yield f"{place}: {key} = {window}; expected two ascending numbers{' and'.join(bounds)}"
+    yield f"{place}: {key} = {values}; expected two ascending numbers{' and'.join(bounds)}"
 
 
 def _of_parts(place: str, grid: dict, key: str, width: int) -> Iterator[str]:

@@ -9,11 +9,10 @@ from pathlib import Path
 import jsonschema
 
 from scripts.config import check_attractors
+from scripts.config.ranges import SCHEMA, range_of
 from scripts.config.read_config import ConfigError, parsed, read
 from scripts.figures.entries import variables_used
 from scripts.namelists.study_cases import cases_of_family
-
-SCHEMA = Path(__file__).parents[2] / "config" / "schema.yaml"
 
 EQUATIONS = 3
 """Equations of the block: exponents that it has without delay."""
@@ -183,17 +182,11 @@ def _contradictions(config: dict):
     yield from _contradictions_of_sections(config)
     for name, plane in config["hopf_curves"].items():
         place = f"config hopf_curves {name}"
-        for key, least in (
-            ("epsilon_window", -1.0),
-            ("ordinate_window", 0.0),
-        ):
-            low, high = plane[key]
-            strict = key == "epsilon_window" or plane["ordinate"] == "xi"
-            if not low < high or low < least or (strict and low == least):
-                yield (
-                    f"{place}: {key} = {plane[key]}; expected two ascending numbers"
-                    f" {'>' if strict else '>='} {least}"
-                )
+        for axis, parameter in (("epsilon", "epsilon"), ("ordinate", plane["ordinate"])):
+            window = plane[f"{axis}_window"]
+            yield from check_attractors.window(
+                place, f"{axis}_window", window, **range_of(parameter)
+            )
         if plane["epsilon_window"][1] <= 0:
             yield f"{place}: epsilon_window = {plane['epsilon_window']}; expected an end > 0"
         if plane["ordinate"] == "tau" and plane["fixed"] <= 0:
