@@ -78,9 +78,13 @@ def test_packages_that_are_missing_are_named(project, tmp_path):
 
 
 def test_it_works_where_the_packages_are(project, tmp_path):
-    """Also its scripts."""
+    """Also its scripts, beside a package of the same name."""
+    python = python_without(tmp_path / "own")
+    (site,) = (tmp_path / "own").glob("lib/python3.*/site-packages")
+    (site / "scripts").mkdir()
+    (site / "scripts" / "__init__.py").touch()
     targets = ["figure_1", "results/namelists/velocity_step.nml"]
-    run = run_with(python_without(tmp_path / "own"), project, *targets)
+    run = run_with(python, project, *targets)
     assert run.returncode == 0, run.stdout
     assert rules_in(run.stdout) == {"figure_1", "velocity_step_namelist"}
 
