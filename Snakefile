@@ -8,16 +8,10 @@ min_version("9.0")
 configfile: "config/config.yaml"
 
 
-report: "scripts/report.rst"
+report: "scripts/page/report.rst"
 
 
 include: "rules/common.smk"
-
-
-onstart:
-    # The limit of jobs a second wakes the scheduler each second once more for every job that ended,
-    # until that costs more than some of the jobs.
-    workflow.scheduler.job_rate_limiter = None
 
 
 rule all:
@@ -44,12 +38,11 @@ include: "rules/friction.smk"
 include: "rules/figures.smk"
 include: "rules/exponents.smk"
 include: "rules/attractors.smk"
-include: "rules/atlas_figures.smk"
 include: "rules/studies.smk"
 include: "rules/ledger.smk"
 include: "rules/page.smk"
 include: "rules/documents.smk"
 
 
-# On a cluster all but the long rules run where Snakemake does: they take seconds.
-workflow.localrules(*({rule.name for rule in workflow.rules} - LONG_RULES))
+# All but the long rules take seconds.
+snakemake_internals.run_here_all_but(workflow, LONG_RULES)

@@ -11,7 +11,6 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-from accuracy import Reference
 from long_runs import COLUMNS as LONG_RUN_COLUMNS
 from long_runs import rows_of_long_runs
 from ratios import ratio_rows
@@ -27,6 +26,8 @@ from scenes import (
     scene_of,
 )
 from workers import SOLVERS, SolverError, TimeLimitError, Worker
+
+from scripts.tables.accuracy import Reference
 
 OURS = "ours"
 TOLERANCES = tuple(float(f"1e-{k}") for k in range(3, 14))
@@ -235,7 +236,7 @@ def compute_references(names: tuple[str, ...]) -> None:
 def main(given: list[str]) -> None:
     """Measure, write the tables, print the ratios."""
     study = read_study()
-    names = tuple(study["scenes"])
+    names = tuple(study["cases"])
     options = arguments(given, names)
     try:
         compute_references(names)

@@ -5,18 +5,19 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from accuracy import Reference, distances, read_references
-from check_config import checked
-from read_config import read
-from study_cases import case_of_scene
-from tables import read_table
-from write_measured_scene import horizon_of
+
+from scripts.config.check_config import checked
+from scripts.config.read_config import read
+from scripts.files.tsv import read_table
+from scripts.namelists.study_cases import case_of, measured_study
+from scripts.namelists.write_measured_scene import horizon_of
+from scripts.tables.accuracy import Reference, distances, read_references
 
 ROOT = Path(__file__).resolve().parent.parent
 HORIZONS = ROOT / "results" / "tables" / "trusted-horizons.tsv"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Scene:
     """Parameters, the constant past in theta, u, ln v, last and sample times; nondimensional."""
 
@@ -36,8 +37,8 @@ class Scene:
 
 
 def read_study() -> dict:
-    """Section work_precision of the project's configuration, with its defaults."""
-    return checked(read(ROOT / "config" / "config.yaml"))["work_precision"]
+    """The study of work against precision of the project's configuration."""
+    return measured_study(checked(read(ROOT / "config" / "config.yaml")))
 
 
 def reference_path(name: str) -> Path:
@@ -52,10 +53,14 @@ def reference_of(scene: Scene) -> Reference:
 
 def scene_of(study: dict, horizons: list[dict], name: str) -> Scene:
     """A scene of the study, up to the time in the table of horizons."""
-    case = case_of_scene(name, study["scenes"][name])
-    parameters = [float(case[key]) for key in ("tau", "epsilon", "xi", "gamma")]
-    past = (float(case["theta"]), float(case["u"]), math.log(case["v"]))
-    return Scene(name, *parameters, past, horizon_of(horizons, name), case["sample_interval"])
+    case = case_of(name, study["cases"][name])
+    return Scene(
+        name=name,
+        **{key: float(case[key]) for key in ("tau", "epsilon", "xi", "gamma")},
+        past=(float(case["theta"]), float(case["u"]), math.log(case["v"])),
+        t_end=horizon_of(horizons, name),
+        sample_interval=case["sample_interval"],
+    )
 
 
 def read_horizons() -> list[dict]:

@@ -5,7 +5,7 @@
 
 rule attractors_namelist:
     input:
-        code=code_of("write_study_namelists.py"),
+        code=code_of("namelists/write_study_namelists.py"),
     output:
         runs="results/namelists/attractors/{survey}/{part}.nml",
     log:
@@ -13,7 +13,7 @@ rule attractors_namelist:
     params:
         groups=survey_groups,
     script:
-        "../scripts/write_study_namelists.py"
+        "../scripts/namelists/write_study_namelists.py"
 
 
 rule attractors_runs:
@@ -37,10 +37,10 @@ rule attractors_runs:
 
 rule attractors_table:
     input:
-        runs=expand(
-            "results/attractors/scenes/{scene}.nc", scene=SCENES_WITH_ATTRACTORS
+        runs=result_files.paths_of_scenes(
+            "attractors/scenes", result_files.scenes_with(config, "attractors")
         ),
-        code=code_of("attractor_tables.py"),
+        code=code_of("tables/attractor_tables.py"),
     output:
         "results/tables/attractors.tsv",
     log:
@@ -48,13 +48,13 @@ rule attractors_table:
     params:
         by_scene=True,
     script:
-        "../scripts/attractor_tables.py"
+        "../scripts/tables/attractor_tables.py"
 
 
 rule route_table:
     input:
-        runs=parts_of_route(),
-        code=code_of("attractor_tables.py"),
+        runs=result_files.parts_of_route(config),
+        code=code_of("tables/attractor_tables.py"),
     output:
         "results/tables/route-to-chaos.tsv",
     log:
@@ -62,13 +62,13 @@ rule route_table:
     params:
         by_scene=False,
     script:
-        "../scripts/attractor_tables.py"
+        "../scripts/tables/attractor_tables.py"
 
 
 rule atlas_table:
     input:
         runs=parts_of_atlas,
-        code=code_of("attractor_tables.py"),
+        code=code_of("tables/attractor_tables.py"),
     output:
         "results/tables/atlas-{grid}.tsv",
     log:
@@ -76,4 +76,4 @@ rule atlas_table:
     params:
         by_scene=False,
     script:
-        "../scripts/attractor_tables.py"
+        "../scripts/tables/attractor_tables.py"

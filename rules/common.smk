@@ -7,63 +7,39 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-sys.path.insert(0, f"{workflow.basedir}/scripts")
-import packages
+sys.path.insert(0, str(workflow.basedir))
+from scripts.workflow import packages
 
 try:
     packages.refuse_missing()
-    import missing_files
+    packages.let_jobs_import(workflow.basedir)
+    from scripts.workflow import snakemake_internals
 
-    missing_files.make_again()
+    snakemake_internals.make_missing_files_again()
+    snakemake_internals.start_jobs_at_once(workflow)
+    config_sources = snakemake_internals.config_sources(workflow)
 except packages.PackageError as problem:
     raise SystemExit(f"error: {problem}") from None
 
-import attractor_surveys
-import before_run
-import check_config
-import claims_config
-import git_commit
-import page_assets
-import read_config
-import script_imports
-import study_cases
-
-
-def merged_config():
-    """The configuration, read anew by the project's rules: files and entries as Snakemake has them."""
-    given = workflow.config_settings
-    overlays = list(given.configfiles)
-    defaults = workflow.configfiles[len(overlays) :]
-    if given.replace_workflow_config and (overlays or given.config_args):
-        defaults = []
-    return read_config.merged([*defaults, *overlays], given.config_args or [])
-
+from scripts.claims import claims_config
+from scripts.config import check_config, read_config
+from scripts.figures import entries
+from scripts.figures.entries import FIGURES
+from scripts.namelists import attractor_surveys, study_cases
+from scripts.page import page_assets
+from scripts.workflow import before_run, git_commit, result_files, script_imports
 
 try:
     before_run.refuse_unwritable(Path.cwd())
     before_run.free_folder(Path.cwd())
-    config = check_config.checked(merged_config())
+    config = check_config.checked(read_config.merged(*config_sources))
 except (before_run.FolderError, read_config.ConfigError) as problems:
     raise WorkflowError(problems) from None
 
 
-FIGURES = [
-    *(f"figure_{n}" for n in range(1, 9)),
-    "exponents",
-    "stability",
-    "work_precision",
-    "atlas_coarse",
-    "true_torus",
-    "route_to_chaos",
-]
-SCENES_WITH_EXPONENTS = [
-    name for name, scene in config["scenes"].items() if "exponents" in scene
-]
-SCENES_WITH_ATTRACTORS = [
-    name for name, scene in config["scenes"].items() if "attractors" in scene
-]
 FAMILIES = list(config["stability"]["families"])
-WORK_SCENES = list(config["work_precision"]["scenes"])
+MEASURED = study_cases.measured_study(config)
+WORK_SCENES = list(MEASURED["cases"])
 LONG_RULES = {
     "attractors_runs",
     "exponents_runs",
@@ -88,40 +64,6 @@ wildcard_constraints:
     survey=f"scenes|route|atlas/(coarse|fine)/({'|'.join(config['atlas']['planes'])})",
     part=r"\w+",
     grid="coarse|fine",
-
-
-def scenes_of(figure):
-    """Scenes of a figure, row by row."""
-    return [row["scene"] for row in config["figures"][figure]["rows"].values()]
-
-
-def trajectories_of(figure):
-    """Trajectory files that a figure shows."""
-    return expand("results/trajectories/{scene}.nc", scene=scenes_of(figure))
-
-
-def spectra_of(figure):
-    """Spectrum files that a figure shows."""
-    return expand("results/spectra/{scene}.nc", scene=scenes_of(figure))
-
-
-def attractors_of(figure):
-    """Attractor files that a figure shows."""
-    return expand("results/attractors/scenes/{scene}.nc", scene=scenes_of(figure))
-
-
-def places_of_scenes():
-    """Parameters of the scenes that figures show, as marked beside the Hopf curves."""
-    shown = dict.fromkeys(
-        scene
-        for figure in config["figures"]
-        if figure.startswith("figure_")
-        for scene in scenes_of(figure)
-    )
-    keys = ["tau", "epsilon", "xi", "gamma"]
-    return {
-        scene: {key: config["scenes"][scene][key] for key in keys} for scene in shown
-    }
 
 
 def code_of(script):
@@ -197,48 +139,9 @@ def survey_groups(wildcards):
     return {"runs": groups}
 
 
-def numbered(parts):
-    """Names of so many parts, in order."""
-    return [f"{part:04}" for part in range(1, parts + 1)]
-
-
-def parts_of_route():
-    """Files of the route."""
-    return expand(
-        "results/attractors/route/{part}.nc", part=numbered(config["route"]["parts"])
-    )
-
-
 def parts_of_atlas(wildcards):
     """Files of all planes of the atlas on one grid."""
-    return expand(
-        "results/attractors/atlas/{grid}/{plane}/{part}.nc",
-        grid=wildcards.grid,
-        plane=config["atlas"]["planes"],
-        part=numbered(config["atlas"]["grids"][wildcards.grid]["parts"]),
-    )
-
-
-def curves_of_atlas():
-    """Files of Hopf curves that lie in planes of the atlas."""
-    stiffnesses = [plane["xi"] for plane in config["atlas"]["planes"].values()]
-    planes = [
-        name
-        for name, plane in config["hopf_curves"].items()
-        if plane["ordinate"] == "tau"
-        and plane["gamma"] == config["atlas"]["gamma"]
-        and plane["fixed"] in stiffnesses
-    ]
-    return expand("results/hopf/{plane}.nc", plane=planes)
-
-
-def places_in_atlas():
-    """Parameters of the scenes that the atlas marks: those whose attractors are looked for."""
-    return {
-        name: {key: config["scenes"][name][key] for key in ["tau", "epsilon", "xi"]}
-        for name in SCENES_WITH_ATTRACTORS
-        if config["scenes"][name]["gamma"] == config["atlas"]["gamma"]
-    }
+    return result_files.parts_of_atlas(config, wildcards.grid)
 
 
 def linear_stability_values(wildcards):
@@ -268,14 +171,14 @@ def family_groups(wildcards):
 
 def trust_groups_of(wildcards):
     """Namelists of a scene whose horizon of trust is sought."""
-    return study_cases.trust_groups(config["work_precision"], wildcards.work_scene)
+    return study_cases.trust_groups(MEASURED, wildcards.work_scene)
 
 
 def study_groups(wildcards):
     """Namelists of a study: of a family of cases, or of a scene whose horizon of trust is sought."""
     if wildcards.study == "stability":
         return family_groups(wildcards)
-    return study_cases.trust_groups(config["work_precision"], wildcards.family)
+    return study_cases.trust_groups(MEASURED, wildcards.family)
 
 
 def references_of_families():
@@ -288,12 +191,6 @@ def references_of_families():
     ]
 
 
-def tables_of_others(wildcards):
-    """The table of other solvers, measured by a command of its own, where there is one."""
-    table = Path("results/tables/benchmarks.tsv")
-    return [table] if table.exists() else []
-
-
 def claims_listed():
     """The paper's claims with their tests, checked."""
     shown = {*FIGURES, *(Path(table).name for table in LEDGER_TABLES.values())}
@@ -303,39 +200,22 @@ def claims_listed():
         raise WorkflowError(problems) from None
 
 
-def on_page(*figures):
-    """What the page shows of figures beside their files: category, caption and data of their rules."""
-    shown = []
-    for name in (name for name in figures if name in FIGURES):
-        its_rule = getattr(rules, name).rule
-        shown_as = its_rule.output.png.flags["report"]
-        data = [
-            str(path) for path in its_rule.input if str(path).startswith("results/")
-        ]
-        shown.append(
-            {
-                "name": name,
-                "category": shown_as.category,
-                "caption": os.path.relpath(shown_as.caption, workflow.basedir),
-                "data": data,
-            }
-        )
-    return shown
-
-
-def tables_of(figure):
-    """Tables that a figure draws, none where there is no such figure."""
+def on_page():
+    """What the page shows of each figure beside its files."""
     return [
-        path
-        for shown in on_page(figure)
-        for path in shown["data"]
-        if path.endswith(".tsv")
+        {
+            "name": name,
+            "category": entries.ENTRIES[name].category,
+            "caption": entries.caption_of(name),
+            "data": entries.files_of(name, config),
+        }
+        for name in FIGURES
     ]
 
 
 def trajectories_on_page():
     """Trajectory files that can be zoomed into: those that figures draw."""
-    drawn = (path for figure in on_page(*FIGURES) for path in figure["data"])
+    drawn = (path for name in FIGURES for path in entries.files_of(name, config))
     return list(
         dict.fromkeys(
             path for path in drawn if path.startswith("results/trajectories/")
@@ -349,12 +229,6 @@ def assets_of_page(wildcards):
         return page_assets.sources()
     except page_assets.AssetError as problem:
         raise SystemExit(f"error: {problem}") from None
-
-
-def patterns_of_benchmarks():
-    """Benchmark files of each rule that has some."""
-    names = [each.name for each in workflow.rules if each.benchmark]
-    return {name: str(getattr(rules, name).benchmark) for name in names}
 
 
 def commit_at_work():

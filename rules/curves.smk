@@ -3,7 +3,7 @@
 
 rule hopf_namelist:
     input:
-        code=code_of("write_namelist.py"),
+        code=code_of("namelists/write_namelist.py"),
     output:
         "results/namelists/hopf/{plane}.nml",
     log:
@@ -12,7 +12,7 @@ rule hopf_namelist:
         group="hopf_curves",
         values=plane_values,
     script:
-        "../scripts/write_namelist.py"
+        "../scripts/namelists/write_namelist.py"
 
 
 rule hopf_curves:
@@ -36,10 +36,10 @@ rule hopf_points:
     input:
         curves=expand("results/hopf/{plane}.nc", plane=config["hopf_curves"]),
         scenes=expand("results/linear_stability/{scene}.nc", scene=config["scenes"]),
-        code=code_of("hopf_points_table.py"),
+        code=code_of("tables/hopf_points_table.py"),
     output:
         "results/tables/hopf-points.tsv",
     log:
         "results/logs/tables/hopf-points.log",
     script:
-        "../scripts/hopf_points_table.py"
+        "../scripts/tables/hopf_points_table.py"

@@ -3,7 +3,7 @@
 
 rule exponents_namelist:
     input:
-        code=code_of("write_study_namelists.py"),
+        code=code_of("namelists/write_study_namelists.py"),
     output:
         runs="results/namelists/exponents/{scene}.nml",
     log:
@@ -11,7 +11,7 @@ rule exponents_namelist:
     params:
         groups=exponents_groups,
     script:
-        "../scripts/write_study_namelists.py"
+        "../scripts/namelists/write_study_namelists.py"
 
 
 rule exponents_runs:
@@ -34,30 +34,11 @@ rule exponents_runs:
 
 rule exponents_table:
     input:
-        runs=expand("results/exponents/{scene}.nc", scene=SCENES_WITH_EXPONENTS),
-        code=code_of("exponents_table.py"),
+        runs=result_files.exponents_of_scenes(config),
+        code=code_of("tables/exponents_table.py"),
     output:
         "results/tables/exponents.tsv",
     log:
         "results/logs/tables/exponents.log",
     script:
-        "../scripts/exponents_table.py"
-
-
-rule exponents:
-    input:
-        runs=expand("results/exponents/{scene}.nc", scene=SCENES_WITH_EXPONENTS),
-        table="results/tables/exponents.tsv",
-        code=code_of("exponents.py"),
-    output:
-        pdf="results/figures/exponents.pdf",
-        png=report(
-            "results/figures/exponents.png",
-            caption="../scripts/exponents.rst",
-            category="Supplement",
-        ),
-        svg="results/figures/exponents.svg",
-    log:
-        "results/logs/figures/exponents.log",
-    script:
-        "../scripts/exponents.py"
+        "../scripts/tables/exponents_table.py"

@@ -1,7 +1,7 @@
 # Response of friction to a velocity step.
 rule velocity_step_namelist:
     input:
-        code=code_of("write_namelist.py"),
+        code=code_of("namelists/write_namelist.py"),
     output:
         "results/namelists/velocity_step.nml",
     log:
@@ -10,7 +10,7 @@ rule velocity_step_namelist:
         group="velocity_step",
         values=config["velocity_step"],
     script:
-        "../scripts/write_namelist.py"
+        "../scripts/namelists/write_namelist.py"
 
 
 rule velocity_step:

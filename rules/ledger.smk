@@ -6,11 +6,11 @@ rule claims:
         **LEDGER_TABLES,
         curves=expand("results/hopf/{plane}.nc", plane=config["hopf_curves"]),
         friction="results/friction/velocity_step.nc",
-        code=code_of("claims.py"),
+        code=code_of("claims/ledger.py"),
     output:
         tsv=report(
             "results/tables/claims.tsv",
-            caption="../scripts/claims.rst",
+            caption="../scripts/claims/ledger.rst",
             category="Ledger",
         ),
         json="results/tables/claims.json",
@@ -19,4 +19,4 @@ rule claims:
     params:
         claims=claims_listed(),
     script:
-        "../scripts/claims.py"
+        "../scripts/claims/ledger.py"

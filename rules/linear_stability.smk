@@ -3,7 +3,7 @@
 
 rule linear_stability_namelist:
     input:
-        code=code_of("write_namelist.py"),
+        code=code_of("namelists/write_namelist.py"),
     output:
         "results/namelists/linear_stability/{scene}.nml",
     log:
@@ -12,7 +12,7 @@ rule linear_stability_namelist:
         group="linear_stability",
         values=linear_stability_values,
     script:
-        "../scripts/write_namelist.py"
+        "../scripts/namelists/write_namelist.py"
 
 
 rule linear_stability:
@@ -35,10 +35,10 @@ rule linear_stability:
 rule linear_stability_table:
     input:
         scenes=expand("results/linear_stability/{scene}.nc", scene=config["scenes"]),
-        code=code_of("linear_stability_table.py"),
+        code=code_of("tables/linear_stability_table.py"),
     output:
         "results/tables/linear-stability.tsv",
     log:
         "results/logs/tables/linear-stability.log",
     script:
-        "../scripts/linear_stability_table.py"
+        "../scripts/tables/linear_stability_table.py"

@@ -7,20 +7,20 @@ rule page:
         claims="results/tables/claims.json",
         attractors=LEDGER_TABLES["attractors"],
         trajectories=trajectories_on_page(),
-        atlas=tables_of("atlas_coarse"),
-        captions=[figure["caption"] for figure in on_page(*FIGURES)],
+        atlas="results/tables/atlas-coarse.tsv",
+        captions=[figure["caption"] for figure in on_page()],
         readme="README.md",
         template="page/index.html.jinja",
         assets=assets_of_page,
-        code=code_of("write_page.py"),
+        code=code_of("page/write_page.py"),
     output:
         page="results/index.html",
         assets=expand("results/page/{asset}", asset=page_assets.ASSETS),
     log:
         "results/logs/page.log",
     params:
-        figures=on_page(*FIGURES),
-        benchmarks=patterns_of_benchmarks(),
+        figures=on_page(),
+        benchmarks=snakemake_internals.benchmarks_of(workflow, rules),
         commit=commit_at_work(),
     script:
-        "../scripts/write_page.py"
+        "../scripts/page/write_page.py"

@@ -3,7 +3,7 @@
 
 rule spectrum_namelist:
     input:
-        code=code_of("write_namelist.py"),
+        code=code_of("namelists/write_namelist.py"),
     output:
         "results/namelists/spectra/{scene}.nml",
     log:
@@ -12,7 +12,7 @@ rule spectrum_namelist:
         group="spectrum",
         values=spectrum_values,
     script:
-        "../scripts/write_namelist.py"
+        "../scripts/namelists/write_namelist.py"
 
 
 rule spectrum:

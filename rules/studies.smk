@@ -4,7 +4,7 @@
 
 rule stability_namelists:
     input:
-        code=code_of("write_study_namelists.py"),
+        code=code_of("namelists/write_study_namelists.py"),
     output:
         measurement="results/namelists/measurements/stability/{family}.nml",
         reference="results/namelists/references/stability/{family}.nml",
@@ -13,12 +13,12 @@ rule stability_namelists:
     params:
         groups=family_groups,
     script:
-        "../scripts/write_study_namelists.py"
+        "../scripts/namelists/write_study_namelists.py"
 
 
 rule trust_namelists:
     input:
-        code=code_of("write_study_namelists.py"),
+        code=code_of("namelists/write_study_namelists.py"),
     output:
         measurement="results/namelists/measurements/trust/{work_scene}.nml",
         reference="results/namelists/references/trust/{work_scene}.nml",
@@ -27,7 +27,7 @@ rule trust_namelists:
     params:
         groups=trust_groups_of,
     script:
-        "../scripts/write_study_namelists.py"
+        "../scripts/namelists/write_study_namelists.py"
 
 
 rule reference:
@@ -71,7 +71,7 @@ rule stability_table:
             "results/measurements/stability/{family}.nc", family=FAMILIES
         ),
         references=references_of_families(),
-        code=code_of("stability_table.py"),
+        code=code_of("tables/stability_table.py"),
     output:
         "results/tables/stability.tsv",
     log:
@@ -82,54 +82,36 @@ rule stability_table:
             for name, family in config["stability"]["families"].items()
         },
     script:
-        "../scripts/stability_table.py"
-
-
-rule stability:
-    input:
-        table="results/tables/stability.tsv",
-        code=code_of("stability.py"),
-    output:
-        pdf="results/figures/stability.pdf",
-        png=report(
-            "results/figures/stability.png",
-            caption="../scripts/stability.rst",
-            category="Solver",
-        ),
-        svg="results/figures/stability.svg",
-    log:
-        "results/logs/figures/stability.log",
-    script:
-        "../scripts/stability.py"
+        "../scripts/tables/stability_table.py"
 
 
 rule trusted_horizons:
     input:
         measurements=expand("results/measurements/trust/{scene}.nc", scene=WORK_SCENES),
         references=expand("results/references/trust/{scene}.tsv", scene=WORK_SCENES),
-        code=code_of("trusted_horizons.py"),
+        code=code_of("tables/trusted_horizons.py"),
     output:
         "results/tables/trusted-horizons.tsv",
     log:
         "results/logs/tables/trusted-horizons.log",
     params:
-        trusted_error=config["work_precision"]["trusted_error"],
+        trusted_error=MEASURED["trusted_error"],
     script:
-        "../scripts/trusted_horizons.py"
+        "../scripts/tables/trusted_horizons.py"
 
 
 rule work_precision_namelist:
     input:
         horizons="results/tables/trusted-horizons.tsv",
-        code=code_of("write_measured_scene.py"),
+        code=code_of("namelists/write_measured_scene.py"),
     output:
         "results/namelists/measurements/work_precision/{work_scene}.nml",
     log:
         "results/logs/namelists/work_precision/{work_scene}.log",
     params:
-        study=config["work_precision"],
+        study=MEASURED,
     script:
-        "../scripts/write_measured_scene.py"
+        "../scripts/namelists/write_measured_scene.py"
 
 
 # The runs of a scene take turns, so that what else the machine does hits all methods alike.
@@ -145,7 +127,7 @@ rule work_precision_runs:
         "results/benchmarks/measurements/work_precision/{work_scene}.tsv"
     priority: 1
     params:
-        study=config["work_precision"],
+        study=MEASURED,
         sources=digest_of("measure"),
     shell:
         "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
@@ -157,30 +139,11 @@ rule work_precision_table:
             "results/measurements/work_precision/{scene}.nc", scene=WORK_SCENES
         ),
         references=expand("results/references/trust/{scene}.tsv", scene=WORK_SCENES),
-        code=code_of("work_precision_table.py"),
+        code=code_of("tables/work_precision_table.py"),
     output:
         errors="results/tables/work-precision.tsv",
         proportionality="results/tables/tolerance-proportionality.tsv",
     log:
         "results/logs/tables/work-precision.log",
     script:
-        "../scripts/work_precision_table.py"
-
-
-rule work_precision:
-    input:
-        table="results/tables/work-precision.tsv",
-        others=tables_of_others,
-        code=code_of("work_precision.py"),
-    output:
-        pdf="results/figures/work_precision.pdf",
-        png=report(
-            "results/figures/work_precision.png",
-            caption="../scripts/work_precision.rst",
-            category="Solver",
-        ),
-        svg="results/figures/work_precision.svg",
-    log:
-        "results/logs/figures/work_precision.log",
-    script:
-        "../scripts/work_precision.py"
+        "../scripts/tables/work_precision_table.py"

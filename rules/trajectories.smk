@@ -3,7 +3,7 @@
 
 rule scene_namelist:
     input:
-        code=code_of("write_namelist.py"),
+        code=code_of("namelists/write_namelist.py"),
     output:
         "results/namelists/trajectories/{scene}.nml",
     log:
@@ -12,7 +12,7 @@ rule scene_namelist:
         group="scene",
         values=scene_values,
     script:
-        "../scripts/write_namelist.py"
+        "../scripts/namelists/write_namelist.py"
 
 
 rule trajectory:

@@ -65,7 +65,7 @@ ask_for_packages() {
 # What the virtual environment must have been made from: the locked packages, the interpreter,
 # and the folder, since the scripts of a virtual environment hold its path.
 venv_source() {
-    sha256sum setup/requirements.lock "$lock"
+    sha256sum setup/requirements.lock "$lock" setup/setup.sh
     /usr/bin/python3 --version
     pwd
 }
@@ -124,14 +124,14 @@ quote_interpreter() {
 read_as_the_project() {
     local name='def load_configfile(configpath):'
     local body='
+    import runpy
     import sys
 
-    sys.path.append(str(Path(sys.prefix).parent / "scripts"))
-    import read_config
-
+    # by its path: the package `scripts` is to be imported from where the Snakefile lies
+    reader = runpy.run_path(f"{Path(sys.prefix).parent}/scripts/config/read_config.py")
     try:
-        return read_config.read(configpath)
-    except read_config.ConfigError as problem:
+        return reader["read"](configpath)
+    except reader["ConfigError"] as problem:
         raise WorkflowError(str(problem)) from None
 
 

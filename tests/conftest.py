@@ -1,24 +1,35 @@
 """What several test files share: a copy of the project, its smoke run and its programs."""
 
+import contextlib
 import copy
+import fcntl
+import os
 import re
 import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 import xarray as xr
-from check_config import checked
-from read_config import merged, read
-from write_namelist import write_namelist
+from namelist_groups import CASES, EXPONENTS, MEASURE, OBSERVATION, POINTS, REFERENCE
+
+from scripts.config.check_config import checked
+from scripts.config.read_config import merged, read
+from scripts.namelists.write_namelist import write_groups
 
 ROOT = Path(__file__).parent.parent
 SMOKE = ("--configfile", "config/smoke.yaml")
 """Arguments for a run in smoke size; further config files may follow, targets must stand before."""
+PROGRAMS = [
+    *("trajectory", "spectrum", "hopf", "linear_stability", "velocity_step", "exponents"),
+    *("attractors", "measure", "reference"),
+]
+BUILT = "spectrum"
+"""The program that the smoke run builds."""
 GROUPS = {
     "trajectory": "scene",
     "spectrum": "spectrum",
@@ -26,7 +37,7 @@ GROUPS = {
     "linear_stability": "linear_stability",
     "velocity_step": "velocity_step",
 }
-"""Namelist group of each program."""
+"""Namelist group of each program that reads one alone."""
 MADE = {
     ".git",
     ".venv",
@@ -38,6 +49,15 @@ MADE = {
     ".ruff_cache",
 }
 """Folders that hold none of the project's own files."""
+
+
+@contextlib.contextmanager
+def locked(path: Path) -> Iterator[None]:
+    """No other process that locks this file is within."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with open(path, "a") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
 
 
 def timeless(path: Path) -> bytes:
@@ -59,14 +79,16 @@ class Project:
     def snakemake(self, *arguments: str) -> subprocess.CompletedProcess[str]:
         """Run Snakemake on two cores; all it says is in stdout."""
         snakemake = Path(sys.executable).parent / "snakemake"
-        return subprocess.run(
-            [snakemake, "--cores", "2", *arguments],
-            cwd=self.folder,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            timeout=900,
-        )
+        # another process of the test run may be at work in the same folder
+        with locked(self.folder.with_name(f"{self.folder.name}.lock")):
+            return subprocess.run(
+                [snakemake, "--cores", "2", *arguments],
+                cwd=self.folder,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                text=True,
+                timeout=900,
+            )
 
     def copy_to(self, folder: Path) -> "Project":
         """A copy with results, programs and Snakemake's records."""
@@ -91,6 +113,15 @@ class Project:
 def unfinished(path: Path) -> set[Path]:
     """What runs are writing that will become `path`."""
     return set(path.parent.glob(f"{path.name}.*.part"))
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Tests with a copy of the project run Snakemake; they come last."""
+    for item in items:
+        if {"smoke_run", "project", "fresh"} & set(item.fixturenames):
+            item.add_marker("workflow")
+    items.sort(key=lambda item: item.get_closest_marker("workflow") is not None)
 
 
 def wait_for(done: Callable[[], bool]) -> None:
@@ -137,14 +168,26 @@ class Programs:
 
     def run_with(self, program: str, values: dict) -> subprocess.CompletedProcess[str]:
         """Run a program with a namelist of these values."""
-        write_namelist(self.folder / "input.nml", GROUPS[program], values)
-        return self.run(program, "input.nml", self.output.name)
+        return self.run_groups(program, {GROUPS[program]: values})
 
-    def made_by(self, program: str, values: dict) -> xr.Dataset:
-        """What a program makes of good values."""
-        run = self.run_with(program, values)
+    def write(self, groups: dict[str, dict]) -> Path:
+        """The namelist of a run."""
+        write_groups(self.folder / "input.nml", groups)
+        return self.folder / "input.nml"
+
+    def run_groups(self, program: str, groups: dict[str, dict]) -> subprocess.CompletedProcess[str]:
+        """Run a program with a namelist of these groups."""
+        return self.run(program, self.write(groups).name, self.output.name)
+
+    def made_of(self, program: str, groups: dict[str, dict]) -> xr.Dataset:
+        """What a program makes of good groups."""
+        run = self.run_groups(program, groups)
         assert (run.returncode, run.stdout, run.stderr) == (0, "", "")
         return xr.load_dataset(self.output)
+
+    def made_by(self, program: str, values: dict) -> xr.Dataset:
+        """What a program of GROUPS makes of good values."""
+        return self.made_of(program, {GROUPS[program]: values})
 
     def left_behind(self) -> list[str]:
         """Names of the files in the folder that are not its namelist."""
@@ -183,6 +226,12 @@ def default_config() -> dict:
     return read(ROOT / "config" / "config.yaml")
 
 
+@pytest.fixture(scope="session")
+def filled_config(default_config) -> dict:
+    """The config with its defaults; not to be changed."""
+    return checked(copy.deepcopy(default_config))
+
+
 @pytest.fixture
 def config(default_config) -> dict:
     """A config to change."""
@@ -202,12 +251,43 @@ def project(tmp_path) -> Project:
 
 
 @pytest.fixture(scope="session")
-def smoke_run(tmp_path_factory) -> tuple[Project, subprocess.CompletedProcess[str]]:
-    """The whole workflow in smoke size, and its log."""
-    project = copy_of_project(tmp_path_factory.mktemp("smoke") / "a project")
-    run = project.snakemake(*SMOKE)
-    assert run.returncode == 0, run.stdout
-    return project, run
+def fresh(tmp_path_factory) -> Project:
+    """A fresh copy in which nothing was built; not to be changed."""
+    return copy_of_project(tmp_path_factory.mktemp("fresh") / "a project")
+
+
+@pytest.fixture(scope="session")
+def shared(tmp_path_factory) -> Path:
+    """A folder for all processes of a test run; without pytest-xdist there is one process."""
+    folder = tmp_path_factory.getbasetemp()
+    return folder.parent if "PYTEST_XDIST_WORKER" in os.environ else folder
+
+
+@pytest.fixture(scope="session")
+def binaries() -> Path:
+    """The folder of the project's own programs; they are built where they are not up to date."""
+    with locked(ROOT / "build" / "lock"):
+        for command in (["--preset", "release", "-S", "fortran"], ["--build", "build/release"]):
+            run = subprocess.run(["cmake", *command], cwd=ROOT, capture_output=True, text=True)
+            assert run.returncode == 0, run.stdout + run.stderr
+    return ROOT / "build" / "release" / "bin"
+
+
+@pytest.fixture(scope="session")
+def smoke_run(binaries, shared) -> tuple[Project, str]:
+    """The whole workflow in smoke size, and its log; it builds one program of all."""
+    project, log = Project(shared / "smoke" / "a project"), shared / "smoke" / "log"
+    with locked(shared / "smoke.lock"):
+        if not log.exists():
+            copy_of_project(project.folder)
+            given = project.folder / "build" / "release" / "bin"
+            given.mkdir(parents=True)
+            for program in set(PROGRAMS) - {BUILT}:
+                shutil.copy(binaries / program, given)
+            run = project.snakemake(*SMOKE)
+            assert run.returncode == 0, run.stdout
+            log.write_text(run.stdout)
+    return project, log.read_text()
 
 
 @pytest.fixture(scope="session")
@@ -223,11 +303,11 @@ def scratch(smoke, tmp_path) -> Project:
 
 
 @pytest.fixture
-def programs(smoke, tmp_path) -> Programs:
+def programs(binaries, tmp_path) -> Programs:
     """The programs and an empty folder."""
     folder = tmp_path / "a folder"
     folder.mkdir()
-    return Programs(smoke.folder / "build" / "release" / "bin", folder)
+    return Programs(binaries, folder)
 
 
 def of_trajectory(config: dict, scene: str) -> dict:
@@ -236,15 +316,28 @@ def of_trajectory(config: dict, scene: str) -> dict:
     return {key: value for key, value in config["scenes"][scene].items() if key not in studies}
 
 
+def torus(config: dict, **changes) -> dict:
+    """Values of the torus, some of them changed."""
+    return {"name": "torus", **of_trajectory(config, "torus"), **changes}
+
+
+@pytest.fixture(scope="session")
+def trajectory_file(binaries, filled_config, tmp_path_factory) -> Path:
+    """A trajectory of the torus, for its spectrum."""
+    programs = Programs(binaries, tmp_path_factory.mktemp("trajectory"))
+    values = torus(filled_config, t_end=600.0, t_transient=200.0, sample_interval=0.1)
+    programs.made_by("trajectory", values)
+    return programs.output
+
+
 @pytest.fixture
-def good_inputs(config, smoke) -> dict[str, dict]:
-    """Namelist values that each program accepts, to change."""
-    config = checked(config)
-    scene = {"name": "torus", **of_trajectory(config, "torus"), "t_end": 30.0, "t_transient": 5.0}
-    trajectory = str(smoke.folder / "results" / "trajectories" / "torus.nc")
+def good_inputs(filled_config, trajectory_file) -> dict[str, dict]:
+    """Namelist values that each program of GROUPS accepts, to change."""
+    config = copy.deepcopy(filled_config)
+    scene = torus(config, t_end=30.0, t_transient=5.0, sample_interval=0.25)
     return {
-        "trajectory": {**scene, "sample_interval": 0.25, "variables": ["theta", "u", "v"]},
-        "spectrum": {"trajectory": trajectory, **config["spectra"]},
+        "trajectory": {**scene, "variables": ["theta", "u", "v"]},
+        "spectrum": {"trajectory": str(trajectory_file), **config["spectra"]},
         "hopf": config["hopf_curves"]["tau_of_epsilon"] | {"cells": 20},
         "linear_stability": {
             **{key: scene[key] for key in ("tau", "epsilon", "xi", "gamma")},
@@ -252,3 +345,14 @@ def good_inputs(config, smoke) -> dict[str, dict]:
         },
         "velocity_step": config["velocity_step"],
     }
+
+
+@pytest.fixture
+def good_groups(good_inputs) -> dict[str, dict[str, dict]]:
+    """Namelist groups that each program accepts, to change."""
+    groups = {program: {group: good_inputs[program]} for program, group in GROUPS.items()}
+    groups["exponents"] = {"scene": good_inputs["trajectory"], "exponents": EXPONENTS}
+    groups["attractors"] = {"observation": OBSERVATION, "points": POINTS}
+    groups["measure"] = {"cases_list": CASES, "measure": MEASURE}
+    groups["reference"] = {"cases_list": CASES, "reference": REFERENCE}
+    return copy.deepcopy(groups)

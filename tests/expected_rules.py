@@ -1,14 +1,9 @@
 """Which rules, programs and data each figure needs."""
 
-import re
-
 from conftest import ROOT
-from read_config import read
 
-
-def data_of(*scenes: str) -> set[str]:
-    """Trajectories and spectra of scenes."""
-    return {f"{kind}/{scene}.nc" for kind in ("trajectories", "spectra") for scene in scenes}
+from scripts.config.read_config import read
+from scripts.figures.entries import ENTRIES, files_of
 
 
 def settings(*path: str) -> dict:
@@ -19,30 +14,32 @@ def settings(*path: str) -> dict:
     return section
 
 
-OPTIONAL = {"atlas", "docs"}
+CONFIG = settings()
+OPTIONAL = {"docs", *(name for name, entry in ENTRIES.items() if entry.optional)}
 """Rules that are no part of everything."""
 FAMILIES = settings("stability", "families")
-WORK_SCENES = settings("work_precision", "scenes")
+WORK_SCENES = [*settings("work_precision", "scenes"), *settings("work_precision", "cases")]
 PLANES = settings("atlas", "planes")
 SCENES = ["oscillation", "torus", "chaos", "true_torus"]
 """Scenes that move."""
-FIGURES = [*(f"figure_{n}" for n in range(1, 9)), "exponents", "stability", "work_precision"]
-FIGURES += ["atlas_coarse", "true_torus", "route_to_chaos"]
-HOPF = {"build", "hopf_namelist", "hopf_curves"}
-SPECTRA = {"build", "scene_namelist", "trajectory", "spectrum_namelist", "spectrum"}
+TRAJECTORY = {"build", "scene_namelist", "trajectory"}
 ATTRACTORS = {"build", "attractors_namelist", "attractors_runs"}
-RULES_OF = {
-    "figure_1": set(),
-    "figure_2": HOPF,
-    "figure_3": HOPF,
-    "figure_4": {"build", "scene_namelist", "trajectory"},
-    "figure_5": SPECTRA,
-    "figure_6": SPECTRA,
-    "figure_7": SPECTRA,
-    "figure_8": {"build", "velocity_step_namelist", "velocity_step"},
-    "exponents": {"build", "exponents_namelist", "exponents_runs", "exponents_table"},
-    "stability": {"build", "stability_namelists", "reference", "measurement", "stability_table"},
-    "work_precision": {
+RULES_FOR = {
+    "hopf": {"build", "hopf_namelist", "hopf_curves"},
+    "trajectories": TRAJECTORY,
+    "spectra": {*TRAJECTORY, "spectrum_namelist", "spectrum"},
+    "friction": {"build", "velocity_step_namelist", "velocity_step"},
+    "exponents": {"build", "exponents_namelist", "exponents_runs"},
+    "attractors": ATTRACTORS,
+    "exponents.tsv": {"build", "exponents_namelist", "exponents_runs", "exponents_table"},
+    "stability.tsv": {
+        "build",
+        "stability_namelists",
+        "reference",
+        "measurement",
+        "stability_table",
+    },
+    "work-precision.tsv": {
         "build",
         "trust_namelists",
         "reference",
@@ -52,58 +49,66 @@ RULES_OF = {
         "work_precision_runs",
         "work_precision_table",
     },
-    "atlas_coarse": {*ATTRACTORS, "atlas_table", *HOPF},
-    "true_torus": {*ATTRACTORS, "attractors_table", *SPECTRA},
-    "route_to_chaos": {*ATTRACTORS, "route_table"},
+    "atlas-coarse.tsv": {*ATTRACTORS, "atlas_table"},
+    "attractors.tsv": {*ATTRACTORS, "attractors_table"},
+    "route-to-chaos.tsv": {*ATTRACTORS, "route_table"},
+    "benchmarks.tsv": set(),
 }
-"""Rules that each figure needs besides its own."""
-RULES_OF_ATTRACTORS = {
-    "attractors_namelist",
-    "attractors_runs",
-    "attractors_table",
-    "route_table",
-}
+"""Rules that make a result: data by their folder, tables by their name."""
+RULES_OF_ATTRACTORS = {*ATTRACTORS, "attractors_table", "route_table"}
 """Rules that the ledger needs besides."""
-OUTPUTS_OF = {
-    "figure_1": set(),
-    "figure_2": {"bin/hopf", "hopf/tau_of_epsilon.nc"},
-    "figure_3": {"bin/hopf", "hopf/xi_of_epsilon.nc"},
-    "figure_4": {"bin/trajectory", "trajectories/fixed_point.nc", "trajectories/oscillation.nc"},
-    "figure_5": {"bin/trajectory", "bin/spectrum", *data_of("torus", "chaos")},
-    "figure_6": {"bin/trajectory", "bin/spectrum", *data_of("oscillation", "torus")},
-    "figure_7": {"bin/trajectory", "bin/spectrum", *data_of("chaos")},
-    "figure_8": {"bin/velocity_step", "friction/velocity_step.nc"},
-    "exponents": {
-        "bin/exponents",
-        *(f"exponents/{scene}.nc" for scene in SCENES),
-    },
-    "stability": {
-        "bin/measure",
-        "bin/reference",
-        *(f"stability/{family}.nc" for family in FAMILIES),
-    },
-    "work_precision": {
-        "bin/measure",
-        "bin/reference",
-        *(f"{study}/{name}.nc" for study in ("trust", "work_precision") for name in WORK_SCENES),
-    },
-    "atlas_coarse": {
-        *("bin/attractors", "bin/hopf", "hopf/tau_of_epsilon.nc", "hopf/tau_of_epsilon_xi_08.nc"),
-        *(f"{plane}/{part:04}.nc" for plane in PLANES for part in range(1, 5)),
-    },
-    "true_torus": {
-        *("bin/attractors", "bin/trajectory", "bin/spectrum"),
-        *data_of("torus", "true_torus"),
-        *(f"scenes/{scene}.nc" for scene in ["fixed_point", *SCENES]),
-    },
-    "route_to_chaos": {"bin/attractors", "route/0001.nc", "route/0002.nc"},
+PROGRAMS_FOR = {
+    "hopf": ["hopf"],
+    "trajectories": ["trajectory"],
+    "spectra": ["trajectory", "spectrum"],
+    "friction": ["velocity_step"],
+    "exponents": ["exponents"],
+    "attractors": ["attractors"],
+    "exponents.tsv": ["exponents"],
+    "stability.tsv": ["measure", "reference"],
+    "work-precision.tsv": ["measure", "reference"],
+    "atlas-coarse.tsv": ["attractors"],
+    "attractors.tsv": ["attractors"],
+    "route-to-chaos.tsv": ["attractors"],
+    "benchmarks.tsv": [],
 }
-"""Programs and data that figures need."""
+"""Programs that make a result, named in the same way."""
+DATA_OF_TABLES = {
+    "exponents.tsv": {f"exponents/{scene}.nc" for scene in SCENES},
+    "stability.tsv": {f"stability/{family}.nc" for family in FAMILIES},
+    "work-precision.tsv": {
+        f"{study}/{name}.nc" for study in ("trust", "work_precision") for name in WORK_SCENES
+    },
+    "atlas-coarse.tsv": {f"{plane}/{part:04}.nc" for plane in PLANES for part in range(1, 5)},
+    "attractors.tsv": {f"scenes/{scene}.nc" for scene in ["fixed_point", *SCENES]},
+    "route-to-chaos.tsv": {"route/0001.nc", "route/0002.nc"},
+    "benchmarks.tsv": set(),
+}
+"""Data behind each table, by folder and name."""
+
+
+def kind_of(path: str) -> str:
+    """A table by its name, other results by their folder in results/."""
+    _, folder, *_, name = path.split("/")
+    return name if folder == "tables" else folder
+
+
+def expected_rules_of(figure: str) -> set[str]:
+    """Rules that a figure needs besides its own."""
+    return set().union(*(RULES_FOR[kind_of(path)] for path in files_of(figure, CONFIG)))
+
+
+def expected_outputs_of(figure: str) -> set[str]:
+    """Programs and data that a figure needs."""
+    found = set()
+    for path in files_of(figure, CONFIG):
+        kind, ending = kind_of(path), "/".join(path.split("/")[-2:])
+        found |= {f"bin/{program}" for program in PROGRAMS_FOR[kind]}
+        found |= DATA_OF_TABLES.get(kind, {ending})
+        if kind == "spectra":
+            found.add(ending.replace("spectra", "trajectories"))
+    return found
+
+
 OF_OTHERS = {"exponents", "attractors"}
 """Keys of a scene that are not for its trajectory."""
-
-
-def outputs_in(log: str) -> set[str]:
-    """Programs and data files, each by folder and name, in the log of a dry run."""
-    paths = re.findall(r"^ +output: (\S+(?:\.nc|/bin/\w+))$", log, flags=re.MULTILINE)
-    return {"/".join(path.split("/")[-2:]) for path in paths}

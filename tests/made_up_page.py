@@ -4,13 +4,12 @@ import shutil
 from pathlib import Path
 
 import numpy as np
-import page_content
-import page_views
-import write_page
 import xarray as xr
-from claims_results import VERDICTS
 from conftest import ROOT
-from motion_rows import COLOURS
+
+from scripts.claims.claims_results import VERDICTS
+from scripts.page import page_content, page_views, write_page
+from scripts.tables.motion_rows import COLOURS
 
 TEMPLATE = ROOT / "page" / "index.html.jinja"
 PICTURE = (
@@ -26,7 +25,7 @@ def claim(name: str, verdict: str = VERDICTS[0], **given) -> dict:
 
 def figure(name: str, category: str = "Figures", *data: str) -> dict:
     """A figure as the rule describes it."""
-    caption = str(ROOT / "scripts" / "figure_2.rst")
+    caption = str(ROOT / "scripts" / "figures" / "figure_2.rst")
     return {"name": name, "category": category, "caption": caption, "data": list(data)}
 
 

@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 import xarray as xr
-from claims_results import Results
+
+from scripts.claims.claims_results import Results
 
 CLASSES = ["fixed point", "cycle", "torus", "chaos", "undecided"]
 

@@ -2,23 +2,22 @@
 
 import math
 
-import atlas
-import class_map
 import numpy as np
 import pytest
-import route_to_chaos
-import true_torus
 import xarray as xr
 from config_refusals import line_about, refusal
-from drawing import STYLE
 from figure_contents import points_in, title_of, words_in
 from made_up_results import attractor_row, hopf_curve
 from matplotlib import pyplot as plt
 from matplotlib.collections import PatchCollection, QuadMesh
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
-from motion_rows import COLOURS
-from spectrum_rows import BASE, COMBINATION, HARMONIC, SECOND_BASE
+
+from scripts.drawing import class_map
+from scripts.drawing.spectrum_rows import BASE, COMBINATION, HARMONIC, SECOND_BASE
+from scripts.drawing.style import STYLE
+from scripts.figures import atlas, route_to_chaos, true_torus
+from scripts.tables.motion_rows import COLOURS
 
 PLACES = {
     "first": {"epsilon": 0.35, "tau": 10.0, "xi": 0.8},
@@ -224,7 +223,9 @@ def a_scene(name: str, met: str) -> true_torus.Scene:
     )
     errors = {"exponent_1": 1e-6, "error_1": 0.0, "exponent_2": 2e-3 if two else -0.04}
     row = attractor_row(met, name, **errors)
-    return true_torus.Scene(trajectory, attractors, spectrum, row)
+    return true_torus.Scene(
+        trajectory=trajectory, attractors=attractors, spectrum=spectrum, row=row
+    )
 
 
 def test_true_torus_is_drawn_beside_the_papers():

@@ -3,34 +3,21 @@
 import re
 from pathlib import Path
 
-import attractor_tables
 import pytest
 import xarray as xr
-from attractor_surveys import atlas_groups
-from conftest import ROOT, SMOKE, Programs, rules_in
-from tables import read_table, write_table
-from write_namelist import write_groups
+from conftest import SMOKE, Programs, rules_in
+
+from scripts.files.tsv import read_table, write_table
+from scripts.namelists.attractor_surveys import atlas_groups
+from scripts.namelists.write_namelist import write_groups
+from scripts.tables import attractor_tables
 
 PARTS = "results/attractors/atlas"
-RULES = {"build", "attractors_namelist", "attractors_runs", "atlas_table"}
 
 
 def parts_in(log: str) -> list[str]:
     """Parts that a run or a dry run computes."""
     return re.findall(rf"^ +output: {PARTS}/(\S+\.nc)$", log, flags=re.MULTILINE)
-
-
-def test_fine_atlas_is_a_target_of_its_own(project, default_config):
-    """All its parts in both planes, and nothing of it without being asked for."""
-    run = project.snakemake("--dry-run", "atlas")
-    assert run.returncode == 0, run.stdout
-    assert rules_in(run.stdout) == {*RULES, "hopf_namelist", "hopf_curves", "atlas"}
-    atlas = default_config["atlas"]
-    parts = range(1, atlas["grids"]["fine"]["parts"] + 1)
-    expected = {f"fine/{plane}/{part:04}.nc" for plane in atlas["planes"] for part in parts}
-    assert len(parts_in(run.stdout)) == len(expected)
-    assert set(parts_in(run.stdout)) == expected
-    assert "fine" not in "".join(parts_in(project.snakemake("--dry-run").stdout))
 
 
 def test_fine_atlas_resumes(scratch):
@@ -47,14 +34,6 @@ def test_fine_atlas_resumes(scratch):
     assert parts_in(run.stdout) == ["fine/xi_08/0002.nc"]
     assert rules_in(run.stdout) == {"attractors_runs", "atlas_table", "atlas"}
     assert scratch.outputs() == before
-
-
-def test_atlas_has_a_caption():
-    """That of the coarse one: the same figure."""
-    captions = [
-        (ROOT / "scripts" / f"{name}.rst").read_text() for name in ("atlas", "atlas_coarse")
-    ]
-    assert captions[0] == captions[1]
 
 
 def test_coarse_table_holds_the_grid_of_each_plane(smoke, smoke_config):

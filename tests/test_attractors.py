@@ -3,13 +3,14 @@
 import copy
 import math
 
-import attractor_surveys
-import attractor_tables
 import numpy as np
 import pytest
 import xarray as xr
-from check_config import checked
-from motion_rows import count_in_words, first_met, kind_of
+
+from scripts.config.check_config import checked
+from scripts.namelists import attractor_surveys
+from scripts.tables import attractor_tables
+from scripts.tables.motion_rows import count_in_words, first_met, kind_of
 
 CLASSES = ["undecided", "fixed point", "cycle", "torus", "chaos"]
 

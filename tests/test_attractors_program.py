@@ -5,20 +5,23 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
-from attractor_tables import scene_rows
-from attractors_runs import OBSERVATION, good_groups, made
-from tables import read_table, write_table
+from namelist_groups import OBSERVATION
+
+from scripts.files.tsv import read_table, write_table
+from scripts.tables.attractor_tables import scene_rows
+
+VARIABLES = ("theta", "u", "v")
 
 
 @pytest.fixture
-def groups() -> dict[str, dict]:
+def groups(good_groups) -> dict[str, dict]:
     """Namelist groups that the program accepts, to change."""
-    return good_groups()
+    return good_groups["attractors"]
 
 
 def test_points_are_the_rectangle_for_each_history(programs, groups):
     """Epsilon runs fastest, histories slowest; names, flags and settings are told."""
-    found = made(programs, groups)
+    found = programs.made_of("attractors", groups)
     np.testing.assert_allclose(found.epsilon, [0.3, 0.5] * 4, rtol=1e-15)
     assert found.tau.values.tolist() == [0.0, 0.0, 10.0, 10.0] * 2
     assert found.history_theta.values.tolist() == [0.0] * 4 + [0.5] * 4
@@ -37,7 +40,7 @@ def test_points_are_the_rectangle_for_each_history(programs, groups):
 def test_fixed_point_has_the_roots_and_no_more(programs, groups):
     """Without delay three exponents, without error; maxima while it decays, NaN beyond them."""
     groups["points"] |= {"epsilon_part": [2, 2], "tau_part": [1, 1]}
-    found = made(programs, groups)
+    found = programs.made_of("attractors", groups)
     assert found["class"].values.tolist() == [1, 1]
     roots = np.roots([1, 1.8, 0.64 + 0.8 - 1.3 * 0.8, 0.64])
     for point in range(2):
@@ -62,7 +65,7 @@ def test_steady_sliding_has_no_maxima(programs, groups):
     """NaN where nothing was found, 0 points of a cycle, and no problem."""
     groups["points"] |= {"epsilon_part": [2, 2], "tau_part": [1, 1]}
     groups["points"] |= {"theta": [0.0], "u": [0.0], "v": [1.0]}
-    found = made(programs, groups)
+    found = programs.made_of("attractors", groups)
     assert found["class"].values.tolist() == [1]
     for key in ("smallest_maximum", "largest_maximum", "maximum", "section_theta", "section_u"):
         assert np.isnan(found[key]).all()
@@ -74,7 +77,7 @@ def test_table_shows_runs_that_failed_as_no_attractors(programs, groups):
     groups["points"] |= {"epsilon_part": [2, 2], "tau_part": [1, 1]}
     groups["points"] |= {"theta": [0.0] * 3, "u": [0.0] * 3, "v": [1.1, 1e-300, 1.0]}
     table = programs.folder / "table.tsv"
-    write_table(table, scene_rows("mine", made(programs, groups)))
+    write_table(table, scene_rows("mine", programs.made_of("attractors", groups)))
     at_rest, failed, steady = read_table(table)
     assert [row["class"] for row in (at_rest, failed, steady)] == [
         "fixed point",
@@ -94,9 +97,9 @@ def test_table_shows_runs_that_failed_as_no_attractors(programs, groups):
 def test_the_last_points_are_kept(programs, groups, kept):
     """As many as are wanted, or none at all."""
     groups["points"] |= {"epsilon_part": [3, 3], "tau_part": [2, 2]}
-    whole = made(programs, groups)
+    whole = programs.made_of("attractors", groups)
     groups["points"]["kept"] = kept
-    found = made(programs, groups)
+    found = programs.made_of("attractors", groups)
     for key in ("maximum", "section_theta", "section_u"):
         if kept == 0:
             assert key not in found
@@ -110,7 +113,7 @@ def test_the_last_points_are_kept(programs, groups, kept):
 def test_run_that_cannot_be_finished_is_undecided(programs, groups):
     """It is said why; the others are as they would be without it."""
     groups["points"]["v"] = [1.1, 1e-300]
-    found = made(programs, groups)
+    found = programs.made_of("attractors", groups)
     assert found["class"].values[4:].tolist() == [0] * 4
     assert all("stopped at t = " in str(words) for words in found.problem.values[4:])
     for key in ("lyapunov_exponent", "lyapunov_error", "maximum", "section_theta", "section_u"):
@@ -118,7 +121,7 @@ def test_run_that_cannot_be_finished_is_undecided(programs, groups):
     assert np.isnan(found.smallest_maximum[4:]).all()
     assert found.base_1[4:].values.tolist() == [0.0] * 4
     groups["points"] |= {"theta": [0.0], "u": [0.0], "v": [1.1]}
-    alone = made(programs, groups)
+    alone = programs.made_of("attractors", groups)
     xr.testing.assert_identical(
         alone.drop_vars("problem"), found.drop_vars("problem").isel(point=slice(4))
     )
@@ -128,7 +131,7 @@ def test_run_that_cannot_be_finished_is_undecided(programs, groups):
 def test_steps_that_run_out_are_told_at_each_point(programs, groups):
     """The file is written all the same."""
     groups["observation"]["most_steps"] = 5
-    found = made(programs, groups)
+    found = programs.made_of("attractors", groups)
     assert set(found["class"].values) == {0}
     assert all("5 steps (most_steps) were used up" in str(words) for words in found.problem.values)
 
@@ -138,6 +141,19 @@ def test_same_bytes_in_one_thread_and_in_two(programs, groups, monkeypatch):
     contents = set()
     for threads in ("1", "2", "2"):
         monkeypatch.setenv("OMP_NUM_THREADS", threads)
-        made(programs, groups)
+        programs.made_of("attractors", groups)
         contents.add(programs.output.read_bytes())
     assert len(contents) == 1
+
+
+def test_points_that_are_none_or_too_many_are_refused(programs, groups):
+    """Neither is met as lack of memory."""
+    points = {key: value for key, value in groups["points"].items() if key not in VARIABLES}
+    done = programs.run_groups("attractors", {**groups, "points": points})
+    assert "number of histories = 0; expected" in done.stderr
+    groups["points"] |= {"epsilon_count": 1001, "epsilon_part": [1, 1001]}
+    groups["points"] |= {"tau_count": 1000, "tau_part": [1, 1000]}
+    groups["points"] |= {"theta": [0.0], "u": [0.0], "v": [1.1]}
+    done = programs.run_groups("attractors", groups)
+    assert "number of points = " in done.stderr
+    assert programs.left_behind() == []

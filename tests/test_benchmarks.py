@@ -12,11 +12,21 @@ import pytest
 import ratios
 import scenes
 import workers
-from accuracy import Reference
 from conftest import ROOT
-from tables import read_table
 
-SCENE = scenes.Scene("torus", 10.0, 0.5, 0.8, 0.8, (0.0, 0.0, 0.25), 1.0, 0.5)
+from scripts.files.tsv import read_table
+from scripts.tables.accuracy import Reference
+
+SCENE = scenes.Scene(
+    name="torus",
+    tau=10.0,
+    epsilon=0.5,
+    xi=0.8,
+    gamma=0.8,
+    past=(0.0, 0.0, 0.25),
+    t_end=1.0,
+    sample_interval=0.5,
+)
 NAMES = ("fixed_point", "oscillation", "torus", "chaos", "stick", "stiff")
 
 
@@ -25,7 +35,13 @@ def reference() -> Reference:
     """Zero but for a large theta at the end, and longer than the scene."""
     state = np.zeros((3, 4))
     state[0, 2] = -10.0
-    return Reference("ok", 0.5 * np.arange(4.0), state, np.zeros(4), np.ones(4))
+    return Reference(
+        status="ok",
+        time=0.5 * np.arange(4.0),
+        state=state,
+        uncertainty=np.zeros(4),
+        amplification=np.ones(4),
+    )
 
 
 def samples_of(reference: Reference) -> np.ndarray:
@@ -83,12 +99,12 @@ def test_ratios_are_of_runs_that_ended_well():
 def test_scenes_are_those_of_work_against_precision():
     """With their histories, up to when they can be trusted."""
     study = scenes.read_study()
-    assert tuple(study["scenes"]) == NAMES
+    assert tuple(study["cases"]) == NAMES
     horizons = [{"scene": name, "horizon": 100.0 + i} for i, name in enumerate(NAMES)]
     found = {name: scenes.scene_of(study, horizons, name) for name in NAMES}
     torus = found["torus"]
     assert (torus.tau, torus.epsilon, torus.t_end, torus.sample_interval) == (10.0, 0.5, 102.0, 1.0)
-    assert torus.past == (0.0, 0.0, math.log(1.5))
+    assert torus.past == (0.0, 0.0, math.log(1.1))
     assert found["stick"].past == found["chaos"].past == (0.0, 0.0, math.log(1.1))
     assert (
         found["stiff"].line() == f"1 0.69999999999999996 0.5 1000000 0 0 {math.log(1.1):.17g} 105 1"

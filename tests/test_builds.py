@@ -3,18 +3,17 @@
 import subprocess
 
 import pytest
+from conftest import BUILT, PROGRAMS, ROOT
 
 
-def test_program_has_the_same_bytes_wherever_it_is_built(smoke, project):
+def test_program_has_the_same_bytes_wherever_it_is_built(smoke, binaries):
     """So that a folder that was moved computes nothing again; no program names its folder."""
-    programs = smoke.folder / "build" / "release" / "bin"
-    found = {path.name: path.read_bytes() for path in programs.iterdir()}
-    assert len(found) == 9
-    assert [name for name, content in found.items() if bytes(smoke.folder) in content] == []
-    run = project.snakemake("build/release/bin/spectrum")
-    assert run.returncode == 0, run.stdout
-    elsewhere = project.folder / "build" / "release" / "bin" / "spectrum"
-    assert elsewhere.read_bytes() == found["spectrum"]
+    assert {path.name for path in binaries.iterdir()} == set(PROGRAMS)
+    contents = {name: (binaries / name).read_bytes() for name in PROGRAMS}
+    assert [name for name, content in contents.items() if bytes(ROOT) in content] == []
+    elsewhere = (smoke.folder / "build" / "release" / "bin" / BUILT).read_bytes()
+    assert bytes(smoke.folder) not in elsewhere
+    assert elsewhere == contents[BUILT]
 
 
 @pytest.mark.parametrize("program", ["linear_stability", "hopf"])

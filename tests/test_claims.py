@@ -3,13 +3,20 @@
 import csv
 import json
 
-import claims
 import pytest
-from claims_config import listed
-from claims_results import NOT_REPRODUCED, NOT_TESTABLE, REPRODUCED, VERDICTS, read_results
-from conftest import ROOT, SMOKE
+from conftest import SMOKE
 from made_up_results import attractor_row, hopf_curve, results, stability_row
-from tables import write_table
+
+from scripts.claims import ledger
+from scripts.claims.claims_config import listed
+from scripts.claims.claims_results import (
+    NOT_REPRODUCED,
+    NOT_TESTABLE,
+    REPRODUCED,
+    VERDICTS,
+    read_results,
+)
+from scripts.files.tsv import write_table
 
 CLAIMS = {
     "moves": {
@@ -37,14 +44,6 @@ attractors:
   observation: {{ t_observed: 6000.0, t_turning: 3000.0 }}
 """
 """The oscillation as in the full reproduction, at an epsilon."""
-needs_attractors = pytest.mark.skipif(
-    not any(
-        "results/tables/attractors.tsv" in path.read_text()
-        for path in (ROOT / "rules").glob("*.smk")
-        if path.name != "common.smk"
-    ),
-    reason="no rule makes attractors.tsv yet",
-)
 
 
 def ledger_of(met: str) -> list[dict]:
@@ -54,7 +53,7 @@ def ledger_of(met: str) -> list[dict]:
         attractors=[attractor_row(met)],
         linear_stability=[stability_row()],
     )
-    return claims.rows_of(CLAIMS, made)
+    return ledger.rows_of(CLAIMS, made)
 
 
 def test_a_row_for_every_claim():
@@ -100,7 +99,7 @@ def test_files_are_read_by_name(tmp_path):
 def test_json_is_whole_or_absent(tmp_path):
     """And holds the rows."""
     rows = ledger_of("cycle")
-    claims.write_json(tmp_path / "claims.json", rows)
+    ledger.write_json(tmp_path / "claims.json", rows)
     assert json.loads((tmp_path / "claims.json").read_text()) == rows
     assert [path.name for path in tmp_path.iterdir()] == ["claims.json"]
 
@@ -111,7 +110,6 @@ def read_ledger(folder) -> dict[str, dict]:
         return {row["id"]: row for row in csv.DictReader(file, delimiter="\t")}
 
 
-@needs_attractors
 def test_ledger_of_the_workflow(smoke):
     """Every claim has a verdict with evidence, the same in both files; what it shows is there."""
     rows = read_ledger(smoke.folder)
@@ -125,8 +123,10 @@ def test_ledger_of_the_workflow(smoke):
         assert row["verdict"] == NOT_TESTABLE or (smoke.folder / row["look_at"]).is_file()
 
 
-@needs_attractors
-@pytest.mark.parametrize(("epsilon", "verdict"), [(0.35, REPRODUCED), (0.2, NOT_REPRODUCED)])
+@pytest.mark.parametrize(
+    ("epsilon", "verdict"),
+    [pytest.param(0.35, REPRODUCED, marks=pytest.mark.long), (0.2, NOT_REPRODUCED)],
+)
 def test_scene_below_the_hopf_curve_oscillates_no_more(scratch, epsilon, verdict):
     """From the configuration to the verdict, through the whole workflow."""
     (scratch.folder / "mine.yaml").write_text(MOVED.format(epsilon=epsilon))
@@ -137,7 +137,6 @@ def test_scene_below_the_hopf_curve_oscillates_no_more(scratch, epsilon, verdict
     assert f"epsilon = {epsilon}" in row["evidence"]
 
 
-@needs_attractors
 def test_bad_list_of_claims_is_refused_in_words(scratch):
     """Before anything runs, without a traceback of Python."""
     path = scratch.folder / "config" / "claims.yaml"

@@ -3,11 +3,11 @@
 import copy
 import inspect
 
-import claims
-import claims_config
 import pytest
-from check_config import checked
-from read_config import ConfigError, read
+
+from scripts.claims import claims_config, ledger
+from scripts.config.check_config import checked
+from scripts.config.read_config import ConfigError, read
 
 SHOWN = {"figure_2", "hopf-points.tsv"}
 TESTED = {"place": "Figure 2", "claim": "Something is so.", "look_at": "figure_2"}
@@ -77,7 +77,7 @@ def parameters_in_schema() -> dict:
 def test_schema_and_functions_are_the_same_tests():
     """With the same parameters by name."""
     parameters = {
-        name: list(inspect.signature(test).parameters)[1:] for name, test in claims.TESTS.items()
+        name: list(inspect.signature(test).parameters)[1:] for name, test in ledger.TESTS.items()
     }
     assert {
         name: list(test["properties"]) for name, test in parameters_in_schema().items()
@@ -88,7 +88,7 @@ def test_every_test_is_used_and_every_claim_stands_somewhere():
     """The list in the file."""
     listed = claims_config.listed()["claims"]
     used = {name for claim in listed.values() for name in claim.get("test", {})}
-    assert used == set(claims.TESTS)
+    assert used == set(ledger.TESTS)
     assert len(listed) >= 20
     assert len({claim["claim"] for claim in listed.values()}) == len(listed)
 

@@ -3,10 +3,11 @@
 import math
 
 import pytest
-from claims_of_attractors import TESTS
-from claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED
 from made_up_results import CLASSES, attractor_row, results, route_rows, stability_row
-from tables import read_table
+
+from scripts.claims.claims_of_attractors import TESTS
+from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED
+from scripts.files.tsv import read_table
 
 ATTRACTORS = """\
 scene,history,theta,u,v,attractor,class,period,by_exponents,by_section,by_spectrum,exponent_1,\

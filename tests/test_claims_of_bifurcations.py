@@ -4,8 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from claims_of_bifurcations import TESTS
-from claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED, changes, stable_delays
 from made_up_results import (
     attractor_row,
     changed,
@@ -13,6 +11,15 @@ from made_up_results import (
     on_plane,
     results,
     stability_row,
+)
+
+from scripts.claims.claims_of_bifurcations import TESTS
+from scripts.claims.claims_results import (
+    CORRECTED,
+    NOT_REPRODUCED,
+    REPRODUCED,
+    changes,
+    stable_delays,
 )
 
 BOTH = ["supercritical", "subcritical"]

@@ -1,11 +1,12 @@
 """Verdicts on the printed equations, on Hopf curves in closed form."""
 
-import claims_of_formulas as tests_of
 import numpy as np
 import pytest
-from claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED
 from made_up_results import changed, hopf_curve, on_plane, results
-from printed_formulas import epsilon_of_8, points_of, residual_of_5, xi_of_9
+
+from scripts.claims import claims_of_formulas as tests_of
+from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED
+from scripts.claims.printed_formulas import epsilon_of_8, points_of, residual_of_5, xi_of_9
 
 LIMIT = 1e-10
 BELOW_ROUNDING = 1e-20
@@ -26,7 +27,9 @@ def test_corrected_formulas_hold_on_closed_form(gamma, k):
     assert residual_of_5(points, points.epsilon, points.tau).max() < 1e-13
     assert residual_of_5(points, points.epsilon + 0.1, points.tau).min() > 1e-3
     np.testing.assert_allclose(epsilon_of_8(points, 2), points.epsilon, rtol=1e-12)
-    np.testing.assert_allclose(xi_of_9(points.omega, points.tau, gamma), points.xi, rtol=1e-9)
+    np.testing.assert_allclose(
+        xi_of_9(omega=points.omega, tau=points.tau, gamma=gamma), points.xi, rtol=1e-9
+    )
 
 
 @pytest.mark.parametrize("test", ["equation_3", "equation_4"])

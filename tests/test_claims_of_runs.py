@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 import xarray as xr
-from claims_of_runs import TESTS
-from claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED
 from made_up_results import results, run_row
+
+from scripts.claims.claims_of_runs import TESTS
+from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED
 
 STOPPED = {"status": "too_many_steps", "error": np.nan, "error_expected": np.nan}
 OTHERS = [run_row(gamma=1.0), run_row(method="explicit")]

@@ -93,7 +93,16 @@ def test_test_runs_everything(recording, tmp_path):
     status, calls = calls_of(recording / "test", cwd=tmp_path)
     assert status == 0
     assert {call.split()[0] for call in calls} == set(TOOLS)
-    assert calls[-1] == "pytest "
+    assert calls[-1] == "pytest --numprocesses 2"
+
+
+def test_quick_test_needs_no_browser_and_no_workflow(recording):
+    """Lint, Fortran, and what is left of Python."""
+    write_script(recording / "setup" / "setup.sh", "[[ ! ${1-} ]] || exit 7")
+    status, calls = calls_of(recording / "test", "quick")
+    assert status == 0
+    assert {call.split()[0] for call in calls} == set(TOOLS)
+    assert calls[-1] == "pytest --numprocesses 2 -m not workflow and not browser and not long"
 
 
 @pytest.mark.parametrize(
@@ -102,6 +111,7 @@ def test_test_runs_everything(recording, tmp_path):
         ("lint", {"ruff", "snakefmt", "fortitude", "snakemake"}),
         ("fortran", {"cmake", "ctest"}),
         ("python", {"pytest"}),
+        ("long", {"pytest"}),
     ],
 )
 def test_test_runs_one_part(recording, part, tools):
@@ -182,7 +192,8 @@ def debian_packages(folder: str = "setup") -> list[str]:
 
 def made_from(folder: Path) -> str:
     """What the set-up notes of the .venv that it made there."""
-    command = "sha256sum setup/requirements.lock requirements.lock; /usr/bin/python3 --version; pwd"
+    files = "setup/requirements.lock requirements.lock setup/setup.sh"
+    command = f"sha256sum {files}; /usr/bin/python3 --version; pwd"
     run = subprocess.run(["bash", "-c", command], cwd=folder, capture_output=True, text=True)
     return run.stdout
 
@@ -271,7 +282,7 @@ def test_packages_of_a_profile_are_added(bare, to_mend):
     assert added.endswith("--require-hashes -r profiles/slurm/requirements.lock")
     assert "--no-build-isolation" in added
     mended = {name: (to_mend / name).read_text() for name in UNMENDED}
-    assert mended["snakemake/common/configfile.py"].count("read_config.read(") == 1
+    assert mended["snakemake/common/configfile.py"].count("read_config.py") == 1
     assert [name for name, text in mended.items() if text == UNMENDED[name]] == []
     (bare / ".venv" / "made-from-slurm").unlink()
     assert set_up_in(bare, part=("profiles/slurm",)).returncode == 0

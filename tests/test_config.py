@@ -3,22 +3,12 @@
 from collections.abc import Iterator
 
 import pytest
-from check_config import checked, variables_used
-from config_refusals import NO_NUMBERS, line_about, out_of_range, put, refusal
+from config_refusals import line_about, put, refusal
 from conftest import ROOT
-from read_config import read
 
-SCENE_RANGES = {
-    "tau": (">= 0", [-1e-300, -1.0]),
-    "epsilon": ("> -1", [-1.0, -2.0]),
-    "xi": ("> 0", [0.0, -1.0]),
-    "gamma": ("> 0", [0.0, -1.0]),
-    "t_end": ("> 0", [0.0, -1.0]),
-    "t_transient": (">= 0", [-1.0]),
-    "sample_interval": ("> 0", [0.0, -1.0]),
-    "tolerance": ("[1e-13, 1e-2]", [0.0, 9.9e-14, 1.01e-2, -1e-9]),
-}
-"""For each number of a scene: words of its range, and values out of range."""
+from scripts.config.check_config import checked
+from scripts.config.read_config import read
+from scripts.figures.entries import ENTRIES, FIGURES, Entry, variables_used
 
 
 def places(config: dict, path: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
@@ -92,51 +82,28 @@ def test_scene_with_a_spectrum_only_stores_v(config):
     assert checked(config)["scenes"]["chaos"]["variables"] == ["v"]
 
 
+def test_scenes_store_what_a_new_figure_draws(config, monkeypatch):
+    """Its entry names the trajectory and the variables."""
+    path = "results/trajectories/chaos.nc"
+    entry = Entry(category="Figures", inputs={"trajectory": path}, variables=("theta",))
+    monkeypatch.setitem(ENTRIES, "figure_9", entry)
+    assert checked(config)["scenes"]["chaos"]["variables"] == ["theta", "u", "v"]
+
+
+def test_figures_with_rows_are_those_of_the_schema(config):
+    """An entry with rows has its settings in the configuration."""
+    assert {name for name, entry in ENTRIES.items() if entry.rows} == set(config["figures"])
+
+
+def test_figures_of_the_paper_come_first():
+    """All eight, in its order."""
+    assert FIGURES[:8] == [f"figure_{number}" for number in range(1, 9)]
+
+
 def test_variables_of_ones_own_are_kept(config):
     """A scene may store more than its figures use."""
     config["scenes"]["torus"]["variables"] = ["v", "u", "theta"]
     assert checked(config)["scenes"]["torus"]["variables"] == ["v", "u", "theta"]
-
-
-@pytest.mark.parametrize(("key", "value", "words"), out_of_range(SCENE_RANGES))
-def test_scene_value_out_of_range_is_refused(config, key, value, words):
-    """The line names scene, key, value and range."""
-    config["scenes"]["torus"][key] = value
-    line = line_about(refusal(config), key)
-    assert line.startswith("scene 'torus': ")
-    assert f"{key} = {value!r}; expected " in line
-    assert words in line
-
-
-@pytest.mark.parametrize("value", NO_NUMBERS)
-@pytest.mark.parametrize("key", SCENE_RANGES)
-def test_scene_value_that_is_no_finite_number_is_refused(config, key, value):
-    """Text, truth, nothing, lists, NaN and infinity."""
-    config["scenes"]["torus"][key] = value
-    line = line_about(refusal(config), key)
-    assert line.startswith("scene 'torus': ")
-    assert f"{key} = {value!r}; expected " in line
-    assert "a finite number" in line
-
-
-@pytest.mark.parametrize("value", NO_NUMBERS)
-@pytest.mark.parametrize("key", ["theta", "u", "v"])
-def test_history_that_is_no_finite_number_is_refused(config, key, value):
-    """The same for the history."""
-    config["scenes"]["torus"]["history"][key] = value
-    line = line_about(refusal(config), key)
-    assert line.startswith("scene 'torus' history: ")
-    assert f"{key} = {value!r}; expected " in line
-    assert "a finite number" in line
-
-
-@pytest.mark.parametrize("value", [0.0, -1.1])
-def test_history_without_forward_motion_is_refused(config, value):
-    """ln v needs v > 0."""
-    config["scenes"]["torus"]["history"]["v"] = value
-    line = line_about(refusal(config), "v")
-    assert line.startswith(f"scene 'torus' history: v = {value!r}; expected ")
-    assert "> 0" in line
 
 
 def test_number_that_no_computer_holds_is_refused(config):
@@ -162,32 +129,6 @@ def test_samples_farther_apart_than_the_run_is_long_are_refused(config):
     assert "<= t_end = 8000.0" in line
     config["scenes"]["torus"]["sample_interval"] = 8000.0
     checked(config)
-
-
-@pytest.mark.parametrize("method", ["radau", "", None, 1, ["auto"]])
-def test_unknown_method_is_refused(config, method):
-    """The range lists the methods."""
-    config["scenes"]["torus"]["method"] = method
-    line = line_about(refusal(config), "method")
-    assert line.startswith(f"scene 'torus': method = {method!r}; expected ")
-    assert "auto, explicit" in line
-
-
-@pytest.mark.parametrize("variables", [[], ["v", "v"], "v", None, {"v": 1}])
-def test_variables_that_are_no_list_of_names_are_refused(config, variables):
-    """Empty, repeated, or no list."""
-    config["scenes"]["torus"]["variables"] = variables
-    line = line_about(refusal(config), "variables")
-    assert line.startswith(f"scene 'torus': variables = {variables!r}; expected ")
-    assert "theta, u, v" in line
-
-
-@pytest.mark.parametrize("variable", ["w", "V", 1, None])
-def test_unknown_variable_is_refused(config, variable):
-    """The line names scene, key, value and the three names."""
-    config["scenes"]["torus"]["variables"] = ["u", "v", variable]
-    words = refusal(config)
-    assert f"scene 'torus' variables: 2 = {variable!r}; expected one of: theta, u, v" in words
 
 
 def test_variables_that_figures_lack_are_refused(config):
@@ -237,19 +178,6 @@ def test_no_key_is_named_where_none_is_near(config):
     """Rather than one that is not meant."""
     config["scenes"]["torus"]["colour"] = 1.0
     assert "meant" not in refusal(config)
-
-
-def test_unknown_key_of_a_history_is_refused(config):
-    """The line names scene and key, and lists what is known."""
-    config["scenes"]["torus"]["history"]["w"] = 1.0
-    assert "scene 'torus' history: unknown key ['w']; allowed: theta, u, v" in refusal(config)
-
-
-@pytest.mark.parametrize("key", ["tau", "epsilon", "xi", "gamma", "t_end"])
-def test_missing_key_of_a_scene_is_refused(config, key):
-    """The line names scene and key, once."""
-    del config["scenes"]["torus"][key]
-    assert refusal(config).splitlines()[1:] == [f"scene 'torus': key ['{key}'] is missing"]
 
 
 def test_missing_keys_are_named_once(config):

@@ -1,120 +1,40 @@
 """Checking what a configuration says about stability and work against precision."""
 
 import pytest
-from check_config import checked
-from config_refusals import line_about, out_of_range, put, refusal
+from config_refusals import line_about, put, refusal
+
+from scripts.config.check_config import checked
+from scripts.namelists.study_cases import case_of, measured_study
 
 FAMILY = ("stability", "families", "growth")
-SCENE = ("work_precision", "scenes", "torus")
-RANGES = {
-    ("stability", "tolerance"): ("[1e-13, 1e-2]", [0.0, 9.9e-14, 1.01e-2, "1e-9", None]),
-    ("stability", "repeats"): ("a whole number >= 1", [0, 2.5, 101]),
-    ("stability", "least_seconds"): ("[0, 10]", [-0.1, 10.1]),
-    ("stability", "reference", "tolerance"): ("[1e-22, 1e-16]", [9e-23, 1.1e-16]),
-    ("stability", "reference", "check_tolerance"): ("[1e-21, 1e-14]", [9e-22, 1.1e-14]),
-    ("stability", "reference", "disturbance"): ("[1e-18, 1e-12]", [9e-19, 1.1e-12]),
-    ("stability", "reference", "method"): ("one of: auto, explicit", ["radau", None]),
-    (*FAMILY, "t_end"): ("> 0", [0.0, -1.0]),
-    (*FAMILY, "samples"): ("a whole number >= 1", [0, 1.5, 10001]),
-    (*FAMILY, "most_steps"): ("a whole number >= 1", [0, 100000001]),
-    (*FAMILY, "reference"): ("quadruple", ["double", None]),
-    (*FAMILY, "tau"): ("at least one finite number >= 0", [[], 1.0, [1.0, 1.0]]),
-    (*FAMILY, "epsilon"): ("at least one finite number > -1", [[], 1.0]),
-    (*FAMILY, "xi"): ("at least one finite number > 0", [[], 1.0]),
-    (*FAMILY, "gamma"): ("at least one finite number > 0", [[], 1.0]),
-    (*FAMILY, "theta"): ("at least one finite number", [[], 1.0]),
-    (*FAMILY, "u"): ("at least one finite number", [[], 1.0]),
-    (*FAMILY, "v"): ("at least one finite number > 0", [[], 1.0]),
-    ("work_precision", "most_steps"): ("a whole number >= 1", [0, 1.5]),
-    ("work_precision", "repeats"): ("a whole number >= 1", [0, 101]),
-    ("work_precision", "least_seconds"): ("[0, 10]", [-0.1, 10.1]),
-    ("work_precision", "trusted_error"): ("(0, 1e-3]", [0.0, 1.1e-3]),
-    ("work_precision", "reference", "tolerance"): ("[1e-22, 1e-16]", [9e-23, 1.1e-16]),
-    ("work_precision", "methods"): ("rk4_cubic", [[], ["auto", "auto"], "auto"]),
-    ("work_precision", "tolerances"): ("[1e-13, 1e-2]", [[], [1e-3, 1e-3]]),
-    ("work_precision", "steps"): ("> 0", [[], 0.1]),
-    (*SCENE, "tau"): (">= 0", [-1.0]),
-    (*SCENE, "epsilon"): ("> -1", [-1.0]),
-    (*SCENE, "xi"): ("> 0", [0.0]),
-    (*SCENE, "gamma"): ("> 0", [0.0]),
-    (*SCENE, "v"): ("> 0", [0.0]),
-    (*SCENE, "t_end"): ("> 0", [0.0]),
-    (*SCENE, "sample_interval"): ("> 0", [0.0]),
-}
-"""For each value: words of its range, and values out of range."""
-ELEMENTS = {
-    (*FAMILY, "tau"): (">= 0", [-1.0, "much", None]),
-    (*FAMILY, "epsilon"): ("> -1", [-1.0]),
-    (*FAMILY, "xi"): ("> 0", [0.0]),
-    (*FAMILY, "gamma"): ("> 0", [0.0, float("inf")]),
-    (*FAMILY, "u"): ("a finite number", [float("nan")]),
-    (*FAMILY, "v"): ("> 0", [0.0]),
-    ("stability", "methods"): ("one of: auto, explicit", ["rk4_cubic"]),
-    ("work_precision", "methods"): ("one of: explicit", ["euler"]),
-    ("work_precision", "tolerances"): ("[1e-13, 1e-2]", [9e-14, 0.1]),
-    ("work_precision", "steps"): ("> 0", [0.0]),
-}
-"""The same for elements of lists."""
+CASE = ("work_precision", "cases", "stick")
 
 
-@pytest.mark.parametrize(("path", "value", "words"), out_of_range(RANGES))
-def test_value_out_of_range_is_refused(config, path, value, words):
-    """The line names section, key, value and range."""
-    checked(config)
-    put(config, path, value)
-    line = line_about(refusal(config), path[-1])
-    assert line.startswith(f"config {' '.join(path[:-1])}: ")
-    assert f"{path[-1]} = {value!r}; expected " in line
-    assert words in line
+def test_scenes_of_the_paper_are_measured_as_they_are(config):
+    """With the parameters and the history of the scene, whatever these are."""
+    config["scenes"]["torus"] |= {"epsilon": 0.4, "history": {"v": 1.3}}
+    cases = measured_study(checked(config))["cases"]
+    assert list(cases) == ["fixed_point", "oscillation", "torus", "chaos", "stick", "stiff"]
+    measured = case_of("torus", cases["torus"])
+    assert (measured["tau"], measured["epsilon"], measured["v"]) == (10.0, 0.4, 1.3)
+    assert measured["t_end"] == 1000.0
 
 
-@pytest.mark.parametrize(("path", "value", "words"), out_of_range(ELEMENTS))
-def test_element_out_of_range_is_refused(config, path, value, words):
-    """The line names list, place, value and range."""
-    checked(config)
-    put(config, path, [value])
-    line = line_about(refusal(config), "0")
-    assert line.startswith(f"config {' '.join(path)}: 0 = {value!r}; expected ")
-    assert words in line
+def test_measured_scene_that_is_none_is_refused(config):
+    """The line names the scenes and the way out."""
+    config["work_precision"]["scenes"]["mine"] = {"t_end": 1.0}
+    (line,) = [line for line in refusal(config).splitlines() if "'mine'" in line]
+    assert line.startswith("config work_precision scenes: 'mine'; expected one of: fixed_point, ")
 
 
-@pytest.mark.parametrize("path", [("stability",), FAMILY, ("work_precision",), SCENE])
-def test_unknown_key_is_refused(config, path):
-    """The line names section and key."""
-    put(config, (*path, "colour"), 1)
-    assert f"config {' '.join(path)}: unknown key ['colour']" in refusal(config)
+def test_measured_case_with_the_name_of_a_scene_is_refused(config):
+    """One name is one thing."""
+    config["work_precision"]["cases"]["chaos"] = dict(config["work_precision"]["cases"]["stick"])
+    (line,) = [line for line in refusal(config).splitlines() if "'chaos'" in line]
+    assert line.startswith("config work_precision cases: 'chaos'; expected a name that no scene ")
 
 
-@pytest.mark.parametrize(
-    "path",
-    [
-        ("stability",),
-        ("work_precision",),
-        ("stability", "families"),
-        ("work_precision", "scenes"),
-        *((*place, key) for place in (FAMILY, SCENE) for key in ("tau", "xi", "t_end")),
-    ],
-)
-def test_missing_key_is_refused(config, path):
-    """The line names section and key."""
-    section = config
-    for key in path[:-1]:
-        section = section[key]
-    del section[path[-1]]
-    assert f"{' '.join(['config', *path[:-1]])}: key ['{path[-1]}'] is missing" in refusal(config)
-
-
-def test_scenes_of_the_paper_are_measured_as_they_are(default_config):
-    """Scenes of one name have the same parameters in both sections."""
-    measured, scenes = default_config["work_precision"]["scenes"], default_config["scenes"]
-    both = measured.keys() & scenes.keys()
-    assert both >= {"fixed_point", "oscillation", "torus", "chaos"}
-    for name in both:
-        for key in ("tau", "epsilon", "xi", "gamma"):
-            assert measured[name][key] == scenes[name][key]
-
-
-@pytest.mark.parametrize("place", [FAMILY[:2], SCENE[:2]])
+@pytest.mark.parametrize("place", [FAMILY[:2], CASE[:2]])
 @pytest.mark.parametrize("name", ["Torus", "a b", "", 5])
 def test_name_that_makes_no_file_name_is_refused(config, place, name):
     """Of a family and of a scene."""
@@ -150,11 +70,3 @@ def test_stationary_reference_of_a_short_run_is_refused(config):
     put(config, (*FAMILY, "reference"), "stationary")
     line = line_about(refusal(config), "t_end")
     assert "families growth: t_end = 400.0; expected " in line
-
-
-def test_samples_farther_apart_than_the_run_is_long_are_refused(config):
-    """The range names t_end."""
-    put(config, (*SCENE, "sample_interval"), 2000.0)
-    line = line_about(refusal(config), "sample_interval")
-    assert line.startswith("config work_precision scenes torus: sample_interval = 2000.0; ")
-    assert line.endswith("<= t_end = 1000.0")

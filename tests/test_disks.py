@@ -6,32 +6,18 @@ import time
 from pathlib import Path
 
 import pytest
-from conftest import GROUPS, SMOKE, rules_in
+from conftest import PROGRAMS, SMOKE, rules_in
 from disks import FULL, READ_ONLY, on_disk
-from test_measure import CASES, GROUP_OF
-from write_namelist import write_groups
 
 REMEDY = "; see that its folder is there, can be written and has room, then run again\n"
 SNAKEMAKE = Path(sys.executable).parent / "snakemake"
 
 
-def groups_of(program: str, good_inputs: dict) -> dict[str, dict]:
-    """Namelist groups that a program accepts."""
-    if program in GROUPS:
-        return {GROUPS[program]: good_inputs[program]}
-    if program == "exponents":
-        wanted = {"count": 2, "t_end": 20.0, "t_turning": 5.0, "interval": 1.0, "blocks": 2}
-        settings = {**wanted, "zero_level": 1e-3, "check_tolerances": [1e-7]}
-        return {"scene": good_inputs["trajectory"], "exponents": settings}
-    group, values = GROUP_OF[program]
-    return {"cases_list": CASES, group: values}
-
-
 @pytest.mark.parametrize("disk", [FULL, READ_ONLY])
-@pytest.mark.parametrize("program", [*GROUPS, "exponents", "measure", "reference"])
-def test_program_on_such_a_disk(programs, good_inputs, program, disk):
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_program_on_such_a_disk(programs, good_groups, program, disk):
     """It says so in one line and ends with status 1; the disk is empty."""
-    write_groups(programs.folder / "input.nml", groups_of(program, good_inputs))
+    programs.write(good_groups[program])
     if program == "reference":
         # a long table: a small one has room
         disk = disk.replace("size=4k", "size=4k,nr_inodes=1")
@@ -47,7 +33,7 @@ def test_program_on_such_a_disk(programs, good_inputs, program, disk):
 def test_disk_that_fills_up_ends_a_trajectory(programs, good_inputs):
     """At once: all of it would take minutes."""
     values = {**good_inputs["trajectory"], "t_end": 1e8}
-    write_groups(programs.folder / "input.nml", {GROUPS["trajectory"]: values})
+    programs.write({"scene": values})
     binary = programs.binaries / "trajectory"
     begun = time.monotonic()
     disk = FULL.replace("4k", "1m")

@@ -10,15 +10,20 @@ from functools import cache
 from pathlib import PurePath
 
 import pytest
-from check_config import checked
-from claims_config import checked as checked_claims
 from conftest import ROOT, project_files
-from read_config import parsed, read
 from snakemake.utils import update_config
 
+from scripts.claims.claims_config import checked as checked_claims
+from scripts.config.check_config import checked
+from scripts.config.read_config import parsed, read
+from scripts.figures.entries import ENTRIES
+
+RESULTS = "results/README.md"
+"""Stands beside what it names, and no other document links to it."""
 DOCUMENTS = [
     "README.md",
     "config/README.md",
+    RESULTS,
     *(name for name in project_files() if fnmatch(name, "docs/*.md") and name != "docs/ford.md"),
 ]
 ENDINGS = "c cff f90 in lock md mplstyle nc png py rst sh smk svg toml tsv txt yaml yml".split()
@@ -77,7 +82,7 @@ def words() -> set[str]:
 def rules() -> set[str]:
     """Names of the rules of the workflow."""
     workflow = "".join(path.read_text() for path in [ROOT / "Snakefile", *ROOT.glob("rules/*.smk")])
-    return set(re.findall(r"^(?:rule|use rule \w+ as) (\w+)", workflow, re.MULTILINE))
+    return {*re.findall(r"^rule (\w+)", workflow, re.MULTILINE), *ENTRIES}
 
 
 @cache
@@ -85,6 +90,7 @@ def made() -> list[str]:
     """Patterns of the files that are made, by the workflow, the benchmarks or Snakemake itself."""
     texts = [path.read_text() for path in sorted(ROOT.glob("rules/*.smk"))]
     texts += [path.read_text() for path in sorted(ROOT.glob("benchmarks/*.py"))]
+    texts.append((ROOT / "scripts" / "workflow" / "result_files.py").read_text())
     found = re.findall(r'"((?:results|build)/[^"\s]+|[\w-]+\.tsv)"', "\n".join(texts))
     return [re.sub(r"\{[^{}]*\}", "*", path) for path in found] + ["results/report.zip"]
 
@@ -185,7 +191,8 @@ def test_commands_that_are_named_exist(document):
     """Those of the project, with a part of ./test where one is named."""
     parts = re.findall(r"\b(\w+)\)", (ROOT / "test").read_text())
     text = "\n".join([*blocks_of(document, "sh"), *ticked(document)])
-    for command, first in re.findall(r"^(\./\w+|\w+/(?:run|draw))(?: +(\w+))?", text, re.MULTILINE):
+    named = r"^(\./\w+|\w+/(?:run|draw)\b)(?: +(\w+))?"
+    for command, first in re.findall(named, text, re.MULTILINE):
         assert (ROOT / command).is_file()
         if command == "./test" and first:
             assert first in parts
@@ -244,7 +251,7 @@ def test_every_document_is_reached_from_the_readme():
             if target.endswith(".md") and named.exists():
                 name = str(named.resolve().relative_to(ROOT))
                 waiting += [name] if name not in reached else []
-    assert set(DOCUMENTS) <= reached
+    assert set(DOCUMENTS) - {RESULTS} <= reached
 
 
 def test_every_picture_is_shown_and_has_its_command():

@@ -4,16 +4,15 @@ import re
 from itertools import pairwise
 from types import SimpleNamespace
 
-import hopf_plane
 import numpy as np
 import pytest
-import spectrum_rows
-import trajectory_rows
 import xarray as xr
-from drawing import METADATA, logged, save
 from figure_contents import points_in, title_of, words_in
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
+
+from scripts.drawing import hopf_plane, spectrum_rows, trajectory_rows
+from scripts.drawing.style import METADATA, logged, save
 
 
 @pytest.fixture(autouse=True)

@@ -1,32 +1,21 @@
 """Exponents: the program against known roots, its refusals, the config, table and figure."""
 
-import math
-
-import exponents
-import exponents_table
 import numpy as np
 import pytest
 import xarray as xr
-from check_config import checked
-from config_refusals import NO_NUMBERS, line_about, out_of_range, put, refusal
+from config_refusals import line_about, refusal
 from conftest import of_trajectory
-from drawing import STYLE
 from figure_contents import title_of, words_in
 from matplotlib import pyplot as plt
-from tables import read_table
-from write_namelist import write_groups
+
+from scripts.config.check_config import checked
+from scripts.drawing.style import STYLE
+from scripts.figures import exponents
+from scripts.files.tsv import read_table
+from scripts.tables import exponents_table
 
 SCENES = ["oscillation", "torus", "chaos", "true_torus"]
 COLUMNS = "scene i exponent error sign dimension dimension_error t tolerance longest_step mean_step"
-SETTING_RANGES = {
-    ("exponents", "t_turning"): (">= 0", [-1.0]),
-    ("exponents", "interval"): ("> 0", [0.0, -1.0]),
-    ("exponents", "blocks"): ("a whole number >= 2", [1, 1001, 2.5]),
-    ("exponents", "zero_level"): (">= 0", [-1e-9]),
-    ("scenes", "torus", "exponents", "count"): ("a whole number >= 1", [0, 65, 2.5]),
-    ("scenes", "torus", "exponents", "t_end"): ("> t_transient", [0.0, -1.0, 2000.0]),
-}
-"""For each number: words of its range, and values out of range."""
 
 
 @pytest.fixture
@@ -41,18 +30,9 @@ def groups(config) -> dict[str, dict]:
     }
 
 
-def run(programs, groups: dict[str, dict]):
-    """Run the program with these groups."""
-    write_groups(programs.folder / "input.nml", groups)
-    return programs.run("exponents", "input.nml", programs.output.name)
-
-
 def test_exponents_of_a_fixed_point_are_its_roots(programs, groups):
     """Real parts of the roots of (5) without delay, at each tolerance."""
-    done = run(programs, groups)
-    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
-    assert programs.left_behind() == ["output.nc"]
-    made = xr.load_dataset(programs.output)
+    made = programs.made_of("exponents", groups)
     ratio = 0.8**2 / 0.8
     roots = np.roots([1, 1 + ratio, 0.8**2 + ratio - 1.3 * ratio, 0.8**2])
     known = np.sort(roots.real)[::-1]
@@ -68,48 +48,19 @@ def test_exponents_of_a_fixed_point_are_its_roots(programs, groups):
     assert made.attrs["zero_exponents"] == 0
 
 
-@pytest.mark.parametrize(
-    ("key", "value", "words"),
-    [
-        ("count", 0, "count = 0; expected a whole number >= 1"),
-        ("count", 65, "count = 65; expected a whole number <= 64"),
-        ("count", 4, "4 asked for of 3 equations without delay"),
-        ("blocks", 1, "blocks = 1; expected a whole number >= 2"),
-        ("t_end", 200.0, "t_end = 200.0; expected a finite number > 200"),
-        ("interval", 0.0, "interval = 0.0; expected a finite number > 0"),
-        ("t_turning", math.nan, "t_turning = NaN; expected a finite number >= 0"),
-        ("zero_level", -1.0, "zero_level = -1.0; expected a finite number >= 0"),
-        ("check_tolerances", [1e-5, 0.1], "check_tolerances(2) = 0.1; expected a finite number"),
-        ("check_steps", [0.2, 0.0], "check_steps(2) = 0.0; expected a finite number > 0"),
-        ("colour", 1, "&exponents"),
-    ],
-)
-def test_bad_input_is_refused(programs, groups, key, value, words):
-    """In one line; nothing is left behind."""
-    groups["exponents"][key] = value
-    done = run(programs, groups)
-    assert (done.returncode, done.stdout) == (1, "")
-    assert programs.left_behind() == []
-    (line,) = done.stderr.splitlines()
-    assert line.startswith("error: ")
-    assert words in line
-
-
-@pytest.mark.parametrize("group", ["scene", "exponents"])
-def test_file_without_a_group_is_refused(programs, groups, group):
-    """The line names it."""
-    del groups[group]
-    done = run(programs, groups)
+def test_more_exponents_than_equations_are_refused(programs, groups):
+    """In words, with nothing left behind."""
+    groups["exponents"]["count"] = 4
+    done = programs.run_groups("exponents", groups)
     assert done.returncode == 1
-    assert f"&{group}" in done.stderr
+    assert "4 asked for of 3 equations without delay" in done.stderr
+    assert programs.left_behind() == []
 
 
 def test_long_intervals_are_halved(programs, groups):
     """The third vector shrinks by exp(-50) in an interval; its exponent comes out all the same."""
     groups["exponents"] |= {"interval": 100.0, "check_tolerances": [1.0e-7], "check_steps": []}
-    done = run(programs, groups)
-    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
-    made = xr.load_dataset(programs.output)
+    made = programs.made_of("exponents", groups)
     ratio = 0.8**2 / 0.8
     np.testing.assert_allclose(made.value[0].sum(), -(1 + ratio), atol=1e-4)
 
@@ -120,23 +71,6 @@ def test_end_is_that_of_the_scene_where_none_is_given(config):
     scenes = checked(config)["scenes"]
     assert scenes["torus"]["exponents"] == {"count": 6, "t_end": scenes["torus"]["t_end"]}
     assert "exponents" not in scenes["fixed_point"]
-
-
-@pytest.mark.parametrize(("path", "value", "words"), out_of_range(SETTING_RANGES))
-def test_setting_out_of_range_is_refused(config, path, value, words):
-    """The line names key, value and range."""
-    put(config, path, value)
-    line = line_about(refusal(config), path[-1])
-    assert f"{path[-1]} = {value!r}; expected " in line
-    assert words in line
-
-
-@pytest.mark.parametrize("value", NO_NUMBERS)
-@pytest.mark.parametrize("path", SETTING_RANGES)
-def test_setting_that_is_no_finite_number_is_refused(config, path, value):
-    """Text, truth, nothing, lists, NaN and infinity."""
-    put(config, path, value)
-    assert f"{path[-1]} = {value!r}; expected " in line_about(refusal(config), path[-1])
 
 
 def test_more_exponents_than_equations_are_refused_without_delay(config):

@@ -3,7 +3,6 @@
 import runpy
 from types import SimpleNamespace
 
-import drawing
 import numpy as np
 import pytest
 import xarray as xr
@@ -12,7 +11,9 @@ from figure_contents import points_in, title_of, words_in
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from matplotlib.text import Text
-from spectrum_rows import IN_WORDS
+
+from scripts.drawing import style
+from scripts.drawing.spectrum_rows import IN_WORDS
 
 NUMBERS = range(1, 9)
 SCENES = ["fixed_point", "oscillation", "torus", "chaos"]
@@ -50,11 +51,11 @@ def figures(smoke, smoke_config, tmp_path_factory) -> dict[int, Figure]:
                 figure.canvas.draw()
                 drawn[number] = figure
 
-            patch.setattr(drawing, "save", keep)
+            patch.setattr(style, "save", keep)
             inputs = script_inputs(smoke, smoke_config, number)
             inputs.log = [folder / f"{number}.log"]
             inputs.output = SimpleNamespace()
-            script = ROOT / "scripts" / f"figure_{number}.py"
+            script = ROOT / "scripts" / "figures" / f"figure_{number}.py"
             runpy.run_path(str(script), {"snakemake": inputs}, "__main__")
             assert inputs.log[0].read_text() == ""
     plt.close("all")

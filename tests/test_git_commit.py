@@ -4,7 +4,8 @@ import shutil
 import subprocess
 
 import pytest
-from git_commit import UNKNOWN, commit_of
+
+from scripts.workflow.git_commit import UNKNOWN, commit_of
 
 pytestmark = pytest.mark.skipif(not shutil.which("git"), reason="no git")
 

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 import xarray as xr
-from hopf_points_table import COLUMNS, rows_of
-from tables import read_table, write_table
+
+from scripts.files.tsv import read_table, write_table
+from scripts.tables.hopf_points_table import COLUMNS, rows_of
 
 PLANES = ["tau_of_epsilon", "xi_of_epsilon"]
 

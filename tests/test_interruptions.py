@@ -1,6 +1,7 @@
 """Runs that are interrupted or killed: no half-written file, and the next run completes."""
 
 import contextlib
+import copy
 import os
 import signal
 import subprocess
@@ -10,10 +11,10 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import pytest
-from conftest import GROUPS, SMOKE, Programs, Project, unfinished, wait_for
+from conftest import SMOKE, Programs, Project, unfinished, wait_for
 from disks import NAMESPACE, need_namespaces
-from test_measure import CASES, GROUP_OF
-from write_namelist import write_groups, write_namelist
+
+from scripts.namelists.write_namelist import write_groups
 
 SNAKEMAKE = Path(sys.executable).parent / "snakemake"
 LONG = "results/references/stability/grid_fault.tsv"
@@ -33,7 +34,7 @@ def heed_interrupts() -> Iterator[None]:
 def half_long(programs, good_inputs) -> Programs:
     """Programs beside the namelist of a trajectory of about a second."""
     values = {**good_inputs["trajectory"], "t_end": 4e5}
-    write_namelist(programs.folder / "input.nml", GROUPS["trajectory"], values)
+    programs.write({"scene": values})
     return programs
 
 
@@ -58,20 +59,22 @@ def test_program_that_is_killed_at_any_moment(half_long, how):
     assert half_long.left_behind() == ["output.nc"]
 
 
-def groups_of(program: str, t_end: float, good_inputs: dict) -> dict[str, dict]:
+def groups_of(program: str, t_end: float, good_groups: dict) -> dict[str, dict]:
     """Namelist groups of a run of about a second, in which `t_end` makes a difference."""
+    groups = copy.deepcopy(good_groups[program])
     if program == "trajectory":
-        return {GROUPS[program]: {**good_inputs[program], "t_end": 2000 * t_end}}
-    group, values = GROUP_OF[program]
-    return {"cases_list": {**CASES, "t_end": [t_end, 5.0]}, group: values}
+        groups["scene"]["t_end"] = 2000 * t_end
+    else:
+        groups["cases_list"]["t_end"] = [t_end, 5.0]
+    return groups
 
 
 @pytest.mark.parametrize("first_to_end", ["older", "newer"])
 @pytest.mark.parametrize("program", ["trajectory", "reference"])
-def test_last_of_two_runs_wins(programs, good_inputs, program, first_to_end):
+def test_last_of_two_runs_wins(programs, good_groups, program, first_to_end):
     """The program of a workflow that was killed may still run: it gives way, in words."""
     for name, t_end in (("older", 150.0), ("newer", 200.0)):
-        write_groups(programs.folder / f"{name}.nml", groups_of(program, t_end, good_inputs))
+        write_groups(programs.folder / f"{name}.nml", groups_of(program, t_end, good_groups))
 
     def begin(name: str) -> subprocess.Popen[str]:
         # in place: a new file would take the inode that a removed one leaves to the next

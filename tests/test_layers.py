@@ -96,20 +96,16 @@ def violations(floor: str, text: str, known: dict[str, str]) -> list[str]:
     ]
 
 
-def each(files: dict[Path, str]):
-    """Run a test on each of these files."""
-    return pytest.mark.parametrize("path", files, ids=name_of)
-
-
 def test_all_floors_are_there():
     """The table and the folders are the same."""
     assert {floor_of(path) for path in SOURCES} == set(MAY_USE)
 
 
-@each(SOURCES)
-def test_nobody_looks_up_the_stairs(path):
+def test_nobody_looks_up_the_stairs():
     """Modules use what lies below, and of the solver its facade."""
-    assert violations(floor_of(path), SOURCES[path], floors()) == []
+    known = floors()
+    found = {path: violations(floor_of(path), text, known) for path, text in SOURCES.items()}
+    assert {path: wrong for path, wrong in found.items() if wrong} == {}
 
 
 def test_facade_of_the_solver_uses_the_solver_only():
@@ -167,72 +163,105 @@ def test_no_violation_is_made_up(line):
     assert violations("analysis", line, floors()) == []
 
 
-@each(MODULES)
-def test_file_holds_the_module_of_its_name(path):
-    """One module a file."""
-    assert re.findall(r"^\s*module (?!procedure)(\w+)$", code_of(MODULES[path]), re.MULTILINE) == [
-        name_of(path)
-    ]
+def names_of_modules(text: str) -> list[str]:
+    """Modules that a file defines."""
+    return re.findall(r"^\s*module (?!procedure)(\w+)$", code_of(text), re.MULTILINE)
 
 
-@each({path: text for path, text in SOURCES.items() if floor_of(path) == "app"})
-def test_program_is_short(path):
-    """Read, call, write; what is longer belongs on a lower floor."""
-    assert re.findall(r"^\s*program (\w+)$", code_of(SOURCES[path]), re.MULTILINE)
-    assert len(SOURCES[path].splitlines()) <= 60
+def access_of(text: str) -> str | None:
+    """The first statement `private` or `public` of a module."""
+    said = re.findall(r"^\s*(private|public)\s*$", code_of(text), re.MULTILINE)
+    return said[0] if said else None
 
 
-@each(SOURCES)
-def test_file_is_one_idea(path):
-    """About 300 lines at most."""
-    assert len(SOURCES[path].splitlines()) <= 300
+def is_explicit(text: str) -> bool:
+    """Whether a file has the statement `implicit none`."""
+    return re.search(r"^\s*implicit none\b", code_of(text), re.MULTILINE) is not None
 
 
-@each(SOURCES)
-def test_nothing_is_implicit(path):
-    """Every module and program says so."""
-    assert re.search(r"^\s*implicit none\b", code_of(SOURCES[path]), re.MULTILINE)
+def output_statements(text: str) -> list[str]:
+    """Statements that print or stop."""
+    to_screen = r"write\s*\(\s*(?:\*|\w*error_unit\b|\w*output_unit\b)"
+    said = rf"^.*\b(?:error\s+stop\b|stop\b|print\b|{to_screen}).*$"
+    return re.findall(said, code_of(text), re.MULTILINE)
 
 
-@each(MODULES)
-def test_module_is_private(path):
-    """And lists what is public."""
-    said = re.findall(r"^\s*(private|public)\s*$", code_of(MODULES[path]), re.MULTILINE)
-    assert said[0] == ("public" if name_of(path) in PUBLIC else "private")
-
-
-@each(SOURCES)
-def test_every_use_says_what_it_uses(path):
-    """But for the two exceptions."""
-    whole = {(name_of(path), name) for name, only in uses_of(SOURCES[path]) if not only}
-    assert whole <= WITHOUT_ONLY
-
-
-@each(MODULES)
-def test_only_programs_print_and_stop(path):
-    """Others hand an error back."""
-    spoken = (
-        r"^.*\b(?:error\s+stop|stop|print|write\s*\(\s*(?:\*|\w*error_unit|\w*output_unit))\b.*$"
-    )
-    found = re.findall(spoken, code_of(MODULES[path]), re.MULTILINE)
-    assert bool(found) is (name_of(path) in MAY_SPEAK)
-
-
-@each(SOURCES)
-def test_every_real_number_has_its_kind(path):
-    """1.0_wp, never 1.0 or 1d0."""
+def reals_without_kind(text: str) -> list[str]:
+    """Real numbers without `_wp`."""
     literal = r"(?<![\w.])(?:\d+\.\d*|\.\d+|\d+(?=[ed][+-]?\d))(?:[ed][+-]?\d+)?(?!\w*_wp)(?![\w.])"
-    code = re.sub(r"\.\w+\.", " ", code_of(SOURCES[path]))
-    assert re.findall(literal, code) == []
+    return re.findall(literal, re.sub(r"\.\w+\.", " ", code_of(text)))
 
 
-@pytest.mark.parametrize("literal", ["1.0", "1.", ".5", "1e3", "1.0e-3", "2d0", "1.5d+3"])
-def test_real_number_without_kind_is_caught(literal, tmp_path, monkeypatch):
-    """The checker itself."""
-    path = tmp_path / "made_up.f90"
-    monkeypatch.setitem(SOURCES, path, f"x = {literal} + 1.0_wp*2\n")
-    with pytest.raises(AssertionError):
-        test_every_real_number_has_its_kind(path)
+def test_file_holds_the_module_of_its_name():
+    """One module in each file."""
+    wrong = [path for path in MODULES if names_of_modules(MODULES[path]) != [name_of(path)]]
+    assert wrong == []
+
+
+def test_programs_are_short():
+    """At most 60 lines: longer code belongs to a lower floor."""
+    programs = {path: text for path, text in SOURCES.items() if floor_of(path) == "app"}
+    assert programs
+    for path, text in programs.items():
+        assert re.findall(r"^\s*program (\w+)$", code_of(text), re.MULTILINE), path
+        assert len(text.splitlines()) <= 60, path
+
+
+def test_files_are_short():
+    """At most 300 lines."""
+    assert [path for path, text in SOURCES.items() if len(text.splitlines()) > 300] == []
+
+
+def test_nothing_is_implicit():
+    """Every module and every program has `implicit none`."""
+    assert [path for path, text in SOURCES.items() if not is_explicit(text)] == []
+
+
+def test_modules_are_private():
+    """They list what is public."""
+    expected = {path: "public" if name_of(path) in PUBLIC else "private" for path in MODULES}
+    assert {path: access_of(text) for path, text in MODULES.items()} == expected
+
+
+def test_every_use_has_only():
+    """Except for those of WITHOUT_ONLY."""
+    uses = [(name_of(path), *use) for path, text in SOURCES.items() for use in uses_of(text)]
+    assert {(name, used) for name, used, only in uses if not only} <= WITHOUT_ONLY
+
+
+def test_only_some_modules_print_and_stop():
+    """The others return an error."""
+    assert {name_of(path) for path in MODULES if output_statements(MODULES[path])} == MAY_SPEAK
+
+
+def test_every_real_number_has_its_kind():
+    """1.0_wp, never 1.0 or 1d0."""
+    found = {path: reals_without_kind(text) for path, text in SOURCES.items()}
+    assert {path: reals for path, reals in found.items() if reals} == {}
+
+
+def test_checkers_find_what_they_look_for():
+    """Each on a file that is made up."""
+    for literal in ("1.0", "1.", ".5", "1e3", "1.0e-3", "2d0", "1.5d+3"):
+        assert len(reals_without_kind(f"x = {literal} + 1.0_wp*2 + 1e3_wp\n")) == 1, literal
+    for line in (
+        "stop",
+        "error stop 'x'",
+        "print *, x",
+        "write (*, *) x",
+        "write(error_unit, f) x",
+    ):
+        assert output_statements(f"if (x) {line}\n"), line
+    assert output_statements("! stop\nwrite (unit, f) x\ncall say('stop')\n") == []
+    assert not is_explicit("module a\n! implicit none\nend module a\n")
+    assert access_of("module a\nprivate :: b\nend module a\n") is None
+    assert access_of("module a\n   private\n   public\n") == "private"
+    assert names_of_modules("module a\nend module a\nmodule b\nend module b\n") == ["a", "b"]
+    assert uses_of("use a\nuse :: b, only: c\nuse, intrinsic :: d, e => f\n") == [
+        ("a", False),
+        ("b", True),
+        ("d", False),
+    ]
 
 
 def test_versions_agree():

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from config_refusals import refusal
-from hopf_points_table import death_rows_of
-from linear_stability_table import amplitude_death, row_of
-from tables import read_table
 from test_hopf import count_by_crossings, residual
+
+from scripts.files.tsv import read_table
+from scripts.tables.hopf_points_table import death_rows_of
+from scripts.tables.linear_stability_table import amplitude_death, row_of
 
 SCENES = {"fixed_point": 0, "oscillation": 1, "torus": 1, "chaos": 1, "true_torus": 1}
 """Number of unstable pairs."""
@@ -106,20 +106,3 @@ def test_bound_too_far_is_refused(programs, good_inputs):
     assert run.returncode == 1
     assert "a bound nearer to 0 expected" in run.stderr
     assert programs.left_behind() == []
-
-
-@pytest.mark.parametrize(
-    ("key", "value", "words"),
-    [
-        ("root_bound", 0.1, "<= 0"),
-        ("root_bound", "low", "<= 0"),
-        ("tau_most", 0.0, "> 0"),
-        ("epsilon_most", -0.5, "> 0"),
-    ],
-)
-def test_setting_out_of_range_is_refused(config, key, value, words):
-    """The line names place, key, value and range."""
-    config["linear_stability"] = {key: value}
-    (line,) = refusal(config).splitlines()[1:]
-    assert line.startswith(f"config linear_stability: {key} = {value!r}; expected ")
-    assert words in line

@@ -7,85 +7,31 @@ import numpy as np
 import pytest
 import xarray as xr
 from scipy.integrate import solve_ivp
-from write_namelist import write_groups
-
-CASES = {
-    "name": ["decay", "stiff"],
-    "tau": [0.0, 1.0],
-    "epsilon": [0.3, 0.7],
-    "xi": [0.8, 0.5],
-    "gamma": [0.8, 100.0],
-    "theta": [0.1, 0.0],
-    "u": [0.2, 0.0],
-    "v": [1.5, 1.1],
-    "t_end": [20.0, 5.0],
-    "sample_interval": [0.5, 0.5],
-}
-MEASURE = {
-    "methods": ["auto", "explicit", "rk4_cubic"],
-    "tolerances": [1e-6, 1e-9],
-    "steps": [0.01],
-    "most_steps": 1000,
-    "repeats": 2,
-    "least_seconds": 1e-4,
-}
-REFERENCE = {
-    "method": "radau13",
-    "tolerance": 1e-18,
-    "check_tolerance": 1e-16,
-    "disturbance": 1e-15,
-    "most_steps": 100000,
-}
-GROUP_OF = {"measure": ("measure", MEASURE), "reference": ("reference", REFERENCE)}
 
 
 @pytest.fixture
-def run(programs):
-    """Run a program on the cases, some values of its groups changed."""
-
-    def run_changed(program: str, cases: dict | None = None, **changes):
-        group, values = GROUP_OF[program]
-        listed = {**CASES, **(cases or {})}
-        groups = {"cases_list": listed, group: {**values, **changes}}
-        groups = {
-            name: {key: value for key, value in content.items() if value is not None}
-            for name, content in groups.items()
-        }
-        write_groups(programs.folder / "input.nml", groups)
-        return programs.run(program, "input.nml", programs.output.name)
-
-    return run_changed
+def measured(programs, good_groups) -> xr.Dataset:
+    """Measured runs of the cases."""
+    return programs.made_of("measure", good_groups["measure"])
 
 
-def refusal(programs, finished) -> str:
-    """The one line with which a program refused, after which nothing may be left."""
-    assert finished.returncode == 1
-    assert programs.left_behind() == []
-    (line,) = finished.stderr.splitlines()
-    assert line.startswith("error: input.nml: ")
-    return line
+@pytest.fixture
+def references(programs, good_groups) -> list[dict]:
+    """References of the cases."""
+    return references_of(programs, good_groups["reference"])
+
+
+def references_of(programs, groups: dict[str, dict]) -> list[dict]:
+    """References of cases."""
+    done = programs.run_groups("reference", groups)
+    assert done.returncode == 0, done.stderr
+    return rows_of(programs.output)
 
 
 def rows_of(path) -> list[dict]:
     """Rows of a table of references."""
     with open(path) as file:
         return list(csv.DictReader(file, delimiter="\t"))
-
-
-@pytest.fixture
-def measured(programs, run) -> xr.Dataset:
-    """Measured runs of the cases."""
-    finished = run("measure")
-    assert (finished.returncode, finished.stdout, finished.stderr) == (0, "", "")
-    return xr.load_dataset(programs.output)
-
-
-@pytest.fixture
-def references(programs, run) -> list[dict]:
-    """References of the cases."""
-    finished = run("reference")
-    assert (finished.returncode, finished.stdout, finished.stderr) == (0, "", "")
-    return rows_of(programs.output)
 
 
 def test_each_method_runs_at_each_setting(measured):
@@ -136,10 +82,9 @@ def test_seconds_are_those_of_one_run(measured):
     assert (measured.seconds < 1).all()
 
 
-def test_same_bytes_but_for_seconds(programs, run, measured):
+def test_same_bytes_but_for_seconds(programs, good_groups, measured):
     """A second run gives the same numbers."""
-    run("measure")
-    again = xr.load_dataset(programs.output)
+    again = programs.made_of("measure", good_groups["measure"])
     xr.testing.assert_identical(again.drop_vars("seconds"), measured.drop_vars("seconds"))
 
 
@@ -178,81 +123,12 @@ def test_measured_errors_follow_from_references(measured, references):
     assert tight < 1e-7
 
 
-def test_reference_that_stops_says_so(programs, run):
+def test_reference_that_stops_says_so(programs, good_groups):
     """A singularity of the problem: no samples after it, and the status in each row."""
-    fast = {"v": [1e6, 1.1], "gamma": [0.8, 0.8], "epsilon": [0.5, 0.7], "theta": [0.0, 0.0]}
-    fast["u"] = [0.0, 0.0]
-    assert run("reference", fast).returncode == 0
-    rows = [row for row in rows_of(programs.output) if row["case"] == "decay"]
+    groups = good_groups["reference"]
+    fast = {"v": 1e6, "gamma": 0.8, "epsilon": 0.5, "theta": 0.0, "u": 0.0}
+    for key, value in fast.items():
+        groups["cases_list"][key][0] = value
+    rows = [row for row in references_of(programs, groups) if row["case"] == "decay"]
     assert {row["status"] for row in rows} == {"step_underflow"}
     assert rows[-1]["u"] == "NaN"
-
-
-@pytest.mark.parametrize("program", GROUP_OF)
-@pytest.mark.parametrize(
-    ("key", "value", "words"),
-    [
-        ("tau", [-1.0, 1.0], "case 'decay': tau = -1.0; expected a finite number >= 0.0"),
-        ("epsilon", [0.3, -1.0], "case 'stiff': epsilon = -1.0; expected"),
-        ("xi", [0.0, 0.5], "xi = 0.0; expected"),
-        ("gamma", [0.8], "case 'stiff': gamma = NaN; expected"),
-        ("theta", [math.inf, 0.0], "theta = Inf; expected"),
-        ("u", [0.0, math.nan], "u = NaN; expected"),
-        ("v", [0.0, 1.1], "v = 0.0; expected a finite number > 0.0"),
-        ("t_end", [0.0, 5.0], "t_end = 0.0; expected"),
-        ("sample_interval", [30.0, 0.5], "sample_interval = 30.0; expected"),
-        ("sample_interval", [1e-7, 0.5], "number of samples t_end/sample_interval"),
-        ("name", ["decay", "decay"], "name = 'decay' twice; expected each once"),
-        ("name", ["a" * 65, "b"], "name of 65 letters; expected 1 to 64"),
-        ("name", ["", ""], "name: no case; expected at least one"),
-        ("colour", [1.0], "namelist group &cases_list: "),
-    ],
-)
-def test_bad_case_is_refused(programs, run, program, key, value, words):
-    """The line names file, case, key, value and range."""
-    assert words in refusal(programs, run(program, {key: value}))
-
-
-@pytest.mark.parametrize(
-    ("program", "key", "value", "words"),
-    [
-        ("measure", "methods", ["euler"], "methods = 'euler'; expected one of 'auto' "),
-        ("measure", "methods", ["auto", "rk4_cubicx"], "methods = 'rk4_cubicx'; expected"),
-        ("measure", "methods", None, "methods = ''; expected one of"),
-        ("measure", "tolerances", [1e-3, 1e-14], "tolerances = 1.0E-014; expected"),
-        ("measure", "tolerances", None, "tolerances = NaN; expected"),
-        ("measure", "steps", [0.1, 0.0], "steps = 0.0; expected"),
-        ("measure", "steps", None, "steps = NaN; expected"),
-        ("measure", "most_steps", 0, "most_steps = 0; expected a whole number >= 1"),
-        ("measure", "most_steps", None, "most_steps = -1; expected"),
-        ("measure", "repeats", -1, "repeats = -1; expected a whole number >= 0"),
-        ("measure", "least_seconds", -1.0, "least_seconds = -1.0; expected"),
-        ("measure", "colour", 1, "namelist group &measure: "),
-        ("reference", "method", "rk4_cubic", "method = 'rk4_cubic'; expected one of"),
-        ("reference", "tolerance", 1e-23, "tolerance = 1.0E-023; expected"),
-        ("reference", "tolerance", None, "tolerance = NaN; expected"),
-        ("reference", "check_tolerance", 1e-18, "check_tolerance = 1.0E-018; expected"),
-        ("reference", "disturbance", 0.0, "disturbance = 0.0; expected"),
-        ("reference", "most_steps", 0, "most_steps = 0; expected"),
-        ("reference", "colour", 1, "namelist group &reference: "),
-    ],
-)
-def test_bad_setting_is_refused(programs, run, program, key, value, words):
-    """The line names file, key, value and range."""
-    assert words in refusal(programs, run(program, **{key: value}))
-
-
-@pytest.mark.parametrize("program", GROUP_OF)
-def test_arguments_and_paths(programs, run, program):
-    """Two arguments, a namelist that is there, a folder for the output."""
-    assert run(program).returncode == 0
-    programs.output.unlink()
-    for arguments, words in [
-        ([], f"{program} NAMELIST OUTPUT"),
-        (["nowhere.nml", "output.nc"], "nowhere.nml"),
-        (["input.nml", "nowhere/output.nc"], "nowhere/output.nc"),
-    ]:
-        finished = programs.run(program, *arguments)
-        assert finished.returncode == 1
-        assert words in finished.stderr
-        assert programs.left_behind() == []

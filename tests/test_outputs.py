@@ -2,8 +2,9 @@
 
 import pytest
 import xarray as xr
-from inputs import read
-from outputs import FileError, logged, written
+
+from scripts.files.inputs import read
+from scripts.files.outputs import FileError, logged, written
 
 
 def test_file_is_there_when_complete(tmp_path):

@@ -7,12 +7,12 @@ import sys
 from importlib.metadata import packages_distributions
 from pathlib import Path
 
-import missing_files
 import pytest
 import snakemake
 from conftest import ROOT, Project, rules_in
-from packages import PACKAGES, PackageError
 from test_workflow_changes import names_imported
+
+from scripts.workflow.packages import PACKAGES
 
 INSTALLED = Path(snakemake.__file__).parent.parent
 BUILD_NEEDS = ROOT / "setup" / "build_needs.sh"
@@ -54,9 +54,9 @@ def run_with(python: Path, project: Project, *targets: str) -> subprocess.Comple
 
 def test_packages_are_those_that_scripts_import():
     """And the one by which xarray reads NetCDF."""
-    scripts = [path.name for path in (ROOT / "scripts").glob("*.py")]
+    scripts = [path.relative_to(ROOT) for path in (ROOT / "scripts").rglob("*.py")]
     named = {name.partition(".")[0] for script in scripts for name in names_imported(script)}
-    outside = named - sys.stdlib_module_names - {Path(script).stem for script in scripts}
+    outside = named - sys.stdlib_module_names - {"scripts"}
     found = packages_distributions()
     assert {found[name][0].lower() for name in outside} | {"netcdf4"} == {
         name.lower() for name in PACKAGES
@@ -74,25 +74,17 @@ def test_packages_that_are_missing_are_named(project, tmp_path):
         f"error: {python} lacks ruamel.yaml, f90nml, numpy, netCDF4; run ./reproduce, which sets up"
         " what is missing, or . .venv/bin/activate where it did so before"
     )
-    assert not (project.folder / "results").exists()
-
-
-@pytest.mark.parametrize("gone", ["check_incomplete", "DAG"])
-def test_snakemake_that_judges_otherwise_is_refused(monkeypatch, gone):
-    """Missing files would stay missing in silence."""
-    if gone == "DAG":
-        monkeypatch.setattr(snakemake.workflow, "DAG", object)
-    else:
-        monkeypatch.delattr(snakemake.dag.DAG, gone)
-        monkeypatch.setattr(snakemake.workflow, "DAG", snakemake.dag.DAG)
-    with pytest.raises(PackageError, match=r"^Snakemake 9\S+ does not judge by"):
-        missing_files.make_again()
+    assert [path.name for path in (project.folder / "results").iterdir()] == ["README.md"]
 
 
 def test_it_works_where_the_packages_are(project, tmp_path):
-    """Also its scripts."""
+    """Also its scripts, beside a package of the same name."""
+    python = python_without(tmp_path / "own")
+    (site,) = (tmp_path / "own").glob("lib/python3.*/site-packages")
+    (site / "scripts").mkdir()
+    (site / "scripts" / "__init__.py").touch()
     targets = ["figure_1", "results/namelists/velocity_step.nml"]
-    run = run_with(python_without(tmp_path / "own"), project, *targets)
+    run = run_with(python, project, *targets)
     assert run.returncode == 0, run.stdout
     assert rules_in(run.stdout) == {"figure_1", "velocity_step_namelist"}
 
@@ -145,7 +137,7 @@ def test_nothing_is_missing_here():
 
 def test_missing_library_of_the_page_is_named(project):
     """One line, before anything is computed; figures do not need it."""
-    assets = project.folder / "scripts" / "page_assets.py"
+    assets = project.folder / "scripts" / "page" / "page_assets.py"
     assets.write_text(assets.read_text().replace("/usr/share/javascript", "/nowhere"))
     run = project.snakemake("--dry-run")
     assert run.returncode != 0

@@ -6,21 +6,18 @@ import re
 from collections import Counter
 from html.parser import HTMLParser
 
-import captions
 import made_up_page
 import numpy as np
-import page_content
-import page_provenance
-import page_views
 import pytest
-import write_page
 import xarray as xr
-from claims_results import VERDICTS
 from conftest import ROOT, SMOKE, rules_in
 from docutils.utils import SystemMessage
-from expected_rules import FIGURES
 from jinja2 import UndefinedError
 from made_up_page import attractor, claim, content, figure, run
+
+from scripts.claims.claims_results import VERDICTS
+from scripts.figures.entries import FIGURES, caption_of
+from scripts.page import captions, page_content, page_provenance, page_views, write_page
 
 
 class Elements(HTMLParser):
@@ -51,7 +48,7 @@ def smoke_page(smoke) -> Elements:
 @pytest.mark.parametrize("name", FIGURES)
 def test_caption_has_a_first_sentence_in_plain_signs(name):
     """For those who do not see the figure."""
-    sentence = captions.first_sentence(captions.as_html(ROOT / "scripts" / f"{name}.rst"))
+    sentence = captions.first_sentence(captions.as_html(ROOT / caption_of(name)))
     assert len(sentence.split()) >= 4
     assert sentence.endswith(".")
     assert not re.search(r"[\\<>`:]{2}|\\", sentence)
@@ -229,7 +226,7 @@ def test_every_figure_stands_in_the_page(smoke_page):
     text = " ".join(smoke_page.text.split())
     assert set(images) == {f"figures/{name}.svg" for name in FIGURES}
     for name in FIGURES:
-        markup = captions.as_html(ROOT / "scripts" / f"{name}.rst")
+        markup = captions.as_html(ROOT / caption_of(name))
         assert images[f"figures/{name}.svg"] == captions.first_sentence(markup)
         assert f"Rule {name}." in text
 

@@ -9,8 +9,7 @@ import time
 from typing import IO
 
 import pytest
-from conftest import GROUPS, SMOKE, Programs
-from write_namelist import write_namelist
+from conftest import SMOKE, Programs
 
 TOLD = re.compile(r"trajectory of torus: (\d+) %, (\d+) of (\d+), (?:\d+ min )?\d+ s (left|in all)")
 """A line of progress: per cent, samples done, samples in all."""
@@ -22,7 +21,7 @@ CLEARED = "\r\x1b[K"
 def long_run(programs, good_inputs) -> Programs:
     """Programs beside the namelist of a trajectory of about a second."""
     long = {**good_inputs["trajectory"], "t_end": 1e6, "sample_interval": 0.5, "variables": ["v"]}
-    write_namelist(programs.folder / "input.nml", GROUPS["trajectory"], long)
+    programs.write({"scene": long})
     return programs
 
 

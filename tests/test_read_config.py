@@ -3,7 +3,8 @@
 import math
 
 import pytest
-from read_config import ConfigError, merged, parsed, read
+
+from scripts.config.read_config import ConfigError, merged, parsed, read
 
 
 @pytest.mark.parametrize(

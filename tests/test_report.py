@@ -5,13 +5,14 @@ import zipfile
 
 import pytest
 from conftest import ROOT, SMOKE
-from expected_rules import FIGURES
+
+from scripts.figures.entries import FIGURES, caption_of
 
 
 @pytest.mark.parametrize("figure", FIGURES)
 def test_figure_has_a_caption(figure):
     """At least one whole sentence."""
-    caption = (ROOT / "scripts" / f"{figure}.rst").read_text()
+    caption = (ROOT / caption_of(figure)).read_text()
     assert len(caption.split()) >= 8
     assert caption.rstrip().endswith(".")
 
@@ -31,7 +32,7 @@ def test_report_holds_every_figure_and_caption(smoke, tmp_path, ending):
         text = report.read_text()
     text = " ".join(text.replace("\\n", " ").split())
     for figure in FIGURES:
-        caption = (ROOT / "scripts" / f"{figure}.rst").read_text().replace(":math:", "")
+        caption = (ROOT / caption_of(figure)).read_text().replace(":math:", "")
         plain_parts = re.findall(r"[\w ,;:.()-]+", " ".join(caption.split()))
         assert max(plain_parts, key=len).strip() in text
         assert f"{figure}.png" in text

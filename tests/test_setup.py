@@ -6,6 +6,8 @@ import subprocess
 import pytest
 from conftest import ROOT, project_files
 
+from scripts.config.read_config import read
+
 SCRIPTS = [
     "reproduce",
     "test",
@@ -113,7 +115,8 @@ def test_test_names_its_parts():
     assert result.stdout == ""
     assert "'nonsense'" in result.stderr
     assert all(
-        part in result.stderr for part in ("lint", "fortran", "python", "compilers", "slurm")
+        part in result.stderr
+        for part in ("quick", "lint", "fortran", "python", "long", "compilers", "slurm")
     )
 
 
@@ -127,7 +130,10 @@ def test_reproduce_says_how_it_is_used(option, tmp_path):
 
 
 def test_continuous_integration_calls_the_tests():
-    """And nothing else."""
+    """And nothing else; the hosted one does so in a container of the Debian that is supported."""
+    job = read(ROOT / ".github" / "workflows" / "ci.yml")["jobs"]["test"]
+    assert job["container"] == "debian:12"
+    assert {".ci/run", "./test long"} <= {step.get("run") for step in job["steps"]}
     lines = (ROOT / ".ci" / "run").read_text().splitlines()
     assert [line for line in lines if line and not line.startswith("#")] == [
         'exec "$(dirname "$(readlink -f "$0")")/../test"'

@@ -5,8 +5,9 @@ import re
 
 import pytest
 from conftest import ROOT
-from read_config import read
 from scaling import Run, projected_hours, report, start_up
+
+from scripts.config.read_config import read
 
 
 def profile() -> dict:

@@ -4,18 +4,30 @@ import math
 
 import numpy as np
 import pytest
-import stability
-import stability_table
-import work_precision
-from accuracy import Reference, distances, errors_of, largest, read_references, read_runs
 from conftest import ROOT
-from drawing import STYLE
 from matplotlib import pyplot as plt
-from study_cases import cases_of_family, columns, work_precision_groups
-from tables import read_table, write_table
-from trusted_horizons import horizon, row_of
-from work_precision_table import proportionality
-from write_measured_scene import horizon_of
+
+from scripts.drawing.style import STYLE
+from scripts.figures import stability, work_precision
+from scripts.files.tsv import read_table, write_table
+from scripts.namelists.study_cases import (
+    cases_of_family,
+    columns,
+    measured_study,
+    work_precision_groups,
+)
+from scripts.namelists.write_measured_scene import horizon_of
+from scripts.tables import stability_table
+from scripts.tables.accuracy import (
+    Reference,
+    distances,
+    errors_of,
+    largest,
+    read_references,
+    read_runs,
+)
+from scripts.tables.trusted_horizons import horizon, row_of
+from scripts.tables.work_precision_table import proportionality
 
 COLUMNS = {
     "stability": (
@@ -45,7 +57,13 @@ def reference() -> Reference:
     """A made-up case of five samples."""
     time = np.arange(5.0)
     uncertainty = np.full(5, 1e-17)
-    return Reference("ok", time, np.zeros((3, 5)), uncertainty, 10.0**time)
+    return Reference(
+        status="ok",
+        time=time,
+        state=np.zeros((3, 5)),
+        uncertainty=uncertainty,
+        amplification=10.0**time,
+    )
 
 
 def made_up_run(errors: list[float]) -> dict:
@@ -121,7 +139,7 @@ def test_uncertain_reference_ends_trust_too(reference):
 def test_measured_runs_end_at_the_horizon(smoke_config):
     """As the table says for the scene."""
     rows = [{"scene": "torus", "horizon": 17.0}, {"scene": "chaos", "horizon": 8.0}]
-    groups = work_precision_groups(smoke_config["work_precision"], "chaos", 8.0)
+    groups = work_precision_groups(measured_study(smoke_config), "chaos", 8.0)
     assert horizon_of(rows, "chaos") == 8.0
     assert groups["measurement"]["cases_list"]["t_end"] == [8.0]
 
@@ -238,4 +256,4 @@ def test_work_precision_figure(tables, style):
 @pytest.mark.parametrize("name", ["stability", "work_precision"])
 def test_caption_is_there(name):
     """In whole sentences."""
-    assert (ROOT / "scripts" / f"{name}.rst").read_text().rstrip().endswith(".")
+    assert (ROOT / "scripts" / "figures" / f"{name}.rst").read_text().rstrip().endswith(".")

@@ -7,9 +7,10 @@ import time
 import numpy as np
 import pytest
 import xarray as xr
-from check_config import checked
 from conftest import ROOT, of_trajectory
 from scipy.integrate import solve_ivp
+
+from scripts.config.check_config import checked
 
 VARIABLES = ["theta", "u", "v"]
 TIGHT = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-13}

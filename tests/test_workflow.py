@@ -5,27 +5,29 @@ import re
 import f90nml
 import numpy as np
 import pytest
-from conftest import SMOKE, rules_in
+from conftest import ROOT, SMOKE, rules_in
+from dry_runs import Job, data_of_jobs, jobs_in, needed_for, rules_of
 from expected_rules import (
     FAMILIES,
-    FIGURES,
     OF_OTHERS,
     OPTIONAL,
-    OUTPUTS_OF,
-    RULES_OF,
     RULES_OF_ATTRACTORS,
     SCENES,
     WORK_SCENES,
-    outputs_in,
+    expected_outputs_of,
+    expected_rules_of,
 )
+
+from scripts.figures.entries import FIGURES
+from scripts.namelists.study_cases import measured_study
 
 
 def test_every_rule_ran(smoke_run):
     """A rule that no figure needs is a rule too many, but for targets of their own."""
-    project, run = smoke_run
+    project, log = smoke_run
     listed = re.findall(r"^\w+$", project.snakemake("--list-rules").stdout, flags=re.MULTILINE)
     assert len(listed) > 10
-    assert rules_in(run.stdout) == set(listed) - OPTIONAL
+    assert rules_in(log) == set(listed) - OPTIONAL
 
 
 def test_every_figure_is_there_three_times(smoke):
@@ -95,8 +97,8 @@ def test_namelists_of_studies_hold_the_config(smoke, smoke_config):
             assert np.unique(cases["gamma"]).tolist() == family["gamma"]
             assert np.unique(cases["v"]).tolist() == family["v"]
             assert set(np.atleast_1d(cases["t_end"])) == {family["t_end"]}
-    study = smoke_config["work_precision"]
-    for name, scene in study["scenes"].items():
+    study = measured_study(smoke_config)
+    for name, scene in study["cases"].items():
         groups = f90nml.read(folder / "measurements" / "work_precision" / f"{name}.nml").todict()
         assert groups["cases_list"]["t_end"] <= scene["t_end"]
         assert groups["measure"]["tolerances"] == study["tolerances"]
@@ -108,6 +110,15 @@ def test_namelists_of_studies_hold_the_config(smoke, smoke_config):
 def test_nothing_unfinished_is_left(smoke):
     """Files are whole or absent."""
     assert list((smoke.folder / "results").rglob("*.part")) == []
+
+
+def test_what_is_in_results_stands_in_its_readme(smoke):
+    """Every folder and the page; the file itself is kept as it is."""
+    readme = (smoke.folder / "results" / "README.md").read_text()
+    assert readme == (ROOT / "results" / "README.md").read_text()
+    named = set(re.findall(r"`results/([\w.]+)", readme))
+    made = {path.name for path in (smoke.folder / "results").iterdir()}
+    assert named == (made | {"docs"}) - {"page", "README.md"}
 
 
 def test_second_run_does_nothing(smoke):
@@ -125,13 +136,20 @@ def test_full_config_computes_everything_anew(smoke):
     assert {"trajectory", "spectrum", "hopf_curves", "velocity_step"} <= rules_in(run.stdout)
 
 
-@pytest.mark.parametrize("figure", FIGURES)
-def test_figure_runs_only_its_own_rules(project, figure):
-    """From nothing: its data, their programs, and no other."""
-    run = project.snakemake("--dry-run", figure)
+@pytest.fixture(scope="module")
+def planned(fresh) -> list[Job]:
+    """All jobs of a fresh copy."""
+    run = fresh.snakemake("--dry-run")
     assert run.returncode == 0, run.stdout
-    assert rules_in(run.stdout) == RULES_OF[figure] | {figure}
-    assert outputs_in(run.stdout) == OUTPUTS_OF[figure]
+    return jobs_in(run.stdout)
+
+
+@pytest.mark.parametrize("figure", FIGURES)
+def test_figure_needs_only_its_own_rules(planned, figure):
+    """From nothing: its data, their programs, and no other."""
+    needed = needed_for(figure, planned)
+    assert rules_of(needed) == expected_rules_of(figure) | {figure}
+    assert data_of_jobs(needed) == expected_outputs_of(figure)
 
 
 @pytest.mark.parametrize(
@@ -147,17 +165,43 @@ def test_figure_runs_only_its_own_rules(project, figure):
         ),
     ],
 )
-def test_any_file_can_be_asked_for(project, target, rules):
+def test_file_needs_only_its_own_rules(planned, target, rules):
     """By its path."""
-    run = project.snakemake("--dry-run", target)
+    assert rules_of(needed_for(target, planned)) == rules
+
+
+def test_figures_and_files_can_be_asked_for(fresh, planned):
+    """What is asked for is what needs it in the whole; an unknown target is refused by name."""
+    targets = ("figure_5", "results/references/stability/strong.tsv")
+    run = fresh.snakemake("--dry-run", *targets)
     assert run.returncode == 0, run.stdout
-    assert rules_in(run.stdout) == rules
+    assert set(jobs_in(run.stdout)) == set.union(*(needed_for(one, planned) for one in targets))
+    run = fresh.snakemake("--dry-run", "figure_9")
+    assert run.returncode != 0
+    assert "figure_9" in run.stdout
 
 
-def test_everything_from_one_command(project):
+def test_everything_from_one_command(planned):
     """Without a target: all figures and no computation that none of them needs."""
-    run = project.snakemake("--dry-run")
     tables = {"hopf_points", "linear_stability_namelist", "linear_stability"}
     tables |= {"linear_stability_table", "claims", "page", *RULES_OF_ATTRACTORS}
-    everything = set.union({"all", *tables, *FIGURES}, *RULES_OF.values())
-    assert rules_in(run.stdout) == everything
+    everything = set.union({"all", *tables, *FIGURES}, *map(expected_rules_of, FIGURES))
+    assert rules_of(planned) == everything
+    assert not any("/fine/" in path for job in planned for path in job.made)
+
+
+def test_fine_atlas_is_a_target_of_its_own(fresh, default_config):
+    """All its parts in both planes."""
+    run = fresh.snakemake("--dry-run", "atlas")
+    assert run.returncode == 0, run.stdout
+    jobs = jobs_in(run.stdout)
+    computed = {"build", "attractors_namelist", "attractors_runs", "atlas_table"}
+    assert rules_of(jobs) == {*computed, "hopf_namelist", "hopf_curves", "atlas"}
+    atlas = default_config["atlas"]
+    parts = range(1, atlas["grids"]["fine"]["parts"] + 1)
+    expected = {
+        frozenset({f"results/attractors/atlas/fine/{plane}/{part:04}.nc"})
+        for plane in atlas["planes"]
+        for part in parts
+    }
+    assert {job.made for job in jobs if job.rule == "attractors_runs"} == expected

@@ -4,34 +4,38 @@ import ast
 import re
 import shutil
 from collections.abc import Iterator
-from pathlib import Path
 
+import pytest
 from conftest import ROOT, SMOKE, rules_in
-from expected_rules import FIGURES, outputs_in
+from dry_runs import data_of_jobs, jobs_in
 from snakemake_records import records_of
+
+from scripts.figures.entries import FIGURES, script_of
 
 COMPUTE = {
     *("attractors_runs", "exponents_runs", "hopf_curves", "linear_stability", "measurement"),
     *("reference", "spectrum", "trajectory", "velocity_step", "work_precision_runs"),
 }
 """Rules that run a program."""
+STYLE = "scripts/drawing/paper.mplstyle"
 
 
 def names_imported(script: str) -> Iterator[str]:
-    """Modules that a script names in its imports."""
-    for node in ast.walk(ast.parse((ROOT / "scripts" / script).read_text())):
+    """Modules, and what may be one, that a file of the project names in its imports."""
+    for node in ast.walk(ast.parse((ROOT / script).read_text())):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
             yield node.module
+            yield from (f"{node.module}.{alias.name}" for alias in node.names)
 
 
 def imports_of(script: str) -> set[str]:
-    """Scripts that a script imports, directly or not."""
+    """Files of the project that one of them imports, directly or not."""
     found, unread = set(), {script}
     while unread:
-        files = {f"{name}.py" for name in names_imported(unread.pop())}
-        new = {name for name in files - found if (ROOT / "scripts" / name).exists()}
+        files = {f"{name.replace('.', '/')}.py" for name in names_imported(unread.pop())}
+        new = {name for name in files - found if (ROOT / name).exists()}
         unread |= new
         found |= new
     return found
@@ -41,24 +45,27 @@ def test_results_of_scripts_depend_on_what_these_import(smoke):
     """All of it, for every rule with a script; what draws depends on the style, too."""
     records = records_of(smoke).values()
     of_rule = {
-        record["rule"]: (Path(record["code"].strip(' "\n')).name, record["input"])
+        record["rule"]: (record["code"].strip(' "\n').removeprefix("../"), record["input"])
         for record in records
         if record["code"].strip(' "\n').endswith(".py")
     }
+    for figure in FIGURES:
+        of_rule[figure] = (f"scripts/figures/{script_of(figure)}.py", of_rule[figure][1])
     written = "".join(path.read_text() for path in (ROOT / "rules").glob("*.smk"))
-    assert len(of_rule) == written.count("    script:\n")
+    # one text stands for the rules of all figures
+    assert len(of_rule) == written.count("    script:\n") - 1 + len(FIGURES)
     fine = smoke.snakemake("--dry-run", "results/figures/atlas.pdf", *SMOKE).stdout
     (given,) = re.findall(r"^ +input: (\S+atlas-fine.tsv.*)$", fine, flags=re.MULTILINE)
-    of_rule["atlas"] = ("atlas.py", given.split(", "))
+    of_rule["atlas"] = ("scripts/figures/atlas.py", given.split(", "))
     for rule, (script, given) in of_rule.items():
         expected = imports_of(script)
-        expected |= {"paper.mplstyle"} if "drawing.py" in expected else set()
-        assert {f"scripts/{name}" for name in expected} <= set(given), rule
+        expected |= {STYLE} if "scripts/drawing/style.py" in expected else set()
+        assert expected <= set(given), rule
 
 
 def test_changed_norm_of_errors_makes_three_tables_anew(scratch):
     """And what is drawn from them; nothing is computed but the runs up to another horizon."""
-    with open(scratch.folder / "scripts" / "accuracy.py", "a") as norm:
+    with open(scratch.folder / "scripts" / "tables" / "accuracy.py", "a") as norm:
         norm.write("\n# another norm\n")
     run = scratch.snakemake("--dry-run", *SMOKE)
     tables = {"stability_table", "trusted_horizons", "work_precision_table"}
@@ -141,16 +148,17 @@ def test_changed_family_computes_no_other(smoke, tmp_path):
     run = smoke.snakemake("--dry-run", *SMOKE, str(tmp_path / "mine.yaml"))
     expected = {"all", "stability_namelists", "reference", "measurement"}
     assert rules_in(run.stdout) == expected | {"stability_table", "stability", "claims", "page"}
-    assert outputs_in(run.stdout) == {"stability/spring.nc"}
+    assert data_of_jobs(set(jobs_in(run.stdout))) == {"stability/spring.nc"}
 
 
 def test_table_of_other_solvers_is_drawn_where_there_is_one(scratch):
     """It redraws one figure and is needed for none."""
     table = scratch.folder / "results" / "tables" / "benchmarks.tsv"
     table.write_text("scene\tsolver\ttolerance\terror_max\tseconds\ntorus\tother\t1\t1\t1\n")
-    run = scratch.snakemake(*SMOKE)
-    assert run.returncode == 0, run.stdout
+    run = scratch.snakemake("--dry-run", *SMOKE)
     assert rules_in(run.stdout) == {"all", "work_precision", "page"}
+    run = scratch.snakemake("work_precision", *SMOKE)
+    assert run.returncode == 0, run.stdout
 
 
 def test_changed_setting_of_a_figure_redraws_only_that_figure(smoke, tmp_path):
@@ -162,16 +170,19 @@ def test_changed_setting_of_a_figure_redraws_only_that_figure(smoke, tmp_path):
 
 def test_changed_style_redraws_and_computes_nothing(scratch):
     """All figures look alike."""
-    with open(scratch.folder / "scripts" / "paper.mplstyle", "a") as style:
+    with open(scratch.folder / STYLE, "a") as style:
         style.write("\nlines.linewidth: 2\n")
     run = scratch.snakemake("--dry-run", *SMOKE)
     assert rules_in(run.stdout) == {"all", *FIGURES, "page"}
 
 
+@pytest.mark.long
 def test_results_made_again_are_the_same_bytes(scratch):
     """All but logs and measured times."""
     before = scratch.outputs()
-    shutil.rmtree(scratch.folder / "results")
+    for path in (scratch.folder / "results").iterdir():
+        if path.name != "README.md":
+            shutil.rmtree(path) if path.is_dir() else path.unlink()
     run = scratch.snakemake(*SMOKE)
     assert run.returncode == 0, run.stdout
     after = scratch.outputs()

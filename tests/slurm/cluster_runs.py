@@ -20,9 +20,10 @@ import psutil
 import pytest
 from conftest import ROOT, Project, copy_of_project, rules_in
 from job_watch import GONE, MemoryWatch, Program, running_program
-from read_config import read
 from scaling import Run, report
 from slurm_cluster import Cluster, until
+
+from scripts.config.read_config import read
 
 SHORT_PARTS = ("--configfile", "config/smoke.yaml", "tests/slurm/short_parts.yaml")
 SAMPLE = ("--configfile", "tests/slurm/sample.yaml")

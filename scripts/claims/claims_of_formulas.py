@@ -1,0 +1,145 @@
+"""Claims about the printed equations: each put into (5) on the Hopf curves of results/hopf/."""
+
+import dataclasses
+
+import numpy as np
+
+from scripts.claims.claims_results import Finding, Results, decided, decided_after_correction, short
+from scripts.claims.printed_formulas import (
+    epsilon_of_8,
+    friction_corrected,
+    friction_of_3,
+    friction_of_4,
+    least_residual_of_5,
+    mismatch_with_5,
+    points_of,
+    residual_of_5,
+    residual_of_6,
+    xi_of_9,
+)
+
+FREQUENCIES = 2000
+"""Frequencies at which (9) is tried."""
+
+
+def equation_3(results: Results, *, plane: str, limit: float) -> Finding:
+    """Whether (5) without delay follows from (3)."""
+    points = points_of(results.curves[plane])
+    tau = np.zeros_like(points.omega)
+    printed = mismatch_with_5(points, tau, friction_of_3).max()
+    corrected = mismatch_with_5(points, tau, friction_corrected).max()
+    return decided_after_correction(
+        printed <= limit,
+        corrected <= limit,
+        f"The linearisation of (3) at tau = 0 differs from (5) by up to {short(printed)} of the"
+        f" largest term as printed, and by up to {short(corrected)} with theta +"
+        f" (1 + epsilon) ln v ({points.omega.size} points).",
+    )
+
+
+def equation_4(results: Results, *, plane: str, limit: float) -> Finding:
+    """Whether (5) follows from (4)."""
+    points = points_of(results.curves[plane])
+    printed = mismatch_with_5(points, points.tau, friction_of_4)
+    corrected = mismatch_with_5(points, points.tau, friction_corrected).max()
+    there = printed[np.isfinite(printed)]
+    differs = f"differs from (5) by up to {short(there.max())}" if there.size else "is nowhere"
+    return decided_after_correction(
+        printed.max() <= limit,
+        corrected <= limit,
+        f"The linearisation of (4) as printed {differs} of the largest term and has no value at"
+        f" {printed.size - there.size} of {printed.size} points, where v - tau <= 0; with theta +"
+        f" (1 + epsilon) ln v(t - tau) it differs by up to {short(corrected)}.",
+    )
+
+
+def equation_6(results: Results, *, planes: list[str], limit: float) -> Finding:
+    """Whether (6) holds on the curves."""
+    largest = max(residual_of_6(points_of(results.curves[plane])).max() for plane in planes)
+    return decided(
+        largest <= limit,
+        f"Largest residual of (6) as printed on the curves of {' and '.join(planes)}:"
+        f" {short(largest)} (its right side is 1 in size).",
+    )
+
+
+def equation_8(results: Results, *, plane: str, limit: float) -> Finding:
+    """Whether (5) can hold with the epsilon of (7) and (8), whatever the delay."""
+    points = points_of(results.curves[plane])
+    printed, corrected = (
+        least_residual_of_5(points, epsilon_of_8(points, power)).max() for power in (1, 2)
+    )
+    off = np.abs(epsilon_of_8(points, 1) - points.epsilon).max()
+    return decided_after_correction(
+        printed <= limit,
+        corrected <= limit,
+        f"Largest residual of (5) with the delay that fits best: {short(printed)} with gamma^1 as"
+        f" printed (epsilon off by up to {short(off)}), {short(corrected)} with gamma^2.",
+    )
+
+
+def equation_9(results: Results, *, plane: str, limit: float) -> Finding:
+    """Whether (9) gives the curve, and nothing beside it."""
+    points = points_of(results.curves[plane])
+    given = xi_of_9(omega=points.omega, tau=points.tau, gamma=points.gamma)
+    on_curve = np.abs(given / points.xi - 1).max()
+    omega = np.linspace(points.omega.min(), points.omega.max(), FREQUENCIES)
+    tau = np.full_like(omega, points.tau[0])
+    xi = xi_of_9(omega=omega, tau=tau, gamma=points.gamma)
+    kept = (xi >= points.xi.min()) & (xi <= points.xi.max())
+    tried = dataclasses.replace(
+        points, epsilon=0 * xi[kept], tau=tau[kept], xi=xi[kept], omega=omega[kept]
+    )
+    residual = residual_of_5(tried, epsilon_of_8(tried, 2), tried.tau)
+    false = int((residual > limit).sum())
+    return decided_after_correction(
+        on_curve <= limit and false == 0,
+        on_curve <= limit,
+        f"On the Hopf curves at tau = {short(tau[0])} (9) gives xi to {short(on_curve)}; of"
+        f" {kept.sum()} frequencies to which it gives a xi within the figure, (5) does not hold at"
+        f" {false}, where (6) asks for the other quadrant.",
+    )
+
+
+def equation_10(results: Results, *, plane: str, limit: float) -> Finding:
+    """Whether (5) holds at the delay of (10)."""
+    curves = results.curves[plane]
+    printed, corrected = float(curves.printed_residual.max()), float(curves.residual.max())
+    off = float(np.abs(curves.printed_tau - curves.tau).max())
+    return decided_after_correction(
+        printed <= limit,
+        corrected <= limit,
+        f"Largest residual of (5): {short(printed)} with (10) as printed (tau off by up to"
+        f" {short(off)}), {short(corrected)} with + gamma^2 and the two-argument arctangent.",
+    )
+
+
+def hopf_curves(results: Results, *, planes: list[str], limit: float) -> Finding:
+    """Whether (7) to (10) taken together give the curves of these planes."""
+    printed = corrected = points = branches = 0
+    for plane in planes:
+        curves = results.curves[plane]
+        on_curve = points_of(curves)
+        delay = curves.printed_tau.values if curves.attrs["ordinate"] == "tau" else on_curve.tau
+        residual = residual_of_5(on_curve, epsilon_of_8(on_curve, 1), delay)
+        printed = max(printed, residual.max())
+        corrected = max(corrected, float(curves.residual.max()))
+        points += residual.size
+        branches += np.unique(curves.branch.values).size
+    return decided_after_correction(
+        printed <= limit,
+        corrected <= limit,
+        f"{branches} branches, {points} points: largest residual of (5) {short(printed)} by the"
+        f" formulas as printed, {short(corrected)} as corrected.",
+    )
+
+
+TESTS = {
+    "equation_3": equation_3,
+    "equation_4": equation_4,
+    "equation_6": equation_6,
+    "equation_8": equation_8,
+    "equation_9": equation_9,
+    "equation_10": equation_10,
+    "hopf_curves": hopf_curves,
+}

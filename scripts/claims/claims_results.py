@@ -1,0 +1,106 @@
+"""What verdicts rest on: files in results/, and how a finding is put in words."""
+
+import math
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import xarray as xr
+
+from scripts.files.tsv import read_table
+
+REPRODUCED = "reproduced"
+CORRECTED = "reproduced with a correction"
+NOT_REPRODUCED = "not reproduced"
+NOT_TESTABLE = "not testable"
+VERDICTS = [REPRODUCED, CORRECTED, NOT_REPRODUCED, NOT_TESTABLE]
+
+
+@dataclass
+class Finding:
+    """What a test says of a claim, and the numbers it rests on, in a sentence."""
+
+    verdict: str
+    evidence: str
+
+
+@dataclass
+class Results:
+    """Contents of the files that verdicts rest on: rows of tables and data sets."""
+
+    curves: dict[str, xr.Dataset]
+    friction: xr.Dataset
+    hopf_points: list[dict]
+    linear_stability: list[dict]
+    stability: list[dict]
+    attractors: list[dict]
+    route: list[dict]
+
+    def stability_of(self, scene: str) -> dict:
+        """The scene's row of linear stability."""
+        (row,) = rows_about(self.linear_stability, "linear-stability.tsv", scene)
+        return row
+
+    def attractors_of(self, scene: str) -> list[dict]:
+        """The scene's attractors, that of its own history first."""
+        rows = rows_about(self.attractors, "attractors.tsv", scene)
+        return sorted(rows, key=lambda row: row["history"])
+
+
+def read_results(curves: list[str], friction: str, tables: dict[str, str]) -> Results:
+    """Read the files; `tables` by the names of `Results`."""
+    return Results(
+        curves={Path(path).stem: xr.load_dataset(path) for path in curves},
+        friction=xr.load_dataset(friction),
+        **{name: read_table(path) for name, path in tables.items()},
+    )
+
+
+def rows_about(rows: list[dict], table: str, scene: str) -> list[dict]:
+    """Rows of a scene; to have none is an error."""
+    found = [row for row in rows if row["scene"] == scene]
+    if not found:
+        known = sorted({row["scene"] for row in rows})
+        raise ValueError(f"{table}: no row of scene '{scene}'; there are: {', '.join(known)}")
+    return found
+
+
+def changes(cell: str | float) -> list[tuple[float, int, int]]:
+    """Places at which a pair crosses the axis, with the unstable pairs before and after."""
+    found = re.findall(r"(\S+) \((\d+) -> (\d+)\)", cell if isinstance(cell, str) else "")
+    return [(float(place), int(before), int(after)) for place, before, after in found]
+
+
+def stable_delays(row: dict) -> list[tuple[float, float]]:
+    """Intervals of the delay up to the scene's own in which its steady sliding is stable."""
+    found = changes(row["tau_of_changes"])
+    begins = [0.0, *(place for place, _, _ in found)]
+    ends = [*begins[1:], math.inf]
+    pairs = [found[0][1], *(after for _, _, after in found)] if found else [row["unstable_pairs"]]
+    return [
+        (begin, min(end, row["tau"]))
+        for begin, end, unstable in zip(begins, ends, pairs, strict=True)
+        if unstable == 0 and begin < row["tau"]
+    ]
+
+
+def short(value: float, digits: int = 4) -> str:
+    """A number for a sentence."""
+    return f"{value:.{digits}g}"
+
+
+def listed(words: list[str]) -> str:
+    """Words joined by commas, or that there are none."""
+    return ", ".join(words) if words else "none"
+
+
+def decided(holds: bool, evidence: str) -> Finding:
+    """A claim that holds or does not."""
+    return Finding(REPRODUCED if holds else NOT_REPRODUCED, evidence)
+
+
+def decided_after_correction(printed: bool, corrected: bool, evidence: str) -> Finding:
+    """A claim that may hold as printed, or only as corrected, or not at all."""
+    if printed:
+        return Finding(REPRODUCED, evidence)
+    return Finding(CORRECTED if corrected else NOT_REPRODUCED, evidence)

@@ -1,0 +1,74 @@
+"""The ledger: a verdict on every claim of the paper, by tests of files in results/ alone."""
+
+import json
+from pathlib import Path
+
+from scripts.claims import (
+    claims_of_attractors,
+    claims_of_bifurcations,
+    claims_of_formulas,
+    claims_of_runs,
+)
+from scripts.claims.claims_config import named_test
+from scripts.claims.claims_results import NOT_TESTABLE, Finding, Results, read_results
+from scripts.files.outputs import logged, written
+from scripts.files.tsv import write_table
+
+TESTS = {
+    **claims_of_formulas.TESTS,
+    **claims_of_bifurcations.TESTS,
+    **claims_of_attractors.TESTS,
+    **claims_of_runs.TESTS,
+}
+"""Each test by its name in config/claims.yaml."""
+
+
+def rows_of(claims: dict[str, dict], results: Results) -> list[dict]:
+    """One row a claim, in the order of the list."""
+    return [row_of(name, claim, results) for name, claim in claims.items()]
+
+
+def row_of(name: str, claim: dict, results: Results) -> dict:
+    """Verdict and evidence of one claim."""
+    finding = finding_of(claim, results)
+    return {
+        "id": name,
+        "place": claim["place"],
+        "claim": claim["claim"],
+        "verdict": finding.verdict,
+        "evidence": finding.evidence,
+        "look_at": path_of(claim.get("look_at", "")),
+    }
+
+
+def finding_of(claim: dict, results: Results) -> Finding:
+    """What the claim's test finds; the reason where there is none."""
+    if "not_testable" in claim:
+        return Finding(NOT_TESTABLE, claim["not_testable"])
+    test, parameters = named_test(claim)
+    return TESTS[test](results, **parameters)
+
+
+def path_of(shown: str) -> str:
+    """Where the figure or table is."""
+    if not shown:
+        return ""
+    is_table = shown.endswith(".tsv")
+    return f"results/tables/{shown}" if is_table else f"results/figures/{shown}.png"
+
+
+def write_json(path: str | Path, rows: list[dict]) -> None:
+    """The rows as JSON; the file is whole or absent."""
+    with written(path) as unfinished:
+        unfinished.write_text(json.dumps(rows, indent=2) + "\n")
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        given = snakemake.input
+        names = ("hopf_points", "linear_stability", "stability", "attractors", "route")
+        tables = {name: given[name] for name in names}
+        found = read_results(given.curves, given.friction, tables)
+        table = rows_of(snakemake.params.claims, found)
+        write_table(snakemake.output.tsv, table)
+        write_json(snakemake.output.json, table)

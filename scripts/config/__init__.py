@@ -1,0 +1,1 @@
+"""The configuration: read, merged, checked against its schema."""

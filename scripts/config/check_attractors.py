@@ -1,0 +1,128 @@
+"""What the schema cannot see of attractors: keys that contradict each other, in words."""
+
+import math
+from collections.abc import Iterator
+
+from scripts.config.ranges import range_of
+
+LEAST_LN_V, LARGEST_LN_V = -700.0, 700.0
+"""Between these exp(ln v) is a positive finite number."""
+MOST_POINTS = 1_000_000
+"""Points that one run of the program takes."""
+MOST_SAMPLES = 100_000_000
+"""Samples that it takes at a point."""
+FEWEST_SAMPLES = 16
+"""Samples of a segment of a spectrum."""
+
+
+def contradictions(config: dict) -> Iterator[str]:
+    """Problems that involve more than one key, of scenes' attractors, the atlas and the route."""
+    yield from _of_scenes(config)
+    yield from _of_atlas(config["atlas"], config["spectra"])
+    yield from _of_route(config["route"], config["spectra"])
+
+
+def _of_scenes(config: dict) -> Iterator[str]:
+    """Attractors of scenes from several histories."""
+    place = "config attractors"
+    ranges = config["attractors"]["histories"]
+    for key in ("theta", "u"):
+        yield from window(f"{place} histories", key, ranges[key])
+    yield from window(
+        f"{place} histories", "ln_v", ranges["ln_v"], least=LEAST_LN_V, most=LARGEST_LN_V
+    )
+    observation = config["attractors"]["observation"]
+    yield from _of_observation(f"{place} observation", observation, config["spectra"])
+    if "t_transient" in observation:
+        yield (
+            f"{place} observation: t_transient = {observation['t_transient']}; expected none:"
+            " that of the scene counts"
+        )
+    for name, scene in config["scenes"].items():
+        if "attractors" in scene and scene["t_transient"] == 0:
+            yield (
+                f"scene '{name}': t_transient = {scene['t_transient']}; expected a finite number"
+                " > 0 where attractors are looked for"
+            )
+
+
+def _of_atlas(atlas: dict, spectra: dict) -> Iterator[str]:
+    """The plane of epsilon and tau, cut into rows."""
+    place = "config atlas"
+    yield from window(place, "epsilon_window", atlas["epsilon_window"], **range_of("epsilon"))
+    yield from window(place, "tau_window", atlas["tau_window"], **range_of("tau"))
+    for name, grid in atlas["grids"].items():
+        inside = f"{place} grids {name}"
+        yield from _of_parts(inside, grid, "tau_count", grid["epsilon_count"])
+        yield from _of_approach(f"{inside} observation", grid["observation"])
+        yield from _of_observation(f"{inside} observation", grid["observation"], spectra)
+
+
+def _of_route(route: dict, spectra: dict) -> Iterator[str]:
+    """A line of growing epsilon, cut into pieces."""
+    place = "config route"
+    yield from window(place, "epsilon_window", route["epsilon_window"], **range_of("epsilon"))
+    yield from _of_parts(place, route, "epsilon_count", 1)
+    yield from _of_approach(f"{place} observation", route["observation"])
+    yield from _of_observation(f"{place} observation", route["observation"], spectra)
+
+
+def window(
+    place: str,
+    key: str,
+    values: list[float],
+    *,
+    above: float = -math.inf,
+    least: float = -math.inf,
+    most: float = math.inf,
+) -> Iterator[str]:
+    """Two ascending numbers inside a range, not so far apart that their distance is infinite."""
+    low, high = values
+    if above < low < high <= most and low >= least and math.isfinite(high - low):
+        return
+    bounds = [
+        f" {sign} {bound}"
+        for sign, bound in ((">", above), (">=", least), ("<=", most))
+        if math.isfinite(bound)
+    ]
+    yield f"{place}: {key} = {values}; expected two ascending numbers{' and'.join(bounds)}"
+
+
+def _of_parts(place: str, grid: dict, key: str, width: int) -> Iterator[str]:
+    """Parts of a grid along the side that is cut, each a run; the other side is `width` long."""
+    count, parts = grid[key], grid["parts"]
+    if parts > count:
+        yield (
+            f"{place}: parts = {parts}; expected a whole number >= 1 and <= {key} = {count}, the"
+            " side that is cut"
+        )
+    elif (points := math.ceil(count / parts) * width) > MOST_POINTS:
+        yield f"{place}: parts = {parts} of {points} points; expected at most {MOST_POINTS} in each"
+
+
+def _of_approach(place: str, observation: dict) -> Iterator[str]:
+    """An atlas and a route have no scene to say how long the approach takes."""
+    if "t_transient" not in observation:
+        yield f"{place}: key ['t_transient'] is missing"
+
+
+def _of_observation(place: str, observation: dict, spectra: dict) -> Iterator[str]:
+    """Samples between the beginning and the end, enough for a spectrum and not too many."""
+    interval, length = observation["sample_interval"], observation["t_observed"]
+    samples = length / interval
+    segments = 1 + (spectra["segments"] - 1) * (1 - spectra["overlap"])
+    if interval > length:
+        yield (
+            f"{place}: sample_interval = {interval}; expected a finite number > 0 and <="
+            f" t_observed = {length}"
+        )
+    elif not samples <= MOST_SAMPLES:
+        yield (
+            f"{place}: sample_interval = {interval}; expected at most {MOST_SAMPLES} samples in"
+            f" t_observed = {length}"
+        )
+    elif math.floor((math.floor(samples) + 1) / segments) < FEWEST_SAMPLES:
+        yield (
+            f"{place}: sample_interval = {interval}; expected at least {FEWEST_SAMPLES} samples in"
+            f" each of {spectra['segments']} segments of t_observed = {length}"
+        )

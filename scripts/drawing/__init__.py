@@ -1,0 +1,1 @@
+"""What several figures share: the style, panels, labels."""

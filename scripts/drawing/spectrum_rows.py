@@ -1,0 +1,132 @@
+"""Power spectra with their peaks named, one scene a row, for figures 6 and 7."""
+
+import xarray as xr
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
+
+from scripts.drawing.style import INK
+
+BASE, HARMONIC, SECOND_BASE, COMBINATION, OTHER = range(5)
+"""Values of peak_kind."""
+WIDTH_OF_A_CHARACTER = 0.0125
+"""Of a label, as a share of an axis as wide as a page."""
+IN_WORDS = {
+    "one base": "one base frequency",
+    "two bases": "two base frequencies",
+    "continuum": "a continuous spectrum",
+    "undecided": "a spectrum of undecided kind",
+    "none": "no motion",
+}
+"""What the kinds of spectra say of a motion."""
+
+
+def draw(rows: dict[str, xr.Dataset], paper: dict[str, str], frequency_shown: float) -> Figure:
+    """Rows a, b, ...: power spectral density of v over frequency."""
+    figure, grid = plt.subplots(
+        len(rows), 1, figsize=(6.0, 0.5 + 2.3 * len(rows)), sharex=True, squeeze=False
+    )
+    for (label, spectrum), axes in zip(rows.items(), grid[:, 0], strict=True):
+        shown = spectrum.sel(frequency=slice(spectrum.frequency[1], frequency_shown))
+        axes.semilogy(shown.frequency, shown.power, color="C0", lw=0.7)
+        label_peaks(axes, spectrum, frequency_shown)
+        axes.set(ylabel="power spectral density of $v$", xlim=(0, frequency_shown))
+        bottom = max(shown.power.min(), 1e-10 * shown.power.max())
+        axes.set_ylim(0.3 * bottom, 100 * shown.power.max())
+        scene = spectrum.attrs["scene"].replace("_", " ")
+        row = f"$\\bf{{{label}}}$  " if len(rows) > 1 else ""
+        axes.set_title(f"{row}scene {scene}: {seen(spectrum, paper[label])}")
+    grid[-1, 0].set_xlabel("frequency (cycles per unit of time)")
+    return figure
+
+
+def label_peaks(
+    axes: Axes, spectrum: xr.Dataset, frequency_shown: float, letter: float = WIDTH_OF_A_CHARACTER
+) -> None:
+    """A dot on each peak; its name and frequency where no higher one's are in the way.
+
+    Labels begin right of the axis. A letter is as wide as this share of the axis.
+    """
+    peaks = spectrum.drop_dims(["frequency", "base"])
+    peaks = peaks.isel(peak=peaks.peak_frequency.values <= frequency_shown)
+    peaks = peaks.isel(peak=(-peaks.peak_power.values).argsort())
+    named = spectrum.attrs["spectrum_kind"] != "continuum"
+    taken: list[tuple[float, float]] = []
+    for i in range(peaks.sizes["peak"]):
+        peak = peaks.isel(peak=i)
+        place = (float(peak.peak_frequency), float(peak.peak_power))
+        colour = "C1" if named and int(peak.peak_kind) == OTHER else INK
+        axes.plot(*place, "o", color=colour, ms=2)
+        lines = [name_of(peak)] if named else []
+        lines.append(f"{place[0]:.4f}")
+        half = 0.5 * letter * frequency_shown * max(map(characters, lines))
+        centre = max(place[0], half)
+        if any(abs(centre - other) < half + its_half for other, its_half in taken):
+            taken.append((place[0], 0.0))
+            continue
+        taken.append((centre, half))
+        axes.annotate(
+            "\n".join(lines),
+            (centre, place[1]),
+            xytext=(0, 4),
+            textcoords="offset points",
+            ha="center",
+            fontsize=6.5,
+            color=colour,
+            path_effects=[withStroke(linewidth=1.5, foreground="white")],
+        )
+
+
+def name_of(peak: xr.Dataset) -> str:
+    """What a peak is, in terms of the base frequencies."""
+    kind = int(peak.peak_kind)
+    if kind == OTHER:
+        return "other"
+    multiples = {"f_1": int(peak.peak_multiple), "f_2": int(peak.peak_second_multiple)}
+    terms = [(m, base) for base, m in multiples.items() if m]
+    terms.sort(key=lambda term: term[0] < 0)
+    words = " ".join(
+        f"{'-' if m < 0 else '+'} {abs(m) if abs(m) > 1 else ''}{base}" for m, base in terms
+    )
+    return ("base " if kind in (BASE, SECOND_BASE) else "") + f"${words.removeprefix('+ ')}$"
+
+
+def characters(label: str) -> int:
+    """How many characters of a label are seen."""
+    return len(label.replace("$", "").replace("_", ""))
+
+
+def seen(spectrum: xr.Dataset, paper: str) -> str:
+    """What the spectrum shows above what the paper says."""
+    return f"{lines_in_words(spectrum)}\n(the paper: “{paper}”)"
+
+
+def lines_in_words(spectrum: xr.Dataset) -> str:
+    """What the spectrum shows, in a line."""
+    kind = spectrum.attrs["spectrum_kind"]
+    bases = [f"$f_{i}$ = {f:.4f}" for i, f in enumerate(spectrum.base_frequency.values, start=1)]
+    if kind == "one base":
+        words = f"one base frequency, {bases[0]}, and its harmonics"
+    elif kind == "two bases":
+        words = f"two base frequencies, {' and '.join(bases)}"
+    elif kind == "continuum":
+        off = 100 * spectrum.attrs["continuum_share"]
+        words = f"continuum: {off:.0f} % of the power off the lines"
+    elif kind == "undecided":
+        words = f"undecided: {reason(spectrum)}"
+    else:
+        words = "no power"
+    return words
+
+
+def reason(spectrum: xr.Dataset) -> str:
+    """Why neither one base nor two nor a continuum is seen."""
+    off = 100 * (1 - spectrum.attrs["line_share"])
+    reasons = [f"{off:.2g} % of the power off the lines explained"]
+    others = int((spectrum.peak_kind == OTHER).sum())
+    if others:
+        reasons.append(f"{others} other peak{'s' if others > 1 else ''}")
+    if spectrum.attrs.get("bases_told_apart") == "no":
+        reasons.append(f"$f_2/f_1$ not told from {spectrum.attrs['ratio_of_bases']}")
+    return ", ".join(reasons)

@@ -1,0 +1,46 @@
+"""What all figures share: the style, the way they are saved, and the log of a script."""
+
+import contextlib
+import io
+from collections.abc import Iterator
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("agg")
+
+import matplotlib.pyplot as plt
+from matplotlib.figure import Figure
+
+from scripts.files import outputs
+
+STYLE = Path(__file__).parent / "paper.mplstyle"
+INK = "0.15"
+FAINT = "0.7"
+"""Greys for drawing and for what stays in the background."""
+
+
+METADATA = {"pdf": {"CreationDate": None}, "png": None, "svg": {"Date": None}}
+"""For each ending that a figure is saved with: what keeps its bytes the same each time."""
+
+
+def save(figure: Figure, output) -> None:
+    """Write a figure for print, as picture and for the page; `output` names the three files."""
+    # the layout once, for all three
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+    for ending, metadata in METADATA.items():
+        final = getattr(output, ending)
+        # to memory first: matplotlib hides that a disk is full
+        drawn = io.BytesIO()
+        figure.savefig(drawn, format=ending, metadata=metadata)
+        with outputs.written(final) as path:
+            path.write_bytes(drawn.getvalue())
+    plt.close(figure)
+
+
+@contextlib.contextmanager
+def logged(path: str | Path) -> Iterator[None]:
+    """Use the style; write warnings and the reason of a failure to a log file."""
+    with outputs.logged(path), plt.style.context(STYLE):
+        yield

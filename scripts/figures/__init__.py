@@ -1,0 +1,1 @@
+"""One script and one caption for each figure."""

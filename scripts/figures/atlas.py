@@ -1,0 +1,121 @@
+"""Figure of the atlas: classes of motion and the largest exponent over epsilon and tau."""
+
+import numpy as np
+import xarray as xr
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.colors import SymLogNorm
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
+
+from scripts.drawing.class_map import draw_classes, legend_of, mark_failures, table_of
+from scripts.drawing.hopf_plane import SUBCRITICAL, draw_piece
+from scripts.drawing.style import INK, logged, save
+from scripts.files.inputs import read
+from scripts.files.tsv import read_table
+from scripts.tables.motion_rows import count_in_words
+
+LINEAR, LARGEST = 1e-3, 0.1
+"""Exponents closer to zero are coloured on a linear scale, larger ones all alike."""
+NEAR = 0.25
+"""A scene this close at the right, as a share of the axis, sends a name above its dot."""
+
+
+def draw(rows: list[dict], curves: list[xr.Dataset], scenes: dict[str, dict]) -> Figure:
+    """One plane a column: classes above, the largest exponent below, Hopf curves over both."""
+    planes = sorted({row["xi"] for row in rows})
+    figure, grid = plt.subplots(
+        2,
+        len(planes),
+        figsize=(6.7, 6.6),
+        sharex=True,
+        sharey=True,
+        squeeze=False,
+    )
+    for letters, xi, (above, below) in zip(["ac", "bd", "eg"], planes, grid.T, strict=False):
+        shown = [row for row in rows if row["xi"] == xi]
+        inside = {name: scene for name, scene in scenes.items() if scene["xi"] == xi}
+        draw_classes(above, shown, "tau")
+        mesh = draw_exponents(below, shown)
+        for axes in (above, below):
+            for plane in curves:
+                if plane.attrs["xi"] == xi:
+                    draw_curves(axes, plane)
+            mark_scenes(axes, inside, named=axes is above)
+        symbols = rf"$\xi$ = {xi:g}, $\gamma$ = {shown[0]['gamma']:g}"
+        above.set_title(f"$\\bf{{{letters[0]}}}$  {symbols}: {count_in_words(shown)}")
+        below.set_title(f"$\\bf{{{letters[1]}}}$  the same: largest Lyapunov exponent")
+        below.set_xlabel(r"sensitivity of the velocity relaxation $\varepsilon$")
+    for axes in grid[:, 0]:
+        axes.set_ylabel(r"delay $\tau$")
+    ticks = [-LARGEST, -0.01, -LINEAR, 0, LINEAR, 0.01, LARGEST]
+    figure.colorbar(
+        mesh,
+        ax=list(grid[1]),
+        label=r"$\lambda_1$",
+        extend="both",
+        pad=0.02,
+        ticks=ticks,
+        format=lambda value, _: f"{value:g}",
+    )
+    handles = [
+        *legend_of(rows),
+        Line2D([], [], color=INK, label="Hopf curve, supercritical"),
+        Line2D([], [], color=INK, ls=SUBCRITICAL, label="Hopf curve, subcritical"),
+        Line2D([], [], ls="", marker="o", color=INK, mfc="white", label="scene"),
+    ]
+    figure.legend(handles=handles, loc="outside lower center", ncols=4)
+    return figure
+
+
+def draw_exponents(axes: Axes, rows: list[dict]):
+    """The largest exponent of each row, white at zero."""
+    x, y, values = table_of(rows, "tau", lambda row: row["exponent_1"])
+    norm = SymLogNorm(LINEAR, vmin=-LARGEST, vmax=LARGEST)
+    mesh = axes.pcolormesh(x, y, values, cmap="PuOr_r", norm=norm, zorder=0)
+    mark_failures(axes, rows, "tau")
+    return mesh
+
+
+def draw_curves(axes: Axes, curves: xr.Dataset) -> None:
+    """Hopf curves, dashed where subcritical."""
+    for piece in np.unique(curves.piece):
+        line = curves.isel(point=curves.piece.values == piece)
+        draw_piece(axes, line.epsilon.values, line.tau.values, line.l1.values, INK)
+
+
+def mark_scenes(axes: Axes, scenes: dict[str, dict], named: bool) -> None:
+    """A dot for each scene, its name beside it where nothing is in the way."""
+    near = NEAR * np.ptp(axes.get_xlim())
+    close = 0.05 * np.ptp(axes.get_ylim())
+    for name, scene in scenes.items():
+        place = scene["epsilon"], scene["tau"]
+        axes.plot(*place, "o", color=INK, mfc="white", clip_on=False, zorder=5)
+        if not named:
+            continue
+        above = any(
+            0 < other["epsilon"] - place[0] < near and abs(other["tau"] - place[1]) < close
+            for other in scenes.values()
+        )
+        axes.annotate(
+            name.replace("_", " "),
+            place,
+            xytext=(0, 4) if above else (4, 0),
+            textcoords="offset points",
+            ha="center" if above else "left",
+            va="bottom" if above or place[1] <= axes.get_ylim()[0] else "center",
+            fontsize=7,
+            path_effects=[withStroke(linewidth=2, foreground="white")],
+            zorder=6,
+        )
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        figure = draw(
+            read_table(snakemake.input.table),
+            [read(path) for path in snakemake.input.curves],
+            snakemake.params.scenes,
+        )
+        save(figure, snakemake.output)

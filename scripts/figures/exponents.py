@@ -1,0 +1,110 @@
+"""Figure of exponents: running averages; values by tolerance and by resolution of the history."""
+
+import numpy as np
+import xarray as xr
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from scripts.drawing.style import FAINT, logged, save
+from scripts.files.inputs import read
+from scripts.files.tsv import read_table
+
+LEAST_SCALE = 1e-3
+"""Exponents closer to zero than this are drawn on a linear scale."""
+
+
+def draw(runs: list[xr.Dataset], table: list[dict]) -> Figure:
+    """One scene a row: convergence in time, in tolerance, and in the resolution of the history."""
+    figure, grid = plt.subplots(
+        len(runs),
+        3,
+        figsize=(6.7, 0.4 + 2.0 * len(runs)),
+        width_ratios=[2, 1, 0.7],
+        sharey="row",
+        squeeze=False,
+    )
+    for letter, run, (left, middle, right) in zip("abcdefgh", runs, grid, strict=False):
+        draw_times(left, run)
+        draw_tolerances(middle, run.isel(run=np.isnan(run.longest_step)))
+        draw_resolutions(right, run.isel(run=run.tolerance == run.tolerance[0]))
+        scene = run.attrs["scene"]
+        rows = [row for row in table if row["scene"] == scene]
+        left.set_title(f"$\\bf{{{letter}}}$  scene {scene.replace('_', ' ')}: {words(rows)}")
+    grid[-1, 0].set_xlabel("time averaged over")
+    grid[-1, 1].set_xlabel("tolerance of one step")
+    grid[-1, 2].set_xlabel("mean step")
+    return figure
+
+
+def words(rows: list[dict]) -> str:
+    """How many exponents are positive and zero, and the dimension, at the scene's tolerance."""
+    own = [row for row in rows if row["mean_step"] == rows[0]["mean_step"]]
+    signs = [row["sign"] for row in own]
+    dimension = f"{own[0]['dimension']:.2f} ± {own[0]['dimension_error']:.2f}"
+    if np.isnan(own[0]["dimension"]):
+        dimension = "not reached by these exponents"
+    return (
+        f"{signs.count('positive')} positive, {signs.count('zero')} zero;"
+        f" Kaplan-Yorke dimension {dimension}"
+    )
+
+
+def draw_times(axes: Axes, run: xr.Dataset) -> None:
+    """Plain averages up to each time; at the end the values and their error bars."""
+    elapsed = run.time - run.attrs["t_begin"]
+    for i in range(run.sizes["exponent"]):
+        axes.plot(elapsed, run.running_average[:, i], color=f"C{i % 8}", lw=0.8)
+    end = run.attrs["t_end"] - run.attrs["t_begin"]
+    draw_bars(axes, run, 0, np.full(run.sizes["exponent"], 1.03 * end))
+    axes.set(xlim=(0, 1.06 * end), ylabel=r"exponent $\lambda_i$")
+    scale(axes)
+
+
+def draw_tolerances(axes: Axes, run: xr.Dataset) -> None:
+    """Values and error bars at each tolerance, side by side."""
+    spread = 10 ** np.linspace(-0.3, 0.3, run.sizes["exponent"])
+    for k, tolerance in enumerate(run.tolerance.values):
+        draw_bars(axes, run, k, tolerance * spread)
+    axes.set_xscale("log")
+    scale(axes)
+
+
+def draw_resolutions(axes: Axes, run: xr.Dataset) -> None:
+    """Values and error bars at each mean step, side by side."""
+    steps = run.mean_step.values
+    spread = 0.05 * steps.max() * np.linspace(-1, 1, run.sizes["exponent"])
+    for k, step in enumerate(steps):
+        draw_bars(axes, run, k, step + spread)
+    axes.set_xlim(0, 1.15 * steps.max())
+    axes.xaxis.set_major_locator(MaxNLocator(3))
+    scale(axes)
+
+
+def draw_bars(axes: Axes, run: xr.Dataset, k: int, places: np.ndarray) -> None:
+    """All exponents of one run."""
+    for i, place in enumerate(places):
+        axes.errorbar(
+            place,
+            float(run.value[k, i]),
+            float(run.error[k, i]),
+            fmt="o",
+            ms=2.5,
+            capsize=2,
+            lw=0.8,
+            color=f"C{i % 8}",
+        )
+
+
+def scale(axes: Axes) -> None:
+    """Logarithmic away from zero, so that small exponents and large ones can be read."""
+    axes.axhline(0, color=FAINT, lw=0.6, zorder=0)
+    axes.set_yscale("symlog", linthresh=LEAST_SCALE)
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        runs = [read(path) for path in snakemake.input.runs]
+        figure = draw(runs, read_table(snakemake.input.table))
+        save(figure, snakemake.output)

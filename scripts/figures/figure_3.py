@@ -1,0 +1,10 @@
+"""Figure 3: Hopf curves xi(epsilon) at fixed tau and gamma."""
+
+from scripts.drawing.hopf_plane import draw
+from scripts.drawing.style import logged, save
+from scripts.files.inputs import read
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        figure = draw(read(snakemake.input.curves), snakemake.params.scenes)
+        save(figure, snakemake.output)

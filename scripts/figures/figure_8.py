@@ -1,0 +1,103 @@
+"""Figure 8: response of friction to an up-step and a down-step of the imposed velocity."""
+
+import numpy as np
+import xarray as xr
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from scripts.drawing.style import FAINT, INK, logged, save
+from scripts.files.inputs import read
+
+
+def draw(response: xr.Dataset) -> Figure:
+    """Imposed velocity above, friction below, over slip in units of Dc."""
+    figure, (top, bottom) = plt.subplots(
+        2, 1, figsize=(5.2, 3.9), sharex=True, height_ratios=[1, 2.4]
+    )
+    dc, v0, dv = (response.attrs[key] for key in ("dc", "v0", "delta_v"))
+    slip = response.slip.values / dc
+    top.plot(slip, response.velocity * 1e6, color="C0")
+    top.set(ylabel="imposed $v$ (µm/s)", ylim=(0, 1.25e6 * (v0 + dv)))
+    steps = np.flatnonzero(np.diff(response.velocity)) + 1
+    top.text(slip[0] + 0.2, 1.3e6 * v0, "$v_0$", va="bottom")
+    top.text(slip[steps[0]] + 0.2, 1.03e6 * (v0 + dv), r"$v_0 + \Delta v$", va="bottom")
+
+    bottom.plot(slip, response.mu, color="C1")
+    mark_effects(bottom, slip, response.mu.values, steps)
+    mark_dc(bottom, slip, response.mu.values, steps)
+    bottom.set(xlabel="slip / $D_c$", ylabel=r"friction coefficient $\mu$")
+    bottom.set_xlim(slip[0], slip[-1])
+    bottom.margins(y=0.1)
+    return figure
+
+
+def mark_effects(axes: Axes, slip: np.ndarray, mu: np.ndarray, steps: np.ndarray) -> None:
+    """The jump (direct effect) and the slow return (evolution effect) of each step, as arrows."""
+    arrow = {"arrowstyle": "<->", "color": INK, "lw": 0.7, "shrinkA": 0, "shrinkB": 0}
+    ends = [*steps[1:], mu.size]
+    for step, end in zip(steps, ends, strict=True):
+        before, peak, after = mu[step - 1], mu[step], mu[end - 1]
+        x = slip[step]
+        axes.plot([x - 1.2, x], [before, before], color=FAINT, lw=0.6, ls=":")
+        axes.annotate("", (x - 0.35, before), (x - 0.35, peak), arrowprops=arrow)
+        axes.plot([x - 0.6, x], [peak, peak], color=FAINT, lw=0.6, ls=":")
+        axes.text(
+            x - 0.5,
+            (before + peak) / 2,
+            "direct\neffect",
+            ha="right",
+            va="center",
+            fontsize=7,
+        )
+        x = slip[end - 1] - 2.2
+        axes.plot([slip[step], x + 0.3], [peak, peak], color=FAINT, lw=0.6, ls=":")
+        axes.annotate("", (x, peak), (x, after), arrowprops=arrow)
+        axes.text(
+            x - 0.15,
+            (peak + after) / 2,
+            "evolution\neffect",
+            ha="right",
+            va="center",
+            fontsize=7,
+        )
+
+
+def mark_dc(axes: Axes, slip: np.ndarray, mu: np.ndarray, steps: np.ndarray) -> None:
+    """Slip of one Dc after the up-step."""
+    start = slip[steps[0]]
+    y = mu.min() + 0.04 * (mu.max() - mu.min())
+    axes.annotate(
+        "",
+        (start, y),
+        (start + 1, y),
+        arrowprops={
+            "arrowstyle": "<->",
+            "color": "C0",
+            "lw": 0.9,
+            "shrinkA": 0,
+            "shrinkB": 0,
+        },
+    )
+    axes.plot(
+        [start + 1, start + 1],
+        [y, np.interp(start + 1, slip, mu)],
+        color="C0",
+        lw=0.5,
+        ls=":",
+    )
+    axes.plot([start, start], [y, mu[steps[0] - 1]], color="C0", lw=0.5, ls=":")
+    axes.annotate(
+        "$D_c$",
+        (start + 0.5, y),
+        xytext=(0, 4),
+        textcoords="offset points",
+        color="C0",
+        ha="center",
+    )
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        figure = draw(read(snakemake.input.response))
+        save(figure, snakemake.output)

@@ -1,0 +1,112 @@
+"""Figure of stability: the grid of frequency and delay by two methods, and all other cases."""
+
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.colors import BoundaryNorm
+from matplotlib.figure import Figure
+
+from scripts.drawing.style import FAINT, INK, logged, save
+from scripts.files.tsv import read_table
+
+GRID = "grid_"
+"""How names of the grid's families begin."""
+LEVELS = np.arange(-14, 1, 2)
+"""Powers of ten between the colours of errors."""
+
+
+def draw(rows: list[dict]) -> Figure:
+    """Two maps above, errors against what is expected below."""
+    figure, axes = plt.subplot_mosaic(
+        [["a", "b"], ["c", "c"]], figsize=(6.7, 5.2), height_ratios=[1, 1.15]
+    )
+    methods = list(dict.fromkeys(row["method"] for row in rows))
+    for label, method in zip("ab", methods, strict=False):
+        shown = [row for row in rows if row["method"] == method and row["family"].startswith(GRID)]
+        mesh = draw_map(axes[label], shown)
+        axes[label].set_title(f"$\\bf{{{label}}}$  {method}")
+    axes["b"].set_ylabel("")
+    bar = figure.colorbar(mesh, ax=[axes["a"], axes["b"]], pad=0.02)
+    bar.set_label("largest error")
+    bar.set_ticks(10.0**LEVELS, labels=[f"$10^{{{level}}}$" for level in LEVELS])
+    draw_errors(axes["c"], rows, methods)
+    axes["c"].set_title(r"$\bf{c}$  all cases with a reference")
+    return figure
+
+
+def draw_map(axes: Axes, rows: list[dict]):
+    """Errors over delay and frequency; a cross where the run did not reach its end."""
+    delays = sorted({row["tau"] for row in rows})
+    frequencies = sorted({row["gamma"] for row in rows})
+    errors = np.full((len(frequencies), len(delays)), np.nan)
+    for row in rows:
+        y, x = frequencies.index(row["gamma"]), delays.index(row["tau"])
+        if row["status"] == "ok":
+            errors[y, x] = max(row["error"], 10.0 ** LEVELS[0])
+        else:
+            axes.plot(x, y, "x", color=INK, ms=4, mew=0.8)
+    colours = plt.get_cmap("viridis_r").copy()
+    norm = BoundaryNorm(10.0**LEVELS, colours.N, extend="max")
+    mesh = axes.pcolormesh(
+        range(len(delays)),
+        range(len(frequencies)),
+        errors,
+        shading="nearest",
+        cmap=colours,
+        norm=norm,
+        edgecolors="white",
+        lw=0.5,
+    )
+    axes.set_xticks(range(len(delays)), [power(delay) for delay in delays])
+    axes.set_yticks(range(len(frequencies)), [power(value) for value in frequencies])
+    axes.set(xlabel=r"delay $\tau$", ylabel=r"frequency $\gamma$")
+    return mesh
+
+
+def power(value: float) -> str:
+    """A large or small power of ten as such, another number plainly."""
+    if 1e-2 <= value <= 100 or value == 0:
+        return f"{value:g}"
+    return f"$10^{{{np.log10(value):.0f}}}$"
+
+
+def draw_errors(axes: Axes, rows: list[dict], methods: list[str]) -> None:
+    """Error of each case over tolerance times amplification."""
+    for index, method in enumerate(methods):
+        for ended in (True, False):
+            shown = [
+                row
+                for row in rows
+                if row["method"] == method
+                and (row["status"] == "ok") is ended
+                and row["error"] > 0
+                and row["amplification"] > 0
+            ]
+            axes.plot(
+                [max(row["error_expected"], row["tolerance"]) for row in shown],
+                [row["error"] for row in shown],
+                ls="",
+                marker="o^"[index % 2],
+                ms=3.5,
+                color=f"C{index}",
+                mfc=f"C{index}" if ended else "none",
+                mew=0.7,
+                label=f"{method}{'' if ended else ', ended early'}",
+            )
+    ends = np.array([1e-10, 1e6])
+    axes.plot(ends, ends, color=FAINT, lw=0.8, zorder=0, label="equal")
+    axes.plot(ends, 100 * ends, color=FAINT, lw=0.8, ls=":", zorder=0, label="100 times")
+    axes.set(
+        xscale="log",
+        yscale="log",
+        xlim=(4e-10, None),
+        ylim=(1e-16, 1e3),
+        xlabel=r"tolerance $\times$ amplification of a disturbance",
+        ylabel="largest error",
+    )
+    axes.legend(loc="lower right", ncols=2)
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        save(draw(read_table(snakemake.input.table)), snakemake.output)

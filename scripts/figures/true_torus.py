@@ -1,0 +1,135 @@
+"""Figure of the true torus beside the paper's: in time, spectrum, section and map of maxima."""
+
+import math
+from dataclasses import dataclass
+
+import xarray as xr
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from scripts.drawing.spectrum_rows import label_peaks, lines_in_words
+from scripts.drawing.style import logged, save
+from scripts.drawing.trajectory_rows import draw_velocity, parameters
+from scripts.files.inputs import read
+from scripts.files.tsv import read_table
+from scripts.tables.exponents_table import sign
+
+EXPONENTS = (1, 2, 3)
+LETTER = 0.0155
+"""How wide a letter is, as a share of the narrower axis."""
+DOTS = {"ls": "", "marker": "o", "color": "C1", "ms": 2.5, "mew": 0}
+NUMBERS = {0: "no", 1: "one", 2: "two", 3: "three"}
+
+
+@dataclass(kw_only=True)
+class Scene:
+    """What is shown of a scene."""
+
+    trajectory: xr.Dataset
+    attractors: xr.Dataset
+    spectrum: xr.Dataset
+    row: dict
+    """Of the table of attractors, from the scene's own history."""
+
+
+def draw(scenes: dict[str, Scene], end_shown: float, frequency_shown: float) -> Figure:
+    """Scenes a, b, ...: v(t), under it its spectrum, beside them the map of maxima and section."""
+    places = [[f"{kind}{label}" for kind in kinds] for label in scenes for kinds in ("vm", "ps")]
+    figure, axes = plt.subplot_mosaic(
+        places, figsize=(6.7, 3.6 * len(scenes)), width_ratios=[1.9, 1]
+    )
+    first = next(iter(scenes))
+    for label, scene in scenes.items():
+        panels = [axes[f"{kind}{label}"] for kind in "vpms"]
+        velocity, spectrum, maxima, section = panels
+        last = float(scene.trajectory.time[-1])
+        draw_velocity(velocity, scene.trajectory, max(0.0, last - end_shown), last)
+        velocity.set_title(f"$\\bf{{{label}}}$  {words(scene)}")
+        draw_spectrum(spectrum, scene.spectrum, frequency_shown)
+        draw_maxima(maxima, scene.attractors)
+        draw_section(section, scene.attractors)
+        for kind, panel in zip("vpms", panels, strict=True):
+            if label != first:
+                panel.sharey(axes[f"{kind}{first}"])
+            if label != first and kind in "ms":
+                panel.sharex(axes[f"{kind}{first}"])
+    for kind in "ms":
+        # a single point is to be seen as such on the scale of a curve
+        axes[f"{kind}{first}"].autoscale()
+    return figure
+
+
+def words(scene: Scene) -> str:
+    """Scene, parameters, class, and the leading exponents with their standard errors."""
+    row = scene.row
+    bounds = scene.attractors.sign_bound.values[0]
+    there = [i for i in EXPONENTS if not math.isnan(row[f"exponent_{i}"])]
+    pairs = [(row[f"exponent_{i}"], row[f"error_{i}"]) for i in there]
+    zeros = sum(sign(row[f"exponent_{i}"], bounds[i - 1]) == "zero" for i in there)
+    told = [f"$\\lambda_{i}$ = {with_error(*pair)}" for i, pair in zip(there, pairs, strict=True)]
+    name = row["scene"].replace("_", " ")
+    return (
+        f"scene {name} ({parameters(scene.trajectory)}): {row['class']},"
+        f" {NUMBERS[zeros]} zero exponent{'' if zeros == 1 else 's'}\n{', '.join(told)}"
+    )
+
+
+def with_error(value: float, error: float) -> str:
+    """A number with its error, in the same power of ten, to the first digits of the error."""
+    largest = max(abs(value), error)
+    power = math.floor(math.log10(largest)) if largest > 0 else 0
+    finest = math.floor(math.log10(error)) if error > 0 else power - 2
+    digits = power - finest + (1 if power == finest else 0)
+    number, bar = (round(x / 10.0**power, digits) + 0.0 for x in (value, error))
+    scaled = f"{number:.{digits}f} ± {bar:.{digits}f}"
+    return f"({scaled})$\\cdot 10^{{{power}}}$" if power else scaled
+
+
+def draw_spectrum(axes: Axes, spectrum: xr.Dataset, frequency_shown: float) -> None:
+    """The power spectral density with its peaks named."""
+    shown = spectrum.sel(frequency=slice(spectrum.frequency[1], frequency_shown))
+    axes.semilogy(shown.frequency, shown.power, color="C0", lw=0.7)
+    label_peaks(axes, spectrum, frequency_shown, LETTER)
+    top = float(shown.power.max())
+    axes.set(xlim=(0, frequency_shown), ylim=(3e-11 * top, 1e3 * top))
+    axes.set(xlabel="frequency (cycles per unit of time)", ylabel="power spectral\ndensity of $v$")
+    axes.set_title(lines_in_words(spectrum))
+
+
+def draw_maxima(axes: Axes, attractors: xr.Dataset) -> None:
+    """Each maximum of v over the one before."""
+    maxima = attractors.maximum.values[0]
+    axes.plot(maxima[:-1], maxima[1:], **DOTS)
+    axes.set(xlabel="maximum of $v$", ylabel="next maximum")
+
+
+def draw_section(axes: Axes, attractors: xr.Dataset) -> None:
+    """Points of the section."""
+    own = attractors.isel(point=0)
+    axes.plot(own.section_theta, own.section_u, **DOTS)
+    axes.set(xlabel=r"$\theta$ where $v$ rises through 1", ylabel="$u$ there")
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        given = snakemake.input
+        own = {row["scene"]: row for row in read_table(given.table) if row["history"] == 1}
+        shown = snakemake.params.settings
+        scenes = {
+            label: Scene(
+                trajectory=read(trajectory),
+                attractors=read(attractors),
+                spectrum=read(spectrum),
+                row=own[row["scene"]],
+            )
+            for (label, row), trajectory, attractors, spectrum in zip(
+                shown["rows"].items(),
+                given.trajectories,
+                given.attractors,
+                given.spectra,
+                strict=True,
+            )
+        }
+        figure = draw(scenes, shown["end_shown"], shown["frequency_shown"])
+        save(figure, snakemake.output)

@@ -1,0 +1,1 @@
+"""How all scripts read and write files."""

@@ -1,0 +1,18 @@
+"""What scripts read."""
+
+from pathlib import Path
+
+import xarray as xr
+
+from scripts.files.outputs import FileError
+
+
+def read(path: str | Path) -> xr.Dataset:
+    """All of a NetCDF file."""
+    try:
+        return xr.load_dataset(path, engine="netcdf4")
+    except OSError as problem:
+        reason = problem.strerror
+        raise FileError(
+            f"{path}: cannot be read: {reason}; remove it and run again to have it made anew"
+        ) from problem

@@ -1,0 +1,1 @@
+"""The configuration as namelists of the Fortran programs."""

@@ -1,0 +1,68 @@
+"""Where results come from: programs, compiler, packages, and seconds of each rule."""
+
+import csv
+import platform
+from collections import Counter
+from pathlib import Path
+
+from snakemake.io import glob_wildcards
+
+from scripts.files.inputs import read
+from scripts.workflow import packages
+
+
+def programs(files: list[str]) -> list[dict]:
+    """Versions and compilers that the files say they were made with."""
+    made = Counter()
+    for path in files:
+        attributes = read(path).attrs
+        made[attributes["program_version"], attributes["compiler"]] += 1
+    return [
+        {"version": version, "compiler": compiler, "files": count}
+        for (version, compiler), count in sorted(made.items())
+    ]
+
+
+def python_packages() -> dict[str, str]:
+    """Versions of Python and of its packages."""
+    return {"Python": platform.python_version()} | packages.versions()
+
+
+def seconds(patterns: dict[str, str]) -> list[dict]:
+    """Jobs, seconds and memory of each rule, by the files that match its benchmark's pattern.
+
+    What was not run here has no file and no row.
+    """
+    runs_of = {
+        rule: [run for path in measured(pattern) for run in read_benchmark(path)]
+        for rule, pattern in patterns.items()
+    }
+    return [
+        {
+            "rule": rule,
+            "jobs": len(runs),
+            "seconds": sum(float(run["s"]) for run in runs),
+            "longest": max(float(run["s"]) for run in runs),
+            "memory": max((float(run["max_rss"]) for run in runs if known(run)), default=None),
+        }
+        for rule, runs in runs_of.items()
+        if runs
+    ]
+
+
+def measured(pattern: str) -> list[Path]:
+    """Files of a pattern with wildcards."""
+    found = glob_wildcards(pattern)._asdict()
+    values = zip(*found.values(), strict=True)
+    return sorted(Path(pattern.format(**dict(zip(found, some, strict=True)))) for some in values)
+
+
+def read_benchmark(path: Path) -> list[dict]:
+    """Runs in a benchmark file."""
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file, delimiter="\t"))
+
+
+def known(run: dict) -> bool:
+    """Whether a run lasted long enough for its memory to be seen."""
+    return run["max_rss"] not in ("", "-", "NA")

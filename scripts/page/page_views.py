@@ -1,0 +1,92 @@
+"""Data for what can be looked at closer on the page: trajectories and the atlas."""
+
+import base64
+import math
+
+import numpy as np
+import xarray as xr
+
+from scripts.files.tsv import as_text
+from scripts.tables.motion_rows import has_problem, kind_of
+
+SHOWN = 1000.0
+"""Time up to the end of a run that can be zoomed into."""
+DRAWN = ["v", "u"]
+"""Variables that are drawn, as far as the scene's file has them."""
+MOST_POINTS = 12_000
+"""Of a trajectory; of longer ones every second, third, ... sample is kept."""
+SIGNS = {"epsilon": "ε", "tau": "τ", "xi": "ξ", "gamma": "γ"}
+"""Parameters by their names in files."""
+
+
+def parameters(values: dict) -> str:
+    """Parameters as a line of text."""
+    return ", ".join(f"{sign} = {as_text(float(values[key]))}" for key, sign in SIGNS.items())
+
+
+def verdict(row: dict) -> str:
+    """Class and exponents of a row of a table of attractors; why there are none."""
+    if has_problem(row):
+        return f"no result: {row['problem']}"
+    met = kind_of(row)
+    if met != row["class"]:
+        met = f"cycle of period {row['period']:g} in its section"
+    exponents = [
+        f"{row[f'exponent_{i}']:.3g} ± {row[f'error_{i}']:.1g}"
+        for i in (1, 2, 3)
+        if not math.isnan(row[f"exponent_{i}"])
+    ]
+    return f"{met}; exponents {', '.join(exponents) or 'not known'}"
+
+
+def can_be_drawn(run: xr.Dataset) -> bool:
+    """Whether a scene keeps something to draw."""
+    return any(name in run for name in DRAWN)
+
+
+def trajectory(run: xr.Dataset, attractors: list[dict]) -> dict:
+    """The last part of a run, thinned, with what is known of it."""
+    scene = run.attrs["scene"]
+    end = float(run.time[-1])
+    shown = run.sel(time=slice(max(0.0, end - SHOWN), end))
+    every = math.ceil(shown.sizes["time"] / MOST_POINTS)
+    shown = shown.isel(time=slice(None, None, every))
+    own = [row for row in attractors if row["scene"] == scene and row["history"] == 1]
+    known = verdict(own[0]) if own else "its attractor was not looked for"
+    return {
+        "name": scene.replace("_", " "),
+        "words": f"{parameters(run.attrs)}: {known}",
+        "every": every,
+        "start": float(shown.time[0]),
+        "step": every * run.attrs["sample_interval"],
+        "series": [
+            {"name": name, "values": as_base64(shown[name].values)}
+            for name in DRAWN
+            if name in shown
+        ],
+    }
+
+
+def as_base64(values: np.ndarray) -> str:
+    """Numbers in single precision, as text."""
+    return base64.b64encode(values.astype("<f4").tobytes()).decode()
+
+
+def atlas(rows: list[dict]) -> list[dict]:
+    """Maps of the atlas, one for each stiffness, with cells from the lowest tau upwards."""
+    maps = []
+    for xi in sorted({row["xi"] for row in rows}):
+        inside = [row for row in rows if row["xi"] == xi]
+        columns = sorted({row["epsilon"] for row in inside})
+        lines = sorted({row["tau"] for row in inside})
+        cells = [
+            {
+                "x": columns.index(row["epsilon"]),
+                "y": len(lines) - 1 - lines.index(row["tau"]),
+                "kind": kind_of(row),
+                "words": f"{parameters(row)}: {verdict(row)}",
+            }
+            for row in inside
+        ]
+        maps.append({"xi": as_text(xi), "columns": columns, "lines": lines, "cells": cells})
+    return maps

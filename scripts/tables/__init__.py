@@ -1,0 +1,1 @@
+"""Tables made from the results of programs, one script each, and how tables are read."""

@@ -1,0 +1,97 @@
+"""Tables of attractors, one row a run: scenes with their histories, the atlas, the route."""
+
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from scripts.files.inputs import read
+from scripts.files.outputs import logged
+from scripts.files.tsv import write_table
+
+SAME_MAXIMUM = 0.01
+"""Maxima of v on one and the same cycle or torus differ by no more than this share."""
+ERROR_BARS = 3.0
+"""Exponents of one and the same chaotic attractor differ by no more error bars than this."""
+
+
+def rows_of(run: xr.Dataset) -> list[dict]:
+    """Rows of a file; base frequencies, periods and maxima that are not there are NaN."""
+    names = run["class"].attrs["flag_meanings"].split()
+    count = run.sizes["exponent"]
+    return [
+        {
+            "epsilon": float(point.epsilon),
+            "tau": float(point.tau),
+            "xi": float(run.attrs["xi"]),
+            "gamma": float(run.attrs["gamma"]),
+            "theta": float(point.history_theta),
+            "u": float(point.history_u),
+            "v": float(point.history_v),
+            **{
+                key: names[int(point[key])].replace("_", " ")
+                for key in ("class", "by_exponents", "by_section", "by_spectrum")
+            },
+            "period": positive(point.period),
+            **{
+                f"{key}_{i + 1}": float(point[variable][i])
+                for i in range(count)
+                for key, variable in (
+                    ("exponent", "lyapunov_exponent"),
+                    ("error", "lyapunov_error"),
+                )
+            },
+            "f1": positive(point.base_1),
+            "f2": positive(point.base_2),
+            "smallest_maximum": float(point.smallest_maximum),
+            "largest_maximum": float(point.largest_maximum),
+            "roughness": float(point.roughness),
+            "problem": str(point.problem.item()).strip(),
+        }
+        for point in (run.isel(point=i) for i in range(run.sizes["point"]))
+    ]
+
+
+def positive(value: xr.DataArray) -> float:
+    """A number, or NaN where 0 says that there is none."""
+    return float(value) if value > 0 else np.nan
+
+
+def scene_rows(scene: str, run: xr.Dataset) -> list[dict]:
+    """Rows of a scene, numbered by history and by attractor; a run that failed came to none."""
+    found: list[dict] = []
+    rows = []
+    for history, row in enumerate(rows_of(run), start=1):
+        number = next(
+            (i for i, other in enumerate(found, start=1) if same_attractor(row, other)), None
+        )
+        if number is None and not row["problem"]:
+            found.append(row)
+            number = len(found)
+        number = np.nan if number is None else number
+        rows.append({"scene": scene, "history": history, "attractor": number, **row})
+    return rows
+
+
+def same_attractor(one: dict, other: dict) -> bool:
+    """Whether two runs came to one and the same attractor, as far as can be told."""
+    if one["class"] != other["class"] or one["problem"]:
+        return False
+    if one["class"] == "fixed point":
+        return True
+    if one["class"] in ("cycle", "torus"):
+        keys = ["smallest_maximum", "largest_maximum"]
+        near = all(np.isclose(one[key], other[key], rtol=SAME_MAXIMUM, atol=0) for key in keys)
+        return near and (one["class"] == "torus" or one["period"] == other["period"])
+    apart = abs(one["exponent_1"] - other["exponent_1"])
+    return bool(apart <= ERROR_BARS * np.hypot(one["error_1"], other["error_1"]))
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        runs = [(Path(path), read(path)) for path in snakemake.input.runs]
+        if snakemake.params.by_scene:
+            table = [row for path, run in runs for row in scene_rows(path.stem, run)]
+        else:
+            table = [row for _, run in runs for row in rows_of(run)]
+        write_table(snakemake.output[0], table)

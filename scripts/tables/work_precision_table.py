@@ -1,0 +1,74 @@
+"""The tables of work against precision, and of how errors follow tolerances."""
+
+import numpy as np
+
+from scripts.files.outputs import logged
+from scripts.files.tsv import write_table
+from scripts.tables.accuracy import Reference, errors_of, largest, read_references, read_runs
+
+FIXED = {"error_quarter": 0.25, "error_half": 0.5, "error_end": 1.0}
+"""Columns of errors at fixed times, as shares of t_end."""
+USEFUL = (1e-12, 1e-2)
+"""Errors between which their slope is measured: beyond, rounding or the attractor limits them."""
+
+
+def row_of(run: dict, reference: Reference) -> dict:
+    """One run."""
+    errors = errors_of(run, reference)
+    last = errors.size - 1
+    return {
+        "scene": run["case"],
+        "solver": run["method"],
+        "tolerance": run["setting"],
+        "status": run["status"],
+        "t_end": run["t_end"],
+        **{name: float(errors[round(share * last)]) for name, share in FIXED.items()},
+        "error_max": largest(errors) if run["status"] == "ok" else np.nan,
+        "steps": run["steps_accepted"],
+        "rejections": run["steps_rejected"],
+        "evaluations": run["evaluations"],
+        "factorisations": run["factorisations"],
+        "switches": run["switches"],
+        "seconds": run["seconds"],
+        "reason": run["reason"],
+    }
+
+
+def proportionality(rows: list[dict]) -> list[dict]:
+    """Slope of log error over log tolerance for each scene and solver, with what it rests on."""
+    found = []
+    for scene, solver in dict.fromkeys((row["scene"], row["solver"]) for row in rows):
+        points = np.array(
+            [
+                (row["tolerance"], row["error_max"])
+                for row in rows
+                if (row["scene"], row["solver"]) == (scene, solver)
+                and USEFUL[0] <= row["error_max"] <= USEFUL[1]
+            ]
+        ).reshape(-1, 2)
+        slope = ratio = np.nan
+        if len(points) > 2:
+            slope = float(np.polyfit(*np.log10(points).T, 1)[0])
+            ratio = float(np.exp(np.median(np.log(points[:, 1] / points[:, 0]))))
+        found.append(
+            {
+                "scene": scene,
+                "solver": solver,
+                "slope": slope,
+                "median_error_per_tolerance": ratio if not solver.startswith("rk4") else np.nan,
+                "points": len(points),
+            }
+        )
+    return found
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        table = []
+        for measured, computed in zip(
+            snakemake.input.measurements, snakemake.input.references, strict=True
+        ):
+            references = read_references(computed)
+            table += [row_of(run, references[run["case"]]) for run in read_runs(measured)]
+        write_table(snakemake.output.errors, table)
+        write_table(snakemake.output.proportionality, proportionality(table))

@@ -1,0 +1,80 @@
+"""Paths of results, and what figures mark of scenes, by the configuration."""
+
+from pathlib import Path
+
+
+def scenes_of(config: dict, figure: str) -> list[str]:
+    """Scenes of a figure's rows, in order."""
+    return [row["scene"] for row in config["figures"][figure]["rows"].values()]
+
+
+def paths_of_scenes(kind: str, scenes: list[str]) -> list[str]:
+    """The results of scenes, of one kind: the name of their folder."""
+    return [f"results/{kind}/{scene}.nc" for scene in scenes]
+
+
+def scenes_with(config: dict, key: str) -> list[str]:
+    """Scenes that ask for `exponents` or for `attractors`."""
+    return [name for name, scene in config["scenes"].items() if key in scene]
+
+
+def numbered(parts: int) -> list[str]:
+    """Names of so many parts, in order."""
+    return [f"{part:04}" for part in range(1, parts + 1)]
+
+
+def exponents_of_scenes(config: dict) -> list[str]:
+    """Exponents of all scenes that ask for them."""
+    return paths_of_scenes("exponents", scenes_with(config, "exponents"))
+
+
+def parts_of_route(config: dict) -> list[str]:
+    """Parts of the route to chaos."""
+    return [f"results/attractors/route/{part}.nc" for part in numbered(config["route"]["parts"])]
+
+
+def parts_of_atlas(config: dict, grid: str) -> list[str]:
+    """Parts of all planes of the atlas on one grid."""
+    parts = numbered(config["atlas"]["grids"][grid]["parts"])
+    folder = f"results/attractors/atlas/{grid}"
+    return [f"{folder}/{plane}/{part}.nc" for plane in config["atlas"]["planes"] for part in parts]
+
+
+def curves_of_atlas(config: dict) -> list[str]:
+    """Hopf curves that lie in planes of the atlas."""
+    atlas = config["atlas"]
+    stiffnesses = [plane["xi"] for plane in atlas["planes"].values()]
+    return [
+        f"results/hopf/{name}.nc"
+        for name, plane in config["hopf_curves"].items()
+        if plane["ordinate"] == "tau"
+        and plane["gamma"] == atlas["gamma"]
+        and plane["fixed"] in stiffnesses
+    ]
+
+
+def tables_of_others(_config: dict) -> list[str]:
+    """The table of other solvers, which benchmarks/run measures, where there is one."""
+    table = Path("results/tables/benchmarks.tsv")
+    return [str(table)] if table.exists() else []
+
+
+def places_of_scenes(config: dict) -> dict[str, dict[str, float]]:
+    """Parameters of the scenes that the paper's figures show, as marked beside the Hopf curves."""
+    figures = [name for name in config["figures"] if name.startswith("figure_")]
+    shown = dict.fromkeys(scene for name in figures for scene in scenes_of(config, name))
+    return {scene: _parameters(config, scene, "tau", "epsilon", "xi", "gamma") for scene in shown}
+
+
+def places_in_atlas(config: dict) -> dict[str, dict[str, float]]:
+    """Parameters of the scenes that the atlas marks: those whose attractors are looked for."""
+    return {
+        scene: _parameters(config, scene, "tau", "epsilon", "xi")
+        for scene in scenes_with(config, "attractors")
+        if config["scenes"][scene]["gamma"] == config["atlas"]["gamma"]
+    }
+
+
+def _parameters(config: dict, scene: str, *keys: str) -> dict[str, float]:
+    """Some parameters of a scene."""
+    return {key: config["scenes"][scene][key] for key in keys}

@@ -1,0 +1,95 @@
+"""All that the workflow uses of Snakemake beyond its documented interface; each use fails by name.
+
+docs/workflow-internals.md lists what each is for.
+"""
+
+import snakemake.api  # first: the workflow and it import each other
+import snakemake.workflow
+from snakemake.dag import DAG
+
+from scripts.workflow.packages import PackageError
+
+PROGRAMS = "build"
+"""The rule whose outputs are no results: they are made where a result needs them. Results carry a
+digest of their program's sources, so that none is left stale."""
+
+
+class CompleteDAG(DAG):
+    """A graph of jobs in which every output of every job is a target.
+
+    Snakemake remakes only the missing files that are targets (its issue 1978, open). A job that
+    fails leaves its outputs missing, so that figures made from older ones would pass as current.
+    """
+
+    async def check_incomplete(self) -> None:
+        """Called when all jobs are known, before it is judged which of them run."""
+        await super().check_incomplete()
+        jobs = [job for job in self.jobs if job.rule.name != PROGRAMS]
+        self.targetjobs.update(jobs)
+        self.targetfiles.update(file for job in jobs for file in job.output)
+
+
+def expect(holder, name: str, use: str) -> None:
+    """Raise PackageError where an object of Snakemake's lacks a name."""
+    if not hasattr(holder, name):
+        kind = holder if isinstance(holder, type) else type(holder)
+        raise PackageError(
+            f"Snakemake {snakemake.__version__} has no {kind.__name__}.{name}, {use};"
+            " run ./reproduce, which sets up a version that has it"
+        )
+
+
+def make_missing_files_again() -> None:
+    """Let Snakemake judge by a CompleteDAG which jobs run."""
+    use = "by which missing files are made again"
+    expect(DAG, "check_incomplete", use)
+    if getattr(snakemake.workflow, "DAG", None) not in (DAG, CompleteDAG):
+        raise PackageError(
+            f"Snakemake {snakemake.__version__} has no snakemake.workflow.DAG, {use};"
+            " run ./reproduce, which sets up a version that has it"
+        )
+    snakemake.workflow.DAG = CompleteDAG
+
+
+def start_jobs_at_once(workflow) -> None:
+    """Lift the limit of jobs a second: it wakes the scheduler once more for each job that ended."""
+    expect(workflow, "scheduling_settings", "which holds the limit of jobs a second")
+    settings = workflow.scheduling_settings
+    if settings is not None:
+        expect(settings, "max_jobs_per_timespan", "the limit of jobs a second")
+        settings.max_jobs_per_timespan = None
+
+
+def config_sources(workflow) -> tuple[list, list[str]]:
+    """Configuration files in the order in which they are merged, and entries KEY=VALUE."""
+    use = "by which the configuration is read again with the line of each problem"
+    expect(workflow, "configfiles", use)
+    expect(workflow, "config_settings", use)
+    given = workflow.config_settings
+    for name in ("configfiles", "config_args", "replace_workflow_config"):
+        expect(given, name, use)
+    overlays = list(given.configfiles)
+    defaults = workflow.configfiles[len(overlays) :]
+    if given.replace_workflow_config and (overlays or given.config_args):
+        defaults = []
+    return [*defaults, *overlays], given.config_args or []
+
+
+def run_here_all_but(workflow, long_rules: set[str]) -> None:
+    """On a cluster run these rules as its jobs, and all others where Snakemake runs."""
+    for name in ("rules", "localrules"):
+        expect(workflow, name, "by which short rules stay off the cluster")
+    workflow.localrules(*({rule.name for rule in workflow.rules} - long_rules))
+
+
+def benchmarks_of(workflow, rules) -> dict[str, str]:
+    """Patterns of benchmark files, by rule, of the rules so far that have them.
+
+    `rules` is the object that a Snakefile has, whose patterns hold no constraints of wildcards.
+    """
+    use = "by which the page finds the seconds of each rule"
+    expect(workflow, "rules", use)
+    for rule in workflow.rules:
+        expect(rule, "benchmark", use)
+    names = [rule.name for rule in workflow.rules if rule.benchmark]
+    return {name: str(getattr(rules, name).benchmark) for name in names}

@@ -1,0 +1,98 @@
+"""Where Snakemake lacks what the workflow uses of its internals, the error names it."""
+
+from types import SimpleNamespace
+
+import pytest
+import snakemake
+
+from scripts.workflow import snakemake_internals as internals
+from scripts.workflow.packages import PackageError
+
+
+def made_up_workflow() -> SimpleNamespace:
+    """What is used of Snakemake's workflow, in a form that can be taken apart."""
+    here = []
+    return SimpleNamespace(
+        scheduling_settings=SimpleNamespace(max_jobs_per_timespan="100/1s"),
+        configfiles=["mine.yaml", "config.yaml"],
+        config_settings=SimpleNamespace(
+            configfiles=["mine.yaml"], config_args=None, replace_workflow_config=False
+        ),
+        rules=[
+            SimpleNamespace(name="long", benchmark=None),
+            SimpleNamespace(name="short", benchmark="{scene,a|b}.tsv"),
+        ],
+        here=here,
+        localrules=lambda *names: here.extend(names),
+    )
+
+
+def run_here(workflow: SimpleNamespace) -> None:
+    """All but one rule."""
+    internals.run_here_all_but(workflow, {"long"})
+
+
+def benchmarks_of(workflow: SimpleNamespace) -> dict[str, str]:
+    """Of its rules."""
+    rules = SimpleNamespace(short=SimpleNamespace(benchmark="{scene}.tsv"))
+    return internals.benchmarks_of(workflow, rules)
+
+
+@pytest.mark.parametrize(
+    ("holder", "gone", "named"),
+    [
+        (snakemake.dag.DAG, "check_incomplete", r"DAG\.check_incomplete"),
+        (snakemake.workflow, "DAG", r"snakemake\.workflow\.DAG"),
+    ],
+)
+def test_snakemake_that_judges_otherwise_is_refused(monkeypatch, holder, gone, named):
+    """Missing files would stay missing in silence."""
+    monkeypatch.setattr(snakemake.workflow, "DAG", snakemake.dag.DAG)
+    monkeypatch.delattr(holder, gone)
+    with pytest.raises(PackageError, match=rf"^Snakemake 9\S+ has no {named}, by which missing"):
+        internals.make_missing_files_again()
+
+
+@pytest.mark.parametrize(
+    ("use", "path"),
+    [
+        (internals.start_jobs_at_once, "scheduling_settings"),
+        (internals.start_jobs_at_once, "scheduling_settings.max_jobs_per_timespan"),
+        (internals.config_sources, "configfiles"),
+        (internals.config_sources, "config_settings"),
+        (internals.config_sources, "config_settings.configfiles"),
+        (internals.config_sources, "config_settings.config_args"),
+        (internals.config_sources, "config_settings.replace_workflow_config"),
+        (run_here, "rules"),
+        (run_here, "localrules"),
+        (benchmarks_of, "rules"),
+        (benchmarks_of, "rules.benchmark"),
+    ],
+)
+def test_name_that_snakemake_lacks_is_named(use, path):
+    """One missing at a time."""
+    holder = workflow = made_up_workflow()
+    *parents, gone = path.split(".")
+    for parent in parents:
+        holder = getattr(holder, parent)
+    delattr(holder[-1] if isinstance(holder, list) else holder, gone)
+    with pytest.raises(PackageError, match=rf"^Snakemake 9\S+ has no \w+\.{gone}, .* ./reproduce"):
+        use(workflow)
+
+
+def test_names_that_are_there_are_used():
+    """The limit goes, the user's file is merged last, all but the long rules run here."""
+    workflow = made_up_workflow()
+    internals.start_jobs_at_once(workflow)
+    assert workflow.scheduling_settings.max_jobs_per_timespan is None
+    assert internals.config_sources(workflow) == (["config.yaml", "mine.yaml"], [])
+    run_here(workflow)
+    assert workflow.here == ["short"]
+    assert benchmarks_of(workflow) == {"short": "{scene}.tsv"}
+
+
+def test_file_in_place_of_the_configuration_is_read_alone():
+    """Snakemake's option --replace-workflow-config."""
+    workflow = made_up_workflow()
+    workflow.config_settings.replace_workflow_config = True
+    assert internals.config_sources(workflow) == (["mine.yaml"], [])
