@@ -37,17 +37,23 @@ contains
 
       select case (i)
       case (1)
-         traced%plane = tau_plane_type(0.8_wp, [0.0_wp, 1.5_wp], [0.0_wp, 30.0_wp], 0.5_wp)
+         traced%plane = tau_plane_type(gamma=0.8_wp, epsilon_window=[0.0_wp, 1.5_wp], &
+                                       ordinate_window=[0.0_wp, 30.0_wp], xi=0.5_wp)
       case (2)
-         traced%plane = xi_plane_type(0.8_wp, [0.0_wp, 1.5_wp], [1.0e-3_wp, 2.0_wp], 12.0_wp)
+         traced%plane = xi_plane_type(gamma=0.8_wp, epsilon_window=[0.0_wp, 1.5_wp], &
+                                      ordinate_window=[1.0e-3_wp, 2.0_wp], tau=12.0_wp)
       case (3)
-         traced%plane = tau_plane_type(0.8_wp, [0.3_wp, 1.2_wp], [2.0_wp, 28.0_wp], 0.5_wp)
+         traced%plane = tau_plane_type(gamma=0.8_wp, epsilon_window=[0.3_wp, 1.2_wp], &
+                                       ordinate_window=[2.0_wp, 28.0_wp], xi=0.5_wp)
       case (4)
-         traced%plane = xi_plane_type(2.0_wp, [-0.5_wp, 2.0_wp], [0.1_wp, 3.0_wp], 3.0_wp)
+         traced%plane = xi_plane_type(gamma=2.0_wp, epsilon_window=[-0.5_wp, 2.0_wp], &
+                                      ordinate_window=[0.1_wp, 3.0_wp], tau=3.0_wp)
       case (5)
-         traced%plane = tau_plane_type(0.75_wp, [0.0_wp, 0.25_wp], [0.0_wp, 30.0_wp], 0.5_wp)
+         traced%plane = tau_plane_type(gamma=0.75_wp, epsilon_window=[0.0_wp, 0.25_wp], &
+                                       ordinate_window=[0.0_wp, 30.0_wp], xi=0.5_wp)
       case default
-         traced%plane = tau_plane_type(1.0_wp, [0.0_wp, 1.5_wp], [0.0_wp, 30.0_wp], 0.01_wp)
+         traced%plane = tau_plane_type(gamma=1.0_wp, epsilon_window=[0.0_wp, 1.5_wp], &
+                                       ordinate_window=[0.0_wp, 30.0_wp], xi=0.01_wp)
       end select
       call trace_curves(traced%plane, traced%points, failure)
       call expect_success(error, failure)

@@ -55,9 +55,11 @@ contains
          call check_number(error, path, "ordinate_window(2)", y(2), above=y(1))
          call check_count(error, path, "cells", settings%cells, 1)
          if (settings%ordinate == "tau") then
-            plane = tau_plane_type(settings%gamma, x, y, settings%fixed)
+            plane = tau_plane_type(gamma=settings%gamma, epsilon_window=x, ordinate_window=y, &
+                                   xi=settings%fixed)
          else
-            plane = xi_plane_type(settings%gamma, x, y, settings%fixed)
+            plane = xi_plane_type(gamma=settings%gamma, epsilon_window=x, ordinate_window=y, &
+                                  tau=settings%fixed)
          end if
       end associate
    end subroutine read_plane
@@ -86,6 +88,8 @@ contains
       if (allocated(error)) return
       read (unit, nml=hopf_curves, iostat=status, iomsg=reason)
       call close_namelist(path, "hopf_curves", unit, status, reason, error)
-      settings = hopf_settings_type(ordinate, fixed, gamma, epsilon_window, ordinate_window, cells)
+      settings = hopf_settings_type(ordinate=ordinate, fixed=fixed, gamma=gamma, cells=cells, &
+                                    epsilon_window=epsilon_window, &
+                                    ordinate_window=ordinate_window)
    end subroutine read_group
 end module hopf_input

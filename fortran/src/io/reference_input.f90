@@ -54,7 +54,8 @@ contains
       call check_number(error, path, "disturbance", disturbance, above=0.0_wp, &
                         at_most=1.0e-10_wp)
       call check_count(error, path, "most_steps", most_steps, 1)
-      settings = reference_settings_type(method(:10), tolerance, check_tolerance, disturbance, &
-                                         most_steps)
+      settings = reference_settings_type(method=method(:10), tolerance=tolerance, &
+                                         check_tolerance=check_tolerance, &
+                                         disturbance=disturbance, most_steps=int(most_steps, int64))
    end subroutine read_reference
 end module reference_input

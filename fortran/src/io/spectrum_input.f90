@@ -96,7 +96,8 @@ contains
       if (allocated(error)) return
       read (unit, nml=spectrum, iostat=status, iomsg=reason)
       call close_namelist(path, "spectrum", unit, status, reason, error)
-      settings = spectrum_settings_type(trajectory, window, segments, overlap, peak_floor, &
-                                        peak_prominence)
+      settings = spectrum_settings_type(trajectory=trajectory, window=window, segments=segments, &
+                                        overlap=overlap, peak_floor=peak_floor, &
+                                        peak_prominence=peak_prominence)
    end subroutine read_group
 end module spectrum_input
