@@ -24,6 +24,7 @@ DOCUMENTS = [
     "README.md",
     "config/README.md",
     RESULTS,
+    "fortran/dde/README.md",
     *(name for name in project_files() if fnmatch(name, "docs/*.md") and name != "docs/ford.md"),
 ]
 ENDINGS = "c cff f90 in lock md mplstyle nc png py rst sh smk svg toml tsv txt yaml yml".split()
