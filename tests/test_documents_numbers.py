@@ -1,6 +1,7 @@
 """Numbers in the documents are those of results/, where the whole workflow has run."""
 
 import csv
+import math
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -149,6 +150,17 @@ def error_over_expected(method: str, *without: str) -> float:
     return max(float(row["error"]) / float(row["error_expected"]) for row in rows)
 
 
+def rounded_up(value: float) -> int:
+    """To tens."""
+    return 10 * math.ceil(value / 10)
+
+
+def amplifications(family: str) -> list[float]:
+    """Least and largest amplification of the cases of a family."""
+    found = [float(row["amplification"]) for row in cases("auto") if row["family"] == family]
+    return [min(found), max(found)]
+
+
 def horizon(scene: str) -> list[float]:
     """Up to when a run of a measured scene can be trusted."""
     rows = table("trusted-horizons.tsv")
@@ -233,6 +245,34 @@ SAID = [
         "docs/findings.md", "begins at the double Hopf point ({:.3f}, {:.2f}). Cycles",
         lambda: double_hopf_near("tau_of_epsilon", 0.336),
     ),
+    Said(
+        "docs/verification.md", "| {} stiff and extreme cases by `auto` and `explicit`",
+        lambda: [len(cases("auto"))],
+    ),
+    Said(
+        "docs/verification.md", "`auto` completes {} of {} cases, `explicit` {} within",
+        lambda: [
+            len(completed(cases("auto"))), len(cases("auto")), len(completed(cases("explicit")))
+        ],
+    ),
+    Said(
+        "docs/verification.md", "Errors of `auto` are below {} times tolerance",
+        lambda: [math.ceil(error_over_expected("auto"))],
+    ),
+    Said(
+        "docs/verification.md", "Those of `explicit` are below {} times",
+        lambda: [rounded_up(error_over_expected("explicit", "history_u", "history_v"))],
+    ),
+    Said(
+        "docs/verification.md", "and `history_v` (up to {} times)",
+        lambda: [rounded_up(error_over_expected("explicit"))],
+    ),
+    Said(
+        "docs/verification.md", "the problem magnifies errors by 1e{:.0f} to 1e{:.0f}.",
+        lambda: [math.log10(value) for value in amplifications("growth")],
+    ),
+    Said("docs/verification.md", "to t = {:.0f}, and", lambda: horizon("chaos")),
+    Said("docs/verification.md", "`stick` to {:.0f}", lambda: horizon("stick")),
 ]  # fmt: skip
 
 
