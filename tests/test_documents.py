@@ -22,6 +22,7 @@ RESULTS = "results/README.md"
 """Stands beside what it names, and no other document links to it."""
 DOCUMENTS = [
     "README.md",
+    "CONTRIBUTING.md",
     "config/README.md",
     RESULTS,
     "fortran/dde/README.md",
