@@ -189,12 +189,14 @@ def run_of(tmp_path_factory):
     folder = tmp_path_factory.mktemp("mine")
     (folder / "CMakeLists.txt").write_text(blocks_of(MANUAL, "cmake")[0])
     build = folder / "build"
+    # without optimisation, to build quickly
+    settings = ["-D", "CMAKE_BUILD_TYPE=Debug", "-D", f"DDE={ROOT / 'fortran' / 'dde'}"]
 
     def run_of(source: str) -> list[str]:
         (folder / "mackey_glass.f90").write_text(source)
         for command in (
-            ["cmake", "-S", folder, "-B", build, "-D", f"DDE={ROOT / 'fortran' / 'dde'}"],
-            ["cmake", "--build", build, "--parallel", "2"],
+            ["cmake", "-G", "Ninja", "-S", folder, "-B", build, *settings],
+            ["cmake", "--build", build],
             [build / "mine"],
         ):
             run = subprocess.run(command, capture_output=True, text=True)
