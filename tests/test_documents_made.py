@@ -1,5 +1,5 @@
 """What is made for the documents: the picture of the data flow, the pages about the code, and the
-program of docs/own-model.md, built and run as it is printed."""
+programs of the solver's manual, built and run as they are printed."""
 
 import html
 import math
@@ -14,7 +14,7 @@ import offline_pages
 import pytest
 from conftest import ROOT
 from PIL import Image
-from test_documents import blocks_of
+from test_documents import blocks_of, prose_of
 
 FILEGRAPH = """digraph snakemake_dag {
 0 [ shape=none, margin=0, label=<<table border="2">
@@ -179,19 +179,64 @@ def test_no_comment_begins_like_metadata():
             assert not (first and re.match(r"\s*!> [\w-]+:(\s|$)", line)), f"{path}: {line}"
 
 
-def test_program_of_ones_own(tmp_path):
-    """Maxima of sin t, and its values after going on, to 100 x tolerance."""
-    (tmp_path / "CMakeLists.txt").write_text(blocks_of("docs/own-model.md", "cmake")[0])
-    (tmp_path / "mine.f90").write_text(blocks_of("docs/own-model.md", "fortran")[0])
-    where = ["-G", "Ninja", "-S", tmp_path, "-B", tmp_path / "build"]
-    for command in (
-        ["cmake", *where, "-D", f"SPRING_BLOCK_DELAY={ROOT}"],
-        ["cmake", "--build", tmp_path / "build"],
-        [tmp_path / "build" / "mine"],
-    ):
-        run = subprocess.run(command, capture_output=True, text=True)
-        assert run.returncode == 0, run.stdout + run.stderr
-    lines = run.stdout.splitlines()
+MANUAL = "fortran/dde/README.md"
+
+
+@pytest.fixture(scope="module")
+def run_of(tmp_path_factory):
+    """Lines that a program prints, built by the CMakeLists.txt of the manual; the solver is built
+    once."""
+    folder = tmp_path_factory.mktemp("mine")
+    (folder / "CMakeLists.txt").write_text(blocks_of(MANUAL, "cmake")[0])
+    build = folder / "build"
+    # without optimisation, to build quickly
+    settings = ["-D", "CMAKE_BUILD_TYPE=Debug", "-D", f"DDE={ROOT / 'fortran' / 'dde'}"]
+
+    def run_of(source: str) -> list[str]:
+        (folder / "mackey_glass.f90").write_text(source)
+        for command in (
+            ["cmake", "-G", "Ninja", "-S", folder, "-B", build, *settings],
+            ["cmake", "--build", build],
+            [build / "mine"],
+        ):
+            run = subprocess.run(command, capture_output=True, text=True)
+            assert run.returncode == 0, run.stdout + run.stderr
+        return run.stdout.splitlines()
+
+    return run_of
+
+
+def with_procedures(source: str, *procedures: str) -> str:
+    """The second program of the manual with more procedures in its type."""
+    names = re.findall(r"^pure subroutine (\w+)", "\n".join(procedures), re.MULTILINE)
+    grown = source.replace("rhs\n   end type", f"rhs, {', '.join(names)}\n   end type")
+    grown = grown.replace("end module", "\n".join([*procedures, "end module"]), 1)
+    return grown.replace("delayed_sine(n=1,", "delayed_sine(analytic=.true., n=1,")
+
+
+def test_first_program_of_the_manual(run_of):
+    """It is the example, and has the published values."""
+    source = blocks_of(MANUAL, "fortran")[0]
+    assert source == (ROOT / "fortran" / "dde" / "example" / "mackey_glass.f90").read_text()
+    values = dict(map(float, line.split()) for line in run_of(source))
+    # as in fortran/dde/test/test_dde_solutions.f90
+    assert values[50.0] == pytest.approx(1.060954362898, abs=1e-8)
+    assert values[200.0] == pytest.approx(1.186718107117, abs=1e-8)
+    printed = re.findall(r"y\((\d+)\) = (\d+\.\d+)", prose_of(MANUAL))
+    assert printed == [(str(t), f"{values[t]:.6f}") for t in (50, 200)]
+
+
+@pytest.mark.parametrize(
+    ("method", "added"), [("auto", ()), ("taylor", (2, 3)), ("radau9", (2, 3))]
+)
+def test_second_program_of_the_manual(run_of, method, added):
+    """Maxima of sin t, and its values after going on, to 100 x tolerance; also with the procedures
+    that the manual adds."""
+    blocks = blocks_of(MANUAL, "fortran")
+    source = blocks[1].replace('method="auto"', f'method="{method}"')
+    if added:
+        source = with_procedures(source, *(blocks[i] for i in added))
+    lines = run_of(source)
     maxima = [float(line.split()[-1]) for line in lines if line.startswith("maximum")]
     assert maxima == pytest.approx([math.pi / 2, 5 * math.pi / 2, 9 * math.pi / 2], abs=2e-8)
     values = dict(map(float, line.split()) for line in lines if re.match(r"\d", line))

@@ -1,0 +1,283 @@
+"""Numbers in the documents are those of results/, where the whole workflow has run."""
+
+import csv
+import math
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+
+import netCDF4
+import pytest
+from conftest import ROOT
+
+RESULTS = ROOT / "results"
+
+
+@dataclass(frozen=True)
+class Said:
+    """Words of a document with a field for each number, and the numbers of the results."""
+
+    document: str
+    words: str
+    values: Callable[[], list]
+
+    def __str__(self) -> str:
+        return f"{self.document}: {self.words[:40]}"
+
+    @property
+    def expected(self) -> str:
+        """The words with the numbers of the results."""
+        return self.words.format(*self.values())
+
+
+@cache
+def table(name: str) -> list[dict]:
+    """Rows of a table."""
+    path = RESULTS / "tables" / name
+    if not path.exists():
+        pytest.skip(f"{path} is not made")
+    with path.open(newline="") as file:
+        return list(csv.DictReader(file, delimiter="\t"))
+
+
+def exponents(scene: str) -> list[dict]:
+    """Rows of a scene at its own tolerance and steps, the largest exponent first."""
+    return [
+        row
+        for row in table("exponents.tsv")
+        if row["scene"] == scene and row["tolerance"] == "1e-09" and not row["longest_step"]
+    ]
+
+
+def exponent(scene: str, i: int, column: str = "exponent") -> float:
+    """Exponent i of a scene, or another column of its row."""
+    return float(exponents(scene)[i - 1][column])
+
+
+def zeros(scene: str) -> list[str]:
+    """How many exponents of a scene count as zero, in words."""
+    count = sum(row["sign"] == "zero" for row in exponents(scene))
+    return [{1: "one exponent is", 2: "two exponents are"}[count]]
+
+
+def hopf(of: str, kind: str) -> list[dict]:
+    """Special points of a plane or scene."""
+    return [row for row in table("hopf-points.tsv") if (row["of"], row["kind"]) == (of, kind)]
+
+
+def count(of: str, kind: str) -> str:
+    """How many special points, in words."""
+    return "zero one two three four five six seven eight nine ten".split()[len(hopf(of, kind))]
+
+
+def turns(of: str, column: str) -> list[float]:
+    """Least and largest value of a column at the generalised Hopf points of a plane."""
+    found = [float(row[column]) for row in hopf(of, "generalised_hopf")]
+    return [min(found), max(found)]
+
+
+def amplitude_death(scene: str) -> list[float]:
+    """Delays at which steady sliding becomes stable, and unstable again."""
+    kinds = ("amplitude_death_begin", "amplitude_death_end")
+    return [float(hopf(scene, kind)[0]["tau"]) for kind in kinds]
+
+
+def double_hopf_near(of: str, epsilon: float) -> list[float]:
+    """The double Hopf point of a plane that is nearest in epsilon: epsilon and tau."""
+    points = hopf(of, "double_hopf")
+    nearest = min(points, key=lambda row: abs(float(row["epsilon"]) - epsilon))
+    return [float(nearest["epsilon"]), float(nearest["tau"])]
+
+
+def frequencies(scene: str) -> list[float]:
+    """Base frequencies of the spectrum of a scene."""
+    path = RESULTS / "spectra" / f"{scene}.nc"
+    if not path.exists():
+        pytest.skip(f"{path} is not made")
+    with netCDF4.Dataset(path) as spectrum:
+        return [float(value) for value in spectrum["base_frequency"][:].compressed()]
+
+
+def on_route(column: str, *wanted: str) -> list[float]:
+    """A column of the route, at all points of these classes."""
+    return [float(row[column]) for row in table("route-to-chaos.tsv") if row["class"] in wanted]
+
+
+def cycle_of(period: str) -> list[str]:
+    """Period and epsilon of the locked cycle of the route with so many points in its section."""
+    rows = [row for row in table("route-to-chaos.tsv") if row["period"] == period]
+    return [period, f"{float(rows[0]['epsilon']):.3f}"]
+
+
+def jump_of_maxima() -> list[float]:
+    """Largest maximum of v before and after its largest jump among cycles, and both epsilons."""
+    plain = [row for row in table("route-to-chaos.tsv") if row["period"] == "1"]
+    values = [float(row["largest_maximum"]) for row in plain]
+    last = max(range(len(plain) - 1), key=lambda i: values[i + 1] - values[i])
+    places = [float(row["epsilon"]) for row in plain[last : last + 2]]
+    return [*values[last : last + 2], *places]
+
+
+def shares(kind: str) -> list[float]:
+    """Per cent of the points of the coarse atlas in a class, at xi = 0.5 and 0.8."""
+    found = []
+    for xi in ("0.5", "0.8"):
+        classes = Counter(row["class"] for row in table("atlas-coarse.tsv") if row["xi"] == xi)
+        found.append(100 * classes[kind] / classes.total())
+    return found
+
+
+def cases(method: str) -> list[dict]:
+    """Runs of the stability table by a method."""
+    return [row for row in table("stability.tsv") if row["method"] == method]
+
+
+def completed(rows: list[dict]) -> list[dict]:
+    """Those that reached their end."""
+    return [row for row in rows if row["status"] == "ok"]
+
+
+def of_faults() -> list[dict]:
+    """Runs by `auto` at the gamma of real faults."""
+    return [row for row in cases("auto") if 1e4 <= float(row["gamma"]) <= 1e12]
+
+
+def error_over_expected(method: str, *without: str) -> float:
+    """Largest error of completed runs over tolerance times amplification, without some families."""
+    rows = [row for row in completed(cases(method)) if row["family"] not in ("growth", *without)]
+    rows = [row for row in rows if row["error"] and row["error_expected"]]
+    return max(float(row["error"]) / float(row["error_expected"]) for row in rows)
+
+
+def rounded_up(value: float) -> int:
+    """To tens."""
+    return 10 * math.ceil(value / 10)
+
+
+def amplifications(family: str) -> list[float]:
+    """Least and largest amplification of the cases of a family."""
+    found = [float(row["amplification"]) for row in cases("auto") if row["family"] == family]
+    return [min(found), max(found)]
+
+
+def horizon(scene: str) -> list[float]:
+    """Up to when a run of a measured scene can be trusted."""
+    rows = table("trusted-horizons.tsv")
+    return [float(row["horizon"]) for row in rows if row["scene"] == scene]
+
+
+SAID = [
+    Said("README.md", "f1 = {:.4f}, with weak", lambda: frequencies("oscillation")),
+    Said("README.md", "**limit cycle**, f1 = {:.4f};", lambda: frequencies("torus")),
+    Said(
+        "README.md", "All {} runs in `stability.tsv` with these values are completed, each in at"
+        " most {} steps",
+        lambda: [len(of_faults()), max(int(row["steps"]) for row in completed(of_faults()))],
+    ),
+    Said(
+        "docs/findings.md", "one exponent is zero, the second is {:.4f} and {:.4f}",
+        lambda: [exponent("oscillation", 2), exponent("torus", 2)],
+    ),
+    Said("docs/findings.md", "are cycles: {} zero", lambda: zeros("oscillation")),
+    Said("docs/findings.md", "are cycles: {} zero", lambda: zeros("torus")),
+    Said(
+        "docs/findings.md", "the first exponent is {:.3f} ± {:.3f}, the Kaplan-Yorke dimension"
+        " {:.2f} ± {:.2f}",
+        lambda: [
+            float(exponents("chaos")[0][column])
+            for column in ("exponent", "error", "dimension", "dimension_error")
+        ],
+    ),
+    Said("docs/findings.md", "is a torus: {} zero", lambda: zeros("true_torus")),
+    Said("docs/findings.md", "zero, the third is {:.5f}", lambda: [exponent("true_torus", 3)]),
+    Said(
+        "docs/findings.md", "k = 1 to {} becomes subcritical at an epsilon between {:.3f} and"
+        " {:.3f}",
+        lambda: [
+            len(hopf("tau_of_epsilon", "generalised_hopf")), *turns("tau_of_epsilon", "epsilon")
+        ],
+    ),
+    Said(
+        "docs/findings.md", "{} in Figure 2, {} in Figure 3",
+        lambda: [count(of, "double_hopf") for of in ("tau_of_epsilon", "xi_of_epsilon")],
+    ),
+    Said("docs/findings.md", "tau from {:.3f} to {:.3f}, at", lambda: amplitude_death("torus")),
+    Said(
+        "docs/findings.md", "those of `chaos` from {:.3f} to {:.3f}",
+        lambda: amplitude_death("chaos"),
+    ),
+    Said(
+        "docs/findings.md", "base frequencies are {:.4f} and {:.4f}",
+        lambda: frequencies("true_torus"),
+    ),
+    Said(
+        "docs/findings.md", "| up to {:.3f} | steady",
+        lambda: [max(on_route("epsilon", "fixed point"))],
+    ),
+    Said("docs/findings.md", "| from {:.3f} | cycle", lambda: [min(on_route("epsilon", "cycle"))]),
+    Said(
+        "docs/findings.md", "maxima of v jump from {:.1f} to {:.1f} between {:.3f} and {:.3f}",
+        jump_of_maxima,
+    ),
+    Said("docs/findings.md", "| from {:.3f} | torus", lambda: [min(on_route("epsilon", "torus"))]),
+    Said("docs/findings.md", "cycle of {} points in the section at {}", lambda: cycle_of("19")),
+    Said("docs/findings.md", "| {1} | cycle of {0} points", lambda: cycle_of("23")),
+    Said("docs/findings.md", "| from {:.3f} | chaos", lambda: [min(on_route("epsilon", "chaos"))]),
+    Said("docs/findings.md", "windows of cycles: {} points at {}", lambda: cycle_of("20")),
+    Said(
+        "docs/findings.md", "{} of the {} points are undecided",
+        lambda: [len(on_route("epsilon", "undecided")), len(table("route-to-chaos.tsv"))],
+    ),
+    Said(
+        "docs/findings.md", "{:.0f} and {:.0f} % of its points are fixed points",
+        lambda: shares("fixed point"),
+    ),
+    Said("docs/findings.md", "{:.0f} and {:.0f} % cycles", lambda: shares("cycle")),
+    Said("docs/findings.md", "{:.0f} and {:.0f} % tori", lambda: shares("torus")),
+    Said("docs/findings.md", "{:.0f} and {:.0f} % chaotic", lambda: shares("chaos")),
+    Said("docs/findings.md", "{:.0f} and {:.0f} % undecided", lambda: shares("undecided")),
+    Said(
+        "docs/findings.md", "double Hopf point ({:.3f}, {:.2f}) and contains `true_torus`",
+        lambda: double_hopf_near("tau_of_epsilon_xi_08", 0.464),
+    ),
+    Said(
+        "docs/findings.md", "begins at the double Hopf point ({:.3f}, {:.2f}). Cycles",
+        lambda: double_hopf_near("tau_of_epsilon", 0.336),
+    ),
+    Said(
+        "docs/verification.md", "| {} stiff and extreme cases by `auto` and `explicit`",
+        lambda: [len(cases("auto"))],
+    ),
+    Said(
+        "docs/verification.md", "`auto` completes {} of {} cases, `explicit` {} within",
+        lambda: [
+            len(completed(cases("auto"))), len(cases("auto")), len(completed(cases("explicit")))
+        ],
+    ),
+    Said(
+        "docs/verification.md", "Errors of `auto` are below {} times tolerance",
+        lambda: [math.ceil(error_over_expected("auto"))],
+    ),
+    Said(
+        "docs/verification.md", "Those of `explicit` are below {} times",
+        lambda: [rounded_up(error_over_expected("explicit", "history_u", "history_v"))],
+    ),
+    Said(
+        "docs/verification.md", "and `history_v` (up to {} times)",
+        lambda: [rounded_up(error_over_expected("explicit"))],
+    ),
+    Said(
+        "docs/verification.md", "the problem magnifies errors by 1e{:.0f} to 1e{:.0f}.",
+        lambda: [math.log10(value) for value in amplifications("growth")],
+    ),
+    Said("docs/verification.md", "to t = {:.0f}, and", lambda: horizon("chaos")),
+    Said("docs/verification.md", "`stick` to {:.0f}", lambda: horizon("stick")),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("said", SAID, ids=str)
+def test_number_is_that_of_the_results(said):
+    """If a result has changed, write the new number into the document."""
+    text = " ".join((ROOT / said.document).read_text().split())
+    assert said.expected in text
