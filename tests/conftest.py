@@ -3,6 +3,7 @@
 import contextlib
 import copy
 import fcntl
+import functools
 import os
 import re
 import shutil
@@ -199,6 +200,7 @@ def rules_in(log: str) -> set[str]:
     return set(re.findall(r"^(?:local)?(?:rule|checkpoint) (\w+):", log, flags=re.MULTILINE))
 
 
+@functools.cache
 def project_files() -> list[str]:
     """Paths of the project's own files, also where there is no git."""
     command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]

@@ -115,16 +115,21 @@ def is_made(path: str) -> bool:
     )
 
 
+@cache
+def files_and_folders() -> set[str]:
+    """Those of the project."""
+    files = {*project_files()}
+    return files | {str(parent) for name in files for parent in PurePath(name).parents}
+
+
 def exists(path: str, document: str) -> bool:
     """Whether a path, its end, or a pattern names a file or folder of the project."""
     wanted = path.removeprefix("./").rstrip("/")
-    files = {*project_files()}
-    folders = {str(parent) for name in files for parent in PurePath(name).parents}
     beside = str(PurePath(document).parent / wanted)
     return any(
         name in (wanted, beside) or name.endswith(f"/{wanted}") or fnmatch(name, wanted)
         or fnmatch(PurePath(name).name, wanted)
-        for name in files | folders
+        for name in files_and_folders()
     )  # fmt: skip
 
 

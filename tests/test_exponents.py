@@ -106,6 +106,20 @@ def test_table_holds_all_exponents_of_all_scenes(smoke):
         assert signs.count("zero") == made.attrs["zero_exponents"]
 
 
+def test_rows_hold_the_values_of_their_run(programs, groups):
+    """Each column that of its name, at each tolerance."""
+    made = programs.made_of("exponents", groups)
+    rows = exponents_table.rows_of(made)
+    assert len(rows) == made.value.size
+    for n, row in enumerate(rows):
+        at, i = made.isel(run=n // 3), n % 3
+        assert (row["scene"], row["i"]) == ("fixed_point", i + 1)
+        assert (row["exponent"], row["error"]) == (at.value[i], at.error[i])
+        assert (row["dimension"], row["dimension_error"]) == (at.dimension, at.dimension_error)
+        assert row["t"] == made.attrs["t_end"] - made.attrs["t_begin"]
+        assert (row["tolerance"], row["mean_step"]) == (at.tolerance, at.mean_step)
+
+
 @pytest.mark.parametrize(
     ("value", "sign"), [(-0.01, "zero"), (0.02, "positive"), (-0.02, "negative")]
 )

@@ -62,6 +62,11 @@ def test_row_of_the_table(stability):
     """It says what the file says."""
     row = row_of("mine", stability)
     assert row["unstable_pairs"] == stability.attrs["unstable_pairs"]
+    first = stability.isel({stability.tau_of_change.dims[0]: 0})
+    before, after = int(first.tau_change_pairs_before), int(first.tau_change_pairs_after)
+    assert before != after
+    begin = f"{float(first.tau_of_change):.12g} ({before} -> {after})"
+    assert row["tau_of_changes"].split("; ")[0] == begin
     assert row["tau_of_changes"].count("->") == stability.tau_of_change.size
     assert row["leading_roots"].startswith(f"{float(stability.root_real[0]):.10g}")
 

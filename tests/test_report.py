@@ -17,7 +17,7 @@ def test_figure_has_a_caption(figure):
     assert caption.rstrip().endswith(".")
 
 
-@pytest.mark.parametrize("ending", ["html", "zip"])
+@pytest.mark.parametrize("ending", ["zip", pytest.param("html", marks=pytest.mark.long)])
 def test_report_holds_every_figure_and_caption(smoke, tmp_path, ending):
     """In one file; the longest plain part of each caption stands for the whole."""
     report = tmp_path / f"report.{ending}"
