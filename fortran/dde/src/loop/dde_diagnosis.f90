@@ -1,6 +1,7 @@
 !> What stands behind a run that could not go on.
 module dde_diagnosis
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use dde_cursor, only: cursor_type
    use dde_history, only: history_type
    use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
@@ -14,13 +15,15 @@ module dde_diagnosis
 contains
 
    !> Which value is not finite in a step of length `h` from here.
-   function not_finite(problem, step, past, now, h) result(words)
+   function not_finite(problem, step, past, cursor, now, h) result(words)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> The step
       class(step_type), intent(in) :: step
       !> The past
-      type(history_type), intent(inout) :: past
+      type(history_type), intent(in) :: past
+      !> A cursor in it
+      type(cursor_type), intent(inout) :: cursor
       !> Start of the step
       type(instant), intent(in) :: now
       !> Length of the step
@@ -32,18 +35,18 @@ contains
 
       allocate (z(size(problem%lag), 2), slope(problem%n))
       y = step%y
-      if (size(problem%lag) > 0) call past%face(problem, now, h)
-      call past%values(problem, [0.0_wp, h], z)
+      call cursor%set(problem, past, now, h)
+      call cursor%values(problem, past, [0.0_wp, h], z)
       do place = 1, 2
          t = now%hi + (place - 1)*h
          do i = 1, size(problem%lag)
             if (ieee_is_finite(z(i, place))) cycle
             words = "component "//text(problem%component(i))//" is "//text(z(i, place)) &
                     //" at t = "//text(t - problem%lag(i))
-            if (past%before_origin(i)) words = "the history of "//words
+            if (cursor%before_origin(i)) words = "the history of "//words
             return
          end do
-         call problem%rhs(step%inside(t), y, z(:, place), slope)
+         call problem%rhs(cursor%inside(t), y, z(:, place), slope)
          do i = 1, problem%n
             if (ieee_is_finite(slope(i))) cycle
             words = "f("//text(i)//") is "//text(slope(i))//" at t = "//text(t)//", where y(" &

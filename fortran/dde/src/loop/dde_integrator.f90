@@ -3,14 +3,13 @@
 module dde_integrator
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_continuation, only: continuation_type
-   use dde_controller, only: controller_type
    use dde_diagnosis, only: not_finite
    use dde_event_search, only: endless, most_places
    use dde_events, only: event_watcher_type
-   use dde_methods, only: change_method, limiting_delay, longest_step, price_of_try
+   use dde_methods, only: limiting_delay, longest_step, price_of_try
    use dde_outcome, only: event_met, explain, integration_result, limit_met, reached_end, &
                           value_not_finite
-   use dde_output, only: hand_over, sample_start
+   use dde_output, only: deliver, sample_start
    use dde_problem, only: dde_problem_type
    use dde_request, only: check, integration_options
    use dde_run, only: run_type
@@ -49,7 +48,6 @@ contains
       !> Where an earlier run ended, to go on from there; where this one did
       type(continuation_type), intent(inout), optional :: continuation
       type(run_type) :: run
-      type(controller_type) :: control
       type(switch_type) :: switch
       type(instant) :: step_end
       real(wp) :: error_estimate, h, left, longest, longest_of_all, shortest_delay
@@ -79,41 +77,37 @@ contains
          outcome%reason = limit_met(outcome, error_estimate, options, h, &
                                     max(abs(t_start), abs(t_end)))
          if (outcome%reason /= reached_end) exit
-         if (run%fresh) call run%step%restart(problem, run%past, run%now%hi)
-         run%fresh = .false.
-         call run%step%attempt(problem, run%past, run%now%hi, h, run%tolerance, error_estimate)
+         if (run%fresh) call run%restart(problem)
+         call run%step%attempt(problem, run%past, run%cursor, run%tolerance, run%work, &
+                               error_estimate)
          if (.not. accepted(error_estimate)) then
             outcome%rejected = outcome%rejected + 1
             run%h = h
-            call control%reject(run%step, run%h, error_estimate)
+            call run%control%reject(run%step%constants, run%step%safety, run%h, error_estimate)
             cycle
          end if
 
          outcome%accepted = outcome%accepted + 1
-         if (run%step%implicit) outcome%implicit_steps = outcome%implicit_steps + 1
-         call run%step%complete(problem, run%past)
+         if (run%step%constants%implicit) outcome%implicit_steps = outcome%implicit_steps + 1
+         call run%step%complete(problem, run%past, run%cursor, run%work)
          step_end = later(run%now, h)
          if (landing) step_end = run%points%at(goal)
          if (.not. run%now%hi + h > run%now%hi) outcome%unresolved = outcome%unresolved + 1
-         call hand_over(problem, run%step, run%past, run%search, run%now, step_end, &
-                        run%points%smooth(run%now), ended, sampler, watcher)
+         call deliver(problem, run%step, run%past, run%cursor, run%work, run%search, run%now, &
+                      step_end, run%points%smooth(run%now), ended, sampler, watcher)
          if (ended) then
             call run%arrive(goal, .false., step_end)
             run%step%y = run%search%here%y
             outcome%reason = event_met
             exit
          end if
-         if (run%step%foresees) then
-            h = run%step%ideal
-         else
-            call control%accept(run%step, h, error_estimate)
-         end if
+         call run%step%next_length(run%control, h, error_estimate)
          other = .false.
          if (automatic) then
             ! a run that may go on has no end yet
             left = huge(1.0_wp)
             if (.not. present(continuation)) left = run%points%left(step_end)
-            call switch%judge(problem, run%step, shortest_delay, h, left, other)
+            call switch%judge(problem, run%step, run%work%total(), shortest_delay, h, left, other)
          end if
          call run%step%advance()
          last = landing .and. run%points%is_end(goal)
@@ -122,8 +116,7 @@ contains
          run%h = merge(max(run%h, h), h, landing)
          if (landing .and. .not. last) outcome%breaking_points = outcome%breaking_points + 1
          if (other) then
-            call change_method(problem, run%tolerance, run%step)
-            control = controller_type()
+            call run%change_to_other(problem)
             outcome%switches = outcome%switches + 1
             longest = longest_step(problem, run%step, longest_of_all)
          end if
@@ -132,13 +125,13 @@ contains
       outcome%t = run%now%hi
       outcome%y = run%step%y
       if (present(continuation)) call run%keep(problem, options, continuation)
-      outcome%evaluations = run%step%evaluations
-      outcome%work = run%step%work()
-      outcome%factorisations = run%step%factorisations()
+      outcome%evaluations = run%work%evaluations
+      outcome%work = run%work%total()
+      outcome%factorisations = run%work%factorisations
       if (all(outcome%reason /= [reached_end, event_met])) then
          culprit = ""
          if (outcome%reason == value_not_finite) then
-            culprit = not_finite(problem, run%step, run%past, run%now, h)
+            culprit = not_finite(problem, run%step, run%past, run%cursor, run%now, h)
          end if
          call explain(outcome, t_end, h, options, culprit, error)
       end if

@@ -237,7 +237,7 @@ contains
       do i = 1, size(self%step_length)
          call past%append(instant(self%step_start(1, i), self%step_start(2, i)), &
                           self%step_length(i), self%nodes(:, i), self%coefficients(:, :, i), &
-                          serves=self%step_length(i))
+                          valid_for=self%step_length(i))
       end do
       allocate (kinks(size(self%passages)))
       kinks%at%hi = self%kink(1, :)

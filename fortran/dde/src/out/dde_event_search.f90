@@ -32,7 +32,7 @@ module dde_event_search
       procedure :: begin
       !> Look through a step
       procedure :: look_through
-      procedure, private :: choose_places, go_to, hand_over, locate
+      procedure, private :: choose_places, go_to, report, locate
    end type event_search
 
 contains
@@ -88,7 +88,7 @@ contains
          share = places(i)
          side = seen(g(:, i), self%side)
          if (any(side /= self%side .and. self%side /= 0)) then
-            call self%hand_over(watcher, before, share, side, ended)
+            call self%report(watcher, before, share, side, ended)
             if (ended) step_end = self%here%t
             if (ended) return
          end if
@@ -138,7 +138,7 @@ contains
    end subroutine choose_places
 
    !> Hand over the events between two places, in order of time, as far as the run goes on.
-   subroutine hand_over(self, watcher, before, share, side, ended)
+   subroutine report(self, watcher, before, share, side, ended)
       !> The search
       class(event_search), intent(inout) :: self
       !> The watcher
@@ -172,7 +172,7 @@ contains
             share = root(i)
          end if
       end do
-   end subroutine hand_over
+   end subroutine report
 
    !> First place after `before` where function `i` is not on its side of zero any more, by the
    !> method of Oliveira and Takahashi (2020), "An Enhancement of the Bisection Method Average

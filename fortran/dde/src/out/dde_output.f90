@@ -1,6 +1,7 @@
 !> Where the dense output of accepted steps goes: events to the watcher, samples to the sampler, the
 !> delayed components to the history.
 module dde_output
+   use dde_cursor, only: cursor_type
    use dde_event_search, only: event_search
    use dde_events, only: event_watcher_type
    use dde_history, only: history_type
@@ -9,30 +10,34 @@ module dde_output
    use dde_sampler, only: sampler_type
    use dde_step, only: step_type
    use dde_time, only: elapsed, instant, instant_at, later
+   use dde_work, only: work_type
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: hand_over, sample_start
+   public :: deliver, sample_start
 
 contains
 
-   !> Hand over the dense output of an accepted step, as far as it is wanted; without anyone who
-   !> wants it, it is not made.
-   subroutine hand_over(problem, step, past, search, start, step_end, smooth, ended, sampler, &
-                        watcher)
+   !> Deliver the dense output of an accepted step. It is made only if someone wants it.
+   subroutine deliver(problem, step, past, cursor, work, search, start, step_end, smooth, ended, &
+                      sampler, watcher)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> The step, accepted and complete
       class(step_type), intent(inout) :: step
-      !> The past, facing this step
+      !> The past
       type(history_type), intent(inout) :: past
+      !> The cursor, on this step
+      type(cursor_type), intent(inout) :: cursor
+      !> Work so far
+      type(work_type), intent(inout) :: work
       !> The search for events, begun if there is a watcher
       type(event_search), intent(inout) :: search
       !> Start of the step
       type(instant), intent(in) :: start
       !> Its end; the event that ends the run, if one does
       type(instant), intent(inout) :: step_end
-      !> Time from the start without a kink: no interpolant serves beyond it
+      !> Time from the start to the next kink: no polynomial is valid beyond it
       real(wp), intent(in) :: smooth
       !> Whether an event ends the run
       logical, intent(out) :: ended
@@ -46,7 +51,7 @@ contains
       delayed = size(problem%lag) > 0
       sampled = .false.
       if (present(sampler)) sampled = elapsed(instant_at(sampler%next), step_end) >= 0.0_wp
-      if (delayed .or. sampled .or. present(watcher)) call step%extend(problem, past)
+      if (delayed .or. sampled .or. present(watcher)) call step%extend(problem, past, cursor, work)
       ended = .false.
       share = 1.0_wp
       if (present(watcher)) then
@@ -57,7 +62,7 @@ contains
          call remember(past, step, start, smooth, share)
          call past%forget(later(step_end, -maxval(problem%lag)))
       end if
-   end subroutine hand_over
+   end subroutine deliver
 
    !> Append the delayed components' dense output to the past.
    pure subroutine remember(past, step, start, smooth, share)
@@ -77,7 +82,8 @@ contains
          ! the same polynomial over a shorter step
          call past%open_slot(start, share*step%h, step%nodes/share, step%powers, 0.0_wp, slot)
       else
-         call past%open_slot(start, step%h, step%nodes, step%powers, min(step%serves, smooth), slot)
+         call past%open_slot(start, step%h, step%nodes, step%powers, min(step%valid_for, smooth), &
+                             slot)
       end if
       do i = 1, size(past%kept)
          call step%interpolant(past%kept(i), past%coefficients(:size(step%nodes), i, slot))

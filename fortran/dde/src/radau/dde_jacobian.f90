@@ -5,7 +5,8 @@ module dde_jacobian
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_problem, only: dde_problem_type, not_given
    use dde_tolerance, only: tolerance_type
-   use dde_kinds, only: int64, wp
+   use dde_work, only: work_type
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: find_jacobian, jacobian_type
@@ -45,7 +46,7 @@ module dde_jacobian
 contains
 
    !> Evaluate it at a place.
-   pure subroutine evaluate(self, problem, t, y, z, tolerance, with_delays, evaluations, finite)
+   pure subroutine evaluate(self, problem, t, y, z, tolerance, with_delays, work, finite)
       !> The Jacobian
       class(jacobian_type), intent(inout) :: self
       !> The problem
@@ -60,8 +61,8 @@ contains
       type(tolerance_type), intent(in) :: tolerance
       !> Whether derivatives by the delayed values are wanted, too
       logical, intent(in) :: with_delays
-      !> Right-hand sides evaluated so far
-      integer(int64), intent(inout) :: evaluations
+      !> Work so far
+      type(work_type), intent(inout) :: work
       !> Whether it is finite
       logical, intent(out) :: finite
 
@@ -73,10 +74,10 @@ contains
       self%knows_delays = with_delays .or. self%given
       if (.not. self%given) then
          call problem%rhs(t, y, z, self%here)
-         evaluations = evaluations + 1
-         call self%differences_by_y(problem, t, y, z, tolerance, evaluations)
+         work%evaluations = work%evaluations + 1
+         call self%differences_by_y(problem, t, y, z, tolerance, work)
          if (with_delays) then
-            call self%differences_by_z(problem, t, y, z, tolerance, evaluations)
+            call self%differences_by_z(problem, t, y, z, tolerance, work)
          end if
       end if
       finite = all(ieee_is_finite(self%by_y))
@@ -98,15 +99,14 @@ contains
       !> Derivatives by the delayed values, shape (n, delayed values)
       real(wp), intent(out) :: by_z(:, :)
       type(jacobian_type) :: here
-      integer(int64) :: evaluations
+      type(work_type) :: work
       logical :: finite
 
       call problem%jacobian(t, y, z, by_y, by_z)
       if (any(by_y > not_given)) return
       here%given = .false.
-      evaluations = 0
       call here%evaluate(problem, t, y, z, tolerance_type(problem%n, 1.0_wp, 1.0_wp), .true., &
-                         evaluations, finite)
+                         work, finite)
       by_y = here%by_y
       by_z = here%by_z
    end subroutine find_jacobian
@@ -139,7 +139,7 @@ contains
    end subroutine prepare
 
    !> By forward differences of y: columns that share no equation are moved at once.
-   pure subroutine differences_by_y(self, problem, t, y, z, tolerance, evaluations)
+   pure subroutine differences_by_y(self, problem, t, y, z, tolerance, work)
       !> The Jacobian, `here` known
       class(jacobian_type), intent(inout) :: self
       !> The problem
@@ -152,8 +152,8 @@ contains
       real(wp), intent(in) :: z(:)
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
-      !> Right-hand sides evaluated so far
-      integer(int64), intent(inout) :: evaluations
+      !> Work so far
+      type(work_type), intent(inout) :: work
       integer :: apart, first, group, j, last, shift
 
       apart = merge(1 + self%lower + self%upper, problem%n, self%banded)
@@ -163,7 +163,7 @@ contains
             self%moved_y(j) = y(j) + difference*size_of(tolerance, j, y(j))
          end do
          call problem%rhs(t, self%moved_y, z, self%beside)
-         evaluations = evaluations + 1
+         work%evaluations = work%evaluations + 1
          do j = group, problem%n, apart
             first = 1
             last = problem%n
@@ -180,7 +180,7 @@ contains
    end subroutine differences_by_y
 
    !> By forward differences of the delayed values.
-   pure subroutine differences_by_z(self, problem, t, y, z, tolerance, evaluations)
+   pure subroutine differences_by_z(self, problem, t, y, z, tolerance, work)
       !> The Jacobian, `here` known
       class(jacobian_type), intent(inout) :: self
       !> The problem
@@ -193,15 +193,15 @@ contains
       real(wp), intent(in) :: z(:)
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
-      !> Right-hand sides evaluated so far
-      integer(int64), intent(inout) :: evaluations
+      !> Work so far
+      type(work_type), intent(inout) :: work
       integer :: k
 
       do k = 1, size(z)
          self%moved_z = z
          self%moved_z(k) = z(k) + difference*size_of(tolerance, problem%component(k), z(k))
          call problem%rhs(t, y, self%moved_z, self%beside)
-         evaluations = evaluations + 1
+         work%evaluations = work%evaluations + 1
          self%by_z(:, k) = (self%beside - self%here)/(self%moved_z(k) - z(k))
       end do
    end subroutine differences_by_z

@@ -3,13 +3,15 @@
 module dde_stage_iteration
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_collocation, only: add_up, combine, lagrange_weights
+   use dde_cursor, only: cursor_type
    use dde_history, only: history_type
    use dde_interpolant, only: newton_value
-   use dde_norm, only: scaled_norm
    use dde_problem, only: dde_problem_type
    use dde_radau_tableau, only: radau_tableau
    use dde_stage_systems, only: stage_systems
-   use dde_kinds, only: int64, wp
+   use dde_tolerance, only: scaled_norm
+   use dde_work, only: work_type
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: stage_iteration
@@ -97,30 +99,30 @@ contains
    end subroutine forget
 
    !> Delayed values of all stages, and where they lie in this very step.
-   pure subroutine place_delays(self, problem, past, method, h)
+   pure subroutine place_delays(self, problem, past, cursor, method)
       !> The iteration
       class(stage_iteration), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The past, facing this step
-      type(history_type), intent(inout) :: past
+      !> The past
+      type(history_type), intent(in) :: past
+      !> The cursor, on this step
+      type(cursor_type), intent(inout) :: cursor
       !> The method
       type(radau_tableau), intent(in) :: method
-      !> Length of the step
-      real(wp), intent(in) :: h
       integer :: i, k
 
       if (size(problem%lag) == 0) return
       do i = 1, method%stages
-         self%own_place(:, i) = method%c(i) - problem%lag/h
+         self%own_place(:, i) = method%c(i) - problem%lag/cursor%h
          do k = 1, size(problem%lag)
             if (self%own_place(k, i) > 0.0_wp) then
                self%own_weights(:, k, i) = lagrange_weights(self%x, self%own_place(k, i))
             end if
          end do
       end do
-      self%places = method%c*h
-      call past%values(problem, self%places, self%delayed)
+      self%places = method%c*cursor%h
+      call cursor%values(problem, past, self%places, self%delayed)
    end subroutine place_delays
 
    !> Start of the iteration: the last step's polynomial carried on, or no change.
@@ -177,7 +179,7 @@ contains
 
    !> Simplified Newton iteration for the stage increments.
    pure subroutine iterate(self, problem, method, t, h, t_end, y, scale, tolerance, safety, &
-                           evaluations, converged, finite)
+                           work, converged, finite)
       !> The iteration, started and its systems prepared
       class(stage_iteration), intent(inout) :: self
       !> The problem
@@ -198,8 +200,8 @@ contains
       real(wp), intent(in) :: tolerance
       !> Share of the ideal length that the next step should have: less after many iterations
       real(wp), intent(inout) :: safety
-      !> Right-hand sides evaluated so far
-      integer(int64), intent(inout) :: evaluations
+      !> Work so far
+      type(work_type), intent(inout) :: work
       !> Whether it converged
       logical, intent(out) :: converged
       !> Whether all evaluations were finite
@@ -220,9 +222,9 @@ contains
       last_rate = 1.0_wp
       do iteration = 1, most
          call self%slopes_at_stages(problem, method, t, h, t_end, y, finite)
-         evaluations = evaluations + method%stages
+         work%evaluations = work%evaluations + method%stages
          if (.not. finite) return
-         call self%systems%correct(method, self%slopes, self%transforms, self%change)
+         call self%systems%correct(method, self%slopes, self%transforms, work, self%change)
          norm = scaled_norm(size(self%change), self%change, self%scales)
          finite = ieee_is_finite(norm)
          if (.not. (finite .and. norm < huge(1.0_wp))) return

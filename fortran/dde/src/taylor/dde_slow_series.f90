@@ -2,13 +2,18 @@
 !> others, so that their rates do not limit its steps. What a state has of a transient towards the
 !> balance is left out, which is at most the tolerance.
 module dde_slow_series
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_problem, only: dde_problem_type
-   use dde_series_reach, only: series_reach
-   use dde_kinds, only: int64, wp
+   use dde_work, only: work_type
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: least_balance, slow_series
+   public :: least_balance, series_reach, slow_series
 
+   !> Share of the length at which the last two terms reach the tolerance: for what follows them.
+   real(wp), parameter :: share = 0.9_wp
+   !> No farther than this: its powers must not overflow.
+   real(wp), parameter :: farthest = 1.0e15_wp
    !> A series of the state alone that may be longer than this, in units of one over the relaxation
    !> rate, is limited by it.
    real(wp), parameter :: limited = 2.0_wp
@@ -61,7 +66,7 @@ contains
 
    !> Iterate from the state; the series holds where it converges to the tolerance within what it
    !> reaches, and where the state is that near to it.
-   pure subroutine find(self, problem, t, unit, degree, z, scale, rate, evaluations, y)
+   pure subroutine find(self, problem, t, unit, degree, z, scale, rate, work, y)
       !> The series
       class(slow_series), intent(inout) :: self
       !> The problem
@@ -78,8 +83,8 @@ contains
       real(wp), intent(in) :: scale(problem%n)
       !> Relaxation rate
       real(wp), intent(in) :: rate
-      !> Series evaluated so far
-      integer(int64), intent(inout) :: evaluations
+      !> Work so far
+      type(work_type), intent(inout) :: work
       !> Coefficients, of which y(0, :) is given, the state; the slow series if it holds
       real(wp), intent(inout) :: y(0:degree, problem%n)
       real(wp) :: distance, open
@@ -94,7 +99,7 @@ contains
       do iteration = 1, most_iterations
          self%change = y
          call problem%slow_series(t, unit, degree, z, y)
-         evaluations = evaluations + 1
+         work%evaluations = work%evaluations + 1
          call series_reach(degree, y, scale, self%reach)
          if (.not. self%reach*unit*rate >= least_balance) return
          self%change = y - self%change
@@ -142,4 +147,39 @@ contains
          end do
       end do
    end function largest_term
+
+   !> How far, in units of the powers, the last two terms are within the tolerance and terms do not
+   !> grow: those left out of a series of very small terms that do would exceed it later.
+   pure subroutine series_reach(degree, coefficients, scale, reach)
+      !> Degree of the series
+      integer, intent(in) :: degree
+      !> Coefficients, one series a component
+      real(wp), contiguous, intent(in) :: coefficients(0:, :)
+      !> Tolerance of each component
+      real(wp), contiguous, intent(in) :: scale(:)
+      !> How far; 0 where they are not finite
+      real(wp), intent(out) :: reach
+      real(wp) :: growth, last(0:2)
+      integer :: i, k
+
+      reach = 0.0_wp
+      do i = 1, size(scale)
+         reach = reach + (coefficients(degree - 1, i) + coefficients(degree, i))
+      end do
+      if (.not. ieee_is_finite(reach)) then
+         reach = 0.0_wp
+         return
+      end if
+      last = tiny(1.0_wp)
+      do i = 1, size(scale)
+         do k = 0, 2
+            last(k) = max(last(k), abs(coefficients(degree - 2 + k, i))/scale(i))
+         end do
+      end do
+      reach = exp(-max(log(last(1))/(degree - 1), log(last(2))/degree))
+      growth = huge(1.0_wp)
+      ! one term may vanish by chance; at the floor nothing is known
+      if (last(2) > tiny(1.0_wp)) growth = max(last(1)/last(2), sqrt(last(0)/last(2)))
+      reach = share*min(reach, growth, farthest)
+   end subroutine series_reach
 end module dde_slow_series
