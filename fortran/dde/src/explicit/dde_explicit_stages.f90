@@ -1,7 +1,7 @@
 !> The arithmetic of the explicit pair 8(5,3) of Dormand and Prince and of its dense output of order
-!> 7 (Hairer, Norsett and Wanner 1993, sec. II.5, II.6 and II.10). Components are worked on in
-!> blocks of a few lanes, a number that the compiler knows: it then turns the sums over stages into
-!> vector instructions without a loop.
+!> 7 (Hairer, Norsett and Wanner 1993, sec. II.5, II.6 and II.10). Components are stored in blocks
+!> of a few lanes. The number is known to the compiler, which therefore turns the sums over stages
+!> into vector instructions without a loop.
 module dde_explicit_stages
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_dop853_tableau
@@ -18,11 +18,10 @@ module dde_explicit_stages
    integer, parameter :: lanes = 4
    !> Slopes of a step and its dense output.
    integer, parameter :: slope_count = 16
-   !> Places of stages 2 to 12 in the step, ascending, so that the past is read in one direction.
+   !> Places of stages 2 to 12 in the step, ascending: the past is read in one direction.
    real(wp), parameter :: places(11) = [c2, c3, c4, c7, c5, c8, c6, c10, c9, c11, 1.0_wp]
-   !> What the embedded errors of orders 3 and 5 may be where the step is short enough for the
-   !> estimate to mean something, over tolerance**(1/2) and tolerance**(3/4): a few times what
-   !> good steps show.
+   !> Largest embedded errors of orders 3 and 5 for which the estimate is trusted, over
+   !> tolerance**(1/2) and tolerance**(3/4). They are a few times the values of accurate steps.
    real(wp), parameter :: largest_e3 = 50.0_wp, largest_e5 = 3.0_wp
    !> Places of stages 14 to 16, those of the dense output.
    real(wp), parameter :: dense_places(3) = [c14, c15, c16]
@@ -124,9 +123,9 @@ contains
       call add(problem, t + c16*h, stage, h*a16_15, k(:, :, 15), z(:, 3), k(:, :, 16), work, finite)
    end subroutine dense_stages
 
-   !> Complete a stage by `weight` times the newest slope and evaluate it, unless an earlier slope
-   !> was not finite. One by one: a vector cannot be loaded before the numbers that the last
-   !> evaluation has just stored one by one reach the cache.
+   !> Add `weight` times the newest slope to a stage and evaluate it, unless an earlier slope was
+   !> not finite. The addition is scalar: the evaluation has just stored the slope number by number,
+   !> and a vector load would wait until all of them are in the cache.
    pure subroutine add(problem, t, stage, weight, newest, z, slope, work, finite)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
@@ -175,9 +174,9 @@ contains
    end subroutine evaluate
 
    !> The estimate |e5|^2 / sqrt(|e5|^2 + 0.01 |e3|^2), each in the root mean square norm over the
-   !> tolerance (Hairer, Norsett and Wanner 1993, eq. (II.10.17)). It supposes that e3 is of size
-   !> h^4 and e5 of size h^6; a step far too long for that can have a large e3 and by chance a small
-   !> e5, and a small estimate with them, so each is also asked for by itself.
+   !> tolerance (Hairer, Norsett and Wanner 1993, eq. (II.10.17)). It assumes that e3 is of size h^4
+   !> and e5 of size h^6. In a step far too long for that e5 can be small by chance while e3 is
+   !> large. Therefore each of them has a bound of its own.
    pure subroutine error_853(n, blocks, k, h, scale, tolerance, e3, e5, error)
       !> Number of equations
       integer, intent(in) :: n
@@ -189,7 +188,7 @@ contains
       real(wp), intent(in) :: h
       !> Tolerance of each component, shape (n)
       real(wp), intent(in) :: scale(n)
-      !> Digits that are asked for
+      !> Tolerance level
       real(wp), intent(in) :: tolerance
       !> Errors of the embedded methods
       real(wp), intent(out) :: e3(lanes, blocks), e5(lanes, blocks)

@@ -1,5 +1,5 @@
-!> One step of the explicit pair 8(5,3) of Dormand and Prince (dde_explicit_stages) as method of
-!> steps: no longer than the shortest delay, so that all delayed values lie in the past.
+!> One step of the explicit pair 8(5,3) of Dormand and Prince (dde_explicit_stages). It is at most
+!> as long as the shortest delay, so that all delayed values lie in the past.
 module dde_explicit_step
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use dde_explicit_stages, only: dense_coefficients, dense_places, dense_stages, error_853, &
@@ -16,10 +16,10 @@ module dde_explicit_step
    private
    public :: explicit_step_type
 
-   !> Length times rate of change above which stability limits a step.
+   !> Above this value of step size times rate of change, stability limits a step.
    real(wp), parameter :: limited_by_stability = 2.5_wp
 
-   !> Stages of the current step; components fill lane by lane, what is left of the last is zero.
+   !> Stages of the current step. Components fill blocks of lanes; unused lanes of the last are 0.
    type, extends(step_type) :: explicit_step_type
       !> Slopes 1 to 13 of the step and 14 to 16 of its dense output, shape (lanes, blocks, 16)
       real(wp), allocatable :: k(:, :, :)
@@ -56,22 +56,19 @@ contains
       integer :: blocks
 
       step%constants = method_constants(name="explicit", order=8, error_order=8)
+      call step%allocate_state(problem)
       step%nodes = real([0, 1, 0, 1, 0, 1, 0], wp)
       blocks = (problem%n + lanes - 1)/lanes
       allocate (step%k(lanes, blocks, slope_count), source=0.0_wp)
       allocate (step%start(lanes, blocks), step%finish(lanes, blocks), source=0.0_wp)
       allocate (step%stage(lanes, blocks), step%last_stage(lanes, blocks), source=0.0_wp)
       allocate (step%e3(lanes, blocks), step%e5(lanes, blocks))
-      allocate (step%y(problem%n), step%y_new(problem%n), step%slope(problem%n))
-      allocate (step%scale(problem%n))
-      allocate (step%z(size(problem%lag), 1))
       allocate (step%delayed(size(problem%lag), size(places)))
       allocate (step%dense_delayed(size(problem%lag), size(dense_places)))
-      call problem%initial(step%y)
    end function new_step
 
-   !> Try the step of length `h` from t; `error` is the 853 estimate in units of the tolerance
-   !> (step good when <= 1), or not finite where an evaluation was not.
+   !> Attempt a step. `error` is the 853 estimate in units of the tolerance, or not finite if an
+   !> evaluation was not.
    pure subroutine attempt(self, problem, past, cursor, tolerance, work, error)
       !> The step
       class(explicit_step_type), intent(inout) :: self
@@ -108,7 +105,7 @@ contains
                      self%e3, self%e5, error)
    end subroutine attempt
 
-   !> Copy n numbers; either side may be stored in lanes.
+   !> Copy n numbers. Either side may be stored in lanes.
    pure subroutine copy(n, from, to)
       !> How many
       integer, intent(in) :: n
@@ -158,7 +155,7 @@ contains
       value = self%h*rise > limited_by_stability*distance
    end function stiff
 
-   !> The end of the step becomes the start of the next; its last slope serves as the first.
+   !> The end becomes the start of the next step. Its slope is slope 13 of this one.
    pure subroutine advance(self)
       !> The step
       class(explicit_step_type), intent(inout) :: self

@@ -1,4 +1,5 @@
-!> What the error of one step may be: of component i, absolute(i) + relative(i) |y(i)|.
+!> The tolerance of one step, absolute(i) + relative(i) |y(i)| for component i, and the norm in
+!> which errors are measured.
 module dde_tolerance
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use dde_kinds, only: wp
@@ -6,17 +7,16 @@ module dde_tolerance
    private
    public :: hopeless, scaled_norm, tolerance_type
 
-   !> Bounds of `level`: no method can use a tolerance below the rounding of numbers, nor one that
-   !> asks for no digit.
+   !> Bounds of `level`: a smaller tolerance is below rounding, a larger one asks for no digit.
    real(wp), parameter :: least_level = epsilon(1.0_wp), most_level = 1.0_wp
-   !> Elements above this are so far off that their squares need not be taken.
+   !> Elements above this are not squared: the norm is huge.
    real(wp), parameter :: hopeless = 1.0e100_wp
 
    !> The tolerance of all components.
    type :: tolerance_type
       !> Relative and absolute tolerance, shape (n)
       real(wp), allocatable :: relative(:), absolute(:)
-      !> The largest of all of them: the digits that are asked for
+      !> The largest of all of them
       real(wp) :: level = 0.0_wp
    contains
       !> Tolerances for a state
@@ -78,8 +78,8 @@ contains
       tolerance = self%absolute(i) + self%relative(i)*abs(value)
    end function of_component
 
-   !> Root mean square of x/scale; huge where an element is hopeless, not a number where one is not
-   !> finite.
+   !> Root mean square of x/scale. It is huge if an element is above `hopeless` and not a number if
+   !> one is not finite.
    pure function scaled_norm(n, x, scale) result(norm)
       !> How many
       integer, intent(in) :: n

@@ -8,17 +8,17 @@ module dde_controller
    private
    public :: controller_type
 
-   !> Share of the last accepted error in the next step (integral part).
+   !> Weight of the last accepted error (integral part).
    real(wp), parameter :: beta = 0.04_wp
    !> Bounds on the ratio of one step to the one before.
    real(wp), parameter :: least_ratio = 1.0_wp/3.0_wp, most_ratio = 6.0_wp
-   !> Where a step is rejected again the order seen between the two tries takes the place of the
-   !> method's (Gustafsson 1994, ACM Trans. Math. Softw. 20, 496): at least this, with this least
-   !> ratio.
+   !> If a step is rejected again, the order observed between the two attempts replaces that of the
+   !> method (Gustafsson 1994, ACM Trans. Math. Softw. 20, 496). Least value of this order, and
+   !> least ratio of the steps then.
    real(wp), parameter :: least_order = 0.5_wp, least_ratio_again = 1.0e-4_wp
    !> Ratio after an evaluation that was not finite.
    real(wp), parameter :: ratio_after_failure = 0.1_wp
-   !> Accepted errors count as at least this, in proportional and in predictive control.
+   !> Lower bounds on accepted errors in proportional and in predictive control.
    real(wp), parameter :: least_error = 1.0e-4_wp, least_predicted = 1.0e-2_wp
 
    !> Step control of one integration.
@@ -75,7 +75,7 @@ contains
       self%rejected = .false.
    end subroutine accept
 
-   !> After a rejected step: replace its length by the next try.
+   !> After a rejected step: replace its length by the next attempt.
    pure subroutine reject(self, method, safety, h, error)
       !> Control
       class(controller_type), intent(inout) :: self
@@ -83,7 +83,7 @@ contains
       type(method_constants), intent(in) :: method
       !> Factor below the step size at which the error would be equal to the tolerance
       real(wp), intent(in) :: safety
-      !> Length of the step, replaced by the next try
+      !> Length of the step, replaced by the next attempt
       real(wp), intent(inout) :: h
       !> Error of the step in units of the tolerance, > 1 or not finite
       real(wp), intent(in) :: error
@@ -94,7 +94,7 @@ contains
          order = method%error_order
          least = least_ratio
          if (self%rejected .and. self%rejected_error > error .and. self%rejected_h > h) then
-            ! a near-jump inside the step: its error falls by a low order of its length
+            ! a near-jump inside the step: its error is proportional to a low power of its length
             order = log(self%rejected_error/error)/log(self%rejected_h/h)
             order = max(least_order, min(order, real(method%error_order, wp)))
             least = least_ratio_again

@@ -1,4 +1,4 @@
-!> What stands behind a run that could not go on.
+!> The cause of a run that could not continue.
 module dde_diagnosis
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_cursor, only: cursor_type

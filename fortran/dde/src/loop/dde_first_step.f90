@@ -12,7 +12,7 @@ module dde_first_step
    private
    public :: choose_first_step
 
-   !> A change beyond this many scales in a unit of time says nothing on the first step.
+   !> Above this change per unit of time, in units of the tolerance, no first step can be estimated.
    real(wp), parameter :: hopeless = 1.0e140_wp
 
 contains
@@ -63,7 +63,7 @@ contains
       end if
    end subroutine choose_first_step
 
-   !> Length of x in units of `scale`; huge where it is hopeless or not finite.
+   !> Length of x in units of `scale`; huge if it is above `hopeless` or not finite.
    pure function length_of(x, scale) result(length)
       !> Elements
       real(wp), intent(in) :: x(:)

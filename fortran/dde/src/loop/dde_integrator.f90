@@ -1,5 +1,5 @@
-!> The method of steps: from breaking point to breaking point with controlled steps, each accepted
-!> step appended to the history that later steps read.
+!> The method of steps: controlled steps from breaking point to breaking point. The polynomial of
+!> each accepted step is stored in the past that later steps read.
 module dde_integrator
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_continuation, only: continuation_type
@@ -24,9 +24,8 @@ module dde_integrator
 
 contains
 
-   !> Integrate `problem` from t_start to t_end >= t_start, or to an event that ends the run.
-   !> Without sampler, watcher and continuation nothing is stored but the history that the delays
-   !> need. On an error `outcome` still tells how far it came.
+   !> Integrate `problem` from t_start to t_end >= t_start, or to an event that ends the run. Only
+   !> the past that the delays need is stored. On an error `outcome` holds the last instant reached.
    subroutine integrate(problem, t_start, t_end, options, outcome, error, sampler, watcher, &
                         continuation)
       !> The problem
@@ -37,7 +36,7 @@ contains
       real(wp), intent(in) :: t_end
       !> Method, tolerances and limits
       type(integration_options), intent(in) :: options
-      !> What was done
+      !> The result
       type(integration_result), intent(out) :: outcome
       !> Why it reached neither t_end nor an event that ends the run
       type(error_type), allocatable, intent(out) :: error
@@ -45,7 +44,7 @@ contains
       class(sampler_type), intent(inout), optional :: sampler
       !> Receiver of events
       class(event_watcher_type), intent(inout), optional :: watcher
-      !> Where an earlier run ended, to go on from there; where this one did
+      !> Where an earlier run ended; on return where this one ended
       type(continuation_type), intent(inout), optional :: continuation
       type(run_type) :: run
       type(switch_type) :: switch
@@ -71,7 +70,7 @@ contains
       error_estimate = 0.0_wp
 
       outcome%reason = reached_end
-      last = .not. run%points%left(run%now) > 0.0_wp
+      last = .not. run%points%time_to_end(run%now) > 0.0_wp
       do while (.not. last)
          call run%plan(problem, longest, h, goal, landing)
          outcome%reason = limit_met(outcome, error_estimate, options, h, &
@@ -94,7 +93,7 @@ contains
          if (landing) step_end = run%points%at(goal)
          if (.not. run%now%hi + h > run%now%hi) outcome%unresolved = outcome%unresolved + 1
          call deliver(problem, run%step, run%past, run%cursor, run%work, run%search, run%now, &
-                      step_end, run%points%smooth(run%now), ended, sampler, watcher)
+                      step_end, run%points%time_to_next(run%now), ended, sampler, watcher)
          if (ended) then
             call run%arrive(goal, .false., step_end)
             run%step%y = run%search%here%y
@@ -104,15 +103,15 @@ contains
          call run%step%next_length(run%control, h, error_estimate)
          other = .false.
          if (automatic) then
-            ! a run that may go on has no end yet
+            ! a run that may be continued has no end yet
             left = huge(1.0_wp)
-            if (.not. present(continuation)) left = run%points%left(step_end)
+            if (.not. present(continuation)) left = run%points%time_to_end(step_end)
             call switch%judge(problem, run%step, run%work%total(), shortest_delay, h, left, other)
          end if
          call run%step%advance()
          last = landing .and. run%points%is_end(goal)
          call run%arrive(goal, landing, step_end)
-         ! a step cut short to land says nothing against the length proposed before
+         ! a step shortened to end at a point does not reduce the step size proposed before
          run%h = merge(max(run%h, h), h, landing)
          if (landing .and. .not. last) outcome%breaking_points = outcome%breaking_points + 1
          if (other) then
@@ -137,7 +136,7 @@ contains
       end if
    end subroutine integrate
 
-   !> Whether a step passed: its error finite and within the tolerance.
+   !> Whether the error of a step is finite and within the tolerance.
    pure logical function accepted(error_estimate) result(value)
       !> Error in units of the tolerance
       real(wp), intent(in) :: error_estimate

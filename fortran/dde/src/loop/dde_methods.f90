@@ -1,4 +1,4 @@
-!> The methods: how each begins, follows another, and how long its steps may be.
+!> The methods: how a step of each is made, how one follows another, and how long steps may be.
 module dde_methods
    use dde_explicit_step, only: explicit_step_type
    use dde_implicit_step, only: implicit_cost, implicit_step_type
@@ -66,7 +66,7 @@ contains
              + operations/(operations_of_evaluation*problem%n)
    end function work_of_step
 
-   !> A step of the method asked for; `auto` begins with an explicit one.
+   !> A step of the chosen method; `auto` begins with an explicit one.
    subroutine choose_method(problem, method, tolerance, step)
       !> The problem
       class(dde_problem_type), intent(in) :: problem

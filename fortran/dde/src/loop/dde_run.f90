@@ -1,5 +1,5 @@
-!> The state of a run between two steps: how it begins, what the next step may be, and what is kept
-!> when it ends.
+!> The state of a run between two steps: how it begins, how the next step is planned, and what is
+!> kept when it ends.
 module dde_run
    use dde_breaking_points, only: breaking_points, stretch
    use dde_continuation, only: continuation_type
@@ -21,10 +21,11 @@ module dde_run
    private
    public :: run_type
 
-   !> How far beside a jump the right-hand side is asked for, in units of the spacing of times.
+   !> Distance from a jump at which the right-hand side is evaluated, in units of the spacing of
+   !> times.
    real(wp), parameter :: beside = 4.0_wp
 
-   !> Where a run stands.
+   !> The state of a run.
    type :: run_type
       !> The step, of the method in use
       class(step_type), allocatable :: step
@@ -52,7 +53,7 @@ module dde_run
       !> Time derivative of the state at the start of the run, as event functions see it, shape (n)
       real(wp), allocatable :: first_slope(:)
    contains
-      !> Begin, or go on from an earlier run
+      !> Begin, or continue an earlier run
       procedure :: begin
       !> Plan the next step
       procedure :: plan
@@ -60,16 +61,16 @@ module dde_run
       procedure :: restart
       !> Go on by the other method of `auto`
       procedure :: change_to_other
-      !> Keep what a later run needs to go on
+      !> Keep what a later run needs to continue
       procedure :: keep
-      !> Stand at the end of an accepted step
+      !> Go to the end of an accepted step
       procedure :: arrive
-      procedure, private :: start_anew, go_on
+      procedure, private :: start_anew, continue_run
    end type run_type
 
 contains
 
-   !> Begin, or go on from an earlier run.
+   !> Begin, or continue an earlier run.
    subroutine begin(self, problem, t_start, t_end, options, continuation)
       !> The run
       class(run_type), intent(inout) :: self
@@ -83,15 +84,15 @@ contains
       type(integration_options), intent(in) :: options
       !> Where an earlier run ended, if one did
       type(continuation_type), intent(in), optional :: continuation
-      logical :: goes_on
+      logical :: continued
 
-      goes_on = .false.
-      if (present(continuation)) goes_on = allocated(continuation%y)
+      continued = .false.
+      if (present(continuation)) continued = allocated(continuation%y)
       self%tolerance = tolerance_of(problem, options)
       self%cursor = cursor_type(problem)
       self%work = work_type(problem%n)
-      if (goes_on) then
-         call self%go_on(problem, instant_at(t_end), options, continuation)
+      if (continued) then
+         call self%continue_run(problem, instant_at(t_end), options, continuation)
       else
          call self%start_anew(problem, instant_at(t_start), instant_at(t_end), options)
       end if
@@ -104,8 +105,8 @@ contains
       end if
    end subroutine begin
 
-   !> The first run: its first instant is a kink, or a jump where a delayed component differs from
-   !> its history there.
+   !> The first run. Its first instant is a kink, or a jump if a delayed component differs from its
+   !> history there.
    subroutine start_anew(self, problem, start, finish, options)
       !> The run
       class(run_type), intent(inout) :: self
@@ -134,13 +135,13 @@ contains
       end do
       call self%points%begin([first, causes(options, start)], start, start, finish, problem%lag, &
                              self%step%constants%order - 1)
-      call look(self, problem, options)
+      call prepare_start(self, problem, options)
       self%first_slope = self%step%slope
    end subroutine start_anew
 
-   !> Another run, on the past of the one before. Where the problem gives another right-hand side
-   !> than it did at the end of that one, there is a kink here.
-   subroutine go_on(self, problem, finish, options, continuation)
+   !> Another run, with the past of the one before. If the right-hand side differs from that at the
+   !> end of the earlier run, there is a kink here.
+   subroutine continue_run(self, problem, finish, options, continuation)
       !> The run
       class(run_type), intent(inout) :: self
       !> The problem
@@ -171,15 +172,15 @@ contains
          call self%points%begin([kinks, causes(options, origin)], origin, self%now, finish, &
                                 problem%lag, self%step%constants%order - 1)
       end associate
-      call look(self, problem, options)
+      call prepare_start(self, problem, options)
       if (size(self%first_slope) == 0) self%first_slope = self%step%slope
       if (.not. continuation%has_rate(self%step%slope)) then
          call self%points%add(kink_type(self%now))
       end if
-   end subroutine go_on
+   end subroutine continue_run
 
    !> Evaluate the slope at the start of the next step.
-   subroutine look(self, problem, options)
+   subroutine prepare_start(self, problem, options)
       !> The run
       class(run_type), intent(inout) :: self
       !> The problem
@@ -194,12 +195,12 @@ contains
       end if
       call self%cursor%set(problem, self%past, self%now, &
                            minval([longest_step(problem, self%step, options%longest_step), &
-                                   problem%lag, self%points%smooth(self%now)]))
+                                   problem%lag, self%points%time_to_next(self%now)]))
       call bound_times(self)
       call self%step%restart(problem, self%past, self%cursor, self%work)
-   end subroutine look
+   end subroutine prepare_start
 
-   !> The right-hand side is not asked for at an instant where it may jump, but beside it.
+   !> The right-hand side is evaluated beside an instant where it may jump, not there.
    pure subroutine bound_times(self, goal)
       !> The run
       class(run_type), intent(inout) :: self
@@ -269,11 +270,11 @@ contains
       self%control = controller_type()
    end subroutine change_to_other
 
-   !> Stand at the end of an accepted step.
+   !> Go to the end of an accepted step.
    pure subroutine arrive(self, goal, landing, step_end)
       !> The run
       class(run_type), intent(inout) :: self
-      !> Number of the point that it headed for
+      !> Number of the point that the step headed for
       integer, intent(in) :: goal
       !> Whether it ends there
       logical, intent(in) :: landing
@@ -295,7 +296,7 @@ contains
       if (elapsed(self%past%origin, horizon) > 0.0_wp) call self%points%forget(horizon)
    end subroutine arrive
 
-   !> Keep what a later run needs to go on from here.
+   !> Keep what a later run needs to continue from here.
    subroutine keep(self, problem, options, continuation)
       !> The run, ended
       class(run_type), intent(inout) :: self
@@ -311,7 +312,7 @@ contains
       continuation%y = self%step%y
       continuation%slope = self%step%slope_here()
       if (allocated(self%search%here%slope)) continuation%slope = self%search%here%slope
-      call look(self, problem, options)
+      call prepare_start(self, problem, options)
       continuation%rate = self%step%slope
       continuation%next_step = self%h
       continuation%method = self%step%constants%name

@@ -40,6 +40,8 @@ module dde_step
       !> Time from the start of the step for which its polynomial is valid, if longer than the step
       real(wp) :: valid_for = 0.0_wp
    contains
+      !> Storage of the components above, and the initial state
+      procedure :: allocate_state
       !> Start at a kink: evaluate the slope there
       procedure :: restart
       !> Forget what earlier steps have shown
@@ -110,6 +112,19 @@ module dde_step
    end interface
 
 contains
+
+   !> Storage of what all steps have, and the state at the first instant.
+   pure subroutine allocate_state(self, problem)
+      !> The step
+      class(step_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+
+      associate (n => problem%n, delays => size(problem%lag))
+         allocate (self%y(n), self%y_new(n), self%slope(n), self%scale(n), self%z(delays, 1))
+      end associate
+      call problem%initial(self%y)
+   end subroutine allocate_state
 
    !> Evaluate the slope at the start of the step on which the cursor stands.
    pure subroutine restart(self, problem, past, cursor, work)

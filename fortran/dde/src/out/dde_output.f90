@@ -1,5 +1,5 @@
-!> Where the dense output of accepted steps goes: events to the watcher, samples to the sampler, the
-!> delayed components to the history.
+!> The dense output of accepted steps: events go to the watcher, samples to the sampler, and the
+!> polynomials of delayed components to the past.
 module dde_output
    use dde_cursor, only: cursor_type
    use dde_event_search, only: event_search
@@ -55,7 +55,7 @@ contains
       ended = .false.
       share = 1.0_wp
       if (present(watcher)) then
-         call search%look_through(watcher, step, start, step_end, share, ended)
+         call search%search_step(watcher, step, start, step_end, share, ended)
       end if
       if (sampled) call sample(sampler, step, start, step_end)
       if (delayed .and. share > 0.0_wp) then

@@ -1,6 +1,7 @@
 !> One step of a Radau IIA method as method of steps, by simplified Newton iteration (Hairer and
 !> Wanner 1996, sec. IV.8). Where the step is longer than a delay, its own collocation polynomial is
-!> the history.
+!> the past. The embedded error estimate overlooks very stiff components, so that `confirm` and
+!> `find_error_inside` check the step, too.
 module dde_implicit_step
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use dde_collocation, only: add_up, difference_increments, shape_bump
@@ -20,12 +21,12 @@ module dde_implicit_step
    private
    public :: implicit_cost, implicit_step_type
 
-   !> Contraction below which the Jacobian serves another step.
+   !> Contraction below which the next step uses the same Jacobian.
    real(wp), parameter :: good_contraction = 1.0e-3_wp
-   !> Ratio of step lengths up to which it pays to keep length and factors.
+   !> Up to this ratio the step size is kept, and the factors with it.
    real(wp), parameter :: keep_length = 1.2_wp
-   !> Below this, an explicit step may be as long: times the norm of the Jacobian.
-   real(wp), parameter :: worth_returning = 8.0_wp
+   !> Below this value of step size times norm of the Jacobian the problem is not stiff.
+   real(wp), parameter :: least_stiff = 8.0_wp
    !> Cost of an evaluation within this method over one within the explicit pair.
    real(wp), parameter :: implicit_cost = 4.0_wp
 
@@ -44,15 +45,15 @@ module dde_implicit_step
       type(stage_iteration) :: stages
       !> Newton coefficients of the increments over this and the last accepted step, (0:stages, n)
       real(wp), allocatable :: differences(:, :), last_differences(:, :)
-      !> Length of the last accepted step; 0 when its polynomial says nothing on this one
+      !> Length of the last accepted step; 0 when its polynomial must not be extrapolated
       real(wp) :: last_h = 0.0_wp
       !> Error of the embedded method, filtered and not, and without the slope, shape (n)
       real(wp), allocatable :: error_vector(:), unfiltered(:), raw(:)
       !> The Jacobian at the end of the step, and its real system
       type(jacobian_type), allocatable, private :: jacobian_at_end
       type(real_system), allocatable, private :: system_at_end
-      !> Whether the last Jacobian still serves
-      logical :: jacobian_serves = .false.
+      !> Whether the last Jacobian can be used again
+      logical :: jacobian_is_good = .false.
    contains
       procedure :: reset
       procedure :: attempt
@@ -81,29 +82,28 @@ contains
                                         implicit=.true., evaluation_cost=implicit_cost, &
                                         predictive=.true., largest_kept_ratio=keep_length)
       write (step%constants%name, "(a,i0)") "radau", step%constants%order
+      call step%allocate_state(problem)
       step%nodes = [0.0_wp, step%method%c]
       associate (n => problem%n, delays => size(problem%lag))
-         allocate (step%y(n), step%y_new(n), step%slope(n), step%z(delays, 1))
-         allocate (step%scale(n), step%error_vector(n), step%raw(n), step%unfiltered(n))
+         allocate (step%error_vector(n), step%raw(n), step%unfiltered(n))
          allocate (step%jacobian_at_end, step%system_at_end)
          allocate (step%differences(0:stages, n), step%last_differences(0:stages, n))
          step%stages = stage_iteration(step%method, n, delays)
       end associate
       call shape_bump(step%method%c, step%bump, step%bump_slope)
-      call problem%initial(step%y)
    end function new_step
 
-   !> Polynomial, Jacobian and factors from before do not serve.
+   !> Polynomial, Jacobian and factors of earlier steps are not used again.
    pure subroutine reset(self)
       !> The step
       class(implicit_step_type), intent(inout) :: self
 
       self%last_h = 0.0_wp
-      self%jacobian_serves = .false.
+      self%jacobian_is_good = .false.
       call self%stages%forget()
    end subroutine reset
 
-   !> Try the step of length `h` from t.
+   !> Attempt a step: iterate, check the result, estimate its error.
    pure subroutine attempt(self, problem, past, cursor, tolerance, work, error)
       !> The step
       class(implicit_step_type), intent(inout) :: self
@@ -124,8 +124,8 @@ contains
 
       self%t = cursor%t
       self%h = cursor%h
-      ! the estimate has order s, the method of steps s + 1 inside and more at the ends: asked for
-      ! this, errors come out near the tolerance, as they do with the explicit method
+      ! the estimate has order s, the polynomial s + 1, the ends more: with this tolerance of the
+      ! estimate, errors are near the tolerance of the step, as with the explicit method
       asked = tolerance%level**((self%method%stages + 1.0_wp)/(self%method%stages + 2.0_wp))
       call tolerance%scale(self%y, self%scale)
       self%scale = asked/tolerance%level*self%scale
@@ -145,9 +145,9 @@ contains
             call self%confirm(problem, cursor%inside(self%t + self%h), tolerance, work, converged)
          end if
          if (converged .or. .not. self%last_h > 0.0_wp) exit
-         ! the polynomial carried on may be too far off, the Jacobian too old: once more anew
+         ! the extrapolated polynomial may be too far off or the Jacobian too old: start again
          self%last_h = 0.0_wp
-         self%jacobian_serves = .false.
+         self%jacobian_is_good = .false.
       end do
       if (converged) then
          call self%estimate(problem, cursor%inside(self%t), work, error)
@@ -160,11 +160,11 @@ contains
       else if (.not. singular) then
          if (finite) error = huge(1.0_wp)
       end if
-      self%jacobian_serves = .false.
+      self%jacobian_is_good = .false.
    end subroutine attempt
 
-   !> Jacobian and factors, as far as the last ones do not serve. The Jacobian is that of the middle
-   !> stage as it is expected, which is nearer to all stages than the start of the step.
+   !> Jacobian and factors, where the last ones cannot be used. The Jacobian is evaluated at the
+   !> expected middle stage, which is nearer to all stages than the start of the step.
    pure subroutine prepare(self, problem, tolerance, work, singular)
       !> The step
       class(implicit_step_type), intent(inout) :: self
@@ -180,7 +180,7 @@ contains
 
       singular = .false.
       coupled = any(self%stages%own_place > 0.0_wp)
-      if (.not. self%jacobian_serves .or. coupled .and. .not. self%jacobian%knows_delays) then
+      if (.not. self%jacobian_is_good .or. coupled .and. .not. self%jacobian%knows_delays) then
          call self%stages%expect_delayed(problem, self%y)
          associate (middle => (self%method%stages + 1)/2)
             call self%jacobian%evaluate(problem, self%t + self%method%c(middle)*self%h, &
@@ -192,7 +192,7 @@ contains
          singular = .not. finite
          if (singular) return
          call self%jacobian%find_norm(self%stiffness)
-         self%jacobian_serves = .true.
+         self%jacobian_is_good = .true.
       end if
       if (.not. abs(self%stages%systems%h - self%h) > 0.0_wp) return
       call self%stages%systems%prepare(self%method, self%h, self%jacobian, problem%component, &
@@ -246,8 +246,8 @@ contains
       end associate
    end subroutine confirm
 
-   !> Error of the embedded method of order s, filtered by the real system so that stiff components
-   !> do not drown it (Hairer and Wanner 1996, eq. (IV.8.20)).
+   !> Error of the embedded method of order s. The real system filters it: otherwise stiff
+   !> components would dominate it (Hairer and Wanner 1996, eq. (IV.8.20)).
    pure subroutine estimate(self, problem, t_start, work, error)
       !> The step
       class(implicit_step_type), intent(inout) :: self
@@ -268,8 +268,8 @@ contains
       call self%stages%systems%filter(self%error_vector)
       error = scaled_norm(problem%n, self%error_vector, self%scale)
       if (error >= 1.0_wp .and. .not. self%last_h > 0.0_wp) then
-         ! at a start, once more through the filter; the slope of an earlier polynomial is not that
-         ! of the state, and only what the error changes of it counts
+         ! at a start it is filtered again (IV.8.21). The slope at the start may be that of an
+         ! earlier polynomial, so that only the change of the right-hand side by the error is added
          allocate (slope(problem%n))
          call problem%rhs(t_start, self%y, self%z, slope)
          call problem%rhs(t_start, self%y + self%error_vector, self%z, &
@@ -310,8 +310,8 @@ contains
       end associate
    end subroutine find_error_inside
 
-   !> Collocation polynomial of component `i` and the multiple of the bump that gives it the slope
-   !> at the start: one order more.
+   !> Collocation polynomial of component `i` plus a multiple of the bump, which gives it the slope
+   !> at the start and one order more.
    pure subroutine interpolant(self, i, a)
       !> The step
       class(implicit_step_type), intent(in) :: self
@@ -330,10 +330,10 @@ contains
       !> The step
       class(implicit_step_type), intent(in) :: self
 
-      value = .not. self%h*self%stiffness < worth_returning
+      value = .not. self%h*self%stiffness < least_stiff
    end function stiff
 
-   !> The end becomes the start; polynomial, Jacobian and factors serve on as far as they are good.
+   !> The end becomes the start. Jacobian and factors are kept if the iteration converged fast.
    pure subroutine advance(self)
       !> The step
       class(implicit_step_type), intent(inout) :: self
@@ -342,6 +342,6 @@ contains
       self%y = self%y_new
       self%last_differences = self%differences
       self%last_h = self%h
-      self%jacobian_serves = self%stages%contraction <= good_contraction
+      self%jacobian_is_good = self%stages%contraction <= good_contraction
    end subroutine advance
 end module dde_implicit_step

@@ -1,6 +1,6 @@
-!> The Jacobian of a problem at one place: as the problem gives it, or by forward differences; those
-!> of a banded one take as many evaluations as it has diagonals (Curtis, Powell and Reid 1974, "On
-!> the estimation of sparse Jacobian matrices", J. Inst. Maths Applics 13, 117).
+!> The Jacobian of a problem at one place. The problem gives it, or it is found by forward
+!> differences. A banded Jacobian costs one evaluation for each diagonal (Curtis, Powell and Reid
+!> 1974, "On the estimation of sparse Jacobian matrices", J. Inst. Maths Applics 13, 117).
 module dde_jacobian
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_problem, only: dde_problem_type, not_given
@@ -11,10 +11,10 @@ module dde_jacobian
    private
    public :: find_jacobian, jacobian_type
 
-   !> Differences are this share of a component.
+   !> Difference over the size of the component.
    real(wp), parameter :: difference = sqrt(epsilon(1.0_wp))
-   !> A component counts as no smaller than this share of the size that the digits asked for and
-   !> its absolute tolerance mean, and no smaller than this number.
+   !> Lower bounds on the size of a component: this share of (absolute tolerance / tolerance level),
+   !> and this number.
    real(wp), parameter :: small_share = 1.0e-5_wp, least_size = 1.0e-140_wp
 
    !> Derivatives of the right-hand side.
@@ -27,9 +27,9 @@ module dde_jacobian
       !> Whether it is banded, its diagonals below and above the main one
       logical :: banded = .false.
       integer :: lower = 0, upper = 0
-      !> Whether derivatives by the delayed values are known, too
+      !> Whether `by_z` is known
       logical :: knows_delays = .false.
-      !> Whether the problem gives it, as far as is known
+      !> False once the problem is known not to give it
       logical, private :: given = .true.
       !> The right-hand side at the place, and beside it, shape (n)
       real(wp), allocatable, private :: here(:), beside(:)
@@ -59,7 +59,7 @@ contains
       real(wp), intent(in) :: z(:)
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
-      !> Whether derivatives by the delayed values are wanted, too
+      !> Whether `by_z` is needed
       logical, intent(in) :: with_delays
       !> Work so far
       type(work_type), intent(inout) :: work
@@ -111,13 +111,13 @@ contains
       by_z = here%by_z
    end subroutine find_jacobian
 
-   !> Storage, as far as it is needed.
+   !> Storage, when it is first needed.
    pure subroutine prepare(self, problem, with_delays)
       !> The Jacobian
       class(jacobian_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Whether derivatives by the delayed values are wanted, too
+      !> Whether `by_z` is needed
       logical, intent(in) :: with_delays
 
       if (.not. allocated(self%by_y)) then
@@ -138,7 +138,7 @@ contains
       end if
    end subroutine prepare
 
-   !> By forward differences of y: columns that share no equation are moved at once.
+   !> By forward differences of y. Columns that share no equation are moved together.
    pure subroutine differences_by_y(self, problem, t, y, z, tolerance, work)
       !> The Jacobian, `here` known
       class(jacobian_type), intent(inout) :: self
@@ -206,7 +206,7 @@ contains
       end do
    end subroutine differences_by_z
 
-   !> Size of a component, from which its difference is taken.
+   !> Size of a component, to which its difference is proportional.
    pure real(wp) function size_of(tolerance, i, value) result(size)
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance

@@ -43,17 +43,17 @@ module dde_stage_iteration
       real(wp), allocatable :: own_weights(:, :, :)
       !> Contraction theta of the last iteration
       real(wp) :: contraction = 1.0_wp
-      !> What is left after a correction, over the correction: theta/(1 - theta), or a guess that
-      !> loses trust with each step that did not measure it
+      !> Remaining error over the last correction, theta/(1 - theta). It grows with each step that
+      !> does not measure theta.
       real(wp) :: remainder = 1.0_wp
    contains
-      !> Trust no contraction seen before
+      !> Forget the contraction of earlier steps
       procedure :: forget
-      !> Look up the delayed values
+      !> Read the delayed values
       procedure :: place_delays
       !> Guess the increments
       procedure :: start
-      !> Delayed values in this step, by the increments as they are
+      !> Delayed values that lie in this step
       procedure :: expect_delayed
       !> Find them
       procedure :: iterate
@@ -89,7 +89,7 @@ contains
       iteration%systems = stage_systems(method, n)
    end function new_iteration
 
-   !> Trust no contraction seen before.
+   !> Forget the contraction of earlier steps.
    pure subroutine forget(self)
       !> The iteration
       class(stage_iteration), intent(inout) :: self
@@ -98,7 +98,7 @@ contains
       self%remainder = 1.0_wp
    end subroutine forget
 
-   !> Delayed values of all stages, and where they lie in this very step.
+   !> Delayed values of all stages, and the places of those that lie in the step itself.
    pure subroutine place_delays(self, problem, past, cursor, method)
       !> The iteration
       class(stage_iteration), intent(inout) :: self
@@ -125,7 +125,7 @@ contains
       call cursor%values(problem, past, self%places, self%delayed)
    end subroutine place_delays
 
-   !> Start of the iteration: the last step's polynomial carried on, or no change.
+   !> Start of the iteration: the last step's polynomial extrapolated, or no change.
    pure subroutine start(self, method, last_differences, last_h, h)
       !> The iteration
       class(stage_iteration), intent(inout) :: self
@@ -133,7 +133,7 @@ contains
       type(radau_tableau), intent(in) :: method
       !> Newton coefficients of the last step's increments, shape (0:stages, n)
       real(wp), contiguous, intent(in) :: last_differences(0:, :)
-      !> Its length; 0 where it says nothing on this step
+      !> Its length; 0 where its polynomial must not be extrapolated
       real(wp), intent(in) :: last_h
       !> Length of this step
       real(wp), intent(in) :: h
@@ -156,7 +156,7 @@ contains
       end associate
    end subroutine start
 
-   !> Delayed values that lie in this step, by the increments as they are.
+   !> Delayed values that lie in this step, from the present increments.
    pure subroutine expect_delayed(self, problem, y)
       !> The iteration
       class(stage_iteration), intent(inout) :: self
@@ -198,7 +198,8 @@ contains
       real(wp), intent(in) :: scale(:)
       !> Tolerance of the error estimate
       real(wp), intent(in) :: tolerance
-      !> Share of the ideal length that the next step should have: less after many iterations
+      !> Factor below the step size at which the error would be equal to the tolerance; it is
+      !> smaller after many iterations
       real(wp), intent(inout) :: safety
       !> Work so far
       type(work_type), intent(inout) :: work
@@ -212,7 +213,7 @@ contains
       converged = .false.
       most = int(iterations_of_three + (method%stages - 3)*iterations_per_stage)
       limit = max(10.0_wp*epsilon(1.0_wp)/tolerance, min(0.03_wp, sqrt(tolerance)))
-      ! the stiff residual is a small difference of large numbers: below this all is rounding
+      ! the stiff residual is a small difference of large numbers: below this it is rounding
       rounding = 4.0_wp*epsilon(1.0_wp)*maxval(abs(y)/scale)
       self%remainder = max(self%remainder, epsilon(1.0_wp))**0.8_wp
       do stage = 1, method%stages
@@ -243,7 +244,7 @@ contains
          last_norm = max(norm, epsilon(1.0_wp))
          self%transforms = self%transforms + self%change
          call combine(size(y), method%stages, self%systems%t, self%transforms, self%increments)
-         ! one correction alone is trusted only where it is no larger than the tolerance
+         ! a single correction must not exceed the tolerance
          if ((self%remainder*norm <= limit .and. (iteration > 1 .or. norm <= 1.0_wp)) &
              .or. norm <= rounding) then
             converged = .true.

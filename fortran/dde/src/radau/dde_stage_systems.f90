@@ -1,6 +1,6 @@
 !> The linear systems of the simplified Newton iteration of a Radau IIA step. The stages part into
 !> one real and some complex systems of size n (Hairer and Wanner 1996, sec. IV.8). Delayed values
-!> that lie in the step itself couple them: these are unknowns of their own.
+!> that lie in the step itself couple these systems. They are additional unknowns.
 module dde_stage_systems
    use dde_collocation, only: combine, in_lanes, stage_lanes
    use dde_coupling, only: coupling_type
@@ -130,7 +130,7 @@ contains
       end if
    end subroutine prepare
 
-   !> Make the delayed values that lie in the step unknowns; the others get no weight.
+   !> Make the delayed values that lie in the step unknowns. The others have weight 0.
    pure subroutine couple(self, method, by_z, component, own_place, own_weights, work, singular)
       !> The systems, factorised
       class(stage_systems), intent(inout) :: self
@@ -236,7 +236,7 @@ contains
       if (self%coupled) call self%of_stages%complete(change)
    end subroutine correct
 
-   !> Replace a vector by the solution of the real system: stiff components shrink, others stay.
+   !> Replace a vector by the solution of the real system. Only its stiff components shrink.
    pure subroutine filter(self, vector)
       !> The systems
       class(stage_systems), intent(inout) :: self

@@ -1,5 +1,5 @@
-!> The Taylor series of the solution from the start of a step on, and how far it serves: that of the
-!> state, or that of a slow solution near it.
+!> The Taylor series of the solution from the start of a step on, and the time for which it is
+!> valid. It is the series of the state, or that of a slow solution near it.
 module dde_taylor_series
    use dde_delayed_series, only: delayed_series
    use dde_interpolant, only: series_value
@@ -11,7 +11,7 @@ module dde_taylor_series
    private
    public :: taylor_series
 
-   !> Longest unit for the series of a state, in units of one over the relaxation rate: its powers
+   !> Longest unit of the series of a state, in units of one over the relaxation rate: powers of it
    !> must not overflow.
    real(wp), parameter :: longest_unit = 1000.0_wp
 
@@ -21,18 +21,19 @@ module dde_taylor_series
       integer :: degree = 0
       !> Unit of time of its powers
       real(wp) :: unit = 0.0_wp
-      !> Time that it serves; 0 where it is not finite
+      !> Time for which it is valid; 0 if it is not finite
       real(wp) :: reach = 0.0_wp
       !> Coefficients of the solution, shape (0:degree, n)
       real(wp), allocatable :: coefficients(:, :)
       !> Series of the delayed values
       type(delayed_series) :: delayed
-      !> Those of the state, while a slow solution is looked for, shape (0:degree, n)
+      !> Coefficients of the series of the state during the search for a slow one, shape (0:degree,
+      !> n)
       real(wp), allocatable, private :: of_state(:, :)
-      !> Whether it is that of a slow solution, and when to look for one
+      !> Whether it is the series of a slow solution, and when to search for one
       type(slow_series) :: slow
    contains
-      !> The coefficients, delayed values and unit given
+      !> Find the coefficients; delayed values and unit are given
       procedure :: expand
       !> The state at a time
       procedure :: state
@@ -59,8 +60,8 @@ contains
       series%delayed = delayed_series(degree, size(problem%lag))
    end function new_series
 
-   !> The slow series where it holds, which puts the state on the slow solution; else that of the
-   !> state as it is.
+   !> The slow series if it holds: the state is then moved onto the slow solution. Otherwise the
+   !> series of the state.
    pure subroutine expand(self, problem, t, scale, work, y)
       !> The series
       class(taylor_series), intent(inout) :: self
@@ -92,14 +93,14 @@ contains
       call series_reach(self%degree, self%coefficients, scale, self%reach)
       self%reach = self%unit*self%reach
       if (trying) return
-      call self%slow%worth_a_try(rate*self%reach, trying)
+      call self%slow%decide_search(rate*self%reach, trying)
       if (.not. trying) return
       self%of_state = self%coefficients
       call find_slow(self, problem, t, scale, rate, work, y)
       if (.not. self%slow%holds) self%coefficients = self%of_state
    end subroutine expand
 
-   !> Take the slow series where it holds.
+   !> Take the slow series if it holds.
    pure subroutine find_slow(self, problem, t, scale, rate, work, y)
       !> The series
       class(taylor_series), intent(inout) :: self
@@ -149,7 +150,7 @@ contains
       integer :: k
 
       value = self%coefficients(1, :)/self%unit
-      ! at the start it is known even where later terms are not finite
+      ! at the start it is known even if later terms are not finite
       if (.not. time > 0.0_wp) return
       value = 0.0_wp
       do k = self%degree, 1, -1

@@ -1,6 +1,6 @@
 !> One step by the Taylor series of the solution, for problems that give it. The last coefficients
-!> tell how long it may be, so that hardly a step is rejected; the series is its own dense output,
-!> and serves as the past beyond the end of the step as far as it converges.
+!> give the step size before the step, so that hardly a step is rejected. The series is its own
+!> dense output. As far as it converges it is also valid beyond the end of the step.
 module dde_taylor_step
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use dde_controller, only: controller_type
@@ -18,31 +18,31 @@ module dde_taylor_step
    private
    public :: taylor_step_type
 
-   !> Degree = this - log10(tolerance), near the one with the least cost for an accuracy: Jorba and
-   !> Zou 2005, "A software package for the numerical integration of ODEs by means of high-order
-   !> Taylor methods", sec. 3.2, have 1 - ln(tolerance)/2; more, since a step here costs three times
-   !> its series.
+   !> Degree = this - log10(tolerance), near the degree of least cost for an accuracy. Jorba and Zou
+   !> 2005, "A software package for the numerical integration of ODEs by means of high-order Taylor
+   !> methods", sec. 3.2, have 1 - ln(tolerance)/2. The degree here is higher since a step costs
+   !> three times its series.
    real(wp), parameter :: degree_at_one = 7.0_wp
    !> Lowest degree.
    integer, parameter :: lowest_degree = 6
-   !> How far the series is tried as the past, in units of the length it allows its own step.
+   !> The series is valid as the past for this many times the step size that it allows.
    real(wp), parameter :: beyond = 1.2_wp
-   !> The unit of a series is the length that the one before allowed, at most this times the length
-   !> that its step had: powers of it must not overflow where a solution is a polynomial.
+   !> The unit of a series is the step size that the last series allowed, at most this many times
+   !> the length of its step: powers of it must not overflow where a solution is a polynomial.
    real(wp), parameter :: growth = 1000.0_wp
-   !> Cost of a series over that of a right-hand side, over its degree (instructions and time of the
-   !> spring block).
+   !> Cost of a series over that of a right-hand side, divided by its degree (measured in
+   !> instructions and time on a spring-block model).
    real(wp), parameter :: cost_of_degree = 0.75_wp
-   !> Below this share of the first term the second is small, below its square the third.
+   !> The second term is small below this share of the first, the third below its square.
    real(wp), parameter :: small = 0.04_wp
-   !> A little more than the second term of exp(x) at the limit of stability, over degree squared.
+   !> Second term of exp(x) at the limit of stability, over degree squared, and a little more.
    real(wp), parameter :: stability = 0.1_wp
 
    !> A step along the series from its start on.
    type, extends(step_type) :: taylor_step_type
       !> The series
       type(taylor_series), private :: series
-      !> Where along the series the present state is; before it where its slope was evaluated
+      !> Time along the series of the present state; negative if its slope was evaluated instead
       real(wp), private :: place = -1.0_wp
    contains
       procedure :: reset
@@ -73,17 +73,13 @@ contains
       degree = max(lowest_degree, min(highest_degree, nint(degree_at_one - log10(tolerance))))
       step%constants = method_constants(name="taylor", order=degree, error_order=degree, &
                                         evaluation_cost=cost_of_degree*degree)
+      call step%allocate_state(problem)
       step%powers = .true.
-      associate (n => problem%n, delays => size(problem%lag))
-         allocate (step%nodes(degree), source=0.0_wp)
-         allocate (step%y(n), step%y_new(n), step%slope(n), step%z(delays, 1))
-         allocate (step%scale(n))
-      end associate
+      allocate (step%nodes(degree), source=0.0_wp)
       step%series = taylor_series(problem, degree)
-      call problem%initial(step%y)
    end function new_step
 
-   !> The slope has been evaluated, the last step has no say.
+   !> The slope was evaluated: the last series no longer gives it.
    pure subroutine reset(self)
       !> The step
       class(taylor_step_type), intent(inout) :: self
@@ -144,7 +140,7 @@ contains
       h = self%series%reach
    end subroutine next_length
 
-   !> Try the step of length `h` from t: the error is within the tolerance.
+   !> Attempt a step. Its length was chosen so that the error is within the tolerance.
    pure subroutine attempt(self, problem, past, cursor, tolerance, work, error)
       !> The step
       class(taylor_step_type), intent(inout) :: self
@@ -165,7 +161,7 @@ contains
       self%h = cursor%h
       error = ieee_value(1.0_wp, ieee_quiet_nan)
       if (.not. self%series%reach > 0.0_wp) return
-      ! beyond this, terms that have vanished in a very short step would count
+      ! beyond this, terms that vanish in a very short step would become large
       self%valid_for = min(self%valid_for, growth*self%h)
       call self%series%state(self%h, self%y_new)
       if (all(ieee_is_finite(self%y_new))) error = 0.0_wp
@@ -194,8 +190,8 @@ contains
    end subroutine interpolant
 
    !> Whether the step is much shorter than the time on which the solution changes: its second and
-   !> third terms are small beside the first, but for what truncation, at the level of the
-   !> tolerance, makes of them in a step at the limit of stability, or in a slow series by itself.
+   !> third terms are small beside the first. They may exceed that by the truncation error, which is
+   !> at the level of the tolerance, in a step at the limit of stability or in a slow series.
    pure logical function stiff(self) result(value)
       !> The step
       class(taylor_step_type), intent(in) :: self
@@ -232,7 +228,7 @@ contains
       self%place = self%h
    end subroutine advance
 
-   !> Along a series its derivative.
+   !> The derivative of the series.
    pure function slope_here(self) result(slope)
       !> The step
       class(taylor_step_type), intent(in) :: self
