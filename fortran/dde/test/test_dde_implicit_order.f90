@@ -187,7 +187,7 @@ contains
 
    !> One Newton correction of a block deep in stick (stiffness 1e23, near balance of forces), alone
    !> and with the delay inside the step: theta stays, u falls by h c. The row of ln v must not
-   !> serve as pivot for the others.
+   !> be the pivot for the others.
    subroutine test_huge_row(error)
       type(error_type), allocatable, intent(out) :: error
       type(radau_tableau) :: method
