@@ -92,8 +92,7 @@ contains
          step_end = later(run%now, h)
          if (landing) step_end = run%points%at(goal)
          if (.not. run%now%hi + h > run%now%hi) outcome%unresolved = outcome%unresolved + 1
-         call deliver(problem, run%step, run%past, run%cursor, run%work, run%search, run%now, &
-                      step_end, run%points%time_to_next(run%now), ended, sampler, watcher)
+         call deliver(run, problem, step_end, ended, sampler, watcher)
          if (ended) then
             call run%arrive(goal, .false., step_end)
             run%step%y = run%search%here%y
@@ -130,7 +129,7 @@ contains
       if (all(outcome%reason /= [reached_end, event_met])) then
          culprit = ""
          if (outcome%reason == value_not_finite) then
-            culprit = not_finite(problem, run%step, run%past, run%cursor, run%now, h)
+            culprit = not_finite(run, problem, h)
          end if
          call explain(outcome, t_end, h, options, culprit, error)
       end if

@@ -42,7 +42,7 @@ module dde_run
       type(instant) :: now
       !> Length proposed for the next step
       real(wp) :: h = 0.0_wp
-      !> Whether the slope at the start of the step is yet to be evaluated
+      !> Whether the slope at the start of the next step must be evaluated
       logical :: fresh = .false.
       !> Breaking points and the end
       type(breaking_points) :: points
@@ -59,7 +59,7 @@ module dde_run
       procedure :: plan
       !> Evaluate the slope at its start
       procedure :: restart
-      !> Go on by the other method of `auto`
+      !> Continue by the other method of `auto`
       procedure :: change_to_other
       !> Keep what a later run needs to continue
       procedure :: keep
@@ -218,8 +218,8 @@ contains
       self%cursor%latest = time - beside*spacing(time)
    end subroutine bound_times
 
-   !> Plan the next step: its method proposes a length. If the point that it heads for is near, the
-   !> step ends there, or two equal steps do. The cursor is on the step on return.
+   !> Plan the next step. The method proposes a length. If the next breaking point is near, one step
+   !> or two equal steps end there. On return the cursor is on the step.
    pure subroutine plan(self, problem, longest, h, goal, landing)
       !> The run
       class(run_type), intent(inout) :: self
@@ -229,7 +229,7 @@ contains
       real(wp), intent(in) :: longest
       !> Length of the step
       real(wp), intent(out) :: h
-      !> Number of the point that it heads for
+      !> Number of the breaking point at which it should end
       integer, intent(out) :: goal
       !> Whether it ends there
       logical, intent(out) :: landing
@@ -247,7 +247,7 @@ contains
       if (landing) call bound_times(self, goal)
    end subroutine plan
 
-   !> Evaluate the slope at the start of the planned step, where a kink makes it new.
+   !> Evaluate the slope at the start of the planned step, after a kink.
    pure subroutine restart(self, problem)
       !> The run
       class(run_type), intent(inout) :: self
@@ -258,7 +258,7 @@ contains
       self%fresh = .false.
    end subroutine restart
 
-   !> Go on by the other method of `auto`.
+   !> Continue by the other method of `auto`.
    subroutine change_to_other(self, problem)
       !> The run, between two steps
       class(run_type), intent(inout) :: self
@@ -274,7 +274,7 @@ contains
    pure subroutine arrive(self, goal, landing, step_end)
       !> The run
       class(run_type), intent(inout) :: self
-      !> Number of the point that the step headed for
+      !> Number of the breaking point at which the step should have ended
       integer, intent(in) :: goal
       !> Whether it ends there
       logical, intent(in) :: landing

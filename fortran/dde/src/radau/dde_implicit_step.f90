@@ -268,7 +268,7 @@ contains
       call self%stages%systems%filter(self%error_vector)
       error = scaled_norm(problem%n, self%error_vector, self%scale)
       if (error >= 1.0_wp .and. .not. self%last_h > 0.0_wp) then
-         ! at a start it is filtered again (IV.8.21). The slope at the start may be that of an
+         ! at a start it is filtered again. The slope at the start may be that of an
          ! earlier polynomial, so that only the change of the right-hand side by the error is added
          allocate (slope(problem%n))
          call problem%rhs(t_start, self%y, self%z, slope)
