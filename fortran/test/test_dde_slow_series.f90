@@ -4,7 +4,7 @@ module test_dde_slow_series
    use block_builder, only: build_block
    use dde, only: integrate, integration_options, integration_result, too_many_steps
    use dde_interpolant, only: series_value
-   use dde_series_reach, only: series_reach
+   use dde_slow_series, only: series_reach
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_success
    use fast_problems, only: follower, plain_block, pulse

@@ -3,11 +3,13 @@
 module test_dde_switch
    use block_builder, only: build_block
    use dde, only: continuation_type, integrate, integration_result
+   use dde_cursor, only: cursor_type
    use dde_history, only: history_type
    use dde_problem, only: dde_problem_type
    use dde_taylor_step, only: taylor_step_type
    use dde_tolerance, only: tolerance_type
    use dde_time, only: instant_at
+   use dde_work, only: work_type
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_success
    use fast_problems, only: plain_block
@@ -225,18 +227,23 @@ contains
       !> Its length over that which the series allows
       real(wp), intent(in) :: share
       logical :: value
+      type(cursor_type) :: cursor
       type(history_type) :: past
       type(taylor_step_type) :: step
+      type(work_type) :: work
       real(wp) :: estimate, length
 
       past = history_type(problem, instant_at(0.0_wp))
       step = taylor_step_type(problem, tolerance)
+      cursor = cursor_type(problem)
       length = 1.0e-6_wp
-      call step%look_ahead(problem, past, 0.0_wp, &
-                           tolerance_type(problem%n, 0.0_wp, tolerance), 1.0e3_wp, length)
-      call step%attempt(problem, past, 0.0_wp, share*length, &
-                        tolerance_type(problem%n, 0.0_wp, tolerance), estimate)
-      value = step%held_back()
+      call cursor%set(problem, past, instant_at(0.0_wp), 1.0e3_wp)
+      call step%propose(problem, past, cursor, tolerance_type(problem%n, 0.0_wp, tolerance), &
+                        work, length)
+      cursor%h = share*length
+      call step%attempt(problem, past, cursor, tolerance_type(problem%n, 0.0_wp, tolerance), &
+                        work, estimate)
+      value = step%stiff()
    end function held_back
 
    !> A block at gamma = 1000 without delay and without slow series, its w a little above balance,

@@ -5,11 +5,13 @@ module test_dde_taylor
    use block_builder, only: build_block
    use dde, only: continuation_type, integrate, integration_options, integration_result, &
                   step_underflow, value_not_finite
+   use dde_cursor, only: cursor_type
    use dde_history, only: history_type
    use dde_taylor_series, only: taylor_series
    use dde_taylor_step, only: taylor_step_type
    use dde_tolerance, only: tolerance_type
    use dde_time, only: instant_at
+   use dde_work, only: work_type
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use dde_kinds, only: wp
@@ -59,7 +61,8 @@ contains
 
       do degree = 6, 20
          call take_step(10.0_wp**(7 - degree), h, step)
-         call expect_close(error, real(step%order, wp), real(degree, wp), 0.0_wp, "degree")
+         call expect_close(error, real(step%constants%order, wp), real(degree, wp), 0.0_wp, &
+                           "degree")
          call expect_close(error, step%y_new, [sum([(h**k, k=0, degree)])], 1.0e-15_wp, "end")
          do place = 0, 4
             associate (s => 0.25_wp*place)
@@ -111,20 +114,25 @@ contains
       !> How long it might have been
       real(wp), intent(out), optional :: allowed
       type(blow_up) :: problem
+      type(cursor_type) :: cursor
       type(history_type) :: past
+      type(work_type) :: work
       real(wp) :: estimate, length
 
       problem = blow_up(n=1, past=[1.0_wp], first=[1.0_wp])
       call without_delays(problem)
       past = history_type(problem, instant_at(0.0_wp))
       step = taylor_step_type(problem, tolerance)
+      cursor = cursor_type(problem)
       length = 0.5_wp*h
-      call step%look_ahead(problem, past, 0.0_wp, &
-                           tolerance_type(problem%n, 0.0_wp, tolerance), 1.0_wp, length)
+      call cursor%set(problem, past, instant_at(0.0_wp), 1.0_wp)
+      call step%propose(problem, past, cursor, tolerance_type(problem%n, 0.0_wp, tolerance), &
+                        work, length)
       if (present(allowed)) allowed = length
-      call step%attempt(problem, past, 0.0_wp, h, tolerance_type(problem%n, 0.0_wp, tolerance), &
-                        estimate)
-      call step%extend(problem, past)
+      cursor%h = h
+      call step%attempt(problem, past, cursor, tolerance_type(problem%n, 0.0_wp, tolerance), &
+                        work, estimate)
+      call step%extend(problem, past, cursor, work)
    end subroutine take_step
 
    !> The series of the block, with a delayed value that is a polynomial, solves its equations: its

@@ -1,5 +1,5 @@
-!> The factorisations of LAPACK for large systems, dense and banded, real and complex. The build in
-!> quadruple precision has without_lapack/dde_lapack.f90 in place of this file.
+!> The factorisations of LAPACK for large systems, dense and banded, real and complex. A build
+!> without LAPACK or in quadruple precision has src/radau/dde_lapack.f90 in place of this file.
 module dde_lapack
    use dde_kinds, only: wp
    implicit none (type, external)

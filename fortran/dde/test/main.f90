@@ -19,6 +19,7 @@ program dde_tester
    use test_dde_solutions, only: collect_dde_solutions
    use test_dde_stops, only: collect_dde_stops
    use test_dde_time, only: collect_dde_time
+   use test_dde_work, only: collect_dde_work
    implicit none (type, external)
    type(testsuite_type), allocatable :: suites(:)
    character(len=32) :: wanted
@@ -40,7 +41,8 @@ program dde_tester
                              new_testsuite("dde_sizes", collect_dde_sizes), &
                              new_testsuite("dde_solutions", collect_dde_solutions), &
                              new_testsuite("dde_stops", collect_dde_stops), &
-                             new_testsuite("dde_time", collect_dde_time)])
+                             new_testsuite("dde_time", collect_dde_time), &
+                             new_testsuite("dde_work", collect_dde_work)])
    wanted = ""
    if (command_argument_count() > 0) call get_command_argument(1, wanted)
    failed = 0

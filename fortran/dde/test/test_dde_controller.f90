@@ -4,7 +4,7 @@ module test_dde_controller
    use, intrinsic :: ieee_arithmetic, only: ieee_get_halting_mode, ieee_invalid, ieee_quiet_nan, &
                                             ieee_set_halting_mode, ieee_value
    use dde_controller, only: controller_type
-   use dde_explicit_step, only: explicit_step_type
+   use dde_method_constants, only: method_constants
    use expectations, only: expect, expect_between, expect_close
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
@@ -12,8 +12,12 @@ module test_dde_controller
    private
    public :: collect_dde_controller
 
-   !> Order of the step.
+   !> Order of the step, as of the explicit method.
    integer, parameter :: order = 8
+   !> Its constants.
+   type(method_constants), parameter :: method = method_constants(error_order=order)
+   !> Factor below the step size at which the error would be equal to the tolerance.
+   real(wp), parameter :: safety = 0.9_wp
 
 contains
 
@@ -50,11 +54,11 @@ contains
       real(wp) :: h, h_accepted
 
       h = 1.0_wp
-      call control%reject(explicit_step(), h, 3.0_wp)
+      call control%reject(method, safety, h, 3.0_wp)
       h_accepted = h
-      call control%accept(explicit_step(), h, 1.0e-20_wp)
+      call control%accept(method, safety, h, 1.0e-20_wp)
       call expect_close(error, h, h_accepted, 0.0_wp, "step after a rejection")
-      call control%accept(explicit_step(), h, 1.0e-20_wp)
+      call control%accept(method, safety, h, 1.0e-20_wp)
       call expect(error, h > h_accepted, "the step after that grows")
    end subroutine test_after_rejection
 
@@ -87,7 +91,7 @@ contains
          do
             estimate = 1.0e6_wp*h**powers(i)
             if (estimate <= 1.0_wp) exit
-            call control%reject(explicit_step(), h, estimate)
+            call control%reject(method, safety, h, estimate)
             rejected = rejected + 1
          end do
          call expect_between(error, real(rejected, wp), 2.0_wp, 4.0_wp, "rejections")
@@ -111,9 +115,9 @@ contains
          do j = 1, 40
             estimate = (h/scale)**order
             if (estimate <= 1.0_wp) then
-               call control%accept(explicit_step(), h, estimate)
+               call control%accept(method, safety, h, estimate)
             else
-               call control%reject(explicit_step(), h, estimate)
+               call control%reject(method, safety, h, estimate)
                if (j > 20) rejected = rejected + 1
             end if
          end do
@@ -122,11 +126,6 @@ contains
       end do
    end subroutine test_closed_loop
 
-   !> A step with the constants of the explicit method.
-   pure type(explicit_step_type) function explicit_step() result(step)
-      step%error_order = order
-   end function explicit_step
-
    !> Next step over this one, after this error of a first step.
    pure real(wp) function ratio_accepted(estimate) result(ratio)
       !> Error in units of the tolerance
@@ -134,7 +133,7 @@ contains
       type(controller_type) :: control
 
       ratio = 1.0_wp
-      call control%accept(explicit_step(), ratio, estimate)
+      call control%accept(method, safety, ratio, estimate)
    end function ratio_accepted
 
    !> The same for an error that is too large.
@@ -144,6 +143,6 @@ contains
       type(controller_type) :: control
 
       ratio = 1.0_wp
-      call control%reject(explicit_step(), ratio, estimate)
+      call control%reject(method, safety, ratio, estimate)
    end function ratio_rejected
 end module test_dde_controller

@@ -2,6 +2,7 @@
 module test_dde_history
    use, intrinsic :: iso_c_binding, only: c_long
    use dde, only: integrate, integration_options, integration_result
+   use dde_cursor, only: cursor_type
    use dde_history, only: history_type
    use dde_time, only: instant, instant_at, later
    use dde_errors, only: failure_type => error_type, text
@@ -56,14 +57,16 @@ contains
    !> Before the first instant the problem's history is asked, at the right time.
    subroutine test_before(error)
       type(error_type), allocatable, intent(out) :: error
+      type(cursor_type) :: cursor
       type(history_type) :: past
       type(sine) :: problem
       real(wp) :: z(1, 1)
 
       problem = sine()
       past = history_type(problem, instant_at(0.0_wp))
-      call past%face(problem, instant_at(0.25_wp), 0.5_wp)
-      call past%values(problem, [0.5_wp], z)
+      cursor = cursor_type(problem)
+      call cursor%set(problem, past, instant_at(0.25_wp), 0.5_wp)
+      call cursor%values(problem, past, [0.5_wp], z)
       call expect_close(error, z(:, 1), [sin(0.75_wp - problem%lag(1))], 1.0e-15_wp, "history")
    end subroutine test_before
 
@@ -94,26 +97,28 @@ contains
    !> the value of each step is its number.
    subroutine test_forget(error)
       type(error_type), allocatable, intent(out) :: error
+      type(cursor_type) :: cursor
       type(history_type) :: past
       type(wille_baker) :: problem
       integer :: i
 
       problem = delayed([200.0_wp], [1])
       past = history_type(problem, instant_at(0.0_wp))
+      cursor = cursor_type(problem)
       do i = 0, 199
          call past%append(instant_at(real(i, wp)), 1.0_wp, [0.0_wp], &
-                          reshape([real(i, wp), 0.0_wp], [2, 1]), serves=1.0_wp)
+                          reshape([real(i, wp), 0.0_wp], [2, 1]), valid_for=1.0_wp)
       end do
-      call expect_number(error, past, problem, 2.5_wp, 2.0_wp)
+      call expect_number(error, past, cursor, problem, 2.5_wp, 2.0_wp)
       call past%forget(instant_at(100.5_wp))
-      call expect_number(error, past, problem, 2.5_wp, 100.0_wp)
-      call expect_number(error, past, problem, 100.25_wp, 100.0_wp)
-      call expect_number(error, past, problem, 101.5_wp, 101.0_wp)
-      call expect_number(error, past, problem, 199.5_wp, 199.0_wp)
+      call expect_number(error, past, cursor, problem, 2.5_wp, 100.0_wp)
+      call expect_number(error, past, cursor, problem, 100.25_wp, 100.0_wp)
+      call expect_number(error, past, cursor, problem, 101.5_wp, 101.0_wp)
+      call expect_number(error, past, cursor, problem, 199.5_wp, 199.0_wp)
       call past%forget(instant_at(150.0_wp))
-      call expect_number(error, past, problem, 2.5_wp, 150.0_wp)
+      call expect_number(error, past, cursor, problem, 2.5_wp, 150.0_wp)
       call past%forget(instant_at(1000.0_wp))
-      call expect_number(error, past, problem, 2.5_wp, 199.0_wp)
+      call expect_number(error, past, cursor, problem, 2.5_wp, 199.0_wp)
    end subroutine test_forget
 
    !> A step of low degree in a slot that had one of high degree before comes back with zeros above.
@@ -128,11 +133,11 @@ contains
       nodes = 0.0_wp
       coefficient = 7.0_wp
       do i = 0, 63
-         call past%append(instant_at(real(i, wp)), 1.0_wp, nodes, coefficient, serves=1.0_wp)
+         call past%append(instant_at(real(i, wp)), 1.0_wp, nodes, coefficient, valid_for=1.0_wp)
          call past%forget(instant_at(i + 1.0_wp))
       end do
       call past%append(instant_at(64.0_wp), 1.0_wp, odd_nodes, reshape([3.0_wp, 4.0_wp], [2, 1]), &
-                       serves=1.0_wp)
+                       valid_for=1.0_wp)
       call past%recall(past%newest, start, length, nodes, coefficient)
       call expect_close(error, start%hi, 64.0_wp, 0.0_wp, "start")
       call expect_close(error, coefficient(:, 1), [3.0_wp, 4.0_wp, (0.0_wp, i=2, 12)], 0.0_wp, &
@@ -152,7 +157,7 @@ contains
       do i = 0, 1000000
          if (i == 100) before = peak_memory()
          call past%append(instant_at(real(i, wp)), 1.0_wp, odd_nodes, &
-                          reshape([1.0_wp, 0.0_wp], [2, 1]), serves=1.0_wp)
+                          reshape([1.0_wp, 0.0_wp], [2, 1]), valid_for=1.0_wp)
          call past%forget(instant_at(i - 9.0_wp))
       end do
       call expect(error, before > 0, "memory is known")
@@ -195,6 +200,7 @@ contains
       integer, intent(in) :: steps
       !> Steps after which they are 20 times shorter; none if not given
       integer, intent(in), optional :: long_steps
+      type(cursor_type) :: cursor
       type(history_type) :: past
       type(instant) :: now
       type(wille_baker) :: problem
@@ -205,16 +211,17 @@ contains
       problem = delayed(lag, [3, 1, 3])
       now = instant_at(0.0_wp)
       past = history_type(problem, now)
+      cursor = cursor_type(problem)
       misfit = 0.0_wp
       found = 0
       do i = 0, steps - 1
          start(i) = now%hi
          length = 0.01_wp*(1 + modulo(7*i, 5))
          if (present(long_steps)) length = length/merge(1, 20, i < long_steps)
-         call past%face(problem, now, length)
+         call cursor%set(problem, past, now, length)
          ! ahead, then back to the start of the step
-         call past%values(problem, places(3:)*length, z(:, 3:))
-         call past%values(problem, places*length, z)
+         call cursor%values(problem, past, places(3:)*length, z(:, 3:))
+         call cursor%values(problem, past, places*length, z)
          do j = 1, size(places)
             do k = 1, size(lag)
                ! a step that has the first instant inside is none that the solver makes
@@ -230,11 +237,11 @@ contains
          end do
          if (modulo(i, 2) == 1) then
             call past%append(now, length, odd_nodes, &
-                             reshape([real(wp) :: i + 1, 1, i + 1, 1], [2, 2]), serves=length)
+                             reshape([real(wp) :: i + 1, 1, i + 1, 1], [2, 2]), valid_for=length)
          else
             call past%append(now, length, even_nodes, &
                              reshape([real(wp) :: i, 1, 0, 0, i, 1, 1, -2], [4, 2]), &
-                             serves=length)
+                             valid_for=length)
          end if
          now = later(now, length)
          call past%forget(later(now, -maxval(lag)))
@@ -261,11 +268,13 @@ contains
    end function value_at
 
    !> The past reads this number at time t.
-   subroutine expect_number(error, past, problem, t, number)
+   subroutine expect_number(error, past, cursor, problem, t, number)
       !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       !> The past
-      type(history_type), intent(inout) :: past
+      type(history_type), intent(in) :: past
+      !> A cursor in it
+      type(cursor_type), intent(inout) :: cursor
       !> Its problem, with one delay
       type(wille_baker), intent(in) :: problem
       !> Time
@@ -274,8 +283,8 @@ contains
       real(wp), intent(in) :: number
       real(wp) :: z(1, 1)
 
-      call past%face(problem, instant_at(t + problem%lag(1)), 0.1_wp)
-      call past%values(problem, [0.0_wp], z)
+      call cursor%set(problem, past, instant_at(t + problem%lag(1)), 0.1_wp)
+      call cursor%values(problem, past, [0.0_wp], z)
       call expect_close(error, z(:, 1), [number], 0.0_wp, "number of the step at t = "//text(t))
    end subroutine expect_number
 

@@ -6,6 +6,7 @@ module test_dde_implicit_order
    use dde_linear, only: factorise, solve
    use dde_radau_tableau, only: radau_iia, radau_tableau
    use dde_stage_systems, only: stage_systems
+   use dde_work, only: work_type
    use dde_errors, only: text
    use expectations, only: expect, expect_between, expect_close
    use dde_kinds, only: wp
@@ -186,7 +187,7 @@ contains
 
    !> One Newton correction of a block deep in stick (stiffness 1e23, near balance of forces), alone
    !> and with the delay inside the step: theta stays, u falls by h c. The row of ln v must not
-   !> serve as pivot for the others.
+   !> be the pivot for the others.
    subroutine test_huge_row(error)
       type(error_type), allocatable, intent(out) :: error
       type(radau_tableau) :: method
@@ -196,6 +197,7 @@ contains
       type(jacobian_type) :: jacobian
       integer :: i, lag
       logical :: singular
+      type(work_type) :: work
 
       allocate (jacobian%by_y(3, 3), jacobian%by_z(3, 1), source=0.0_wp)
       jacobian%by_y(3, :) = -stiffness*[2.0_wp, 1.0_wp, 2.0_wp - 2.0e-8_wp]
@@ -209,9 +211,9 @@ contains
             slopes(2, :) = -1.0_wp
             slopes(3, :) = -2.0e-8_wp*stiffness
             call systems%prepare(method, h, jacobian, [3], own_place, &
-                                 weights_at(method, own_place), singular)
+                                 weights_at(method, own_place), work, singular)
             allocate (change(3, stages(i)), correction(3, stages(i)))
-            call systems%correct(method, slopes, 0.0_wp*slopes, correction)
+            call systems%correct(method, slopes, 0.0_wp*slopes, work, correction)
             call combine(3, stages(i), systems%t, correction, change)
             call expect(error, systems%coupled .neqv. lag == 1, "coupled by a short delay")
             call expect_close(error, change(1, :), 0.0_wp*method%c, 1.0e-15_wp, "theta")
@@ -236,6 +238,7 @@ contains
       real(wp) :: by_y(n, n), by_z(n, 2), filtered(n), vector(n)
       integer :: i, j, k, lag
       logical :: singular
+      type(work_type) :: work
 
       by_y = reshape(uniform(1, n*n, -2.0_wp, 2.0_wp), [n, n])
       by_z = reshape(uniform(2, n*2, -2.0_wp, 2.0_wp), [n, 2])
@@ -252,8 +255,9 @@ contains
             end do
             slopes = reshape(uniform(4, n*stages(i), -1.0_wp, 1.0_wp), [n, stages(i)])
             weights = weights_at(method, own_place)
-            call systems%prepare(method, h, jacobian, component, own_place, weights, singular)
-            call systems%correct(method, slopes, 0.0_wp*slopes, correction)
+            call systems%prepare(method, h, jacobian, component, own_place, weights, work, &
+                                 singular)
+            call systems%correct(method, slopes, 0.0_wp*slopes, work, correction)
             call combine(n, stages(i), systems%t, correction, change)
             left = matmul(change, transpose(systems%a_inverse(:stages(i), :)))/h &
                    - matmul(by_y, change)

@@ -4,9 +4,10 @@ module test_dde_large
    use dde, only: integrate, integration_options, integration_result
    use dde_jacobian, only: jacobian_type
    use dde_tolerance, only: tolerance_type
+   use dde_work, only: work_type
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_close, expect_failure, expect_success
-   use dde_kinds, only: int64, wp
+   use dde_kinds, only: wp
    use lines_of_cells, only: cells
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use solving, only: at_tolerance
@@ -36,7 +37,7 @@ contains
       type(cells) :: problem
       type(jacobian_type) :: banded, full
       type(tolerance_type) :: tolerance
-      integer(int64) :: evaluations
+      type(work_type) :: work
       integer :: i, j
       logical :: finite
       real(wp) :: known, y(n), z(n)
@@ -45,16 +46,16 @@ contains
       tolerance = tolerance_type(n, 1.0e-6_wp, 1.0e-6_wp)
       y = [(1.0_wp + 0.1_wp*i, i=1, n)]
       z = 0.5_wp
-      evaluations = 0
-      call full%evaluate(problem, 0.0_wp, y, z, tolerance, .true., evaluations, finite)
-      call expect(error, evaluations == 1 + 2*n, "of all: "//text(evaluations))
-      call full%evaluate(problem, 0.0_wp, y, z, tolerance, .false., evaluations, finite)
-      call expect(error, evaluations == 2 + 3*n, "without the delayed ones: "//text(evaluations))
+      call full%evaluate(problem, 0.0_wp, y, z, tolerance, .true., work, finite)
+      call expect(error, work%evaluations == 1 + 2*n, "of all: "//text(work%evaluations))
+      call full%evaluate(problem, 0.0_wp, y, z, tolerance, .false., work, finite)
+      call expect(error, work%evaluations == 2 + 3*n, &
+                  "without the delayed ones: "//text(work%evaluations))
       problem%lower = 1
       problem%upper = 1
-      evaluations = 0
-      call banded%evaluate(problem, 0.0_wp, y, z, tolerance, .false., evaluations, finite)
-      call expect(error, evaluations == 4, "by diagonals: "//text(evaluations))
+      work = work_type(n)
+      call banded%evaluate(problem, 0.0_wp, y, z, tolerance, .false., work, finite)
+      call expect(error, work%evaluations == 4, "by diagonals: "//text(work%evaluations))
       do j = 1, n
          do i = max(1, j - 1), min(n, j + 1)
             known = 3.0_wp

@@ -1,13 +1,14 @@
 !> The arithmetic of the explicit pair 8(5,3) of Dormand and Prince and of its dense output of order
-!> 7 (Hairer, Norsett and Wanner 1993, sec. II.5, II.6 and II.10). Components are worked on in
-!> blocks of a few lanes, a number that the compiler knows: it then turns the sums over stages into
-!> vector instructions without a loop.
+!> 7 (Hairer, Norsett and Wanner 1993, sec. II.5, II.6 and II.10). Components are stored in blocks
+!> of a few lanes. The number is known to the compiler, which therefore turns the sums over stages
+!> into vector instructions without a loop.
 module dde_explicit_stages
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_dop853_tableau
-   use dde_norm, only: scaled_norm
    use dde_problem, only: dde_problem_type
-   use dde_kinds, only: int64, wp
+   use dde_tolerance, only: scaled_norm
+   use dde_work, only: work_type
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: dense_coefficients, dense_places, dense_stages, error_853, evaluate, lanes, places
@@ -17,11 +18,10 @@ module dde_explicit_stages
    integer, parameter :: lanes = 4
    !> Slopes of a step and its dense output.
    integer, parameter :: slope_count = 16
-   !> Places of stages 2 to 12 in the step, ascending, so that the past is read in one direction.
+   !> Places of stages 2 to 12 in the step, ascending: the past is read in one direction.
    real(wp), parameter :: places(11) = [c2, c3, c4, c7, c5, c8, c6, c10, c9, c11, 1.0_wp]
-   !> What the embedded errors of orders 3 and 5 may be where the step is short enough for the
-   !> estimate to mean something, over tolerance**(1/2) and tolerance**(3/4): a few times what
-   !> good steps show.
+   !> Largest embedded errors of orders 3 and 5 for which the estimate is trusted, over
+   !> tolerance**(1/2) and tolerance**(3/4). They are a few times the values of accurate steps.
    real(wp), parameter :: largest_e3 = 50.0_wp, largest_e5 = 3.0_wp
    !> Places of stages 14 to 16, those of the dense output.
    real(wp), parameter :: dense_places(3) = [c14, c15, c16]
@@ -30,7 +30,7 @@ contains
 
    !> Stages 2 to 12 and the state at the end of the step.
    pure subroutine take_stages(problem, t, h, t_end, blocks, y, z, k, stage, last_stage, y_new, &
-                               evaluations, finite)
+                               work, finite)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Start of the step
@@ -51,56 +51,46 @@ contains
       real(wp), intent(inout) :: stage(lanes, blocks), last_stage(lanes, blocks)
       !> State at the end
       real(wp), intent(inout) :: y_new(lanes, blocks)
-      !> Right-hand sides evaluated so far
-      integer(int64), intent(inout) :: evaluations
+      !> Work so far
+      type(work_type), intent(inout) :: work
       !> Whether all slopes are finite
       logical, intent(inout) :: finite
 
       stage = y
-      call add(problem, t + c2*h, stage, h*a21, k(:, :, 1), z(:, 1), k(:, :, 2), &
-               evaluations, finite)
+      call add(problem, t + c2*h, stage, h*a21, k(:, :, 1), z(:, 1), k(:, :, 2), work, finite)
       stage = y + h*(a31*k(:, :, 1))
-      call add(problem, t + c3*h, stage, h*a32, k(:, :, 2), z(:, 2), k(:, :, 3), &
-               evaluations, finite)
+      call add(problem, t + c3*h, stage, h*a32, k(:, :, 2), z(:, 2), k(:, :, 3), work, finite)
       stage = y + h*(a41*k(:, :, 1))
-      call add(problem, t + c4*h, stage, h*a43, k(:, :, 3), z(:, 3), k(:, :, 4), &
-               evaluations, finite)
+      call add(problem, t + c4*h, stage, h*a43, k(:, :, 3), z(:, 3), k(:, :, 4), work, finite)
       stage = y + h*(a51*k(:, :, 1) + a53*k(:, :, 3))
-      call add(problem, t + c5*h, stage, h*a54, k(:, :, 4), z(:, 5), k(:, :, 5), &
-               evaluations, finite)
+      call add(problem, t + c5*h, stage, h*a54, k(:, :, 4), z(:, 5), k(:, :, 5), work, finite)
       stage = y + h*(a61*k(:, :, 1) + a64*k(:, :, 4))
-      call add(problem, t + c6*h, stage, h*a65, k(:, :, 5), z(:, 7), k(:, :, 6), &
-               evaluations, finite)
+      call add(problem, t + c6*h, stage, h*a65, k(:, :, 5), z(:, 7), k(:, :, 6), work, finite)
       stage = y + h*(a71*k(:, :, 1) + a74*k(:, :, 4) + a75*k(:, :, 5))
-      call add(problem, t + c7*h, stage, h*a76, k(:, :, 6), z(:, 4), k(:, :, 7), &
-               evaluations, finite)
+      call add(problem, t + c7*h, stage, h*a76, k(:, :, 6), z(:, 4), k(:, :, 7), work, finite)
       stage = y + h*(a81*k(:, :, 1) + a84*k(:, :, 4) + a85*k(:, :, 5) + a86*k(:, :, 6))
-      call add(problem, t + c8*h, stage, h*a87, k(:, :, 7), z(:, 6), k(:, :, 8), &
-               evaluations, finite)
+      call add(problem, t + c8*h, stage, h*a87, k(:, :, 7), z(:, 6), k(:, :, 8), work, finite)
       stage = y + h*(a91*k(:, :, 1) + a94*k(:, :, 4) + a95*k(:, :, 5) + a96*k(:, :, 6) &
                      + a97*k(:, :, 7))
-      call add(problem, t + c9*h, stage, h*a98, k(:, :, 8), z(:, 9), k(:, :, 9), &
-               evaluations, finite)
+      call add(problem, t + c9*h, stage, h*a98, k(:, :, 8), z(:, 9), k(:, :, 9), work, finite)
       stage = y + h*(a10_1*k(:, :, 1) + a10_4*k(:, :, 4) + a10_5*k(:, :, 5) + a10_6*k(:, :, 6) &
                      + a10_7*k(:, :, 7) + a10_8*k(:, :, 8))
-      call add(problem, t + c10*h, stage, h*a10_9, k(:, :, 9), z(:, 8), k(:, :, 10), &
-               evaluations, finite)
+      call add(problem, t + c10*h, stage, h*a10_9, k(:, :, 9), z(:, 8), k(:, :, 10), work, finite)
       stage = y + h*(a11_1*k(:, :, 1) + a11_4*k(:, :, 4) + a11_5*k(:, :, 5) + a11_6*k(:, :, 6) &
                      + a11_7*k(:, :, 7) + a11_8*k(:, :, 8) + a11_9*k(:, :, 9))
       call add(problem, t + c11*h, stage, h*a11_10, k(:, :, 10), z(:, 10), k(:, :, 11), &
-               evaluations, finite)
+               work, finite)
       stage = y + h*(a12_1*k(:, :, 1) + a12_4*k(:, :, 4) + a12_5*k(:, :, 5) + a12_6*k(:, :, 6) &
                      + a12_7*k(:, :, 7) + a12_8*k(:, :, 8) + a12_9*k(:, :, 9) &
                      + a12_10*k(:, :, 10))
-      call add(problem, t_end, stage, h*a12_11, k(:, :, 11), z(:, 11), k(:, :, 12), &
-               evaluations, finite)
+      call add(problem, t_end, stage, h*a12_11, k(:, :, 11), z(:, 11), k(:, :, 12), work, finite)
       last_stage = stage
       y_new = y + h*(b1*k(:, :, 1) + b6*k(:, :, 6) + b7*k(:, :, 7) + b8*k(:, :, 8) &
                      + b9*k(:, :, 9) + b10*k(:, :, 10) + b11*k(:, :, 11) + b12*k(:, :, 12))
    end subroutine take_stages
 
    !> Slopes 14 to 16, for the dense output of an accepted step.
-   pure subroutine dense_stages(problem, t, h, blocks, y, z, k, stage, evaluations, finite)
+   pure subroutine dense_stages(problem, t, h, blocks, y, z, k, stage, work, finite)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Start of the step
@@ -117,29 +107,26 @@ contains
       real(wp), intent(inout) :: k(lanes, blocks, slope_count)
       !> Argument of the current stage
       real(wp), intent(inout) :: stage(lanes, blocks)
-      !> Right-hand sides evaluated so far
-      integer(int64), intent(inout) :: evaluations
+      !> Work so far
+      type(work_type), intent(inout) :: work
       !> Whether all slopes are finite
       logical, intent(inout) :: finite
 
       stage = y + h*(a14_1*k(:, :, 1) + a14_7*k(:, :, 7) + a14_8*k(:, :, 8) + a14_9*k(:, :, 9) &
                      + a14_10*k(:, :, 10) + a14_11*k(:, :, 11) + a14_12*k(:, :, 12))
-      call add(problem, t + c14*h, stage, h*a14_13, k(:, :, 13), z(:, 1), k(:, :, 14), &
-               evaluations, finite)
+      call add(problem, t + c14*h, stage, h*a14_13, k(:, :, 13), z(:, 1), k(:, :, 14), work, finite)
       stage = y + h*(a15_1*k(:, :, 1) + a15_6*k(:, :, 6) + a15_7*k(:, :, 7) + a15_8*k(:, :, 8) &
                      + a15_11*k(:, :, 11) + a15_12*k(:, :, 12) + a15_13*k(:, :, 13))
-      call add(problem, t + c15*h, stage, h*a15_14, k(:, :, 14), z(:, 2), k(:, :, 15), &
-               evaluations, finite)
+      call add(problem, t + c15*h, stage, h*a15_14, k(:, :, 14), z(:, 2), k(:, :, 15), work, finite)
       stage = y + h*(a16_1*k(:, :, 1) + a16_6*k(:, :, 6) + a16_7*k(:, :, 7) + a16_8*k(:, :, 8) &
                      + a16_9*k(:, :, 9) + a16_13*k(:, :, 13) + a16_14*k(:, :, 14))
-      call add(problem, t + c16*h, stage, h*a16_15, k(:, :, 15), z(:, 3), k(:, :, 16), &
-               evaluations, finite)
+      call add(problem, t + c16*h, stage, h*a16_15, k(:, :, 15), z(:, 3), k(:, :, 16), work, finite)
    end subroutine dense_stages
 
-   !> Complete a stage by `weight` times the newest slope and evaluate it, unless an earlier slope
-   !> was not finite. One by one: a vector cannot be loaded before the numbers that the last
-   !> evaluation has just stored one by one reach the cache.
-   pure subroutine add(problem, t, stage, weight, newest, z, slope, evaluations, finite)
+   !> Add `weight` times the newest slope to a stage and evaluate it, unless an earlier slope was
+   !> not finite. The addition is scalar: the evaluation has just stored the slope number by number,
+   !> and a vector load would wait until all of them are in the cache.
+   pure subroutine add(problem, t, stage, weight, newest, z, slope, work, finite)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Time of the stage
@@ -154,17 +141,17 @@ contains
       real(wp), intent(in) :: z(size(problem%lag))
       !> Slope of the stage
       real(wp), intent(inout) :: slope(problem%n)
-      !> Right-hand sides evaluated so far
-      integer(int64), intent(inout) :: evaluations
+      !> Work so far
+      type(work_type), intent(inout) :: work
       !> Whether all slopes so far are finite
       logical, intent(inout) :: finite
 
       stage = stage + weight*newest
-      call evaluate(problem, t, stage, z, slope, evaluations, finite)
+      call evaluate(problem, t, stage, z, slope, work, finite)
    end subroutine add
 
    !> Slope at time `t` in state `y`, unless an earlier slope of this step was not finite.
-   pure subroutine evaluate(problem, t, y, z, slope, evaluations, finite)
+   pure subroutine evaluate(problem, t, y, z, slope, work, finite)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Time
@@ -175,21 +162,21 @@ contains
       real(wp), intent(in) :: z(size(problem%lag))
       !> Slope
       real(wp), intent(inout) :: slope(problem%n)
-      !> Right-hand sides evaluated so far
-      integer(int64), intent(inout) :: evaluations
+      !> Work so far
+      type(work_type), intent(inout) :: work
       !> Whether all slopes so far are finite
       logical, intent(inout) :: finite
 
       if (.not. finite) return
       call problem%rhs(t, y, z, slope)
-      evaluations = evaluations + 1
+      work%evaluations = work%evaluations + 1
       finite = all(ieee_is_finite(slope))
    end subroutine evaluate
 
    !> The estimate |e5|^2 / sqrt(|e5|^2 + 0.01 |e3|^2), each in the root mean square norm over the
-   !> tolerance (Hairer, Norsett and Wanner 1993, eq. (II.10.17)). It supposes that e3 is of size
-   !> h^4 and e5 of size h^6; a step far too long for that can have a large e3 and by chance a small
-   !> e5, and a small estimate with them, so each is also asked for by itself.
+   !> tolerance (Hairer, Norsett and Wanner 1993, eq. (II.10.17)). It assumes that e3 is of size h^4
+   !> and e5 of size h^6. In a step far too long for that e5 can be small by chance while e3 is
+   !> large. Therefore each of them has a bound of its own.
    pure subroutine error_853(n, blocks, k, h, scale, tolerance, e3, e5, error)
       !> Number of equations
       integer, intent(in) :: n
@@ -201,7 +188,7 @@ contains
       real(wp), intent(in) :: h
       !> Tolerance of each component, shape (n)
       real(wp), intent(in) :: scale(n)
-      !> Digits that are asked for
+      !> Tolerance level
       real(wp), intent(in) :: tolerance
       !> Errors of the embedded methods
       real(wp), intent(out) :: e3(lanes, blocks), e5(lanes, blocks)

@@ -1,22 +1,25 @@
-!> One step of the explicit pair 8(5,3) of Dormand and Prince (dde_explicit_stages) as method of
-!> steps: no longer than the shortest delay, so that all delayed values lie in the past.
+!> One step of the explicit pair 8(5,3) of Dormand and Prince (dde_explicit_stages). It is at most
+!> as long as the shortest delay, so that all delayed values lie in the past.
 module dde_explicit_step
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use dde_explicit_stages, only: dense_coefficients, dense_places, dense_stages, error_853, &
                                   evaluate, lanes, places, slope_count, take_stages
+   use dde_cursor, only: cursor_type
    use dde_history, only: history_type
+   use dde_method_constants, only: method_constants
    use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
    use dde_tolerance, only: tolerance_type
+   use dde_work, only: work_type
    use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: explicit_step_type
 
-   !> Length times rate of change above which stability limits a step.
+   !> Above this value of step size times rate of change, stability limits a step.
    real(wp), parameter :: limited_by_stability = 2.5_wp
 
-   !> Stages of the current step; components fill lane by lane, what is left of the last is zero.
+   !> Stages of the current step. Components fill blocks of lanes; unused lanes of the last are 0.
    type, extends(step_type) :: explicit_step_type
       !> Slopes 1 to 13 of the step and 14 to 16 of its dense output, shape (lanes, blocks, 16)
       real(wp), allocatable :: k(:, :, :)
@@ -35,7 +38,7 @@ module dde_explicit_step
       procedure :: complete
       procedure :: extend
       procedure :: interpolant
-      procedure :: held_back
+      procedure :: stiff
       procedure :: advance
    end type explicit_step_type
 
@@ -52,61 +55,57 @@ contains
       type(explicit_step_type) :: step
       integer :: blocks
 
-      step%name = "explicit"
-      step%order = 8
-      step%error_order = 8
+      step%constants = method_constants(name="explicit", order=8, error_order=8)
+      call step%allocate_state(problem)
       step%nodes = real([0, 1, 0, 1, 0, 1, 0], wp)
       blocks = (problem%n + lanes - 1)/lanes
       allocate (step%k(lanes, blocks, slope_count), source=0.0_wp)
       allocate (step%start(lanes, blocks), step%finish(lanes, blocks), source=0.0_wp)
       allocate (step%stage(lanes, blocks), step%last_stage(lanes, blocks), source=0.0_wp)
       allocate (step%e3(lanes, blocks), step%e5(lanes, blocks))
-      allocate (step%y(problem%n), step%y_new(problem%n), step%slope(problem%n))
-      allocate (step%scale(problem%n))
-      allocate (step%z(size(problem%lag), 1))
       allocate (step%delayed(size(problem%lag), size(places)))
       allocate (step%dense_delayed(size(problem%lag), size(dense_places)))
-      call problem%initial(step%y)
    end function new_step
 
-   !> Try the step of length `h` from t; `error` is the 853 estimate in units of the tolerance
-   !> (step good when <= 1), or not finite where an evaluation was not.
-   pure subroutine attempt(self, problem, past, t, h, tolerance, error)
+   !> Attempt a step. `error` is the 853 estimate in units of the tolerance, or not finite if an
+   !> evaluation was not.
+   pure subroutine attempt(self, problem, past, cursor, tolerance, work, error)
       !> The step
       class(explicit_step_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The past, facing this step
-      type(history_type), intent(inout) :: past
-      !> Start of the step
-      real(wp), intent(in) :: t
-      !> Length of the step
-      real(wp), intent(in) :: h
+      !> The past
+      type(history_type), intent(in) :: past
+      !> The cursor, on this step
+      type(cursor_type), intent(inout) :: cursor
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
+      !> Work so far
+      type(work_type), intent(inout) :: work
       !> Estimated error in units of the tolerance
       real(wp), intent(out) :: error
 
-      self%t = t
-      self%h = h
+      self%t = cursor%t
+      self%h = cursor%h
       call copy(problem%n, self%y, self%start)
       call copy(problem%n, self%slope, self%k)
-      call past%values(problem, h*places, self%delayed)
+      call cursor%values(problem, past, self%h*places, self%delayed)
       self%finite = all(ieee_is_finite(self%slope))
       if (self%finite) then
-         call take_stages(problem, self%inside(t), h, self%inside(t + h), size(self%k, 2), &
-                          self%start, self%delayed, self%k, self%stage, self%last_stage, &
-                          self%finish, self%evaluations, self%finite)
+         call take_stages(problem, cursor%inside(self%t), self%h, &
+                          cursor%inside(self%t + self%h), size(self%k, 2), self%start, &
+                          self%delayed, self%k, self%stage, self%last_stage, self%finish, work, &
+                          self%finite)
       end if
       call copy(problem%n, self%finish, self%y_new)
       error = ieee_value(1.0_wp, ieee_quiet_nan)
       if (.not. (self%finite .and. all(ieee_is_finite(self%y_new)))) return
       self%scale = tolerance%absolute + tolerance%relative*max(abs(self%y), abs(self%y_new))
-      call error_853(problem%n, size(self%k, 2), self%k, h, self%scale, tolerance%level, self%e3, &
-                     self%e5, error)
+      call error_853(problem%n, size(self%k, 2), self%k, self%h, self%scale, tolerance%level, &
+                     self%e3, self%e5, error)
    end subroutine attempt
 
-   !> Copy n numbers; either side may be stored in lanes.
+   !> Copy n numbers. Either side may be stored in lanes.
    pure subroutine copy(n, from, to)
       !> How many
       integer, intent(in) :: n
@@ -119,22 +118,26 @@ contains
    end subroutine copy
 
    !> Slope 13, at the end of an accepted step.
-   pure subroutine complete(self, problem, past)
+   pure subroutine complete(self, problem, past, cursor, work)
       !> The step
       class(explicit_step_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The past, facing this step
-      type(history_type), intent(inout) :: past
+      !> The past
+      type(history_type), intent(in) :: past
+      !> The cursor, on this step
+      type(cursor_type), intent(inout) :: cursor
+      !> Work so far
+      type(work_type), intent(inout) :: work
 
-      call evaluate(problem, self%inside(self%t + self%h), self%y_new, &
-                    self%delayed(:, size(places)), self%k(:, :, 13), self%evaluations, self%finite)
+      call evaluate(problem, cursor%inside(self%t + self%h), self%y_new, &
+                    self%delayed(:, size(places)), self%k(:, :, 13), work, self%finite)
    end subroutine complete
 
    !> Whether stability limits the step: its length times |k13 - k12| over the distance of their
    !> arguments, both at the end of the step (Hairer and Wanner 1996, sec. IV.2), in units of the
    !> tolerance.
-   pure logical function held_back(self) result(value)
+   pure logical function stiff(self) result(value)
       !> The step
       class(explicit_step_type), intent(in) :: self
       real(wp) :: distance, rise
@@ -150,9 +153,9 @@ contains
                                   /self%scale(i))
       end do
       value = self%h*rise > limited_by_stability*distance
-   end function held_back
+   end function stiff
 
-   !> The end of the step becomes the start of the next; its last slope serves as the first.
+   !> The end becomes the start of the next step. Its slope is slope 13 of this one.
    pure subroutine advance(self)
       !> The step
       class(explicit_step_type), intent(inout) :: self
@@ -162,17 +165,21 @@ contains
    end subroutine advance
 
    !> Slopes 14 to 16 of an accepted step.
-   pure subroutine extend(self, problem, past)
+   pure subroutine extend(self, problem, past, cursor, work)
       !> The step
       class(explicit_step_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The past, facing this step
-      type(history_type), intent(inout) :: past
+      !> The past
+      type(history_type), intent(in) :: past
+      !> The cursor, on this step
+      type(cursor_type), intent(inout) :: cursor
+      !> Work so far
+      type(work_type), intent(inout) :: work
 
-      call past%values(problem, self%h*dense_places, self%dense_delayed)
+      call cursor%values(problem, past, self%h*dense_places, self%dense_delayed)
       call dense_stages(problem, self%t, self%h, size(self%k, 2), self%start, self%dense_delayed, &
-                        self%k, self%stage, self%evaluations, self%finite)
+                        self%k, self%stage, work, self%finite)
    end subroutine extend
 
    !> Dense output of component `i` over an accepted and extended step, before `advance`.

@@ -70,9 +70,9 @@ contains
       write (words, "(i0)") value
    end function written_integer
 
-   !> A real number with the digits that matter to a reader. Results of this function have a length
-   !> that is asked for first: gfortran keeps the length of an allocatable one in static storage,
-   !> which threads share.
+   !> A real number with the digits that matter to a reader. The length of the result is a
+   !> specification expression: gfortran keeps the length of an allocatable result in static
+   !> storage, which threads share.
    pure function text_of_real(value) result(words)
       !> Number to write
       real(wp), intent(in) :: value

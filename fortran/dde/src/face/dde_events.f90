@@ -1,10 +1,10 @@
 !> Events are instants where a function of time, state and slope passes zero: the maxima of a
-!> component or its passages through a section. The integrator finds them on dense output and hands
-!> them over; which functions and what is done with an event is the watcher's.
+!> component or its passages through a section. The integrator finds them on dense output and passes
+!> them to the watcher, which chooses the functions and decides what is done with an event.
 !>
-!> A function that stands off zero and then is at zero or beyond makes one event, at the first such
-!> instant. A zero at the first instant of a run is none. Where a function stays within the
-!> tolerance of zero, dense output may pass it though the solution does not.
+!> There is one event where a function that was not zero becomes zero or changes its sign, at the
+!> first such instant. A zero at the first instant of a run is no event. If a function stays within
+!> the tolerance of zero, dense output may pass zero although the solution does not.
 module dde_events
    use dde_time, only: instant
    use dde_errors, only: error_type, raise, text
@@ -35,7 +35,7 @@ module dde_events
    end type event_watcher_type
 
    abstract interface
-      !> All event functions at once; a value that is not finite is passed over.
+      !> All event functions. A value that is not finite is ignored.
       pure subroutine event_values(self, t, y, slope, g)
          import :: event_watcher_type, wp
          implicit none (type, external)
@@ -75,7 +75,7 @@ module dde_events
       integer, allocatable :: component(:)
       !> Whether it looks at the slope of the component: level 0 falling is a maximum
       logical, allocatable :: of_slope(:)
-      !> Level that counts as zero
+      !> Level whose passages are events
       real(wp), allocatable :: level(:)
       !> Number of events received
       integer :: received = 0
@@ -101,7 +101,7 @@ contains
    pure function new_table(component, level, direction, terminal, of_slope) result(table)
       !> Component that each function looks at
       integer, intent(in) :: component(:)
-      !> Level that counts as zero, one each
+      !> Level whose passages are events, one each
       real(wp), intent(in) :: level(:)
       !> Passages wanted: -1 falling, 1 rising, 0 both, one each
       integer, intent(in) :: direction(:)

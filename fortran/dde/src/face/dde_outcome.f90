@@ -1,4 +1,4 @@
-!> What an integration did, and why it ended.
+!> The result of an integration, and why it ended.
 module dde_outcome
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_request, only: integration_options
@@ -18,12 +18,12 @@ module dde_outcome
          value_not_finite
    end enum
 
-   !> What an integration did.
+   !> The result of an integration.
    type :: integration_result
       !> Why it ended: reached_end, event_met, step_underflow, too_many_steps, value_not_finite or
       !> refused
       integer :: reason = refused
-      !> How far it came
+      !> Last instant reached
       real(wp) :: t = 0.0_wp
       !> State there, shape (n)
       real(wp), allocatable :: y(:)
@@ -33,8 +33,8 @@ module dde_outcome
       integer(int64) :: rejected = 0
       !> Right-hand sides, or Taylor series, evaluated, those for differences included
       integer(int64) :: evaluations = 0
-      !> Work as `auto` counts it, in evaluations of the explicit pair: evaluations as they cost in
-      !> each method, and linear systems
+      !> Work as `auto` counts it, in evaluations of the explicit pair: evaluations times their cost
+      !> in each method, plus linear systems
       real(wp) :: work = 0.0_wp
       !> Matrices factorised
       integer(int64) :: factorisations = 0
@@ -44,22 +44,22 @@ module dde_outcome
       integer(int64) :: switches = 0
       !> Breaking points landed on
       integer :: breaking_points = 0
-      !> Accepted steps that were shorter than the spacing of times: f was asked for at one time all
-      !> along
+      !> Accepted steps that were shorter than the spacing of times: f was evaluated at one time
+      !> only
       integer(int64) :: unresolved = 0
    end type integration_result
 
 contains
 
-   !> The limit that forbids a further try, or `reached_end` when none does.
+   !> The limit that forbids another attempt, or `reached_end` if none does.
    pure integer function limit_met(outcome, last_error, options, h, largest_time) result(reason)
       !> Counts so far
       type(integration_result), intent(in) :: outcome
-      !> Error estimate of the last try
+      !> Error estimate of the last attempt
       real(wp), intent(in) :: last_error
       !> Limits
       type(integration_options), intent(in) :: options
-      !> Length of the coming try
+      !> Length of the next attempt
       real(wp), intent(in) :: h
       !> Largest |t| of the integration
       real(wp), intent(in) :: largest_time
@@ -73,13 +73,13 @@ contains
       end if
    end function limit_met
 
-   !> Say where and why an integration ended before its time.
+   !> The error of an integration that ended early: where and why.
    pure subroutine explain(outcome, t_end, h, options, culprit, error)
-      !> What was done
+      !> The result
       type(integration_result), intent(in) :: outcome
-      !> Where it should have ended
+      !> Last instant wanted
       real(wp), intent(in) :: t_end
-      !> Last step tried
+      !> Length of the last step attempted
       real(wp), intent(in) :: h
       !> Limits
       type(integration_options), intent(in) :: options

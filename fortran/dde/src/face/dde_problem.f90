@@ -2,12 +2,12 @@
 !>
 !>     dy/dt = f(t, y(t), z),   z(k) = y_c(k)(t - lag(k)),   y(t0) given,   y_c(t) given for t < t0.
 !>
-!> Extend `dde_problem_type`, fill `n`, `lag` and `component`, and write the three procedures.
-!> Without delays leave `lag` and `component` of size zero: no history is kept then.
-!> Optional are `jacobian`, or `lower` and `upper`, for the implicit methods, and `analytic` with
-!> `series` and `past_series`, without which there is no method `taylor`; beside these
-!> `relaxation_rate` and `slow_series`, with which it takes long steps where fast components are in
-!> balance.
+!> Extend `dde_problem_type`, fill `n`, `lag` and `component`, and write the three deferred
+!> procedures. Without delays `lag` and `component` have size zero, and no past is kept.
+!>
+!> Optional are - for implicit methods: `jacobian`, or `lower` and `upper` of a banded one, - for
+!> the method `taylor`: `series` and `past_series`, with `analytic` true, - for long Taylor steps
+!> where fast components are in balance: `relaxation_rate` and `slow_series`.
 module dde_problem
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde_kinds, only: wp
@@ -15,7 +15,7 @@ module dde_problem
    private
    public :: dde_problem_type, not_given
 
-   !> What stands in a Jacobian that is not given.
+   !> Value in a Jacobian that is not given.
    real(wp), parameter :: not_given = -huge(1.0_wp)
 
    !> A system of delay differential equations; its parameters are components of the extension.
@@ -26,8 +26,8 @@ module dde_problem
       real(wp), allocatable :: lag(:)
       !> Which component of y each delayed value z(k) is, 1..n
       integer, allocatable :: component(:)
-      !> Where the Jacobian by y is banded: its diagonals below and above the main one; it is then
-      !> found by differences
+      !> Diagonals of a banded Jacobian by y below and above the main one. If they are given, it is
+      !> found by differences.
       integer :: lower = -1, upper = -1
       !> Whether the extension gives `series` and `past_series`
       logical :: analytic = .false.
@@ -44,7 +44,7 @@ module dde_problem
       procedure :: series => no_series
       !> Taylor series of one component before the first instant
       procedure :: past_series => no_past_series
-      !> How fast the fast components come to a balance with the others
+      !> Rate at which the fast components approach a balance with the others
       procedure :: relaxation_rate => no_relaxation
       !> Taylor series of the solution on which they are in balance
       procedure :: slow_series => no_slow_series
@@ -93,7 +93,7 @@ module dde_problem
 
 contains
 
-   !> Derivatives of the right-hand side by y and z: `not_given` where the extension gives none.
+   !> Derivatives of the right-hand side by y and z: `not_given` unless the extension gives them.
    pure subroutine no_jacobian(self, t, y, z, by_y, by_z)
       !> The problem
       class(dde_problem_type), intent(in) :: self
@@ -113,8 +113,8 @@ contains
    end subroutine no_jacobian
 
    !> Taylor series of the solution in powers of s = (t' - t)/unit: since dy/ds = unit f,
-   !> coefficient k + 1 of y is unit/(k + 1) times coefficient k of f. Not a number where the
-   !> extension gives none.
+   !> coefficient k + 1 of y is unit/(k + 1) times coefficient k of f. Not a number unless the
+   !> extension gives it.
    pure subroutine no_series(self, t, unit, degree, z, y)
       !> The problem
       class(dde_problem_type), intent(in) :: self
@@ -133,7 +133,7 @@ contains
    end subroutine no_series
 
    !> Taylor series of one component, as it was before the first instant, in powers of
-   !> (t' - t)/unit. Not a number where the extension gives none.
+   !> (t' - t)/unit. Not a number unless the extension gives it.
    pure subroutine no_past_series(self, t, component, unit, y)
       !> The problem
       class(dde_problem_type), intent(in) :: self
@@ -149,8 +149,8 @@ contains
       y = ieee_value(1.0_wp, ieee_quiet_nan)
    end subroutine no_past_series
 
-   !> Rate at which fast components come to a balance with the others, wherever they start:
-   !> y_c' = rate (balance - y_c) near it. 0 where the extension knows of none.
+   !> Rate at which fast components approach a balance with the others from any start:
+   !> y_c' = rate (balance - y_c) near it. 0 unless the extension gives it.
    pure function no_relaxation(self, t, y) result(rate)
       !> The problem
       class(dde_problem_type), intent(in) :: self
@@ -166,8 +166,8 @@ contains
 
    !> A better series of the slow solution, by one step of the iteration of Fraser (1988, "The
    !> steady state and equilibrium approximations: A geometrical picture", J. Chem. Phys. 88, 4732):
-   !> fast components, their values at t included, are the balance less y_c'/rate with y_c' as it
-   !> was, and the others follow as in `series`. Not a number where the extension gives none.
+   !> fast components (also their values at t) are the balance minus y_c'/rate with the last y_c'.
+   !> The others follow as in `series`. Not a number unless the extension gives it.
    pure subroutine no_slow_series(self, t, unit, degree, z, y)
       !> The problem
       class(dde_problem_type), intent(in) :: self
@@ -179,7 +179,7 @@ contains
       integer, intent(in) :: degree
       !> Coefficients of the delayed values
       real(wp), intent(in) :: z(0:degree, size(self%lag))
-      !> Coefficients as they were, at first the state at t and zeros; better ones
+      !> Coefficients: the last ones (at first the state at t and zeros), then better ones
       real(wp), intent(inout) :: y(0:degree, self%n)
 
       y = ieee_value(1.0_wp, ieee_quiet_nan)

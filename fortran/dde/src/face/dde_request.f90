@@ -1,4 +1,4 @@
-!> What a caller asks of an integration, and the refusal of what cannot be done.
+!> The options of an integration, and the refusal of wrong arguments.
 module dde_request
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
    use dde_continuation, only: continuation_type
@@ -15,13 +15,13 @@ module dde_request
    private
    public :: causes, check, implicit_methods, integration_options, methods, tolerance_of
 
-   !> Methods to choose from: `taylor` is for problems that give their series; `auto` changes
-   !> between it, or the explicit pair for other problems, and one of the implicit ones.
+   !> Methods. `taylor` is for problems that give their series. `auto` changes between it (the
+   !> explicit pair for other problems) and an implicit method.
    character(len=8), parameter :: implicit_methods(3) = ["radau5  ", "radau9  ", "radau13 "]
    character(len=8), parameter :: methods(6) = [character(len=8) :: "auto", "explicit", "taylor", &
                                                 implicit_methods]
 
-   !> What a caller may choose.
+   !> Options.
    type :: integration_options
       !> One of `methods`
       character(len=8) :: method = "auto"
@@ -29,7 +29,7 @@ module dde_request
       real(wp) :: relative = 1.0e-9_wp
       !> Absolute tolerance of one step
       real(wp) :: absolute = 1.0e-9_wp
-      !> Relative and absolute tolerance of each component, in place of those, shape (n)
+      !> Tolerances of each component in place of those two, shape (n)
       real(wp), allocatable :: each_relative(:), each_absolute(:)
       !> Length of the first step; chosen by the solver when 0
       real(wp) :: first_step = 0.0_wp
@@ -37,8 +37,8 @@ module dde_request
       real(wp) :: longest_step = huge(1.0_wp)
       !> Most steps, accepted and rejected
       integer(int64) :: most_steps = 100000000_int64
-      !> Times at which the right-hand side jumps, or the history before the first instant, in any
-      !> order: steps end there
+      !> Times at which the right-hand side jumps (before the first instant: the history), in any
+      !> order. Steps end there.
       real(wp), allocatable :: break_at(:)
    end type integration_options
 
@@ -55,8 +55,8 @@ contains
                                  options%each_relative, options%each_absolute)
    end function tolerance_of
 
-   !> The jumps that the user gave: of the history before the first instant, of the right-hand side
-   !> after it.
+   !> The jumps that the user gave. Before the first instant the history jumps, after it the
+   !> right-hand side.
    pure function causes(options, origin) result(kinks)
       !> Where they are
       type(integration_options), intent(in) :: options
@@ -142,7 +142,8 @@ contains
       end do
    end subroutine check_problem
 
-   !> Refuse a span that is none; a run that goes on starts where the other ended, to the last bit.
+   !> Refuse a span that is not finite or not ascending. A continued run starts exactly where the
+   !> earlier one ended.
    pure subroutine check_span(t_start, t_end, error, continuation)
       !> First instant
       real(wp), intent(in) :: t_start
@@ -165,7 +166,7 @@ contains
                  //" expected")
    end subroutine check_span
 
-   !> Refuse tolerances, limits and a method that there cannot be.
+   !> Refuse tolerances, limits and a method out of range.
    pure subroutine check_options(problem, options, error)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
@@ -211,7 +212,7 @@ contains
       end if
    end subroutine check_options
 
-   !> Refuse tolerances of components that there cannot be.
+   !> Refuse tolerances of components out of range.
    pure subroutine check_each(n, options, error)
       !> Number of equations
       integer, intent(in) :: n
@@ -230,7 +231,7 @@ contains
       end if
    end subroutine check_each
 
-   !> Refuse a list of tolerances that has another size, or one that cannot be.
+   !> Refuse a list of tolerances of wrong size or out of range.
    pure subroutine check_list(n, name, values, range, allowed, error)
       !> Number of equations
       integer, intent(in) :: n

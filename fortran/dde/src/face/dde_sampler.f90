@@ -1,5 +1,5 @@
-!> Where samples of a trajectory go: the integrator hands over the wanted components at the wanted
-!> times, taken from dense output; what is done with them is the sampler's.
+!> Receivers of samples. The integrator passes the wanted components at the wanted times, from dense
+!> output. The sampler decides what is done with them.
 module dde_sampler
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
    use dde_errors, only: error_type, raise, text
@@ -12,13 +12,13 @@ module dde_sampler
    type, abstract :: sampler_type
       !> Components wanted, 1..n
       integer, allocatable :: wanted(:)
-      !> Time of the next sample; beyond the end of the integration when none is wanted
+      !> Time of the next sample; beyond the end of the integration when no more are wanted
       real(wp) :: next = huge(1.0_wp)
-      !> Dense output of the wanted components over a step, and their values at a sample: the
-      !> integrator's
+      !> Work space of the integrator: dense output of the wanted components over a step, and their
+      !> values at a sample
       real(wp), allocatable :: dense(:, :), values_here(:)
    contains
-      !> Refuse components that are not there
+      !> Refuse wrong components and times
       procedure :: check => check_wanted
       !> Receive the sample of time `next` and move `next` on
       procedure(take_sample), deferred :: take
@@ -55,7 +55,7 @@ module dde_sampler
 
 contains
 
-   !> Refuse components that are not there, and samples before the run.
+   !> Refuse components outside 1..n, and samples before the run.
    pure subroutine check_wanted(self, n, t_start, goes_on, error)
       !> The sampler
       class(sampler_type), intent(in) :: self
@@ -87,7 +87,7 @@ contains
                  //text(t_start)//" (t_start) on expected")
    end subroutine check_wanted
 
-   !> Refuse times in another order, and a table that an earlier run filled.
+   !> Refuse times that do not ascend, and a table that an earlier run filled.
    pure subroutine check_table(self, n, t_start, goes_on, error)
       !> The table
       class(table_sampler), intent(in) :: self

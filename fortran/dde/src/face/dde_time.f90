@@ -1,5 +1,5 @@
-!> Time that does not lose small steps: an unevaluated sum of two numbers, so that a step far
-!> below spacing(t) still moves it (error-free sums of Knuth and Dekker).
+!> Time as an unevaluated sum of two numbers. A step far below spacing(t) still changes it
+!> (error-free sums of Knuth and Dekker).
 module dde_time
    use dde_kinds, only: wp
    implicit none (type, external)

@@ -1,19 +1,22 @@
-!> What the error of one step may be: of component i, absolute(i) + relative(i) |y(i)|.
+!> The tolerance of one step, absolute(i) + relative(i) |y(i)| for component i, and the norm in
+!> which errors are measured.
 module dde_tolerance
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: tolerance_type
+   public :: hopeless, scaled_norm, tolerance_type
 
-   !> Bounds of `level`: no method can use a tolerance below the rounding of numbers, nor one that
-   !> asks for no digit.
+   !> Bounds of `level`: a smaller tolerance is below rounding, a larger one asks for no digit.
    real(wp), parameter :: least_level = epsilon(1.0_wp), most_level = 1.0_wp
+   !> Elements above this are not squared: the norm is huge.
+   real(wp), parameter :: hopeless = 1.0e100_wp
 
    !> The tolerance of all components.
    type :: tolerance_type
       !> Relative and absolute tolerance, shape (n)
       real(wp), allocatable :: relative(:), absolute(:)
-      !> The largest of all of them: the digits that are asked for
+      !> The largest of all of them
       real(wp) :: level = 0.0_wp
    contains
       !> Tolerances for a state
@@ -74,4 +77,31 @@ contains
 
       tolerance = self%absolute(i) + self%relative(i)*abs(value)
    end function of_component
+
+   !> Root mean square of x/scale. It is huge if an element is above `hopeless` and not a number if
+   !> one is not finite.
+   pure function scaled_norm(n, x, scale) result(norm)
+      !> How many
+      integer, intent(in) :: n
+      !> Elements
+      real(wp), intent(in) :: x(n)
+      !> Their scales, > 0
+      real(wp), intent(in) :: scale(n)
+      real(wp) :: norm
+      integer :: i
+
+      norm = 0.0_wp
+      do i = 1, n
+         if (.not. ieee_is_finite(x(i))) then
+            norm = ieee_value(1.0_wp, ieee_quiet_nan)
+            return
+         end if
+         if (abs(x(i))/hopeless > scale(i)) then
+            norm = huge(1.0_wp)
+         else if (norm < huge(1.0_wp)) then
+            norm = norm + (x(i)/scale(i))**2
+         end if
+      end do
+      if (norm < huge(1.0_wp)) norm = sqrt(norm/n)
+   end function scaled_norm
 end module dde_tolerance

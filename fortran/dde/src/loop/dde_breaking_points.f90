@@ -1,11 +1,11 @@
-!> Breaking points: where a kink (or jump) comes back through the delays, one derivative smoother at
-!> each passage (Bellen and Zennaro 2003, "Numerical Methods for Delay Differential Equations",
-!> sec. 2.2). They are made as the run goes on, by the points that it lands on.
+!> Breaking points: a kink (or jump) returns after each delay, one derivative smoother at each
+!> passage (Bellen and Zennaro 2003, "Numerical Methods for Delay Differential Equations", sec.
+!> 2.2). A point that the run lands on adds those of the next generation.
 !>
-!> The run lands on all points of the first generation. A later one that would cut a step to less
-!> than half is landed on as long as few such were, and else passed over: the error estimate of
-!> the step judges its kink, and where the step is accepted the kink is below the tolerance, and so
-!> are the smoother ones that would come of it.
+!> The run lands on all points of the first generation. A later point can make a step shorter than
+!> half the proposed size. Only a limited number of such steps is taken; after that the run steps
+!> over these points. The error estimate covers the kink then: if the step is accepted, the kink is
+!> below the tolerance, and so are the smoother kinks that it would cause.
 module dde_breaking_points
    use dde_kinks, only: kink_type, merged, same_point, sorted
    use dde_time, only: elapsed, instant, later
@@ -14,18 +14,18 @@ module dde_breaking_points
    private
    public :: breaking_points, stretch
 
-   !> A step that is this share shorter than proposed is short.
+   !> A step below this share of the proposed step size is short.
    real(wp), parameter :: short = 0.5_wp
-   !> A step may end this much later than proposed to end at a point.
+   !> A step may be this many times longer than proposed to end at a point.
    real(wp), parameter :: stretch = 1.01_wp
-   !> Points awaited beyond which no more of a later generation are: they lie too close to land on.
-   integer, parameter :: most_awaited = 1000
-   !> Passages and generation of an end that is no kink.
+   !> No points of later generations are added beyond this number: they lie too close to land on.
+   integer, parameter :: most_ahead = 1000
+   !> Passages and generation of the end of a run, which is no kink.
    integer, parameter :: no_kink = huge(1)
 
    !> The kinks of a run.
    type :: breaking_points
-      !> Those that a delay may bring back, ascending
+      !> Those passed that may return after a delay, ascending
       type(kink_type), allocatable :: met(:)
       !> Those to come, ascending; the last is the end of the run
       type(kink_type), allocatable, private :: ahead(:)
@@ -35,16 +35,16 @@ module dde_breaking_points
       real(wp), allocatable, private :: lag(:)
       !> First instant, from which rounding is measured
       type(instant), private :: origin
-      !> Passages after which a kink is smoother than the method can see
+      !> Passages after which a kink is too smooth for the order of the method
       integer, private :: most_passages = 0
-      !> Short steps that the run may still take, and at most
+      !> Short steps that the run may still take, and the most
       integer, private :: credit = 0, most_credit = 0
    contains
       !> Begin a run with the kinks so far and those that the user gave
       procedure :: begin
-      !> Add a kink here
+      !> Add a kink where the run stands
       procedure :: add
-      !> The point that a step should head for
+      !> The point at which a step should end
       procedure :: goal
       !> Its instant
       procedure :: at
@@ -53,16 +53,16 @@ module dde_breaking_points
       !> Whether the right-hand side may jump at a point
       procedure :: is_cause
       !> Time to the next point, landed on or not
-      procedure :: smooth
+      procedure :: time_to_next
       !> Time to the end of the run
-      procedure :: left
+      procedure :: time_to_end
       !> Land on a point
       procedure :: land
-      !> Go on by a step that lands on none
+      !> Take a step that lands on none
       procedure :: pass
-      !> Drop what no delay can bring back
+      !> Drop the points that cannot return
       procedure :: forget
-      procedure, private :: await, bring_back, find_due
+      procedure, private :: add_ahead, add_returns, find_due
    end type breaking_points
 
 contains
@@ -81,7 +81,7 @@ contains
       type(instant), intent(in) :: finish
       !> Delays, > 0
       real(wp), intent(in) :: lag(:)
-      !> Passages after which a kink is smoother than the method can see
+      !> Passages after which a kink is too smooth for the order of the method
       integer, intent(in) :: most_passages
       type(kink_type), allocatable :: all_kinks(:)
       integer :: i
@@ -94,14 +94,14 @@ contains
       self%ahead = [kink_type(finish, no_kink, no_kink)]
       all_kinks = sorted(kinks, origin)
       self%met = pack(all_kinks, elapsed(all_kinks%at, now) >= 0.0_wp)
-      call self%await(pack(all_kinks, elapsed(all_kinks%at, now) < 0.0_wp), now)
+      call self%add_ahead(pack(all_kinks, elapsed(all_kinks%at, now) < 0.0_wp), now)
       do i = 1, size(self%met)
-         call self%bring_back(self%met(i), now)
+         call self%add_returns(self%met(i), now)
       end do
       call self%find_due()
    end subroutine begin
 
-   !> Add a kink here.
+   !> Add a kink where the run stands.
    pure subroutine add(self, kink)
       !> The points
       class(breaking_points), intent(inout) :: self
@@ -109,12 +109,12 @@ contains
       type(kink_type), intent(in) :: kink
 
       self%met = merged(self%met, [kink], self%origin)
-      call self%bring_back(kink, kink%at)
+      call self%add_returns(kink, kink%at)
       call self%find_due()
    end subroutine add
 
-   !> What becomes of a kink, each delay later, after `now` and before the end.
-   pure subroutine bring_back(self, kink, now)
+   !> Add the points at which a kink returns, one for each delay, after `now` and before the end.
+   pure subroutine add_returns(self, kink, now)
       !> The points
       class(breaking_points), intent(inout) :: self
       !> The kink
@@ -124,37 +124,37 @@ contains
       type(kink_type), allocatable :: children(:)
 
       if (kink%passages >= self%most_passages) return
-      if (kink%generation > 0 .and. size(self%ahead) - self%next >= most_awaited) return
+      if (kink%generation > 0 .and. size(self%ahead) - self%next >= most_ahead) return
       allocate (children(size(self%lag)))
       children%at = later(kink%at, self%lag)
       children%passages = kink%passages + 1
       children%generation = kink%generation + 1
-      call self%await(sorted(children, self%origin), now)
-   end subroutine bring_back
+      call self%add_ahead(sorted(children, self%origin), now)
+   end subroutine add_returns
 
-   !> Take in points to come, as far as they lie after `now` and not after the end.
-   pure subroutine await(self, points, now)
+   !> Add points that lie after `now` and not after the end.
+   pure subroutine add_ahead(self, points, now)
       !> The points
       class(breaking_points), intent(inout) :: self
       !> Points, ascending
       type(kink_type), intent(in) :: points(:)
       !> The run stands here
       type(instant), intent(in) :: now
-      type(kink_type), allocatable :: awaited(:)
+      type(kink_type), allocatable :: new(:)
 
       associate (finish => self%ahead(size(self%ahead))%at)
-         awaited = points
-         where (abs(elapsed(finish, awaited%at)) <= same_point*elapsed(self%origin, finish))
-            awaited%at%hi = finish%hi
-            awaited%at%lo = finish%lo
+         new = points
+         where (abs(elapsed(finish, new%at)) <= same_point*elapsed(self%origin, finish))
+            new%at%hi = finish%hi
+            new%at%lo = finish%lo
          end where
-         awaited = pack(awaited, elapsed(awaited%at, finish) >= 0.0_wp .and. elapsed(now, &
-                        awaited%at) > same_point*elapsed(self%origin, awaited%at))
+         new = pack(new, elapsed(new%at, finish) >= 0.0_wp &
+                    .and. elapsed(now, new%at) > same_point*elapsed(self%origin, new%at))
       end associate
-      if (size(awaited) == 0) return
-      self%ahead = merged(self%ahead(self%next:), awaited, self%origin)
+      if (size(new) == 0) return
+      self%ahead = merged(self%ahead(self%next:), new, self%origin)
       self%next = 1
-   end subroutine await
+   end subroutine add_ahead
 
    !> The first point that must be landed on.
    pure subroutine find_due(self)
@@ -167,7 +167,7 @@ contains
       end do
    end subroutine find_due
 
-   !> Number of the point that a step of proposed length `h` should head for.
+   !> Number of the point at which a step of proposed length `h` should end.
    pure integer function goal(self, now, h) result(number)
       !> The points
       class(breaking_points), intent(in) :: self
@@ -221,24 +221,24 @@ contains
    end function is_cause
 
    !> Time to the next point, landed on or not.
-   pure real(wp) function smooth(self, now) result(time)
+   pure real(wp) function time_to_next(self, now) result(time)
       !> The points
       class(breaking_points), intent(in) :: self
       !> The run stands here
       type(instant), intent(in) :: now
 
       time = elapsed(now, self%ahead(self%next)%at)
-   end function smooth
+   end function time_to_next
 
    !> Time to the end of the run.
-   pure real(wp) function left(self, now) result(time)
+   pure real(wp) function time_to_end(self, now) result(time)
       !> The points
       class(breaking_points), intent(in) :: self
       !> The run stands here
       type(instant), intent(in) :: now
 
       time = elapsed(now, self%ahead(size(self%ahead))%at)
-   end function left
+   end function time_to_end
 
    !> Land on a point.
    pure subroutine land(self, number, proposed, h)
@@ -258,11 +258,11 @@ contains
       if (here%passages == no_kink) return
       self%met = [self%met, here]
       if (self%is_end(number)) return
-      call self%bring_back(here, here%at)
+      call self%add_returns(here, here%at)
       call self%find_due()
    end subroutine land
 
-   !> Go on by a step that lands on no point.
+   !> Take a step that lands on no point.
    pure subroutine pass(self, now)
       !> The points
       class(breaking_points), intent(inout) :: self
@@ -276,11 +276,11 @@ contains
       end do
    end subroutine pass
 
-   !> Drop the kinks that no delay can bring back any more.
+   !> Drop the kinks that cannot return.
    pure subroutine forget(self, horizon)
       !> The points
       class(breaking_points), intent(inout) :: self
-      !> Nothing before this instant will be asked for
+      !> Nothing before this instant will be read
       type(instant), intent(in) :: horizon
 
       if (size(self%met) == 0) return

@@ -2,23 +2,23 @@
 !> Gustafsson (Hairer and Wanner 1996, "Solving Ordinary Differential Equations II", sec. IV.2).
 module dde_controller
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use dde_step, only: step_type
+   use dde_method_constants, only: method_constants
    use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: controller_type
 
-   !> Share of the last accepted error in the next step (integral part).
+   !> Weight of the last accepted error (integral part).
    real(wp), parameter :: beta = 0.04_wp
    !> Bounds on the ratio of one step to the one before.
    real(wp), parameter :: least_ratio = 1.0_wp/3.0_wp, most_ratio = 6.0_wp
-   !> Where a step is rejected again the order seen between the two tries takes the place of the
-   !> method's (Gustafsson 1994, ACM Trans. Math. Softw. 20, 496): at least this, with this least
-   !> ratio.
+   !> If a step is rejected again, the order observed between the two attempts replaces that of the
+   !> method (Gustafsson 1994, ACM Trans. Math. Softw. 20, 496). Least value of this order, and
+   !> least ratio of the steps then.
    real(wp), parameter :: least_order = 0.5_wp, least_ratio_again = 1.0e-4_wp
    !> Ratio after an evaluation that was not finite.
    real(wp), parameter :: ratio_after_failure = 0.1_wp
-   !> Accepted errors count as at least this, in proportional and in predictive control.
+   !> Lower bounds on accepted errors in proportional and in predictive control.
    real(wp), parameter :: least_error = 1.0e-4_wp, least_predicted = 1.0e-2_wp
 
    !> Step control of one integration.
@@ -41,11 +41,13 @@ module dde_controller
 contains
 
    !> After an accepted step: replace its length by the next.
-   pure subroutine accept(self, step, h, error)
+   pure subroutine accept(self, method, safety, h, error)
       !> Control
       class(controller_type), intent(inout) :: self
-      !> The step, with its method's constants
-      class(step_type), intent(in) :: step
+      !> Constants of the method
+      type(method_constants), intent(in) :: method
+      !> Factor below the step size at which the error would be equal to the tolerance
+      real(wp), intent(in) :: safety
       !> Length of the step, replaced by the next
       real(wp), intent(inout) :: h
       !> Error of the step in units of the tolerance, 0..1
@@ -54,32 +56,34 @@ contains
 
       taken = h
       ratio = most_ratio
-      power = 1.0_wp/step%error_order
+      power = 1.0_wp/method%error_order
       if (error > 0.0_wp) then
-         if (step%predictive) then
-            ratio = step%safety*error**(-power)
+         if (method%predictive) then
+            ratio = safety*error**(-power)
             if (self%last_error > 0.0_wp) then
                ratio = min(ratio, ratio*h/self%last_h*(self%last_error/error)**power)
             end if
          else
-            ratio = step%safety*max(self%last_error, least_error)**beta*error**(0.2_wp*beta - power)
+            ratio = safety*max(self%last_error, least_error)**beta*error**(0.2_wp*beta - power)
          end if
          ratio = min(most_ratio, max(least_ratio, ratio))
       end if
       if (self%rejected) ratio = min(ratio, 1.0_wp)
-      if (ratio < 1.0_wp .or. ratio > step%hold) h = h*ratio
-      self%last_error = max(error, merge(least_predicted, least_error, step%predictive))
+      if (ratio < 1.0_wp .or. ratio > method%largest_kept_ratio) h = h*ratio
+      self%last_error = max(error, merge(least_predicted, least_error, method%predictive))
       self%last_h = taken
       self%rejected = .false.
    end subroutine accept
 
-   !> After a rejected step: replace its length by the next try.
-   pure subroutine reject(self, step, h, error)
+   !> After a rejected step: replace its length by the next attempt.
+   pure subroutine reject(self, method, safety, h, error)
       !> Control
       class(controller_type), intent(inout) :: self
-      !> The step, with its method's constants
-      class(step_type), intent(in) :: step
-      !> Length of the step, replaced by the next try
+      !> Constants of the method
+      type(method_constants), intent(in) :: method
+      !> Factor below the step size at which the error would be equal to the tolerance
+      real(wp), intent(in) :: safety
+      !> Length of the step, replaced by the next attempt
       real(wp), intent(inout) :: h
       !> Error of the step in units of the tolerance, > 1 or not finite
       real(wp), intent(in) :: error
@@ -87,15 +91,15 @@ contains
 
       taken = h
       if (ieee_is_finite(error)) then
-         order = step%error_order
+         order = method%error_order
          least = least_ratio
          if (self%rejected .and. self%rejected_error > error .and. self%rejected_h > h) then
-            ! a near-jump inside the step: its error falls by a low order of its length
+            ! a near-jump inside the step: its error is proportional to a low power of its length
             order = log(self%rejected_error/error)/log(self%rejected_h/h)
-            order = max(least_order, min(order, real(step%error_order, wp)))
+            order = max(least_order, min(order, real(method%error_order, wp)))
             least = least_ratio_again
          end if
-         h = h*max(least, step%safety*error**(-1.0_wp/order))
+         h = h*max(least, safety*error**(-1.0_wp/order))
       else
          h = h*ratio_after_failure
       end if

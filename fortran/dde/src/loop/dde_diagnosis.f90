@@ -1,10 +1,8 @@
-!> What stands behind a run that could not go on.
+!> The cause of a run that could not continue.
 module dde_diagnosis
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use dde_history, only: history_type
    use dde_problem, only: dde_problem_type
-   use dde_step, only: step_type
-   use dde_time, only: instant
+   use dde_run, only: run_type
    use dde_errors, only: text
    use dde_kinds, only: wp
    implicit none (type, external)
@@ -14,15 +12,11 @@ module dde_diagnosis
 contains
 
    !> Which value is not finite in a step of length `h` from here.
-   function not_finite(problem, step, past, now, h) result(words)
+   function not_finite(run, problem, h) result(words)
+      !> The run at the start of the step
+      class(run_type), intent(inout) :: run
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The step
-      class(step_type), intent(in) :: step
-      !> The past
-      type(history_type), intent(inout) :: past
-      !> Start of the step
-      type(instant), intent(in) :: now
       !> Length of the step
       real(wp), intent(in) :: h
       character(len=:), allocatable :: words
@@ -31,19 +25,19 @@ contains
       real(wp) :: t
 
       allocate (z(size(problem%lag), 2), slope(problem%n))
-      y = step%y
-      if (size(problem%lag) > 0) call past%face(problem, now, h)
-      call past%values(problem, [0.0_wp, h], z)
+      y = run%step%y
+      call run%cursor%set(problem, run%past, run%now, h)
+      call run%cursor%values(problem, run%past, [0.0_wp, h], z)
       do place = 1, 2
-         t = now%hi + (place - 1)*h
+         t = run%now%hi + (place - 1)*h
          do i = 1, size(problem%lag)
             if (ieee_is_finite(z(i, place))) cycle
             words = "component "//text(problem%component(i))//" is "//text(z(i, place)) &
                     //" at t = "//text(t - problem%lag(i))
-            if (past%before_origin(i)) words = "the history of "//words
+            if (run%cursor%before_origin(i)) words = "the history of "//words
             return
          end do
-         call problem%rhs(step%inside(t), y, z(:, place), slope)
+         call problem%rhs(run%cursor%inside(t), y, z(:, place), slope)
          do i = 1, problem%n
             if (ieee_is_finite(slope(i))) cycle
             words = "f("//text(i)//") is "//text(slope(i))//" at t = "//text(t)//", where y(" &

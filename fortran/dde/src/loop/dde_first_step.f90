@@ -1,35 +1,39 @@
 !> Length of the first step.
 module dde_first_step
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use dde_cursor, only: cursor_type
    use dde_history, only: history_type
    use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
    use dde_tolerance, only: tolerance_type
+   use dde_work, only: work_type
    use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: choose_first_step
 
-   !> A change beyond this many scales in a unit of time says nothing on the first step.
+   !> Above this change per unit of time, in units of the tolerance, no first step can be estimated.
    real(wp), parameter :: hopeless = 1.0e140_wp
 
 contains
 
    !> First step length: about a hundredth of |y|/|y'|, refined by the second derivative (Hairer,
    !> Norsett and Wanner 1993, sec. II.4).
-   pure subroutine choose_first_step(problem, past, step, t_start, longest, tolerance, h)
+   pure subroutine choose_first_step(problem, past, cursor, step, longest, tolerance, work, h)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The past, facing the first step
-      type(history_type), intent(inout) :: past
+      !> The past
+      type(history_type), intent(in) :: past
+      !> The cursor, on the first step
+      type(cursor_type), intent(inout) :: cursor
       !> The step, its first slope known
       class(step_type), intent(inout) :: step
-      !> First instant
-      real(wp), intent(in) :: t_start
       !> Time to the end of the run, or the longest step allowed, the shorter
       real(wp), intent(in) :: longest
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
+      !> Work so far
+      type(work_type), intent(inout) :: work
       !> Length of the first step
       real(wp), intent(out) :: h
       real(wp), allocatable :: scale(:), slope_ahead(:)
@@ -46,20 +50,20 @@ contains
       end if
       h = min(h, longest)
       if (size(problem%lag) > 0) h = min(h, minval(problem%lag))
-      call past%values(problem, [h], step%z)
-      call problem%rhs(t_start + h, step%y + h*step%slope, step%z, slope_ahead)
-      step%evaluations = step%evaluations + 1
+      call cursor%values(problem, past, [h], step%z)
+      call problem%rhs(cursor%t + h, step%y + h*step%slope, step%z, slope_ahead)
+      work%evaluations = work%evaluations + 1
       bend = length_of(slope_ahead - step%slope, scale)
       if (bend > hopeless) return
       bend = bend/h
       if (max(slope, bend) > 1.0e-15_wp) then
-         h = min(100.0_wp*h, (0.01_wp/max(slope, bend))**(1.0_wp/step%error_order))
+         h = min(100.0_wp*h, (0.01_wp/max(slope, bend))**(1.0_wp/step%constants%error_order))
       else
          h = min(100.0_wp*h, max(1.0e-6_wp, 1.0e-3_wp*h))
       end if
    end subroutine choose_first_step
 
-   !> Length of x in units of `scale`; huge where it is hopeless or not finite.
+   !> Length of x in units of `scale`; huge if it is above `hopeless` or not finite.
    pure function length_of(x, scale) result(length)
       !> Elements
       real(wp), intent(in) :: x(:)

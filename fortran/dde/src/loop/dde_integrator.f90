@@ -1,16 +1,15 @@
-!> The method of steps: from breaking point to breaking point with controlled steps, each accepted
-!> step appended to the history that later steps read.
+!> The method of steps: controlled steps from breaking point to breaking point. The polynomial of
+!> each accepted step is stored in the past that later steps read.
 module dde_integrator
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_continuation, only: continuation_type
-   use dde_controller, only: controller_type
    use dde_diagnosis, only: not_finite
    use dde_event_search, only: endless, most_places
    use dde_events, only: event_watcher_type
-   use dde_methods, only: change_method, limiting_delay, longest_step, price_of_try
+   use dde_methods, only: limiting_delay, longest_step, price_of_try
    use dde_outcome, only: event_met, explain, integration_result, limit_met, reached_end, &
                           value_not_finite
-   use dde_output, only: hand_over, sample_start
+   use dde_output, only: deliver, sample_start
    use dde_problem, only: dde_problem_type
    use dde_request, only: check, integration_options
    use dde_run, only: run_type
@@ -25,9 +24,8 @@ module dde_integrator
 
 contains
 
-   !> Integrate `problem` from t_start to t_end >= t_start, or to an event that ends the run.
-   !> Without sampler, watcher and continuation nothing is stored but the history that the delays
-   !> need. On an error `outcome` still tells how far it came.
+   !> Integrate `problem` from t_start to t_end >= t_start, or to an event that ends the run. Only
+   !> the past that the delays need is stored. On an error `outcome` holds the last instant reached.
    subroutine integrate(problem, t_start, t_end, options, outcome, error, sampler, watcher, &
                         continuation)
       !> The problem
@@ -38,7 +36,7 @@ contains
       real(wp), intent(in) :: t_end
       !> Method, tolerances and limits
       type(integration_options), intent(in) :: options
-      !> What was done
+      !> The result
       type(integration_result), intent(out) :: outcome
       !> Why it reached neither t_end nor an event that ends the run
       type(error_type), allocatable, intent(out) :: error
@@ -46,10 +44,9 @@ contains
       class(sampler_type), intent(inout), optional :: sampler
       !> Receiver of events
       class(event_watcher_type), intent(inout), optional :: watcher
-      !> Where an earlier run ended, to go on from there; where this one did
+      !> Where an earlier run ended; on return where this one ended
       type(continuation_type), intent(inout), optional :: continuation
       type(run_type) :: run
-      type(controller_type) :: control
       type(switch_type) :: switch
       type(instant) :: step_end
       real(wp) :: error_estimate, h, left, longest, longest_of_all, shortest_delay
@@ -73,57 +70,51 @@ contains
       error_estimate = 0.0_wp
 
       outcome%reason = reached_end
-      last = .not. run%points%left(run%now) > 0.0_wp
+      last = .not. run%points%time_to_end(run%now) > 0.0_wp
       do while (.not. last)
          call run%plan(problem, longest, h, goal, landing)
          outcome%reason = limit_met(outcome, error_estimate, options, h, &
                                     max(abs(t_start), abs(t_end)))
          if (outcome%reason /= reached_end) exit
-         if (run%fresh) call run%step%restart(problem, run%past, run%now%hi)
-         run%fresh = .false.
-         call run%step%attempt(problem, run%past, run%now%hi, h, run%tolerance, error_estimate)
+         if (run%fresh) call run%restart(problem)
+         call run%step%attempt(problem, run%past, run%cursor, run%tolerance, run%work, &
+                               error_estimate)
          if (.not. accepted(error_estimate)) then
             outcome%rejected = outcome%rejected + 1
             run%h = h
-            call control%reject(run%step, run%h, error_estimate)
+            call run%control%reject(run%step%constants, run%step%safety, run%h, error_estimate)
             cycle
          end if
 
          outcome%accepted = outcome%accepted + 1
-         if (run%step%implicit) outcome%implicit_steps = outcome%implicit_steps + 1
-         call run%step%complete(problem, run%past)
+         if (run%step%constants%implicit) outcome%implicit_steps = outcome%implicit_steps + 1
+         call run%step%complete(problem, run%past, run%cursor, run%work)
          step_end = later(run%now, h)
          if (landing) step_end = run%points%at(goal)
          if (.not. run%now%hi + h > run%now%hi) outcome%unresolved = outcome%unresolved + 1
-         call hand_over(problem, run%step, run%past, run%search, run%now, step_end, &
-                        run%points%smooth(run%now), ended, sampler, watcher)
+         call deliver(run, problem, step_end, ended, sampler, watcher)
          if (ended) then
             call run%arrive(goal, .false., step_end)
             run%step%y = run%search%here%y
             outcome%reason = event_met
             exit
          end if
-         if (run%step%foresees) then
-            h = run%step%ideal
-         else
-            call control%accept(run%step, h, error_estimate)
-         end if
+         call run%step%next_length(run%control, h, error_estimate)
          other = .false.
          if (automatic) then
-            ! a run that may go on has no end yet
+            ! a run that may be continued has no end yet
             left = huge(1.0_wp)
-            if (.not. present(continuation)) left = run%points%left(step_end)
-            call switch%judge(problem, run%step, shortest_delay, h, left, other)
+            if (.not. present(continuation)) left = run%points%time_to_end(step_end)
+            call switch%judge(problem, run%step, run%work%total(), shortest_delay, h, left, other)
          end if
          call run%step%advance()
          last = landing .and. run%points%is_end(goal)
          call run%arrive(goal, landing, step_end)
-         ! a step cut short to land says nothing against the length proposed before
+         ! a step shortened to end at a point does not reduce the step size proposed before
          run%h = merge(max(run%h, h), h, landing)
          if (landing .and. .not. last) outcome%breaking_points = outcome%breaking_points + 1
          if (other) then
-            call change_method(problem, run%tolerance, run%step)
-            control = controller_type()
+            call run%change_to_other(problem)
             outcome%switches = outcome%switches + 1
             longest = longest_step(problem, run%step, longest_of_all)
          end if
@@ -132,19 +123,19 @@ contains
       outcome%t = run%now%hi
       outcome%y = run%step%y
       if (present(continuation)) call run%keep(problem, options, continuation)
-      outcome%evaluations = run%step%evaluations
-      outcome%work = run%step%work()
-      outcome%factorisations = run%step%factorisations()
+      outcome%evaluations = run%work%evaluations
+      outcome%work = run%work%total()
+      outcome%factorisations = run%work%factorisations
       if (all(outcome%reason /= [reached_end, event_met])) then
          culprit = ""
          if (outcome%reason == value_not_finite) then
-            culprit = not_finite(problem, run%step, run%past, run%now, h)
+            culprit = not_finite(run, problem, h)
          end if
          call explain(outcome, t_end, h, options, culprit, error)
       end if
    end subroutine integrate
 
-   !> Whether a step passed: its error finite and within the tolerance.
+   !> Whether the error of a step is finite and within the tolerance.
    pure logical function accepted(error_estimate) result(value)
       !> Error in units of the tolerance
       real(wp), intent(in) :: error_estimate

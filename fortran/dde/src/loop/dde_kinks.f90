@@ -6,7 +6,7 @@ module dde_kinks
    private
    public :: kink_type, merged, same_point, sorted
 
-   !> Points closer than this share of their distance from the first kink are one.
+   !> Points are one if their distance is below this share of their distance from the first kink.
    real(wp), parameter :: same_point = 16.0_wp*epsilon(1.0_wp)
 
    !> An instant where a derivative of the solution jumps.
@@ -15,13 +15,13 @@ module dde_kinks
       type(instant) :: at
       !> Passages through a delay since the first derivative jumped; -1 where the solution does
       integer :: passages = 0
-      !> Passages since the cause: the first instant, or one that the user gave
+      !> Passages since its cause, which is the first instant or an instant that the user gave
       integer :: generation = 0
    end type kink_type
 
 contains
 
-   !> Two ascending lists as one, each point once, as rough as the roughest that meet there.
+   !> Two ascending lists as one. Points that coincide become one, with the fewest passages.
    pure function merged(one, other, origin) result(points)
       !> Ascending points
       type(kink_type), intent(in) :: one(:)

@@ -1,12 +1,13 @@
-!> The methods: how each begins, follows another, and how long its steps may be.
+!> The methods: how a step of each is made, how one follows another, and how long steps may be.
 module dde_methods
    use dde_explicit_step, only: explicit_step_type
-   use dde_implicit_step, only: implicit_cost, implicit_step_type, operations_of_evaluation
+   use dde_implicit_step, only: implicit_cost, implicit_step_type
    use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
    use dde_systems, only: complex_over_real, factor_operations
    use dde_taylor_step, only: taylor_step_type
    use dde_tolerance, only: tolerance_type
+   use dde_work, only: operations_of_evaluation
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -65,7 +66,7 @@ contains
              + operations/(operations_of_evaluation*problem%n)
    end function work_of_step
 
-   !> A step of the method asked for; `auto` begins with an explicit one.
+   !> A step of the chosen method; `auto` begins with an explicit one.
    subroutine choose_method(problem, method, tolerance, step)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
@@ -120,13 +121,12 @@ contains
       class(step_type), allocatable, intent(inout) :: step
       class(step_type), allocatable :: other
 
-      call choose_method(problem, matching_method(problem, tolerance, .not. step%implicit), &
-                         tolerance, other)
+      associate (implicit => .not. step%constants%implicit)
+         call choose_method(problem, matching_method(problem, tolerance, implicit), tolerance, &
+                            other)
+      end associate
       other%y = step%y
       other%slope = step%slope_here()
-      other%evaluations = step%evaluations
-      other%factorised_before = step%factorisations()
-      other%earlier_work = step%work() - other%work()
       call move_alloc(other, step)
    end subroutine change_method
 
@@ -142,7 +142,7 @@ contains
       real(wp) :: longest
 
       longest = of_all
-      if (.not. step%implicit .or. size(problem%lag) > most_coupled) then
+      if (.not. step%constants%implicit .or. size(problem%lag) > most_coupled) then
          longest = min(longest, minval(problem%lag))
       end if
    end function longest_step

@@ -1,39 +1,48 @@
-!> The state of a run between two steps: how it begins, what the next step may be, and what is kept
-!> when it ends.
+!> The state of a run between two steps: how it begins, how the next step is planned, and what is
+!> kept when it ends.
 module dde_run
    use dde_breaking_points, only: breaking_points, stretch
    use dde_continuation, only: continuation_type
+   use dde_controller, only: controller_type
+   use dde_cursor, only: cursor_type
    use dde_event_search, only: event_search
    use dde_first_step, only: choose_first_step
    use dde_history, only: history_type
    use dde_kinks, only: kink_type
-   use dde_methods, only: choose_method, longest_step, matching_method
+   use dde_methods, only: change_method, choose_method, longest_step, matching_method
    use dde_problem, only: dde_problem_type
    use dde_request, only: causes, implicit_methods, integration_options, tolerance_of
    use dde_step, only: step_type
    use dde_time, only: elapsed, instant, instant_at
    use dde_tolerance, only: tolerance_type
+   use dde_work, only: work_type
    use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: run_type
 
-   !> How far beside a jump the right-hand side is asked for, in units of the spacing of times.
+   !> Distance from a jump at which the right-hand side is evaluated, in units of the spacing of
+   !> times.
    real(wp), parameter :: beside = 4.0_wp
 
-   !> Where a run stands.
+   !> The state of a run.
    type :: run_type
       !> The step, of the method in use
       class(step_type), allocatable :: step
-      !> The past
+      !> The past, and the cursor of the step in it
       type(history_type) :: past
+      type(cursor_type) :: cursor
+      !> Work so far
+      type(work_type) :: work
+      !> Step control
+      type(controller_type) :: control
       !> The search for events, begun if there is a watcher
       type(event_search) :: search
       !> Now
       type(instant) :: now
       !> Length proposed for the next step
       real(wp) :: h = 0.0_wp
-      !> Whether the slope at the start of the step is yet to be evaluated
+      !> Whether the slope at the start of the next step must be evaluated
       logical :: fresh = .false.
       !> Breaking points and the end
       type(breaking_points) :: points
@@ -41,25 +50,27 @@ module dde_run
       type(tolerance_type) :: tolerance
       !> Whether the right-hand side may jump somewhere, and now
       logical, private :: may_jump = .false., at_cause = .false.
-      !> First instant of the first run
-      type(instant) :: origin
       !> Time derivative of the state at the start of the run, as event functions see it, shape (n)
       real(wp), allocatable :: first_slope(:)
    contains
-      !> Begin, or go on from an earlier run
+      !> Begin, or continue an earlier run
       procedure :: begin
-      !> The step to try
+      !> Plan the next step
       procedure :: plan
-      !> Keep what a later run needs to go on
+      !> Evaluate the slope at its start
+      procedure :: restart
+      !> Continue by the other method of `auto`
+      procedure :: change_to_other
+      !> Keep what a later run needs to continue
       procedure :: keep
-      !> Stand at the end of an accepted step
+      !> Go to the end of an accepted step
       procedure :: arrive
-      procedure, private :: start_anew, go_on
+      procedure, private :: start_anew, continue_run
    end type run_type
 
 contains
 
-   !> Begin, or go on from an earlier run.
+   !> Begin, or continue an earlier run.
    subroutine begin(self, problem, t_start, t_end, options, continuation)
       !> The run
       class(run_type), intent(inout) :: self
@@ -73,26 +84,29 @@ contains
       type(integration_options), intent(in) :: options
       !> Where an earlier run ended, if one did
       type(continuation_type), intent(in), optional :: continuation
-      logical :: goes_on
+      logical :: continued
 
-      goes_on = .false.
-      if (present(continuation)) goes_on = allocated(continuation%y)
+      continued = .false.
+      if (present(continuation)) continued = allocated(continuation%y)
       self%tolerance = tolerance_of(problem, options)
-      if (goes_on) then
-         call self%go_on(problem, instant_at(t_end), options, continuation)
+      self%cursor = cursor_type(problem)
+      self%work = work_type(problem%n)
+      if (continued) then
+         call self%continue_run(problem, instant_at(t_end), options, continuation)
       else
          call self%start_anew(problem, instant_at(t_start), instant_at(t_end), options)
       end if
       if (options%first_step > 0.0_wp) then
          self%h = options%first_step
       else if (.not. self%h > 0.0_wp .and. t_end > t_start) then
-         call choose_first_step(problem, self%past, self%step, t_start, &
-                                min(t_end - t_start, options%longest_step), self%tolerance, self%h)
+         call choose_first_step(problem, self%past, self%cursor, self%step, &
+                                min(t_end - t_start, options%longest_step), self%tolerance, &
+                                self%work, self%h)
       end if
    end subroutine begin
 
-   !> The first run: its first instant is a kink, or a jump where a delayed component differs from
-   !> its history there.
+   !> The first run. Its first instant is a kink, or a jump if a delayed component differs from its
+   !> history there.
    subroutine start_anew(self, problem, start, finish, options)
       !> The run
       class(run_type), intent(inout) :: self
@@ -108,8 +122,8 @@ contains
       integer :: k
 
       self%now = start
-      self%origin = start
       call choose_method(problem, options%method, self%tolerance, self%step)
+      call self%work%set_cost(self%step%constants%evaluation_cost)
       self%past = history_type(problem, start)
       first = kink_type(start)
       do k = 1, size(problem%lag)
@@ -120,14 +134,14 @@ contains
          end associate
       end do
       call self%points%begin([first, causes(options, start)], start, start, finish, problem%lag, &
-                             self%step%order - 1)
-      call look(self, problem, options)
+                             self%step%constants%order - 1)
+      call prepare_start(self, problem, options)
       self%first_slope = self%step%slope
    end subroutine start_anew
 
-   !> Another run, on the past of the one before. Where the problem gives another right-hand side
-   !> than it did at the end of that one, there is a kink here.
-   subroutine go_on(self, problem, finish, options, continuation)
+   !> Another run, with the past of the one before. If the right-hand side differs from that at the
+   !> end of the earlier run, there is a kink here.
+   subroutine continue_run(self, problem, finish, options, continuation)
       !> The run
       class(run_type), intent(inout) :: self
       !> The problem
@@ -142,7 +156,6 @@ contains
       type(kink_type), allocatable :: kinks(:)
 
       self%now = instant(continuation%time(1), continuation%time(2))
-      self%origin = instant(continuation%origin(1), continuation%origin(2))
       self%h = continuation%next_step
       method = options%method
       if (method == "auto") then
@@ -150,21 +163,24 @@ contains
                                   implicit=any(continuation%method == implicit_methods))
       end if
       call choose_method(problem, method, self%tolerance, self%step)
+      call self%work%set_cost(self%step%constants%evaluation_cost)
       self%step%y = continuation%y
       self%first_slope = continuation%slope
-      self%past = history_type(problem, self%origin)
+      self%past = history_type(problem, instant(continuation%origin(1), continuation%origin(2)))
       call continuation%restore(self%past, kinks)
-      call self%points%begin([kinks, causes(options, self%origin)], self%origin, self%now, finish, &
-                             problem%lag, self%step%order - 1)
-      call look(self, problem, options)
+      associate (origin => self%past%origin)
+         call self%points%begin([kinks, causes(options, origin)], origin, self%now, finish, &
+                                problem%lag, self%step%constants%order - 1)
+      end associate
+      call prepare_start(self, problem, options)
       if (size(self%first_slope) == 0) self%first_slope = self%step%slope
       if (.not. continuation%has_rate(self%step%slope)) then
          call self%points%add(kink_type(self%now))
       end if
-   end subroutine go_on
+   end subroutine continue_run
 
-   !> Face the first step and evaluate the slope at its start.
-   subroutine look(self, problem, options)
+   !> Evaluate the slope at the start of the next step.
+   subroutine prepare_start(self, problem, options)
       !> The run
       class(run_type), intent(inout) :: self
       !> The problem
@@ -174,19 +190,17 @@ contains
 
       self%may_jump = allocated(options%break_at)
       if (self%may_jump) then
-         self%past%history_jumps = any(options%break_at < self%origin%hi)
+         self%past%history_jumps = any(options%break_at < self%past%origin%hi)
          self%at_cause = any(.not. abs(elapsed(self%now, instant_at(options%break_at))) > 0.0_wp)
       end if
-      if (size(problem%lag) > 0) then
-         call self%past%face(problem, self%now, &
-                             minval([longest_step(problem, self%step, options%longest_step), &
-                                     problem%lag, self%points%smooth(self%now)]))
-      end if
+      call self%cursor%set(problem, self%past, self%now, &
+                           minval([longest_step(problem, self%step, options%longest_step), &
+                                   problem%lag, self%points%time_to_next(self%now)]))
       call bound_times(self)
-      call self%step%restart(problem, self%past, self%now%hi)
-   end subroutine look
+      call self%step%restart(problem, self%past, self%cursor, self%work)
+   end subroutine prepare_start
 
-   !> The right-hand side is not asked for at an instant where it may jump, but beside it.
+   !> The right-hand side is evaluated beside an instant where it may jump, not there.
    pure subroutine bound_times(self, goal)
       !> The run
       class(run_type), intent(inout) :: self
@@ -195,17 +209,17 @@ contains
       real(wp) :: time
 
       if (.not. self%may_jump) return
-      self%step%earliest = -huge(1.0_wp)
-      self%step%latest = huge(1.0_wp)
-      if (self%at_cause) self%step%earliest = self%now%hi + beside*spacing(self%now%hi)
+      self%cursor%earliest = -huge(1.0_wp)
+      self%cursor%latest = huge(1.0_wp)
+      if (self%at_cause) self%cursor%earliest = self%now%hi + beside*spacing(self%now%hi)
       if (.not. present(goal)) return
       if (.not. self%points%is_cause(goal)) return
       time = self%now%hi + elapsed(self%now, self%points%at(goal))
-      self%step%latest = time - beside*spacing(time)
+      self%cursor%latest = time - beside*spacing(time)
    end subroutine bound_times
 
-   !> Length of the step to try; where the point that it heads for is near, it is landed on, or two
-   !> steps share the way. The past faces it on return.
+   !> Plan the next step. The method proposes a length. If the next breaking point is near, one step
+   !> or two equal steps end there. On return the cursor is on the step.
    pure subroutine plan(self, problem, longest, h, goal, landing)
       !> The run
       class(run_type), intent(inout) :: self
@@ -215,7 +229,7 @@ contains
       real(wp), intent(in) :: longest
       !> Length of the step
       real(wp), intent(out) :: h
-      !> Number of the point that it heads for
+      !> Number of the breaking point at which it should end
       integer, intent(out) :: goal
       !> Whether it ends there
       logical, intent(out) :: landing
@@ -223,30 +237,44 @@ contains
 
       goal = self%points%goal(self%now, min(self%h, longest))
       gap = elapsed(self%now, self%points%at(goal))
-      if (self%step%foresees) then
-         if (size(problem%lag) > 0) call self%past%face(problem, self%now, min(longest, gap))
-         call bound_times(self)
-         call self%step%look_ahead(problem, self%past, self%now%hi, self%tolerance, &
-                                   min(longest, gap), self%h)
-      end if
+      call self%cursor%set(problem, self%past, self%now, min(longest, gap))
+      call bound_times(self)
+      call self%step%propose(problem, self%past, self%cursor, self%tolerance, self%work, self%h)
       self%h = min(self%h, longest)
       landing = stretch*self%h >= gap .and. gap <= longest
       h = merge(gap, merge(0.5_wp*gap, self%h, 2.0_wp*self%h > gap), landing)
-      if (landing) then
-         call bound_times(self, goal)
-      else
-         call bound_times(self)
-      end if
-      if (.not. self%step%foresees .and. size(problem%lag) > 0) then
-         call self%past%face(problem, self%now, h)
-      end if
+      self%cursor%h = h
+      if (landing) call bound_times(self, goal)
    end subroutine plan
 
-   !> Stand at the end of an accepted step.
+   !> Evaluate the slope at the start of the planned step, after a kink.
+   pure subroutine restart(self, problem)
+      !> The run
+      class(run_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+
+      call self%step%restart(problem, self%past, self%cursor, self%work)
+      self%fresh = .false.
+   end subroutine restart
+
+   !> Continue by the other method of `auto`.
+   subroutine change_to_other(self, problem)
+      !> The run, between two steps
+      class(run_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+
+      call change_method(problem, self%tolerance, self%step)
+      call self%work%set_cost(self%step%constants%evaluation_cost)
+      self%control = controller_type()
+   end subroutine change_to_other
+
+   !> Go to the end of an accepted step.
    pure subroutine arrive(self, goal, landing, step_end)
       !> The run
       class(run_type), intent(inout) :: self
-      !> Number of the point that it headed for
+      !> Number of the breaking point at which the step should have ended
       integer, intent(in) :: goal
       !> Whether it ends there
       logical, intent(in) :: landing
@@ -265,10 +293,10 @@ contains
       call self%points%land(goal, self%h, self%step%h)
       if (self%past%newest < self%past%oldest) return
       horizon = self%past%start(self%past%slot_of(self%past%oldest))
-      if (elapsed(self%origin, horizon) > 0.0_wp) call self%points%forget(horizon)
+      if (elapsed(self%past%origin, horizon) > 0.0_wp) call self%points%forget(horizon)
    end subroutine arrive
 
-   !> Keep what a later run needs to go on from here.
+   !> Keep what a later run needs to continue from here.
    subroutine keep(self, problem, options, continuation)
       !> The run, ended
       class(run_type), intent(inout) :: self
@@ -280,14 +308,14 @@ contains
       type(continuation_type), intent(out) :: continuation
 
       continuation%time = [self%now%hi, self%now%lo]
-      continuation%origin = [self%origin%hi, self%origin%lo]
+      continuation%origin = [self%past%origin%hi, self%past%origin%lo]
       continuation%y = self%step%y
       continuation%slope = self%step%slope_here()
       if (allocated(self%search%here%slope)) continuation%slope = self%search%here%slope
-      call look(self, problem, options)
+      call prepare_start(self, problem, options)
       continuation%rate = self%step%slope
       continuation%next_step = self%h
-      continuation%method = self%step%name
+      continuation%method = self%step%constants%name
       call continuation%store(self%past, self%points%met)
    end subroutine keep
 end module dde_run

@@ -1,25 +1,24 @@
-!> The face that all step methods share: given the state, a step and the past, a new state, an error
-!> estimate and an interpolant. The integrator does not ask which method it is.
+!> A step of some method. A method attempts the step on which the cursor stands, estimates its
+!> error, and gives the polynomial of an accepted step. The run chooses the step size, counts the
+!> steps and stores the polynomials. METHODS.md tells how to write a method.
 module dde_step
+   use dde_controller, only: controller_type
+   use dde_cursor, only: cursor_type
    use dde_history, only: history_type
+   use dde_method_constants, only: method_constants
    use dde_problem, only: dde_problem_type
    use dde_tolerance, only: tolerance_type
-   use dde_kinds, only: int64, wp
+   use dde_work, only: work_type
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: step_type
 
-   !> One step of some method.
+   !> One step.
    type, abstract :: step_type
-      !> Name of the method
-      character(len=8) :: name = ""
-      !> Order of the method
-      integer :: order = 0
-      !> Power of the step length that the error estimate falls with
-      integer :: error_order = 0
-      !> Whether the method is implicit: steps may then be longer than the shortest delay
-      logical :: implicit = .false.
-      !> Newton nodes of its interpolant, and whether all of them are 0
+      !> Constants of the method
+      type(method_constants) :: constants
+      !> Newton nodes of its polynomial, and whether all of them are 0
       real(wp), allocatable :: nodes(:)
       logical :: powers = .false.
       !> State at the start of the step, shape (n)
@@ -32,89 +31,67 @@ module dde_step
       real(wp), allocatable :: scale(:)
       !> Delayed values at one place, shape (number of delayed values, 1)
       real(wp), allocatable :: z(:, :)
-      !> Start of the step as an ordinary number
+      !> Start of the last attempt, as an ordinary number
       real(wp) :: t = 0.0_wp
-      !> Length of the step
+      !> Its length
       real(wp) :: h = 0.0_wp
-      !> Times that the right-hand side is asked for lie between these: it may jump where the step
-      !> starts and ends
-      real(wp) :: earliest = -huge(1.0_wp), latest = huge(1.0_wp)
-      !> Share of the ideal length that the next step should have
+      !> Factor below the step size at which the error would be equal to the tolerance
       real(wp) :: safety = 0.9_wp
-      !> A ratio of lengths between 1 and this does not pay a change of length
-      real(wp) :: hold = 1.0_wp
-      !> Whether the method foresees how long a step may be
-      logical :: foresees = .false.
-      !> How long from its start on the interpolant of the step serves, if longer than the step
-      real(wp) :: serves = 0.0_wp
-      !> Whether step control should foresee the error from the last two (predictive control)
-      logical :: predictive = .false.
-      !> Length that such a method would have taken if nothing else had limited it; 0 where it knows
-      !> of none
-      real(wp) :: ideal = 0.0_wp
-      !> Cost of an evaluation over that of the explicit pair
-      real(wp) :: evaluation_cost = 1.0_wp
-      !> Right-hand sides, or Taylor series, evaluated so far
-      integer(int64) :: evaluations = 0
-      !> What work was done before this method took over, less what it takes for that of its own
-      real(wp) :: earlier_work = 0.0_wp
-      !> Matrices factorised before this method took over
-      integer(int64) :: factorised_before = 0
+      !> Time from the start of the step for which its polynomial is valid, if longer than the step
+      real(wp) :: valid_for = 0.0_wp
    contains
-      !> What was done so far, in evaluations of the explicit pair
-      procedure :: work
-      !> A time of the step that lies between its ends
-      procedure :: inside
+      !> Storage of the components above, and the initial state
+      procedure :: allocate_state
+      !> Start at a kink: evaluate the slope there
+      procedure :: restart
+      !> Forget what earlier steps have shown
+      procedure :: reset
+      !> Propose a step size before an attempt
+      procedure :: propose
+      !> Attempt a step
+      procedure(attempt_step), deferred :: attempt
+      !> Finish an accepted step
+      procedure :: complete
+      !> Prepare the polynomial of an accepted step
+      procedure :: extend
+      !> Polynomial of one component
+      procedure(give_polynomial), deferred :: interpolant
+      !> Propose the size of the next step after an accepted one
+      procedure :: next_length
+      !> Whether stability rather than accuracy limits explicit steps here
+      procedure :: stiff
+      !> Make the end of an accepted step the start of the next
+      procedure(go_to_end), deferred :: advance
       !> Slope at the present state
       procedure :: slope_here
-      !> Evaluate the slope at the start
-      procedure :: restart
-      !> Forget what was learnt before the start
-      procedure :: reset
-      !> Matrices factorised so far
-      procedure :: factorisations
-      !> Set how long the step may be, for a method that foresees it
-      procedure :: look_ahead
-      !> Try a step
-      procedure(try_step), deferred :: attempt
-      !> What an accepted step still owes the next one
-      procedure :: complete
-      !> What only its interpolant needs
-      procedure :: extend
-      !> Interpolant of one component over an accepted, extended step
-      procedure(dense_output), deferred :: interpolant
-      !> Whether more than the change of the solution limits an accepted, complete step
-      procedure :: held_back
-      !> Whether an explicit step might be as long
-      procedure :: mild
-      !> Make the end of an accepted step the start of the next
-      procedure(next_step), deferred :: advance
    end type step_type
 
    abstract interface
-      !> Try the step of length `h` from t; `error` is the estimate in units of the tolerance (step
-      !> good when <= 1), huge where an iteration failed, not finite where an evaluation was not.
-      pure subroutine try_step(self, problem, past, t, h, tolerance, error)
-         import :: dde_problem_type, history_type, step_type, tolerance_type, wp
+      !> Attempt the step on which the cursor stands. `error` is the estimate in units of the
+      !> tolerance: the step is accepted if it is at most 1. It is huge if an iteration failed and
+      !> not finite if an evaluation was not.
+      pure subroutine attempt_step(self, problem, past, cursor, tolerance, work, error)
+         import :: cursor_type, dde_problem_type, history_type, step_type, tolerance_type, &
+            work_type, wp
          implicit none (type, external)
          !> The step
          class(step_type), intent(inout) :: self
          !> The problem
          class(dde_problem_type), intent(in) :: problem
-         !> The past, facing this step
-         type(history_type), intent(inout) :: past
-         !> Start of the step
-         real(wp), intent(in) :: t
-         !> Length of the step
-         real(wp), intent(in) :: h
+         !> The past
+         type(history_type), intent(in) :: past
+         !> The cursor, on this step
+         type(cursor_type), intent(inout) :: cursor
          !> Tolerance of each component
          type(tolerance_type), intent(in) :: tolerance
+         !> Work so far
+         type(work_type), intent(inout) :: work
          !> Estimated error in units of the tolerance
          real(wp), intent(out) :: error
-      end subroutine try_step
+      end subroutine attempt_step
 
-      !> Interpolant of one component over an accepted and extended step, before `advance`.
-      pure subroutine dense_output(self, i, a)
+      !> Polynomial of one component over an accepted and extended step, before `advance`.
+      pure subroutine give_polynomial(self, i, a)
          import :: step_type, wp
          implicit none (type, external)
          !> The step
@@ -123,73 +100,126 @@ module dde_step
          integer, intent(in) :: i
          !> Newton coefficients over `nodes`
          real(wp), contiguous, intent(out) :: a(0:)
-      end subroutine dense_output
+      end subroutine give_polynomial
 
       !> The end of an accepted step becomes the start of the next.
-      pure subroutine next_step(self)
+      pure subroutine go_to_end(self)
          import :: step_type
          implicit none (type, external)
          !> The step
          class(step_type), intent(inout) :: self
-      end subroutine next_step
+      end subroutine go_to_end
    end interface
 
 contains
 
-   !> Most methods do little but evaluate.
-   pure real(wp) function work(self) result(done)
-      !> The step
-      class(step_type), intent(in) :: self
-
-      done = self%earlier_work + self%evaluation_cost*self%evaluations
-   end function work
-
-   !> A time of the step that lies between its ends.
-   pure real(wp) function inside(self, t) result(time)
-      !> The step
-      class(step_type), intent(in) :: self
-      !> A time from its start to its end
-      real(wp), intent(in) :: t
-
-      time = max(self%earliest, min(self%latest, t))
-   end function inside
-
-   !> Evaluate the slope at the start of the step that `past` faces.
-   pure subroutine restart(self, problem, past, t)
+   !> Storage of what all steps have, and the state at the first instant.
+   pure subroutine allocate_state(self, problem)
       !> The step
       class(step_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The past, facing this step
-      type(history_type), intent(inout) :: past
-      !> Start of the step
-      real(wp), intent(in) :: t
 
-      call past%values(problem, [0.0_wp], self%z)
-      call problem%rhs(self%inside(t), self%y, self%z, self%slope)
-      self%evaluations = self%evaluations + 1
+      associate (n => problem%n, delays => size(problem%lag))
+         allocate (self%y(n), self%y_new(n), self%slope(n), self%scale(n), self%z(delays, 1))
+      end associate
+      call problem%initial(self%y)
+   end subroutine allocate_state
+
+   !> Evaluate the slope at the start of the step on which the cursor stands.
+   pure subroutine restart(self, problem, past, cursor, work)
+      !> The step
+      class(step_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The past
+      type(history_type), intent(in) :: past
+      !> The cursor, on this step
+      type(cursor_type), intent(inout) :: cursor
+      !> Work so far
+      type(work_type), intent(inout) :: work
+
+      call cursor%values(problem, past, [0.0_wp], self%z)
+      call problem%rhs(cursor%inside(cursor%t), self%y, self%z, self%slope)
+      work%evaluations = work%evaluations + 1
       call self%reset()
    end subroutine restart
 
-   !> Most methods take the length that they are given, and see from the error what it should be.
-   pure subroutine look_ahead(self, problem, past, t, tolerance, longest, h)
+   !> There is nothing to forget unless a method says so.
+   pure subroutine reset(self)
+      !> The step
+      class(step_type), intent(inout) :: self
+   end subroutine reset
+
+   !> The step size remains as it is unless a method knows better before it attempts the step.
+   pure subroutine propose(self, problem, past, cursor, tolerance, work, h)
       !> The step
       class(step_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The past, facing the step
-      type(history_type), intent(inout) :: past
-      !> Start of the step
-      real(wp), intent(in) :: t
+      !> The past
+      type(history_type), intent(in) :: past
+      !> The cursor, on the longest step that is possible
+      type(cursor_type), intent(inout) :: cursor
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
-      !> Longest step of use
-      real(wp), intent(in) :: longest
-      !> Length of the step: proposed, then possible
+      !> Work so far
+      type(work_type), intent(inout) :: work
+      !> Step size: proposed so far, then by the method
       real(wp), intent(inout) :: h
-   end subroutine look_ahead
+   end subroutine propose
 
-   !> Slope at the present state, from the left: the last step leaves it as that of the next start.
+   !> An accepted step is finished unless a method says otherwise.
+   pure subroutine complete(self, problem, past, cursor, work)
+      !> The step
+      class(step_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The past
+      type(history_type), intent(in) :: past
+      !> The cursor, on this step
+      type(cursor_type), intent(inout) :: cursor
+      !> Work so far
+      type(work_type), intent(inout) :: work
+   end subroutine complete
+
+   !> The polynomial needs no preparation unless a method says so.
+   pure subroutine extend(self, problem, past, cursor, work)
+      !> The step
+      class(step_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The past
+      type(history_type), intent(in) :: past
+      !> The cursor, on this step
+      type(cursor_type), intent(inout) :: cursor
+      !> Work so far
+      type(work_type), intent(inout) :: work
+   end subroutine extend
+
+   !> Step control proposes the next step size from the error, unless a method knows better.
+   pure subroutine next_length(self, control, h, error)
+      !> The step, accepted
+      class(step_type), intent(in) :: self
+      !> Step control
+      type(controller_type), intent(inout) :: control
+      !> Length of the step, replaced by the next
+      real(wp), intent(inout) :: h
+      !> Error of the step in units of the tolerance, 0..1
+      real(wp), intent(in) :: error
+
+      call control%accept(self%constants, self%safety, h, error)
+   end subroutine next_length
+
+   !> A method that cannot see stiffness reports none.
+   pure logical function stiff(self) result(value)
+      !> The step, accepted and complete
+      class(step_type), intent(in) :: self
+
+      value = .false.
+   end function stiff
+
+   !> Slope at the present state, from the left: `advance` sets the slope at the next start.
    pure function slope_here(self) result(slope)
       !> The step
       class(step_type), intent(in) :: self
@@ -197,55 +227,4 @@ contains
 
       slope = self%slope
    end function slope_here
-
-   !> Nothing is learnt by a method that does not say so.
-   pure subroutine reset(self)
-      !> The step
-      class(step_type), intent(inout) :: self
-   end subroutine reset
-
-   !> Nothing is owed by a method that does not say so.
-   pure subroutine complete(self, problem, past)
-      !> The step
-      class(step_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> The past, facing this step
-      type(history_type), intent(inout) :: past
-   end subroutine complete
-
-   !> Its interpolant needs nothing more by a method that does not say so.
-   pure subroutine extend(self, problem, past)
-      !> The step
-      class(step_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> The past, facing this step
-      type(history_type), intent(inout) :: past
-   end subroutine extend
-
-   !> An implicit method is not held back.
-   pure logical function held_back(self) result(value)
-      !> The step
-      class(step_type), intent(in) :: self
-
-      value = .false.
-   end function held_back
-
-   !> An explicit method need not ask.
-   pure logical function mild(self) result(value)
-      !> The step
-      class(step_type), intent(in) :: self
-
-      value = .true.
-   end function mild
-
-   !> Only implicit methods factorise.
-   pure function factorisations(self) result(count)
-      !> The step
-      class(step_type), intent(in) :: self
-      integer(int64) :: count
-
-      count = self%factorised_before
-   end function factorisations
 end module dde_step

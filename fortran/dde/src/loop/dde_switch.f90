@@ -69,13 +69,15 @@ module dde_switch
 contains
 
    !> Take in an accepted step, and see whether the other method should take over.
-   pure subroutine judge(self, problem, step, shortest_delay, h_next, left, other)
+   pure subroutine judge(self, problem, step, work, shortest_delay, h_next, left, other)
       !> Evidence so far
       class(switch_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> The step, accepted and complete
       class(step_type), intent(in) :: step
+      !> Work done so far
+      real(wp), intent(in) :: work
       !> Shortest delay, where an implicit step may be longer than it
       real(wp), intent(in) :: shortest_delay
       !> Length that step control proposes for the next step
@@ -85,19 +87,17 @@ contains
       !> The answer
       logical, intent(out) :: other
       logical :: delay_limits
-      real(wp) :: work
 
-      work = step%work()
       delay_limits = h_next/merge(beyond_with_series, beyond_the_delay, problem%analytic) &
                      > shortest_delay
       self%gone = self%gone + step%h
       self%steps = self%steps + 1
       self%taken = self%taken + 1
-      if (step%implicit) then
+      if (step%constants%implicit) then
          call self%judge_implicit(problem, step, work, delay_limits, h_next, other)
          if (modulo(self%steps, window) == 0) call start_window(self, work)
       else
-         call self%judge_explicit(step, work, delay_limits, left, other)
+         call self%judge_explicit(problem, step, work, delay_limits, left, other)
          if (self%votes == 0 .and. .not. (self%took_over .and. self%taken < window)) then
             call start_window(self, work)
          end if
@@ -140,9 +140,11 @@ contains
    end subroutine start_window
 
    !> Whether an explicit step is the last before a change.
-   pure subroutine judge_explicit(self, step, work, delay_limits, left, other)
+   pure subroutine judge_explicit(self, problem, step, work, delay_limits, left, other)
       !> Evidence so far
       class(switch_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
       !> The step
       class(step_type), intent(in) :: step
       !> Work done so far
@@ -157,10 +159,10 @@ contains
       real(wp) :: pace
 
       ! searches for a slow series that failed are no cost of later steps
-      pace = self%gone/merge(step%evaluation_cost*self%steps, max(1.0_wp, work - self%work_then), &
-                             step%foresees)
+      pace = self%gone/merge(step%constants%evaluation_cost*self%steps, &
+                             max(1.0_wp, work - self%work_then), problem%analytic)
       self%votes = merge(min(self%votes + 2, 2*most_votes), max(0, self%votes - 1), &
-                         step%held_back() .or. delay_limits)
+                         step%stiff() .or. delay_limits)
       other = self%votes >= most_votes .and. left > 2*self%price*pace &
               .and. work >= self%of_implicit%not_before
       slower = self%took_over .and. self%taken == window .and. pace < self%implicit_pace
@@ -202,7 +204,8 @@ contains
          slower = pace < self%explicit_pace .and. modulo(self%steps, window) == 0
       end if
       self%votes = merge(self%votes + 1, 0, &
-                         (step%mild() .or. in_balance(problem, step)) .and. .not. delay_limits)
+                         (.not. step%stiff() .or. in_balance(problem, step)) &
+                         .and. .not. delay_limits)
       other = slower .or. self%votes >= least_to_return .and. work >= self%of_explicit%not_before
       if (.not. other) return
       self%implicit_pace = pace

@@ -1,5 +1,5 @@
-!> A run that can go on: all that a later run needs to carry on where one ended, in plain arrays
-!> that a caller can write to a file and read back.
+!> All that a later run needs to continue where one ended, in plain arrays that a caller can write
+!> to a file and read back.
 module dde_continuation
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_history, only: history_type
@@ -13,8 +13,8 @@ module dde_continuation
    private
    public :: continuation_type
 
-   !> Where a run stands; empty (`y` not allocated) before the first. Each instant is a pair, its
-   !> second number what rounding took from the first.
+   !> The end of a run. It is empty (`y` not allocated) before the first run. Each instant is the
+   !> sum of a pair of numbers, the second being the rounding error of the first.
    type :: continuation_type
       !> When
       real(wp) :: time(2) = 0.0_wp
@@ -22,11 +22,12 @@ module dde_continuation
       real(wp) :: origin(2) = 0.0_wp
       !> State, shape (n)
       real(wp), allocatable :: y(:)
-      !> Its time derivative by dense output, shape (n): what event functions saw last; of size 0
-      !> after a change of the state
+      !> Its time derivative by dense output, the last that event functions were given, shape (n);
+      !> of size 0 after a change of the state
       real(wp), allocatable :: slope(:)
-      !> Right-hand side, shape (n): a problem that gives another one makes a kink; of size 0 where
-      !> a caller changed the solution smoothly, all of its past with it: then there is none
+      !> Right-hand side, shape (n). If the problem gives another one at the start of the next run,
+      !> there is a kink. Of size 0 where a caller changed the solution and all of its past
+      !> smoothly: then there is no kink.
       real(wp), allocatable :: rate(:)
       !> Length of the next step; chosen by the solver when 0
       real(wp) :: next_step = 0.0_wp
@@ -51,7 +52,7 @@ module dde_continuation
    contains
       !> Change the state: a dose, a bounce
       procedure :: change_state
-      !> Refuse a problem that cannot go on from here
+      !> Refuse a problem that cannot continue from here
       procedure :: check
       !> Whether a right-hand side is that of the end of the run
       procedure :: has_rate
@@ -63,8 +64,7 @@ module dde_continuation
 
 contains
 
-   !> Change the state: a dose, a bounce. The solution jumps here, and the jump comes back after
-   !> each delay.
+   !> Change the state: a dose, a bounce. The solution jumps here, and again after each delay.
    pure subroutine change_state(self, y, error)
       !> The continuation, filled by a run
       class(continuation_type), intent(inout) :: self
@@ -98,11 +98,11 @@ contains
       self%next_step = 0.0_wp
    end subroutine change_state
 
-   !> Refuse a problem that cannot go on from here, or numbers that do not fit each other.
+   !> Refuse a problem that cannot continue from here, and arrays of inconsistent shapes.
    pure subroutine check(self, problem, t_start, error)
       !> The continuation
       class(continuation_type), intent(in) :: self
-      !> The problem that shall go on
+      !> The problem of the run to come
       class(dde_problem_type), intent(in) :: problem
       !> First instant of the run to come
       real(wp), intent(in) :: t_start
@@ -143,7 +143,7 @@ contains
       end associate
    end subroutine check
 
-   !> Whether the arrays fit each other.
+   !> Whether the shapes of the arrays are consistent.
    pure logical function consistent(self) result(value)
       !> The continuation
       type(continuation_type), intent(in) :: self
@@ -193,7 +193,7 @@ contains
       if (size(numbers) == 0) words = " none"
    end subroutine list
 
-   !> Keep the steps that the past keeps, and the kinks that delays may bring back.
+   !> Keep the steps of the past, and the kinks that may return after a delay.
    pure subroutine store(self, past, kinks)
       !> The continuation
       class(continuation_type), intent(inout) :: self
@@ -237,7 +237,7 @@ contains
       do i = 1, size(self%step_length)
          call past%append(instant(self%step_start(1, i), self%step_start(2, i)), &
                           self%step_length(i), self%nodes(:, i), self%coefficients(:, :, i), &
-                          serves=self%step_length(i))
+                          valid_for=self%step_length(i))
       end do
       allocate (kinks(size(self%passages)))
       kinks%at%hi = self%kink(1, :)
@@ -246,7 +246,8 @@ contains
       kinks%generation = self%generation
    end subroutine restore
 
-   !> Whether a right-hand side is that of the end of the run, or need not be.
+   !> Whether a right-hand side is that of the end of the run. It is not compared if `rate` is
+   !> empty.
    pure logical function has_rate(self, slope) result(value)
       !> The continuation
       class(continuation_type), intent(in) :: self

@@ -8,7 +8,7 @@ module dde_dense_state
    private
    public :: dense_state
 
-   !> Rounding of a state, relative, that the slope of dense output may carry over a step length.
+   !> Relative rounding error of a state. Over a step length it is the error of the slope.
    real(wp), parameter :: rounding = 16.0_wp*epsilon(1.0_wp)
 
    !> A place of a step.
@@ -31,10 +31,10 @@ module dde_dense_state
       real(wp), allocatable, private :: coefficients(:, :)
       !> Slopes at both ends, times h, shape (n, 2)
       real(wp), allocatable, private :: ends(:, :)
-      !> Whether the step is so short that rounding hides the slopes between, shape (n)
+      !> Whether the step is so short that the slope is interpolated between its ends, shape (n)
       logical, allocatable, private :: straight(:)
    contains
-      !> Stand at an instant before any step
+      !> The state at the first instant
       procedure :: begin
       !> Take up a step
       procedure :: take_up
@@ -44,7 +44,7 @@ module dde_dense_state
 
 contains
 
-   !> Stand at an instant before any step.
+   !> The state at the first instant, before any step.
    pure subroutine begin(self, t, y, slope)
       !> The state
       class(dense_state), intent(inout) :: self
@@ -91,7 +91,7 @@ contains
       self%straight = abs(self%ends(:, 2) - self%ends(:, 1)) <= rounding*abs(step%y)
    end subroutine take_up
 
-   !> Go to a place of the step; at its end stand the very numbers that the next step starts from.
+   !> Go to a place of the step. At its end the state is exactly that of the next start.
    pure subroutine go_to(self, place)
       !> The state
       class(dense_state), intent(inout) :: self

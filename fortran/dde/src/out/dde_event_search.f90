@@ -1,6 +1,6 @@
-!> The search for events in a step: dense output is looked at in as many places as its degree asks
-!> for, and where a parabola through three of them comes nearest to zero; a passage between two
-!> places is located to the last digits of the step.
+!> The search for events in a step. Event functions are evaluated on dense output, at a number of
+!> places that its degree requires, and where a parabola through three of these is nearest to zero.
+!> A passage between two places is located to rounding of the step.
 module dde_event_search
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_dense_state, only: dense_state
@@ -12,9 +12,10 @@ module dde_event_search
    private
    public :: endless, event_search, most_places
 
-   !> Most places that a watcher's `look_every` may ask for in a step: a longer step is not taken.
+   !> Most places at which event functions are evaluated in a step. It limits the step size by
+   !> `look_every`.
    real(wp), parameter :: most_places = 1.0e5_wp
-   !> A time that is longer than any run.
+   !> A time longer than any run.
    real(wp), parameter :: endless = 1.0e200_wp
    !> Events are located to this share of the step.
    real(wp), parameter :: accuracy = epsilon(1.0_wp)
@@ -25,19 +26,19 @@ module dde_event_search
       type(dense_state) :: here
       !> Event functions there
       real(wp), allocatable, private :: g(:)
-      !> Side of zero that each function was last seen on, going forward: -1, 1, or 0 at zero
+      !> Sign of each function at the last place: -1, 1, or 0 at zero
       integer, allocatable, private :: side(:)
    contains
-      !> Look at the first instant
+      !> Evaluate the functions at the first instant
       procedure :: begin
-      !> Look through a step
-      procedure :: look_through
-      procedure, private :: choose_places, go_to, hand_over, locate
+      !> Search a step
+      procedure :: search_step
+      procedure, private :: choose_places, go_to, report, locate
    end type event_search
 
 contains
 
-   !> See on which side of zero each function starts.
+   !> Signs of the functions at the first instant.
    pure subroutine begin(self, watcher, t, y, slope)
       !> The search
       class(event_search), intent(inout) :: self
@@ -54,12 +55,12 @@ contains
       allocate (self%g(size(watcher%direction)))
       allocate (self%side(size(watcher%direction)), source=0)
       call watcher%values(t%hi, y, slope, self%g)
-      self%side = seen(self%g, self%side)
+      self%side = sign_of(self%g, self%side)
    end subroutine begin
 
-   !> Hand over the events of an accepted and extended step. Afterwards the search stands at the end
-   !> of the step, or at the event that ends the run.
-   subroutine look_through(self, watcher, step, start, step_end, share, ended)
+   !> Report the events of an accepted and extended step to the watcher. On return the search is at
+   !> the end of the step, or at the event that ends the run.
+   subroutine search_step(self, watcher, step, start, step_end, share, ended)
       !> The search
       class(event_search), intent(inout) :: self
       !> The watcher
@@ -86,19 +87,19 @@ contains
       do i = 1, size(places)
          before = share
          share = places(i)
-         side = seen(g(:, i), self%side)
+         side = sign_of(g(:, i), self%side)
          if (any(side /= self%side .and. self%side /= 0)) then
-            call self%hand_over(watcher, before, share, side, ended)
+            call self%report(watcher, before, share, side, ended)
             if (ended) step_end = self%here%t
             if (ended) return
          end if
          self%side = side
       end do
       call self%go_to(watcher, 1.0_wp)
-   end subroutine look_through
+   end subroutine search_step
 
-   !> Places to look at, ascending up to 1: an even grid, and between its places where functions may
-   !> dip through zero and back.
+   !> Places at which functions are evaluated, ascending up to 1: an even grid, and places between
+   !> where a function may pass zero twice.
    pure subroutine choose_places(self, watcher, places, g)
       !> The search
       class(event_search), intent(inout) :: self
@@ -122,10 +123,10 @@ contains
       allocate (g, source=grid(:, 1:))
       do k = 1, last - 1
          do i = 1, size(self%g)
-            if (abs(sum(seen(grid(i, k - 1:k + 1), 0))) < 3) cycle
+            if (abs(sum(sign_of(grid(i, k - 1:k + 1), 0))) < 3) cycle
             half_rise = 0.5_wp*(grid(i, k + 1) - grid(i, k - 1))
             bend = (grid(i, k + 1) - grid(i, k)) - (grid(i, k) - grid(i, k - 1))
-            ! towards zero and back, with the vertex of the parabola between the three
+            ! towards zero and back: the vertex of the parabola lies between the three places
             if (sign(1.0_wp, grid(i, k))*bend <= abs(half_rise)) cycle
             place = (k - half_rise/bend)/last
             call self%go_to(watcher, place)
@@ -137,8 +138,8 @@ contains
       end do
    end subroutine choose_places
 
-   !> Hand over the events between two places, in order of time, as far as the run goes on.
-   subroutine hand_over(self, watcher, before, share, side, ended)
+   !> Report the events between two places, in order of time, up to the end of the run.
+   subroutine report(self, watcher, before, share, side, ended)
       !> The search
       class(event_search), intent(inout) :: self
       !> The watcher
@@ -147,7 +148,7 @@ contains
       real(wp), intent(in) :: before
       !> The later place; the event that ends the run, if one does
       real(wp), intent(inout) :: share
-      !> Sides seen at the later place
+      !> Signs at the later place
       integer, intent(in) :: side(:)
       !> Whether an event ends the run
       logical, intent(out) :: ended
@@ -172,11 +173,11 @@ contains
             share = root(i)
          end if
       end do
-   end subroutine hand_over
+   end subroutine report
 
-   !> First place after `before` where function `i` is not on its side of zero any more, by the
-   !> method of Oliveira and Takahashi (2020), "An Enhancement of the Bisection Method Average
-   !> Performance Preserving Minmax Optimality": never more evaluations than halving and one.
+   !> First place after `before` where function `i` has no longer its sign, by the method of
+   !> Oliveira and Takahashi (2020), "An Enhancement of the Bisection Method Average Performance
+   !> Preserving Minmax Optimality": at most one evaluation more than bisection.
    subroutine locate(self, watcher, i, before, root)
       !> The search
       class(event_search), intent(inout) :: self
@@ -184,9 +185,9 @@ contains
       class(event_watcher_type), intent(in) :: watcher
       !> Number of the function
       integer, intent(in) :: i
-      !> A place where it is on its side
+      !> A place where it has its sign
       real(wp), intent(in) :: before
-      !> A place where it is not; the first one
+      !> A place where it has not; on return the first one
       real(wp), intent(inout) :: root
       real(wp) :: first_width, g_left, g_right, left, move, place, width
       integer :: j, halvings
@@ -196,21 +197,21 @@ contains
       left = before
       call self%go_to(watcher, left)
       ! a slope may jump where the step begins
-      if (seen(self%g(i), self%side(i)) /= self%side(i)) root = left
+      if (sign_of(self%g(i), self%side(i)) /= self%side(i)) root = left
       g_left = self%g(i)
       first_width = root - left
       halvings = max(0, exponent(first_width/accuracy)) + 1
       do j = halvings, 0, -1
          width = root - left
          if (width <= accuracy) exit
-         ! from the middle to the secant's zero, short of it, no further than halving allows
+         ! from the middle towards the secant's zero, as far as the bound on evaluations allows
          move = 0.0_wp
          if (ieee_is_finite(g_left)) move = width*(g_left/(g_left - g_right) - 0.5_wp)
          move = sign(max(0.0_wp, min(abs(move) - 0.2_wp*width**2/first_width, &
                                      scale(0.5_wp*accuracy, j) - 0.5_wp*width)), move)
          place = left + 0.5_wp*width + move
          call self%go_to(watcher, place)
-         if (seen(self%g(i), self%side(i)) == self%side(i)) then
+         if (sign_of(self%g(i), self%side(i)) == self%side(i)) then
             left = place
             g_left = self%g(i)
          else
@@ -220,7 +221,7 @@ contains
       end do
    end subroutine locate
 
-   !> Look at one place of the step.
+   !> Evaluate the functions at one place of the step.
    pure subroutine go_to(self, watcher, place)
       !> The search
       class(event_search), intent(inout) :: self
@@ -233,11 +234,11 @@ contains
       call watcher%values(self%here%t%hi, self%here%y, self%here%slope, self%g)
    end subroutine go_to
 
-   !> Side of zero of a value; the last one seen where the value is not finite.
-   elemental integer function seen(g, last) result(side)
+   !> Sign of a value; the last one if the value is not finite.
+   elemental integer function sign_of(g, last) result(side)
       !> The value
       real(wp), intent(in) :: g
-      !> Side last seen
+      !> Last sign
       integer, intent(in) :: last
 
       side = last
@@ -245,5 +246,5 @@ contains
       side = 0
       if (g > 0.0_wp) side = 1
       if (g < 0.0_wp) side = -1
-   end function seen
+   end function sign_of
 end module dde_event_search

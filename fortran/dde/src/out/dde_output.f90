@@ -1,39 +1,29 @@
-!> Where the dense output of accepted steps goes: events to the watcher, samples to the sampler, the
-!> delayed components to the history.
+!> The dense output of accepted steps: events go to the watcher, samples to the sampler, and the
+!> polynomials of delayed components to the past.
 module dde_output
-   use dde_event_search, only: event_search
    use dde_events, only: event_watcher_type
    use dde_history, only: history_type
    use dde_interpolant, only: highest_degree, newton_value
    use dde_problem, only: dde_problem_type
+   use dde_run, only: run_type
    use dde_sampler, only: sampler_type
    use dde_step, only: step_type
    use dde_time, only: elapsed, instant, instant_at, later
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: hand_over, sample_start
+   public :: deliver, sample_start
 
 contains
 
-   !> Hand over the dense output of an accepted step, as far as it is wanted; without anyone who
-   !> wants it, it is not made.
-   subroutine hand_over(problem, step, past, search, start, step_end, smooth, ended, sampler, &
-                        watcher)
+   !> Pass on the dense output of an accepted step. It is made only if it is read.
+   subroutine deliver(run, problem, step_end, ended, sampler, watcher)
+      !> The run at the start of the step, its step accepted and complete
+      class(run_type), intent(inout) :: run
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The step, accepted and complete
-      class(step_type), intent(inout) :: step
-      !> The past, facing this step
-      type(history_type), intent(inout) :: past
-      !> The search for events, begun if there is a watcher
-      type(event_search), intent(inout) :: search
-      !> Start of the step
-      type(instant), intent(in) :: start
-      !> Its end; the event that ends the run, if one does
+      !> End of the step; the event that ends the run, if one does
       type(instant), intent(inout) :: step_end
-      !> Time from the start without a kink: no interpolant serves beyond it
-      real(wp), intent(in) :: smooth
       !> Whether an event ends the run
       logical, intent(out) :: ended
       !> Receiver of samples
@@ -46,18 +36,21 @@ contains
       delayed = size(problem%lag) > 0
       sampled = .false.
       if (present(sampler)) sampled = elapsed(instant_at(sampler%next), step_end) >= 0.0_wp
-      if (delayed .or. sampled .or. present(watcher)) call step%extend(problem, past)
+      if (delayed .or. sampled .or. present(watcher)) then
+         call run%step%extend(problem, run%past, run%cursor, run%work)
+      end if
       ended = .false.
       share = 1.0_wp
       if (present(watcher)) then
-         call search%look_through(watcher, step, start, step_end, share, ended)
+         call run%search%search_step(watcher, run%step, run%now, step_end, share, ended)
       end if
-      if (sampled) call sample(sampler, step, start, step_end)
+      if (sampled) call sample(sampler, run%step, run%now, step_end)
       if (delayed .and. share > 0.0_wp) then
-         call remember(past, step, start, smooth, share)
-         call past%forget(later(step_end, -maxval(problem%lag)))
+         ! no polynomial is valid beyond the next kink
+         call remember(run%past, run%step, run%now, run%points%time_to_next(run%now), share)
+         call run%past%forget(later(step_end, -maxval(problem%lag)))
       end if
-   end subroutine hand_over
+   end subroutine deliver
 
    !> Append the delayed components' dense output to the past.
    pure subroutine remember(past, step, start, smooth, share)
@@ -77,7 +70,8 @@ contains
          ! the same polynomial over a shorter step
          call past%open_slot(start, share*step%h, step%nodes/share, step%powers, 0.0_wp, slot)
       else
-         call past%open_slot(start, step%h, step%nodes, step%powers, min(step%serves, smooth), slot)
+         call past%open_slot(start, step%h, step%nodes, step%powers, min(step%valid_for, smooth), &
+                             slot)
       end if
       do i = 1, size(past%kept)
          call step%interpolant(past%kept(i), past%coefficients(:size(step%nodes), i, slot))

@@ -1,8 +1,8 @@
-!> The polynomial that a step leaves behind, in Newton form over s = (t - t_n)/h,
+!> The polynomial of a step, in Newton form over s = (t - t_n)/h,
 !>
 !>     p(s) = a(0) + (s - x(1)) [a(1) + (s - x(2)) [a(2) + ... ]],
 !>
-!> whose nodes x belong to the method and whose coefficients a to the step and component.
+!> where the nodes x belong to the method and the coefficients a to the step and the component.
 module dde_interpolant
    use dde_kinds, only: wp
    implicit none (type, external)
@@ -10,12 +10,11 @@ module dde_interpolant
    public :: highest_degree, newton_state, newton_value, newton_values, series_value
    public :: taylor_coefficients, usual_degree
 
-   !> Highest degree of an interpolant.
+   !> Highest degree of a polynomial.
    integer, parameter :: highest_degree = 20
-   !> Highest degree but that of Taylor series.
+   !> Highest degree of polynomials other than Taylor series.
    integer, parameter :: usual_degree = 8
-   !> Factorials, all of them exact (compilers disagree on those that they make of `gamma`), and one
-   !> over them.
+   !> Factorials, and one over them. All are exact. Compilers disagree on the values of `gamma`.
    real(wp), parameter :: factorial(0:highest_degree) = [ &
       1.0_wp, 1.0_wp, 2.0_wp, 6.0_wp, 24.0_wp, 120.0_wp, 720.0_wp, 5040.0_wp, 40320.0_wp, &
       362880.0_wp, 3628800.0_wp, 39916800.0_wp, 479001600.0_wp, &
@@ -45,8 +44,8 @@ contains
       end do
    end function newton_value
 
-   !> Values of p at ascending places, from the `first` on as far as they lie within a limit;
-   !> written out for the usual degrees, since delayed values are what a step asks for most.
+   !> Values of p at ascending places, from number `first` up to a limit. Written out for the usual
+   !> degrees, since most time of a step is spent on delayed values.
    pure subroutine newton_values(degree, x, a, offset, length, limit, places, ahead, first, values)
       !> Degree of p
       integer, intent(in) :: degree
@@ -58,13 +57,13 @@ contains
       real(wp), intent(in) :: offset
       !> Length of p's step
       real(wp), intent(in) :: length
-      !> Time since the start of p's step up to which p serves
+      !> Time since the start of p's step up to which p is read
       real(wp), intent(in) :: limit
       !> Number of places
       integer, intent(in) :: places
       !> Places as times, ascending
       real(wp), intent(in) :: ahead(places)
-      !> First place to serve; moved on to the first that lies beyond the limit
+      !> First place to read; on return the first that lies beyond the limit
       integer, intent(inout) :: first
       !> Values at all places
       real(wp), intent(inout) :: values(places)
@@ -85,7 +84,7 @@ contains
       first = i
    end subroutine newton_values
 
-   !> Value of a series of powers at s: even and odd terms do not wait for each other.
+   !> Value of a series of powers at s. Even and odd terms are summed in parallel.
    pure function series_value(degree, coefficients, s) result(value)
       !> Degree
       integer, intent(in) :: degree
@@ -122,7 +121,7 @@ contains
       real(wp), intent(in) :: s
       !> The unit of time, in lengths of the step
       real(wp), intent(in) :: unit
-      !> Coefficients of the powers, as many as there is place for
+      !> Coefficients of the powers; higher ones than its size are left out
       real(wp), contiguous, intent(out) :: taylor(0:)
       real(wp) :: power, rest(0:highest_degree)
       integer :: i, j
@@ -133,7 +132,7 @@ contains
          return
       end if
       rest(:degree) = coefficients
-      ! with each node s brought to the front of the others one more coefficient stands
+      ! each pass replaces one more node by s, which makes one more coefficient final
       do i = 0, degree - 1
          do j = degree - 1, i, -1
             rest(j) = rest(j) + (s - nodes(j - i + 1))*rest(j + 1)
@@ -147,7 +146,7 @@ contains
    end subroutine taylor_coefficients
 
    !> From powers of x to powers of (x - s)/unit: i! b(i) = unit**i times the sum over j of
-   !> (i + j)! a(i + j) s**j/j!, sums that do not wait for each other.
+   !> (i + j)! a(i + j) s**j/j!. The sums are independent of each other.
    pure subroutine shift(degree, a, s, unit, b)
       !> Degree
       integer, intent(in) :: degree
@@ -157,7 +156,7 @@ contains
       real(wp), intent(in) :: s
       !> Unit of x
       real(wp), intent(in) :: unit
-      !> New coefficients, as many as there is place for
+      !> New coefficients; higher ones than its size are left out
       real(wp), contiguous, intent(inout) :: b(0:)
       real(wp), dimension(0:highest_degree + 1) :: derivatives, weights
       real(wp) :: even, odd, power

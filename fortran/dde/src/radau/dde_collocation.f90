@@ -1,4 +1,4 @@
-!> Polynomials of a collocation method: what follows from its nodes.
+!> Polynomials of a collocation method, from its nodes.
 module dde_collocation
    use dde_kinds, only: wp
    implicit none (type, external)
@@ -6,8 +6,8 @@ module dde_collocation
    public :: add_up, combine, difference_increments, in_lanes, lagrange_weights, shape_bump
    public :: stage_lanes
 
-   !> Rows of matrices over stages, those above the number of stages zero: a number that the
-   !> compiler knows, so that it makes vector instructions of them.
+   !> Rows of matrices over stages. Those above the number of stages are 0. The number is known to
+   !> the compiler, which therefore makes vector instructions.
    integer, parameter :: stage_lanes = 8
 
 contains
@@ -43,8 +43,7 @@ contains
    end subroutine shape_bump
 
    !> Combinations of the stages' vectors: sum over j of matrix(i, j) times vector j, for each i.
-   !> Written out for 3, 5 and 7 stages: of a loop over them the compiler makes four times as many
-   !> instructions.
+   !> Written out for 3, 5 and 7 stages: a loop over them costs four times as many instructions.
    pure subroutine combine(n, stages, matrix, vectors, sums)
       !> Number of equations
       integer, intent(in) :: n
@@ -90,8 +89,8 @@ contains
       filled(:size(matrix, 1), :) = matrix
    end function in_lanes
 
-   !> Sum over j of weight(j) times vector j, in this order and without the fused multiply-adds that
-   !> gfortran's library for `matmul` takes where the processor has them.
+   !> Sum over j of weight(j) times vector j, in this order. `matmul` would use fused multiply-adds
+   !> where the processor has them, and give other last bits.
    pure subroutine add_up(weights, vectors, total)
       !> Weights
       real(wp), intent(in) :: weights(:)
@@ -139,7 +138,7 @@ contains
       end do
    end subroutine difference_increments
 
-   !> Weights of the stage increments in the collocation polynomial at s; that of 0 is left out.
+   !> Weights of the stage increments in the collocation polynomial at s, without that of node 0.
    pure function lagrange_weights(x, s) result(weights)
       !> Nodes (0, c)
       real(wp), intent(in) :: x(0:)

@@ -7,7 +7,7 @@ module dde_coupling
    private
    public :: coupling_type
 
-   !> What couples a system.
+   !> The coupling of one system.
    type :: coupling_type
       !> Weights w of x in each unknown, shape (size of x, unknowns)
       real(wp), allocatable :: weights(:, :)

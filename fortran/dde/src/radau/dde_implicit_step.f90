@@ -1,34 +1,34 @@
 !> One step of a Radau IIA method as method of steps, by simplified Newton iteration (Hairer and
 !> Wanner 1996, sec. IV.8). Where the step is longer than a delay, its own collocation polynomial is
-!> the history.
+!> the past. The embedded error estimate overlooks very stiff components, so that `confirm` and
+!> `find_error_inside` check the step, too.
 module dde_implicit_step
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use dde_collocation, only: add_up, difference_increments, shape_bump
+   use dde_cursor, only: cursor_type
    use dde_history, only: history_type
-   use dde_implicit_checks, only: confirm, find_error_inside
    use dde_jacobian, only: jacobian_type
-   use dde_norm, only: scaled_norm
+   use dde_method_constants, only: method_constants
    use dde_problem, only: dde_problem_type
    use dde_radau_tableau, only: radau_iia, radau_tableau
    use dde_stage_iteration, only: stage_iteration
    use dde_step, only: step_type
    use dde_systems, only: real_system
-   use dde_tolerance, only: tolerance_type
-   use dde_kinds, only: int64, wp
+   use dde_tolerance, only: hopeless, scaled_norm, tolerance_type
+   use dde_work, only: work_type
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: implicit_cost, implicit_step_type, operations_of_evaluation
+   public :: implicit_cost, implicit_step_type
 
-   !> Contraction below which the Jacobian serves another step.
+   !> Contraction below which the next step uses the same Jacobian.
    real(wp), parameter :: good_contraction = 1.0e-3_wp
-   !> Ratio of step lengths up to which it pays to keep length and factors.
+   !> Up to this ratio the step size is kept, and the factors with it.
    real(wp), parameter :: keep_length = 1.2_wp
-   !> Below this, an explicit step may be as long: times the norm of the Jacobian.
-   real(wp), parameter :: worth_returning = 8.0_wp
+   !> Below this value of step size times norm of the Jacobian the problem is not stiff.
+   real(wp), parameter :: least_stiff = 8.0_wp
    !> Cost of an evaluation within this method over one within the explicit pair.
    real(wp), parameter :: implicit_cost = 4.0_wp
-   !> Additions and multiplications worth an evaluation of the explicit pair, for each equation.
-   real(wp), parameter :: operations_of_evaluation = 200.0_wp
 
    !> Stages and factors of the current step.
    type, extends(step_type) :: implicit_step_type
@@ -45,24 +45,22 @@ module dde_implicit_step
       type(stage_iteration) :: stages
       !> Newton coefficients of the increments over this and the last accepted step, (0:stages, n)
       real(wp), allocatable :: differences(:, :), last_differences(:, :)
-      !> Length of the last accepted step; 0 when its polynomial says nothing on this one
+      !> Length of the last accepted step; 0 when its polynomial must not be extrapolated
       real(wp) :: last_h = 0.0_wp
       !> Error of the embedded method, filtered and not, and without the slope, shape (n)
       real(wp), allocatable :: error_vector(:), unfiltered(:), raw(:)
       !> The Jacobian at the end of the step, and its real system
       type(jacobian_type), allocatable, private :: jacobian_at_end
       type(real_system), allocatable, private :: system_at_end
-      !> Whether the last Jacobian still serves
-      logical :: jacobian_serves = .false.
+      !> Whether the last Jacobian can be used again
+      logical :: jacobian_is_good = .false.
    contains
-      procedure :: work
       procedure :: reset
-      procedure :: factorisations
       procedure :: attempt
       procedure :: interpolant
-      procedure :: mild
+      procedure :: stiff
       procedure :: advance
-      procedure, private :: estimate, prepare
+      procedure, private :: confirm, estimate, find_error_inside, prepare
    end type implicit_step_type
 
    interface implicit_step_type
@@ -80,158 +78,185 @@ contains
       type(implicit_step_type) :: step
 
       step%method = radau_iia(stages)
-      write (step%name, "(a,i0)") "radau", 2*stages - 1
-      step%order = 2*stages - 1
-      step%error_order = stages + 1
-      step%implicit = .true.
-      step%predictive = .true.
-      step%hold = keep_length
-      step%evaluation_cost = implicit_cost
+      step%constants = method_constants(order=2*stages - 1, error_order=stages + 1, &
+                                        implicit=.true., evaluation_cost=implicit_cost, &
+                                        predictive=.true., largest_kept_ratio=keep_length)
+      write (step%constants%name, "(a,i0)") "radau", step%constants%order
+      call step%allocate_state(problem)
       step%nodes = [0.0_wp, step%method%c]
       associate (n => problem%n, delays => size(problem%lag))
-         allocate (step%y(n), step%y_new(n), step%slope(n), step%z(delays, 1))
-         allocate (step%scale(n), step%error_vector(n), step%raw(n), step%unfiltered(n))
+         allocate (step%error_vector(n), step%raw(n), step%unfiltered(n))
          allocate (step%jacobian_at_end, step%system_at_end)
          allocate (step%differences(0:stages, n), step%last_differences(0:stages, n))
          step%stages = stage_iteration(step%method, n, delays)
       end associate
       call shape_bump(step%method%c, step%bump, step%bump_slope)
-      call problem%initial(step%y)
    end function new_step
 
-   !> Evaluations, and the linear systems beside them.
-   pure real(wp) function work(self) result(done)
-      !> The step
-      class(implicit_step_type), intent(in) :: self
-
-      done = self%earlier_work + self%evaluation_cost*self%evaluations &
-             + self%stages%systems%operations/(operations_of_evaluation*size(self%y))
-   end function work
-
-   !> Polynomial, Jacobian and factors from before do not serve.
+   !> Polynomial, Jacobian and factors of earlier steps are not used again.
    pure subroutine reset(self)
       !> The step
       class(implicit_step_type), intent(inout) :: self
 
       self%last_h = 0.0_wp
-      self%jacobian_serves = .false.
+      self%jacobian_is_good = .false.
       call self%stages%forget()
    end subroutine reset
 
-   !> Those of the systems and those before.
-   pure function factorisations(self) result(count)
-      !> The step
-      class(implicit_step_type), intent(in) :: self
-      integer(int64) :: count
-
-      count = self%factorised_before + self%stages%systems%factorisations
-   end function factorisations
-
-   !> Try the step of length `h` from t.
-   pure subroutine attempt(self, problem, past, t, h, tolerance, error)
+   !> Attempt a step: iterate, check the result, estimate its error.
+   pure subroutine attempt(self, problem, past, cursor, tolerance, work, error)
       !> The step
       class(implicit_step_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The past, facing this step
-      type(history_type), intent(inout) :: past
-      !> Start of the step
-      real(wp), intent(in) :: t
-      !> Length of the step
-      real(wp), intent(in) :: h
+      !> The past
+      type(history_type), intent(in) :: past
+      !> The cursor, on this step
+      type(cursor_type), intent(inout) :: cursor
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
+      !> Work so far
+      type(work_type), intent(inout) :: work
       !> Estimated error in units of the tolerance
       real(wp), intent(out) :: error
       real(wp) :: asked, inside
       logical :: converged, finite, singular
 
-      self%t = t
-      self%h = h
-      ! the estimate has order s, the method of steps s + 1 inside and more at the ends: asked for
-      ! this, errors come out near the tolerance, as they do with the explicit method
+      self%t = cursor%t
+      self%h = cursor%h
+      ! the estimate has order s, the polynomial s + 1, the ends more: with this tolerance of the
+      ! estimate, errors are near the tolerance of the step, as with the explicit method
       asked = tolerance%level**((self%method%stages + 1.0_wp)/(self%method%stages + 2.0_wp))
       call tolerance%scale(self%y, self%scale)
       self%scale = asked/tolerance%level*self%scale
-      call self%stages%place_delays(problem, past, self%method, h)
+      call self%stages%place_delays(problem, past, cursor, self%method)
       error = ieee_value(1.0_wp, ieee_quiet_nan)
       do
-         if (.not. self%last_h > 0.0_wp) call past%values(problem, [0.0_wp], self%z)
-         call self%stages%start(self%method, self%last_differences, self%last_h, h)
-         call self%prepare(problem, tolerance, singular)
+         if (.not. self%last_h > 0.0_wp) call cursor%values(problem, past, [0.0_wp], self%z)
+         call self%stages%start(self%method, self%last_differences, self%last_h, self%h)
+         call self%prepare(problem, tolerance, work, singular)
          converged = .false.
          if (.not. singular) then
-            call self%stages%iterate(problem, self%method, self%inside(t), h, self%inside(t + h), &
-                                     self%y, self%scale, asked, self%safety, self%evaluations, &
-                                     converged, finite)
+            call self%stages%iterate(problem, self%method, cursor%inside(self%t), self%h, &
+                                     cursor%inside(self%t + self%h), self%y, self%scale, asked, &
+                                     self%safety, work, converged, finite)
          end if
          if (converged) then
-            call confirm(problem, self%method, self%stages, h, self%inside(t + h), self%y, &
-                         self%scale, tolerance, self%evaluations, self%jacobian_at_end, &
-                         self%system_at_end, self%unfiltered, converged)
+            call self%confirm(problem, cursor%inside(self%t + self%h), tolerance, work, converged)
          end if
          if (converged .or. .not. self%last_h > 0.0_wp) exit
-         ! the polynomial carried on may be too far off, the Jacobian too old: once more anew
+         ! the extrapolated polynomial may be too far off or the Jacobian too old: start again
          self%last_h = 0.0_wp
-         self%jacobian_serves = .false.
+         self%jacobian_is_good = .false.
       end do
       if (converged) then
-         call self%estimate(problem, error)
+         call self%estimate(problem, cursor%inside(self%t), work, error)
          call difference_increments(self%stages%x, self%stages%increments, self%differences)
          if (ieee_is_finite(error)) then
-            call find_error_inside(self%method, h, self%differences, self%unfiltered, &
-                                   self%error_vector, self%scale, asked, tolerance%level, inside)
+            call self%find_error_inside(asked, tolerance%level, inside)
             error = max(error, inside)
             if (error <= 1.0_wp) return
          end if
       else if (.not. singular) then
          if (finite) error = huge(1.0_wp)
       end if
-      self%jacobian_serves = .false.
+      self%jacobian_is_good = .false.
    end subroutine attempt
 
-   !> Jacobian and factors, as far as the last ones do not serve. The Jacobian is that of the middle
-   !> stage as it is expected, which is nearer to all stages than the start of the step.
-   pure subroutine prepare(self, problem, tolerance, singular)
+   !> Jacobian and factors, where the last ones cannot be used. The Jacobian is evaluated at the
+   !> expected middle stage, which is nearer to all stages than the start of the step.
+   pure subroutine prepare(self, problem, tolerance, work, singular)
       !> The step
       class(implicit_step_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
+      !> Work so far
+      type(work_type), intent(inout) :: work
       !> Whether there is no Jacobian or a system has no solution
       logical, intent(out) :: singular
-
       logical :: coupled, finite
 
       singular = .false.
       coupled = any(self%stages%own_place > 0.0_wp)
-      if (.not. self%jacobian_serves .or. coupled .and. .not. self%jacobian%knows_delays) then
+      if (.not. self%jacobian_is_good .or. coupled .and. .not. self%jacobian%knows_delays) then
          call self%stages%expect_delayed(problem, self%y)
          associate (middle => (self%method%stages + 1)/2)
             call self%jacobian%evaluate(problem, self%t + self%method%c(middle)*self%h, &
                                         self%y + self%stages%increments(:, middle), &
                                         self%stages%delayed(:, middle), tolerance, coupled, &
-                                        self%evaluations, finite)
+                                        work, finite)
          end associate
          self%stages%systems%h = 0.0_wp
          singular = .not. finite
          if (singular) return
          call self%jacobian%find_norm(self%stiffness)
-         self%jacobian_serves = .true.
+         self%jacobian_is_good = .true.
       end if
       if (.not. abs(self%stages%systems%h - self%h) > 0.0_wp) return
       call self%stages%systems%prepare(self%method, self%h, self%jacobian, problem%component, &
-                                       self%stages%own_place, self%stages%own_weights, singular)
+                                       self%stages%own_place, self%stages%own_weights, work, &
+                                       singular)
    end subroutine prepare
 
-   !> Error of the embedded method of order s, filtered by the real system so that stiff components
-   !> do not drown it (Hairer and Wanner 1996, eq. (IV.8.20)).
-   pure subroutine estimate(self, problem, error)
+   !> Whether the last stage solves its equation by the Jacobian there too. If the Jacobian of the
+   !> iteration is far too large, corrections are small without a solution.
+   pure subroutine confirm(self, problem, t_end, tolerance, work, confirmed)
+      !> The step, its iteration converged
+      class(implicit_step_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> End of the step
+      real(wp), intent(in) :: t_end
+      !> Tolerance of each component
+      type(tolerance_type), intent(in) :: tolerance
+      !> Work so far
+      type(work_type), intent(inout) :: work
+      !> Whether it does
+      logical, intent(out) :: confirmed
+      real(wp) :: allowed
+      logical :: finite, singular
+
+      confirmed = .false.
+      associate (stages => self%stages, y_end => self%stages%argument, &
+                 slope => self%stages%slope_at, misfit => self%unfiltered, &
+                 last => self%method%stages)
+         y_end = self%y + stages%increments(:, last)
+         call stages%slope_at_end(self%h, slope)
+         call problem%rhs(t_end, y_end, stages%delayed(:, last), misfit)
+         work%evaluations = work%evaluations + 1
+         if (.not. all(ieee_is_finite(misfit))) return
+         misfit = misfit - slope
+         ! a part of the tolerance, and what rounding does to the slope
+         allowed = 0.1_wp + 4.0_wp*epsilon(1.0_wp)*maxval(abs(y_end)/self%scale) &
+                   *sum(abs(stages%systems%a_inverse(last, :)))
+         confirmed = self%h*scaled_norm(problem%n, misfit, self%scale) &
+                     <= self%method%real_eigenvalue*allowed
+         if (confirmed) return
+         call self%jacobian_at_end%evaluate(problem, t_end, y_end, stages%delayed(:, last), &
+                                            tolerance, .false., work, finite)
+         if (.not. finite) return
+         call self%system_at_end%prepare(self%jacobian_at_end, self%method%real_eigenvalue/self%h, &
+                                         singular)
+         work%operations = work%operations + self%system_at_end%factor_operations
+         if (singular) return
+         call self%system_at_end%solve(misfit)
+         confirmed = scaled_norm(problem%n, misfit, self%scale) <= allowed
+      end associate
+   end subroutine confirm
+
+   !> Error of the embedded method of order s. The real system filters it: otherwise stiff
+   !> components would dominate it (Hairer and Wanner 1996, eq. (IV.8.20)).
+   pure subroutine estimate(self, problem, t_start, work, error)
       !> The step
       class(implicit_step_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
+      !> Start of the step
+      real(wp), intent(in) :: t_start
+      !> Work so far
+      type(work_type), intent(inout) :: work
       !> Estimated error in units of the tolerance
       real(wp), intent(out) :: error
       real(wp), allocatable :: slope(:)
@@ -243,13 +268,13 @@ contains
       call self%stages%systems%filter(self%error_vector)
       error = scaled_norm(problem%n, self%error_vector, self%scale)
       if (error >= 1.0_wp .and. .not. self%last_h > 0.0_wp) then
-         ! at a start, once more through the filter; the slope of an earlier polynomial is not that
-         ! of the state, and only what the error changes of it counts
+         ! at a start it is filtered again. The slope at the start may be that of an
+         ! earlier polynomial, so that only the change of the right-hand side by the error is added
          allocate (slope(problem%n))
-         call problem%rhs(self%inside(self%t), self%y, self%z, slope)
-         call problem%rhs(self%inside(self%t), self%y + self%error_vector, self%z, &
+         call problem%rhs(t_start, self%y, self%z, slope)
+         call problem%rhs(t_start, self%y + self%error_vector, self%z, &
                           self%error_vector)
-         self%evaluations = self%evaluations + 2
+         work%evaluations = work%evaluations + 2
          if (all(ieee_is_finite(self%error_vector)) .and. all(ieee_is_finite(slope))) then
             self%error_vector = (self%error_vector - slope) + (self%slope + self%raw)
             self%unfiltered = self%error_vector
@@ -261,8 +286,32 @@ contains
       if (.not. all(ieee_is_finite(self%y_new))) error = ieee_value(1.0_wp, ieee_quiet_nan)
    end subroutine estimate
 
-   !> Collocation polynomial of component `i` and the multiple of the bump that gives it the slope
-   !> at the start: one order more.
+   !> Error between the ends, in units of the tolerance. A stiff component that follows the others
+   !> at once is right at the stages however long the step, and its embedded error is filtered away.
+   !> So the last term of the polynomial there, of size h**s, is compared with tol**(s/(s + 1)).
+   pure subroutine find_error_inside(self, asked, tolerance, error)
+      !> The step, its error estimated; `unfiltered` is replaced by the hidden part of the last term
+      class(implicit_step_type), intent(inout) :: self
+      !> Tolerance of the estimate, to which `scale` belongs
+      real(wp), intent(in) :: asked
+      !> Tolerance of the step
+      real(wp), intent(in) :: tolerance
+      !> The error
+      real(wp), intent(out) :: error
+
+      associate (s => self%method%stages, hidden => self%unfiltered, h => self%h)
+         ! the filter does not change the errors of components that are not stiff
+         hidden = max(0.0_wp, abs(hidden) - 2.0_wp*(self%method%real_eigenvalue/h &
+                                                    *abs(self%error_vector))) &
+                  /max(abs(hidden), tiny(1.0_wp))
+         hidden = hidden*self%method%bulge*self%differences(s, :)
+         error = min(scaled_norm(size(self%scale), hidden, self%scale), hopeless)
+         error = (error*asked/tolerance**(real(s, wp)/(s + 1)))**((s + 1.0_wp)/s)
+      end associate
+   end subroutine find_error_inside
+
+   !> Collocation polynomial of component `i` plus a multiple of the bump, which gives it the slope
+   !> at the start and one order more.
    pure subroutine interpolant(self, i, a)
       !> The step
       class(implicit_step_type), intent(in) :: self
@@ -276,15 +325,15 @@ contains
       a(0) = self%y(i)
    end subroutine interpolant
 
-   !> Whether the step is short in units of one over the norm of the Jacobian.
-   pure logical function mild(self) result(value)
+   !> Whether the step is long in units of one over the norm of the Jacobian.
+   pure logical function stiff(self) result(value)
       !> The step
       class(implicit_step_type), intent(in) :: self
 
-      value = self%h*self%stiffness < worth_returning
-   end function mild
+      value = .not. self%h*self%stiffness < least_stiff
+   end function stiff
 
-   !> The end becomes the start; polynomial, Jacobian and factors serve on as far as they are good.
+   !> The end becomes the start. Jacobian and factors are kept if the iteration converged fast.
    pure subroutine advance(self)
       !> The step
       class(implicit_step_type), intent(inout) :: self
@@ -293,6 +342,6 @@ contains
       self%y = self%y_new
       self%last_differences = self%differences
       self%last_h = self%h
-      self%jacobian_serves = self%stages%contraction <= good_contraction
+      self%jacobian_is_good = self%stages%contraction <= good_contraction
    end subroutine advance
 end module dde_implicit_step

@@ -1,19 +1,20 @@
-!> The Jacobian of a problem at one place: as the problem gives it, or by forward differences; those
-!> of a banded one take as many evaluations as it has diagonals (Curtis, Powell and Reid 1974, "On
-!> the estimation of sparse Jacobian matrices", J. Inst. Maths Applics 13, 117).
+!> The Jacobian of a problem at one place. The problem gives it, or it is found by forward
+!> differences. A banded Jacobian costs one evaluation for each diagonal (Curtis, Powell and Reid
+!> 1974, "On the estimation of sparse Jacobian matrices", J. Inst. Maths Applics 13, 117).
 module dde_jacobian
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_problem, only: dde_problem_type, not_given
    use dde_tolerance, only: tolerance_type
-   use dde_kinds, only: int64, wp
+   use dde_work, only: work_type
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: find_jacobian, jacobian_type
 
-   !> Differences are this share of a component.
+   !> Difference over the size of the component.
    real(wp), parameter :: difference = sqrt(epsilon(1.0_wp))
-   !> A component counts as no smaller than this share of the size that the digits asked for and
-   !> its absolute tolerance mean, and no smaller than this number.
+   !> Lower bounds on the size of a component: this share of (absolute tolerance / tolerance level),
+   !> and this number.
    real(wp), parameter :: small_share = 1.0e-5_wp, least_size = 1.0e-140_wp
 
    !> Derivatives of the right-hand side.
@@ -26,9 +27,9 @@ module dde_jacobian
       !> Whether it is banded, its diagonals below and above the main one
       logical :: banded = .false.
       integer :: lower = 0, upper = 0
-      !> Whether derivatives by the delayed values are known, too
+      !> Whether `by_z` is known
       logical :: knows_delays = .false.
-      !> Whether the problem gives it, as far as is known
+      !> False once the problem is known not to give it
       logical, private :: given = .true.
       !> The right-hand side at the place, and beside it, shape (n)
       real(wp), allocatable, private :: here(:), beside(:)
@@ -45,7 +46,7 @@ module dde_jacobian
 contains
 
    !> Evaluate it at a place.
-   pure subroutine evaluate(self, problem, t, y, z, tolerance, with_delays, evaluations, finite)
+   pure subroutine evaluate(self, problem, t, y, z, tolerance, with_delays, work, finite)
       !> The Jacobian
       class(jacobian_type), intent(inout) :: self
       !> The problem
@@ -58,10 +59,10 @@ contains
       real(wp), intent(in) :: z(:)
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
-      !> Whether derivatives by the delayed values are wanted, too
+      !> Whether `by_z` is needed
       logical, intent(in) :: with_delays
-      !> Right-hand sides evaluated so far
-      integer(int64), intent(inout) :: evaluations
+      !> Work so far
+      type(work_type), intent(inout) :: work
       !> Whether it is finite
       logical, intent(out) :: finite
 
@@ -73,10 +74,10 @@ contains
       self%knows_delays = with_delays .or. self%given
       if (.not. self%given) then
          call problem%rhs(t, y, z, self%here)
-         evaluations = evaluations + 1
-         call self%differences_by_y(problem, t, y, z, tolerance, evaluations)
+         work%evaluations = work%evaluations + 1
+         call self%differences_by_y(problem, t, y, z, tolerance, work)
          if (with_delays) then
-            call self%differences_by_z(problem, t, y, z, tolerance, evaluations)
+            call self%differences_by_z(problem, t, y, z, tolerance, work)
          end if
       end if
       finite = all(ieee_is_finite(self%by_y))
@@ -98,26 +99,25 @@ contains
       !> Derivatives by the delayed values, shape (n, delayed values)
       real(wp), intent(out) :: by_z(:, :)
       type(jacobian_type) :: here
-      integer(int64) :: evaluations
+      type(work_type) :: work
       logical :: finite
 
       call problem%jacobian(t, y, z, by_y, by_z)
       if (any(by_y > not_given)) return
       here%given = .false.
-      evaluations = 0
       call here%evaluate(problem, t, y, z, tolerance_type(problem%n, 1.0_wp, 1.0_wp), .true., &
-                         evaluations, finite)
+                         work, finite)
       by_y = here%by_y
       by_z = here%by_z
    end subroutine find_jacobian
 
-   !> Storage, as far as it is needed.
+   !> Storage, when it is first needed.
    pure subroutine prepare(self, problem, with_delays)
       !> The Jacobian
       class(jacobian_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Whether derivatives by the delayed values are wanted, too
+      !> Whether `by_z` is needed
       logical, intent(in) :: with_delays
 
       if (.not. allocated(self%by_y)) then
@@ -138,8 +138,8 @@ contains
       end if
    end subroutine prepare
 
-   !> By forward differences of y: columns that share no equation are moved at once.
-   pure subroutine differences_by_y(self, problem, t, y, z, tolerance, evaluations)
+   !> By forward differences of y. Columns that share no equation are moved together.
+   pure subroutine differences_by_y(self, problem, t, y, z, tolerance, work)
       !> The Jacobian, `here` known
       class(jacobian_type), intent(inout) :: self
       !> The problem
@@ -152,8 +152,8 @@ contains
       real(wp), intent(in) :: z(:)
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
-      !> Right-hand sides evaluated so far
-      integer(int64), intent(inout) :: evaluations
+      !> Work so far
+      type(work_type), intent(inout) :: work
       integer :: apart, first, group, j, last, shift
 
       apart = merge(1 + self%lower + self%upper, problem%n, self%banded)
@@ -163,7 +163,7 @@ contains
             self%moved_y(j) = y(j) + difference*size_of(tolerance, j, y(j))
          end do
          call problem%rhs(t, self%moved_y, z, self%beside)
-         evaluations = evaluations + 1
+         work%evaluations = work%evaluations + 1
          do j = group, problem%n, apart
             first = 1
             last = problem%n
@@ -180,7 +180,7 @@ contains
    end subroutine differences_by_y
 
    !> By forward differences of the delayed values.
-   pure subroutine differences_by_z(self, problem, t, y, z, tolerance, evaluations)
+   pure subroutine differences_by_z(self, problem, t, y, z, tolerance, work)
       !> The Jacobian, `here` known
       class(jacobian_type), intent(inout) :: self
       !> The problem
@@ -193,20 +193,20 @@ contains
       real(wp), intent(in) :: z(:)
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
-      !> Right-hand sides evaluated so far
-      integer(int64), intent(inout) :: evaluations
+      !> Work so far
+      type(work_type), intent(inout) :: work
       integer :: k
 
       do k = 1, size(z)
          self%moved_z = z
          self%moved_z(k) = z(k) + difference*size_of(tolerance, problem%component(k), z(k))
          call problem%rhs(t, y, self%moved_z, self%beside)
-         evaluations = evaluations + 1
+         work%evaluations = work%evaluations + 1
          self%by_z(:, k) = (self%beside - self%here)/(self%moved_z(k) - z(k))
       end do
    end subroutine differences_by_z
 
-   !> Size of a component, from which its difference is taken.
+   !> Size of a component, to which its difference is proportional.
    pure real(wp) function size_of(tolerance, i, value) result(size)
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance

@@ -1,5 +1,5 @@
-!> In place of the module that calls LAPACK, which has no quadruple precision: nothing here is
-!> called, since `lapack_is_there` is false.
+!> Replaces lapack/dde_lapack.f90 in a build without LAPACK or in quadruple precision. Nothing here
+!> is called, since `lapack_is_there` is false.
 module dde_lapack
    use dde_kinds, only: wp
    implicit none (type, external)

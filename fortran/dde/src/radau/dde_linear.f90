@@ -1,7 +1,6 @@
-!> Small dense linear systems by Gaussian elimination, real and complex. Pivots are the largest of
-!> their column relative to their rows: in a stiff system a row of huge numbers must not serve as
-!> pivot for the others. LAPACK pivots without that, and is
-!> slower for a few equations (dde_systems).
+!> Small dense linear systems by Gaussian elimination, real and complex. Each pivot is the largest
+!> of its column relative to its row. Otherwise a row of huge numbers in a stiff system would be the
+!> pivot for the others. LAPACK does not scale rows and is slower for a few equations (dde_systems).
 module dde_linear
    use dde_kinds, only: wp
    implicit none (type, external)

@@ -3,13 +3,15 @@
 module dde_stage_iteration
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_collocation, only: add_up, combine, lagrange_weights
+   use dde_cursor, only: cursor_type
    use dde_history, only: history_type
    use dde_interpolant, only: newton_value
-   use dde_norm, only: scaled_norm
    use dde_problem, only: dde_problem_type
    use dde_radau_tableau, only: radau_tableau
    use dde_stage_systems, only: stage_systems
-   use dde_kinds, only: int64, wp
+   use dde_tolerance, only: scaled_norm
+   use dde_work, only: work_type
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: stage_iteration
@@ -41,17 +43,17 @@ module dde_stage_iteration
       real(wp), allocatable :: own_weights(:, :, :)
       !> Contraction theta of the last iteration
       real(wp) :: contraction = 1.0_wp
-      !> What is left after a correction, over the correction: theta/(1 - theta), or a guess that
-      !> loses trust with each step that did not measure it
+      !> Remaining error over the last correction, theta/(1 - theta). It grows with each step that
+      !> does not measure theta.
       real(wp) :: remainder = 1.0_wp
    contains
-      !> Trust no contraction seen before
+      !> Forget the contraction of earlier steps
       procedure :: forget
-      !> Look up the delayed values
+      !> Read the delayed values
       procedure :: place_delays
       !> Guess the increments
       procedure :: start
-      !> Delayed values in this step, by the increments as they are
+      !> Delayed values that lie in this step
       procedure :: expect_delayed
       !> Find them
       procedure :: iterate
@@ -87,7 +89,7 @@ contains
       iteration%systems = stage_systems(method, n)
    end function new_iteration
 
-   !> Trust no contraction seen before.
+   !> Forget the contraction of earlier steps.
    pure subroutine forget(self)
       !> The iteration
       class(stage_iteration), intent(inout) :: self
@@ -96,34 +98,34 @@ contains
       self%remainder = 1.0_wp
    end subroutine forget
 
-   !> Delayed values of all stages, and where they lie in this very step.
-   pure subroutine place_delays(self, problem, past, method, h)
+   !> Delayed values of all stages, and the places of those that lie in the step itself.
+   pure subroutine place_delays(self, problem, past, cursor, method)
       !> The iteration
       class(stage_iteration), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The past, facing this step
-      type(history_type), intent(inout) :: past
+      !> The past
+      type(history_type), intent(in) :: past
+      !> The cursor, on this step
+      type(cursor_type), intent(inout) :: cursor
       !> The method
       type(radau_tableau), intent(in) :: method
-      !> Length of the step
-      real(wp), intent(in) :: h
       integer :: i, k
 
       if (size(problem%lag) == 0) return
       do i = 1, method%stages
-         self%own_place(:, i) = method%c(i) - problem%lag/h
+         self%own_place(:, i) = method%c(i) - problem%lag/cursor%h
          do k = 1, size(problem%lag)
             if (self%own_place(k, i) > 0.0_wp) then
                self%own_weights(:, k, i) = lagrange_weights(self%x, self%own_place(k, i))
             end if
          end do
       end do
-      self%places = method%c*h
-      call past%values(problem, self%places, self%delayed)
+      self%places = method%c*cursor%h
+      call cursor%values(problem, past, self%places, self%delayed)
    end subroutine place_delays
 
-   !> Start of the iteration: the last step's polynomial carried on, or no change.
+   !> Start of the iteration: the last step's polynomial extrapolated, or no change.
    pure subroutine start(self, method, last_differences, last_h, h)
       !> The iteration
       class(stage_iteration), intent(inout) :: self
@@ -131,7 +133,7 @@ contains
       type(radau_tableau), intent(in) :: method
       !> Newton coefficients of the last step's increments, shape (0:stages, n)
       real(wp), contiguous, intent(in) :: last_differences(0:, :)
-      !> Its length; 0 where it says nothing on this step
+      !> Its length; 0 where its polynomial must not be extrapolated
       real(wp), intent(in) :: last_h
       !> Length of this step
       real(wp), intent(in) :: h
@@ -154,7 +156,7 @@ contains
       end associate
    end subroutine start
 
-   !> Delayed values that lie in this step, by the increments as they are.
+   !> Delayed values that lie in this step, from the present increments.
    pure subroutine expect_delayed(self, problem, y)
       !> The iteration
       class(stage_iteration), intent(inout) :: self
@@ -177,7 +179,7 @@ contains
 
    !> Simplified Newton iteration for the stage increments.
    pure subroutine iterate(self, problem, method, t, h, t_end, y, scale, tolerance, safety, &
-                           evaluations, converged, finite)
+                           work, converged, finite)
       !> The iteration, started and its systems prepared
       class(stage_iteration), intent(inout) :: self
       !> The problem
@@ -196,10 +198,11 @@ contains
       real(wp), intent(in) :: scale(:)
       !> Tolerance of the error estimate
       real(wp), intent(in) :: tolerance
-      !> Share of the ideal length that the next step should have: less after many iterations
+      !> Factor below the step size at which the error would be equal to the tolerance; it is
+      !> smaller after many iterations
       real(wp), intent(inout) :: safety
-      !> Right-hand sides evaluated so far
-      integer(int64), intent(inout) :: evaluations
+      !> Work so far
+      type(work_type), intent(inout) :: work
       !> Whether it converged
       logical, intent(out) :: converged
       !> Whether all evaluations were finite
@@ -210,7 +213,7 @@ contains
       converged = .false.
       most = int(iterations_of_three + (method%stages - 3)*iterations_per_stage)
       limit = max(10.0_wp*epsilon(1.0_wp)/tolerance, min(0.03_wp, sqrt(tolerance)))
-      ! the stiff residual is a small difference of large numbers: below this all is rounding
+      ! the stiff residual is a small difference of large numbers: below this it is rounding
       rounding = 4.0_wp*epsilon(1.0_wp)*maxval(abs(y)/scale)
       self%remainder = max(self%remainder, epsilon(1.0_wp))**0.8_wp
       do stage = 1, method%stages
@@ -220,9 +223,9 @@ contains
       last_rate = 1.0_wp
       do iteration = 1, most
          call self%slopes_at_stages(problem, method, t, h, t_end, y, finite)
-         evaluations = evaluations + method%stages
+         work%evaluations = work%evaluations + method%stages
          if (.not. finite) return
-         call self%systems%correct(method, self%slopes, self%transforms, self%change)
+         call self%systems%correct(method, self%slopes, self%transforms, work, self%change)
          norm = scaled_norm(size(self%change), self%change, self%scales)
          finite = ieee_is_finite(norm)
          if (.not. (finite .and. norm < huge(1.0_wp))) return
@@ -241,7 +244,7 @@ contains
          last_norm = max(norm, epsilon(1.0_wp))
          self%transforms = self%transforms + self%change
          call combine(size(y), method%stages, self%systems%t, self%transforms, self%increments)
-         ! one correction alone is trusted only where it is no larger than the tolerance
+         ! a single correction must not exceed the tolerance
          if ((self%remainder*norm <= limit .and. (iteration > 1 .or. norm <= 1.0_wp)) &
              .or. norm <= rounding) then
             converged = .true.

@@ -1,13 +1,14 @@
 !> The linear systems of the simplified Newton iteration of a Radau IIA step. The stages part into
 !> one real and some complex systems of size n (Hairer and Wanner 1996, sec. IV.8). Delayed values
-!> that lie in the step itself couple them: these are unknowns of their own.
+!> that lie in the step itself couple these systems. They are additional unknowns.
 module dde_stage_systems
    use dde_collocation, only: combine, in_lanes, stage_lanes
    use dde_coupling, only: coupling_type
    use dde_jacobian, only: jacobian_type
    use dde_radau_tableau, only: radau_tableau
    use dde_systems, only: complex_system, real_system
-   use dde_kinds, only: int64, wp
+   use dde_work, only: work_type
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: stage_systems
@@ -18,12 +19,8 @@ module dde_stage_systems
       real(wp) :: h = 0.0_wp
       !> Whether delayed values lie in the step
       logical :: coupled = .false.
-      !> Matrices factorised so far
-      integer(int64) :: factorisations = 0
       !> T of the method, its inverse, and inverse(A), shape (stage_lanes, stages)
       real(wp), allocatable, dimension(:, :) :: t, t_inverse, a_inverse
-      !> Additions and multiplications of factorisations and solutions so far
-      real(wp) :: operations = 0.0_wp
       !> The real system
       type(real_system), private :: of_real
       !> The complex systems, shape (pairs)
@@ -93,7 +90,8 @@ contains
    end function inverse_of_a
 
    !> Factorise the systems of a step of length `h`.
-   pure subroutine prepare(self, method, h, jacobian, component, own_place, own_weights, singular)
+   pure subroutine prepare(self, method, h, jacobian, component, own_place, own_weights, work, &
+                           singular)
       !> The systems
       class(stage_systems), intent(inout) :: self
       !> The method
@@ -109,6 +107,8 @@ contains
       real(wp), intent(in) :: own_place(:, :)
       !> Weights of the stage increments in those, shape (stages, delayed values, stages)
       real(wp), intent(in) :: own_weights(:, :, :)
+      !> Work so far
+      type(work_type), intent(inout) :: work
       !> Whether a system has no solution
       logical, intent(out) :: singular
       integer :: pair
@@ -116,22 +116,22 @@ contains
       self%h = h
       self%coupled = any(own_place > 0.0_wp)
       call self%of_real%prepare(jacobian, method%real_eigenvalue/h, singular)
-      self%factorisations = self%factorisations + 1
-      self%operations = self%operations + self%of_real%factor_operations
+      work%factorisations = work%factorisations + 1
+      work%operations = work%operations + self%of_real%factor_operations
       if (singular) return
       do pair = 1, size(self%of_pairs)
          call self%of_pairs(pair)%prepare(jacobian, method%complex_eigenvalues(pair)/h, singular)
-         self%factorisations = self%factorisations + 1
-         self%operations = self%operations + self%of_pairs(pair)%factor_operations
+         work%factorisations = work%factorisations + 1
+         work%operations = work%operations + self%of_pairs(pair)%factor_operations
          if (singular) return
       end do
       if (self%coupled) then
-         call self%couple(method, jacobian%by_z, component, own_place, own_weights, singular)
+         call self%couple(method, jacobian%by_z, component, own_place, own_weights, work, singular)
       end if
    end subroutine prepare
 
-   !> Make the delayed values that lie in the step unknowns; the others get no weight.
-   pure subroutine couple(self, method, by_z, component, own_place, own_weights, singular)
+   !> Make the delayed values that lie in the step unknowns. The others have weight 0.
+   pure subroutine couple(self, method, by_z, component, own_place, own_weights, work, singular)
       !> The systems, factorised
       class(stage_systems), intent(inout) :: self
       !> The method
@@ -144,6 +144,8 @@ contains
       real(wp), intent(in) :: own_place(:, :)
       !> Weights of the stage increments in those
       real(wp), intent(in) :: own_weights(:, :, :)
+      !> Work so far
+      type(work_type), intent(inout) :: work
       !> Whether a system has no solution
       logical, intent(out) :: singular
       integer :: i, j, k, unknown
@@ -164,7 +166,7 @@ contains
                      = sum(own_weights(:, k, i)*self%t(:s, j))
                   self%reply(:, j) = self%t_inverse(j, i)*by_z(:, k)
                end do
-               call self%solve_stages(self%reply)
+               call self%solve_stages(self%reply, work)
                self%of_stages%replies(:, unknown) = reshape(self%reply, [n*s])
             end do
             if (own_place(k, last) > 0.0_wp) then
@@ -175,34 +177,36 @@ contains
          end do
       end associate
       call self%of_end%prepare(singular)
-      self%factorisations = self%factorisations + 1
+      work%factorisations = work%factorisations + 1
       if (singular) return
       call self%of_stages%prepare(singular)
-      self%factorisations = self%factorisations + 1
+      work%factorisations = work%factorisations + 1
    end subroutine couple
 
    !> Solution of the real and the complex systems, for transformed stages.
-   pure subroutine solve_stages(self, x)
+   pure subroutine solve_stages(self, x, work)
       !> The systems
       class(stage_systems), intent(inout) :: self
       !> Right-hand sides, replaced by the solutions, shape (n, stages)
       real(wp), contiguous, intent(inout) :: x(:, :)
+      !> Work so far
+      type(work_type), intent(inout) :: work
       integer :: i, pair
 
       call self%of_real%solve(x(:, 1))
-      self%operations = self%operations + self%of_real%solve_operations
+      work%operations = work%operations + self%of_real%solve_operations
       do pair = 1, size(self%of_pairs)
          i = 2*pair
          self%pair_side = cmplx(x(:, i), x(:, i + 1), wp)
          call self%of_pairs(pair)%solve(self%pair_side)
-         self%operations = self%operations + self%of_pairs(pair)%solve_operations
+         work%operations = work%operations + self%of_pairs(pair)%solve_operations
          x(:, i) = real(self%pair_side)
          x(:, i + 1) = aimag(self%pair_side)
       end do
    end subroutine solve_stages
 
    !> Newton correction of the transforms inverse(T) Z of the increments Z.
-   pure subroutine correct(self, method, slopes, transforms, change)
+   pure subroutine correct(self, method, slopes, transforms, work, change)
       !> The systems
       class(stage_systems), intent(inout) :: self
       !> The method
@@ -211,6 +215,8 @@ contains
       real(wp), contiguous, intent(in) :: slopes(:, :)
       !> Transforms of the increments, shape (n, stages)
       real(wp), intent(in) :: transforms(:, :)
+      !> Work so far
+      type(work_type), intent(inout) :: work
       !> The correction, shape (n, stages)
       real(wp), contiguous, intent(out) :: change(:, :)
       complex(wp) :: eigenvalue
@@ -226,11 +232,11 @@ contains
          change(:, i + 1) = change(:, i + 1) - (real(eigenvalue)*transforms(:, i + 1) &
                                                 + aimag(eigenvalue)*transforms(:, i))
       end do
-      call self%solve_stages(change)
+      call self%solve_stages(change, work)
       if (self%coupled) call self%of_stages%complete(change)
    end subroutine correct
 
-   !> Replace a vector by the solution of the real system: stiff components shrink, others stay.
+   !> Replace a vector by the solution of the real system. Only its stiff components shrink.
    pure subroutine filter(self, vector)
       !> The systems
       class(stage_systems), intent(inout) :: self

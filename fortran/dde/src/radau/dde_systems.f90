@@ -1,5 +1,5 @@
-!> The linear systems (shift - J) x = b of an implicit step, J the Jacobian: small dense ones by
-!> dde_linear, large dense ones and banded ones by LAPACK.
+!> The linear systems (shift - J) x = b of an implicit step, where J is the Jacobian. dde_linear
+!> solves small dense systems, LAPACK solves large dense and banded ones.
 module dde_systems
    use dde_jacobian, only: jacobian_type
    use dde_lapack, only: factorise_band, factorise_by_lapack, lapack_is_there, solve_band, &
@@ -11,7 +11,7 @@ module dde_systems
    private
    public :: complex_over_real, complex_system, factor_operations, real_system
 
-   !> Number of equations from which on LAPACK is faster than dde_linear.
+   !> LAPACK is faster than dde_linear from this number of equations on.
    integer, parameter :: large = 48
    !> Operations of a complex multiplication over those of a real one.
    real(wp), parameter :: complex_over_real = 4.0_wp
@@ -23,8 +23,8 @@ module dde_systems
       real(wp), allocatable :: a(:, :)
       !> Rows exchanged, shape (n)
       integer, allocatable :: pivot(:)
-      !> Factor of each equation, by which its largest coefficient is 1: a stiff equation must not
-      !> serve as pivot for the others, shape (n)
+      !> Factor of each equation that makes its largest coefficient 1, shape (n). Otherwise a stiff
+      !> equation would be the pivot for the others.
       real(wp), allocatable :: row(:)
       !> Whether the Jacobian is banded, its diagonals below and above the main one
       logical :: banded = .false.
@@ -45,8 +45,8 @@ module dde_systems
       complex(wp), allocatable :: a(:, :)
       !> Rows exchanged, shape (n)
       integer, allocatable :: pivot(:)
-      !> Factor of each equation, by which its largest coefficient is 1: a stiff equation must not
-      !> serve as pivot for the others, shape (n)
+      !> Factor of each equation that makes its largest coefficient 1, shape (n). Otherwise a stiff
+      !> equation would be the pivot for the others.
       real(wp), allocatable :: row(:)
       !> Whether the Jacobian is banded, its diagonals below and above the main one
       logical :: banded = .false.

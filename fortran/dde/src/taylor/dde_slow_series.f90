@@ -1,50 +1,55 @@
-!> The Taylor series of a slow solution: one on which fast components are in balance with the
-!> others, so that their rates do not limit its steps. What a state has of a transient towards the
-!> balance is left out, which is at most the tolerance.
+!> How far a Taylor series is valid, and the series of a slow solution, which is valid farther. On a
+!> slow solution fast components are in balance with the others, so that their rates do not limit
+!> the step size. The difference between state and slow solution is at most the tolerance.
 module dde_slow_series
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_problem, only: dde_problem_type
-   use dde_series_reach, only: series_reach
-   use dde_kinds, only: int64, wp
+   use dde_work, only: work_type
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: least_balance, slow_series
+   public :: least_balance, series_reach, slow_series
 
-   !> A series of the state alone that may be longer than this, in units of one over the relaxation
-   !> rate, is limited by it.
+   !> Factor below the time at which the last two terms reach the tolerance, for the terms left out.
+   real(wp), parameter :: share = 0.9_wp
+   !> Largest reach: its powers must not overflow.
+   real(wp), parameter :: farthest = 1.0e15_wp
+   !> The relaxation rate limits a series of the state whose reach exceeds this many times one over
+   !> the rate.
    real(wp), parameter :: limited = 2.0_wp
-   !> A slow series serves no less than this, in the same units: it is asymptotic.
+   !> Least reach of a slow series in the same units: it is asymptotic.
    real(wp), parameter :: least_balance = 20.0_wp
-   !> How far a state may be from the balance, in units of the tolerance.
+   !> Largest distance of a state from the balance, in units of the tolerance.
    real(wp), parameter :: transient = 1.0_wp
-   !> What an iteration may leave open, in units of the tolerance.
+   !> Largest remaining error of the iteration, in units of the tolerance.
    real(wp), parameter :: left_open = 0.01_wp
-   !> Iterations at most.
+   !> Most iterations.
    integer, parameter :: most_iterations = 6
-   !> Limited steps that pass at most until the next try.
+   !> Most limited steps between two searches.
    integer, parameter :: most_patience = 7
 
-   !> Whether there is a slow series near the solution, and when to look for it.
+   !> Whether there is a slow series near the solution, and when to search for it.
    type :: slow_series
-      !> Whether it served the last step
+      !> Whether the last step used it
       logical :: holds = .false.
       !> How far it reaches, in units of its powers
       real(wp) :: reach = 0.0_wp
-      !> Limited steps since the last try, and how many pass until the next
+      !> Limited steps since the last search, and how many pass until the next
       integer, private :: waited = 0, patience = 0
-      !> What an iteration changes of the coefficients, shape (0:degree, n), and the state, shape
-      !> (n)
+      !> Change of the coefficients by an iteration, shape (0:degree, n), and the state, shape (n)
       real(wp), allocatable, private :: change(:, :), state(:)
    contains
-      !> Whether a step is worth a try
-      procedure :: worth_a_try
+      !> Whether to search in this step
+      procedure :: decide_search
       !> Find it for a state
       procedure :: find
    end type slow_series
 
 contains
 
-   !> Whether to try: where the relaxation rate limits steps, more seldom after each vain try.
-   pure subroutine worth_a_try(self, measure, value)
+   !> Whether to search in this step. The relaxation rate must limit it, and searches become rarer
+   !> after each one that failed.
+   pure subroutine decide_search(self, measure, value)
       !> The series
       class(slow_series), intent(inout) :: self
       !> How far the series of the state reaches, times the relaxation rate
@@ -57,11 +62,11 @@ contains
       value = self%waited >= self%patience
       self%waited = merge(0, self%waited + 1, value)
       if (value) self%patience = min(2*self%patience + 1, most_patience)
-   end subroutine worth_a_try
+   end subroutine decide_search
 
-   !> Iterate from the state; the series holds where it converges to the tolerance within what it
-   !> reaches, and where the state is that near to it.
-   pure subroutine find(self, problem, t, unit, degree, z, scale, rate, evaluations, y)
+   !> Iterate from the state. The series holds if it converges to the tolerance over its reach and
+   !> if the state is that near to it.
+   pure subroutine find(self, problem, t, unit, degree, z, scale, rate, work, y)
       !> The series
       class(slow_series), intent(inout) :: self
       !> The problem
@@ -78,8 +83,8 @@ contains
       real(wp), intent(in) :: scale(problem%n)
       !> Relaxation rate
       real(wp), intent(in) :: rate
-      !> Series evaluated so far
-      integer(int64), intent(inout) :: evaluations
+      !> Work so far
+      type(work_type), intent(inout) :: work
       !> Coefficients, of which y(0, :) is given, the state; the slow series if it holds
       real(wp), intent(inout) :: y(0:degree, problem%n)
       real(wp) :: distance, open
@@ -94,11 +99,11 @@ contains
       do iteration = 1, most_iterations
          self%change = y
          call problem%slow_series(t, unit, degree, z, y)
-         evaluations = evaluations + 1
+         work%evaluations = work%evaluations + 1
          call series_reach(degree, y, scale, self%reach)
          if (.not. self%reach*unit*rate >= least_balance) return
          self%change = y - self%change
-         ! what the next iteration would change: by the last one's, w'/rate
+         ! change by the next iteration, from that by the last one: w'/rate
          do k = 0, degree - 1
             self%change(k, :) = (k + 1)/(unit*rate)*self%change(k + 1, :)
          end do
@@ -106,7 +111,7 @@ contains
          open = largest_term(degree, problem%n, self%change, scale, self%reach)
          distance = maxval(abs(y(0, :) - self%state)/scale)
          if (distance > transient + 2*open) then
-            ! limited steps shorten it by this many e-foldings at least
+            ! a limited step reduces the distance by `limited` e-foldings at least
             self%patience = min(int(log(distance)/limited), self%patience)
             return
          end if
@@ -142,4 +147,40 @@ contains
          end do
       end do
    end function largest_term
+
+   !> How far the series is valid, in units of the powers: the last two terms are within the
+   !> tolerance there, and terms do not grow. Growing terms would exceed the tolerance later even if
+   !> they are very small.
+   pure subroutine series_reach(degree, coefficients, scale, reach)
+      !> Degree of the series
+      integer, intent(in) :: degree
+      !> Coefficients, one series a component
+      real(wp), contiguous, intent(in) :: coefficients(0:, :)
+      !> Tolerance of each component
+      real(wp), contiguous, intent(in) :: scale(:)
+      !> How far; 0 if they are not finite
+      real(wp), intent(out) :: reach
+      real(wp) :: growth, last(0:2)
+      integer :: i, k
+
+      reach = 0.0_wp
+      do i = 1, size(scale)
+         reach = reach + (coefficients(degree - 1, i) + coefficients(degree, i))
+      end do
+      if (.not. ieee_is_finite(reach)) then
+         reach = 0.0_wp
+         return
+      end if
+      last = tiny(1.0_wp)
+      do i = 1, size(scale)
+         do k = 0, 2
+            last(k) = max(last(k), abs(coefficients(degree - 2 + k, i))/scale(i))
+         end do
+      end do
+      reach = exp(-max(log(last(1))/(degree - 1), log(last(2))/degree))
+      growth = huge(1.0_wp)
+      ! one term may vanish by chance; if both are at the floor, nothing is known
+      if (last(2) > tiny(1.0_wp)) growth = max(last(1)/last(2), sqrt(last(0)/last(2)))
+      reach = share*min(reach, growth, farthest)
+   end subroutine series_reach
 end module dde_slow_series

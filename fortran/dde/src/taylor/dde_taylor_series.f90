@@ -1,16 +1,17 @@
-!> The Taylor series of the solution from the start of a step on, and how far it serves: that of the
-!> state, or that of a slow solution near it.
+!> The Taylor series of the solution from the start of a step on, and the time for which it is
+!> valid. It is the series of the state, or that of a slow solution near it.
 module dde_taylor_series
+   use dde_delayed_series, only: delayed_series
    use dde_interpolant, only: series_value
    use dde_problem, only: dde_problem_type
-   use dde_series_reach, only: series_reach
-   use dde_slow_series, only: slow_series
-   use dde_kinds, only: int64, wp
+   use dde_slow_series, only: series_reach, slow_series
+   use dde_work, only: work_type
+   use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: taylor_series
 
-   !> Longest unit for the series of a state, in units of one over the relaxation rate: its powers
+   !> Longest unit of the series of a state, in units of one over the relaxation rate: powers of it
    !> must not overflow.
    real(wp), parameter :: longest_unit = 1000.0_wp
 
@@ -20,17 +21,19 @@ module dde_taylor_series
       integer :: degree = 0
       !> Unit of time of its powers
       real(wp) :: unit = 0.0_wp
-      !> Time that it serves; 0 where it is not finite
+      !> Time for which it is valid; 0 if it is not finite
       real(wp) :: reach = 0.0_wp
-      !> Coefficients of the solution and of its delayed values, shapes (0:degree, n) and
-      !> (0:degree, number of delayed values)
-      real(wp), allocatable :: coefficients(:, :), delayed(:, :)
-      !> Those of the state, while a slow solution is looked for, shape (0:degree, n)
+      !> Coefficients of the solution, shape (0:degree, n)
+      real(wp), allocatable :: coefficients(:, :)
+      !> Series of the delayed values
+      type(delayed_series) :: delayed
+      !> Coefficients of the series of the state during the search for a slow one, shape (0:degree,
+      !> n)
       real(wp), allocatable, private :: of_state(:, :)
-      !> Whether it is that of a slow solution, and when to look for one
+      !> Whether it is the series of a slow solution, and when to search for one
       type(slow_series) :: slow
    contains
-      !> The coefficients, delayed values and unit given
+      !> Find the coefficients; delayed values and unit are given
       procedure :: expand
       !> The state at a time
       procedure :: state
@@ -54,12 +57,12 @@ contains
 
       series%degree = degree
       allocate (series%coefficients(0:degree, problem%n))
-      allocate (series%delayed(0:degree, size(problem%lag)))
+      series%delayed = delayed_series(degree, size(problem%lag))
    end function new_series
 
-   !> The slow series where it holds, which puts the state on the slow solution; else that of the
-   !> state as it is.
-   pure subroutine expand(self, problem, t, scale, evaluations, y)
+   !> The slow series if it holds: the state is then moved onto the slow solution. Otherwise the
+   !> series of the state.
+   pure subroutine expand(self, problem, t, scale, work, y)
       !> The series
       class(taylor_series), intent(inout) :: self
       !> The problem
@@ -68,8 +71,8 @@ contains
       real(wp), intent(in) :: t
       !> Tolerance of each component
       real(wp), contiguous, intent(in) :: scale(:)
-      !> Series evaluated so far
-      integer(int64), intent(inout) :: evaluations
+      !> Work so far
+      type(work_type), intent(inout) :: work
       !> State
       real(wp), contiguous, intent(inout) :: y(:)
       real(wp) :: rate
@@ -77,41 +80,28 @@ contains
 
       rate = problem%relaxation_rate(t, y)
       trying = self%slow%holds
-      if (trying) call find_slow(self, problem, t, scale, rate, evaluations, y)
+      if (trying) call find_slow(self, problem, t, scale, rate, work, y)
       if (self%slow%holds) return
-      if (self%unit*rate > longest_unit) call shorten_unit(self, longest_unit/rate)
+      if (self%unit*rate > longest_unit) then
+         call self%delayed%change_unit(longest_unit/rate/self%unit)
+         self%unit = longest_unit/rate
+      end if
       self%coefficients(0, :) = y
-      call problem%series(t, self%unit, self%degree, self%delayed, self%coefficients)
-      evaluations = evaluations + 1
+      call problem%series(t, self%unit, self%degree, self%delayed%coefficients, &
+                          self%coefficients)
+      work%evaluations = work%evaluations + 1
       call series_reach(self%degree, self%coefficients, scale, self%reach)
       self%reach = self%unit*self%reach
       if (trying) return
-      call self%slow%worth_a_try(rate*self%reach, trying)
+      call self%slow%decide_search(rate*self%reach, trying)
       if (.not. trying) return
       self%of_state = self%coefficients
-      call find_slow(self, problem, t, scale, rate, evaluations, y)
+      call find_slow(self, problem, t, scale, rate, work, y)
       if (.not. self%slow%holds) self%coefficients = self%of_state
    end subroutine expand
 
-   !> Another unit for the series of delayed values.
-   pure subroutine shorten_unit(self, unit)
-      !> The series
-      class(taylor_series), intent(inout) :: self
-      !> The unit
-      real(wp), intent(in) :: unit
-      real(wp) :: power
-      integer :: k
-
-      power = 1.0_wp
-      do k = 1, self%degree
-         power = power*(unit/self%unit)
-         self%delayed(k, :) = power*self%delayed(k, :)
-      end do
-      self%unit = unit
-   end subroutine shorten_unit
-
-   !> Take the slow series where it holds.
-   pure subroutine find_slow(self, problem, t, scale, rate, evaluations, y)
+   !> Take the slow series if it holds.
+   pure subroutine find_slow(self, problem, t, scale, rate, work, y)
       !> The series
       class(taylor_series), intent(inout) :: self
       !> The problem
@@ -122,14 +112,14 @@ contains
       real(wp), contiguous, intent(in) :: scale(:)
       !> Relaxation rate
       real(wp), intent(in) :: rate
-      !> Series evaluated so far
-      integer(int64), intent(inout) :: evaluations
+      !> Work so far
+      type(work_type), intent(inout) :: work
       !> State; that on the slow solution
       real(wp), contiguous, intent(inout) :: y(:)
 
       self%coefficients(0, :) = y
-      call self%slow%find(problem, t, self%unit, self%degree, self%delayed, scale, rate, &
-                          evaluations, self%coefficients)
+      call self%slow%find(problem, t, self%unit, self%degree, self%delayed%coefficients, scale, &
+                          rate, work, self%coefficients)
       if (.not. self%slow%holds) return
       y = self%coefficients(0, :)
       self%reach = self%unit*self%slow%reach
@@ -160,7 +150,7 @@ contains
       integer :: k
 
       value = self%coefficients(1, :)/self%unit
-      ! at the start it is known even where later terms are not finite
+      ! at the start it is known even if later terms are not finite
       if (.not. time > 0.0_wp) return
       value = 0.0_wp
       do k = self%degree, 1, -1

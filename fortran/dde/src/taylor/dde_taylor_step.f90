@@ -1,51 +1,56 @@
 !> One step by the Taylor series of the solution, for problems that give it. The last coefficients
-!> tell how long it may be, so that hardly a step is rejected; the series is its own dense output,
-!> and serves as the past beyond the end of the step as far as it converges.
+!> give the step size before the step, so that hardly a step is rejected. The series is its own
+!> dense output. As far as it converges it is also valid beyond the end of the step.
 module dde_taylor_step
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+   use dde_controller, only: controller_type
+   use dde_cursor, only: cursor_type
    use dde_history, only: history_type
+   use dde_method_constants, only: method_constants
    use dde_interpolant, only: highest_degree
    use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
    use dde_taylor_series, only: taylor_series
    use dde_tolerance, only: tolerance_type
+   use dde_work, only: work_type
    use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: taylor_step_type
 
-   !> Degree = this - log10(tolerance), near the one with the least cost for an accuracy: Jorba and
-   !> Zou 2005, "A software package for the numerical integration of ODEs by means of high-order
-   !> Taylor methods", sec. 3.2, have 1 - ln(tolerance)/2; more, since a step here costs three times
-   !> its series.
+   !> Degree = this - log10(tolerance), near the degree of least cost for an accuracy. Jorba and Zou
+   !> 2005, "A software package for the numerical integration of ODEs by means of high-order Taylor
+   !> methods", sec. 3.2, have 1 - ln(tolerance)/2. The degree here is higher since a step costs
+   !> three times its series.
    real(wp), parameter :: degree_at_one = 7.0_wp
    !> Lowest degree.
    integer, parameter :: lowest_degree = 6
-   !> How far the series is tried as the past, in units of the length it allows its own step.
+   !> The series is valid as the past for this many times the step size that it allows.
    real(wp), parameter :: beyond = 1.2_wp
-   !> The unit of a series is the length that the one before allowed, at most this times the length
-   !> that its step had: powers of it must not overflow where a solution is a polynomial.
+   !> The unit of a series is the step size that the last series allowed, at most this many times
+   !> the length of its step: powers of it must not overflow where a solution is a polynomial.
    real(wp), parameter :: growth = 1000.0_wp
-   !> Cost of a series over that of a right-hand side, over its degree (instructions and time of the
-   !> spring block).
+   !> Cost of a series over that of a right-hand side, divided by its degree (measured in
+   !> instructions and time on a spring-block model).
    real(wp), parameter :: cost_of_degree = 0.75_wp
-   !> Below this share of the first term the second is small, below its square the third.
+   !> The second term is small below this share of the first, the third below its square.
    real(wp), parameter :: small = 0.04_wp
-   !> A little more than the second term of exp(x) at the limit of stability, over degree squared.
+   !> Second term of exp(x) at the limit of stability, over degree squared, and a little more.
    real(wp), parameter :: stability = 0.1_wp
 
    !> A step along the series from its start on.
    type, extends(step_type) :: taylor_step_type
       !> The series
       type(taylor_series), private :: series
-      !> Where along the series the present state is; before it where its slope was evaluated
+      !> Time along the series of the present state; negative if its slope was evaluated instead
       real(wp), private :: place = -1.0_wp
    contains
       procedure :: reset
-      procedure :: look_ahead
+      procedure :: propose
       procedure :: attempt
       procedure :: interpolant
-      procedure :: held_back
+      procedure :: stiff
+      procedure :: next_length
       procedure :: advance
       procedure :: slope_here
    end type taylor_step_type
@@ -66,22 +71,15 @@ contains
       integer :: degree
 
       degree = max(lowest_degree, min(highest_degree, nint(degree_at_one - log10(tolerance))))
-      step%name = "taylor"
-      step%order = degree
-      step%error_order = degree
+      step%constants = method_constants(name="taylor", order=degree, error_order=degree, &
+                                        evaluation_cost=cost_of_degree*degree)
+      call step%allocate_state(problem)
       step%powers = .true.
-      step%foresees = .true.
-      step%evaluation_cost = cost_of_degree*degree
-      associate (n => problem%n, delays => size(problem%lag))
-         allocate (step%nodes(degree), source=0.0_wp)
-         allocate (step%y(n), step%y_new(n), step%slope(n), step%z(delays, 1))
-         allocate (step%scale(n))
-      end associate
+      allocate (step%nodes(degree), source=0.0_wp)
       step%series = taylor_series(problem, degree)
-      call problem%initial(step%y)
    end function new_step
 
-   !> The slope has been evaluated, the last step has no say.
+   !> The slope was evaluated: the last series no longer gives it.
    pure subroutine reset(self)
       !> The step
       class(taylor_step_type), intent(inout) :: self
@@ -89,70 +87,83 @@ contains
       self%place = -1.0_wp
    end subroutine reset
 
-   !> The series, and how long the step may be: as the series allows, and as long as the past
-   !> serves.
-   pure subroutine look_ahead(self, problem, past, t, tolerance, longest, h)
+   !> Find the series, and the largest step for which it and the past it is made from are valid.
+   pure subroutine propose(self, problem, past, cursor, tolerance, work, h)
       !> The step
       class(taylor_step_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The past, facing the step
-      type(history_type), intent(inout) :: past
-      !> Start of the step
-      real(wp), intent(in) :: t
+      !> The past
+      type(history_type), intent(in) :: past
+      !> The cursor, on the longest step that is possible
+      type(cursor_type), intent(inout) :: cursor
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
-      !> Longest step of use
-      real(wp), intent(in) :: longest
-      !> Length of the step: proposed, then possible
+      !> Work so far
+      type(work_type), intent(inout) :: work
+      !> Step size: proposed so far, then possible
       real(wp), intent(inout) :: h
-      real(wp) :: past_serves, possible, unit
-      logical :: passing
+      real(wp) :: past_valid_for, possible, unit
+      logical :: skipping
 
-      unit = merge(min(self%ideal, growth*self%h), h, self%ideal > 0.0_wp)
-      call tolerance%scale(self%y, self%scale)
-      passing = .true.
       associate (series => self%series)
+         unit = merge(min(series%reach, growth*self%h), h, series%reach > 0.0_wp)
+         call tolerance%scale(self%y, self%scale)
+         skipping = .true.
          do
             series%unit = unit
-            call past%series(problem, passing, series%unit, series%delayed, past_serves)
-            call series%expand(problem, self%inside(t), self%scale, self%evaluations, self%y)
-            possible = min(series%reach, past_serves, longest)
-            call past%confirm(series%delayed, series%unit, tolerance, possible)
-            if (possible > 0.0_wp .or. .not. passing) exit
-            passing = .false.
+            call series%delayed%read_past(problem, past, cursor, skipping, series%unit, &
+                                          past_valid_for)
+            call series%expand(problem, cursor%inside(cursor%t), self%scale, work, self%y)
+            possible = min(series%reach, past_valid_for, cursor%h)
+            call series%delayed%confirm(past, cursor, series%unit, tolerance, possible)
+            if (possible > 0.0_wp .or. .not. skipping) exit
+            skipping = .false.
          end do
-         self%ideal = series%reach
          self%place = 0.0_wp
+         self%valid_for = beyond*series%reach
+         if (series%reach > 0.0_wp) h = possible
       end associate
-      self%serves = beyond*self%ideal
-      if (self%ideal > 0.0_wp) h = possible
-   end subroutine look_ahead
+   end subroutine propose
 
-   !> Try the step of length `h` from t: the error is within the tolerance.
-   pure subroutine attempt(self, problem, past, t, h, tolerance, error)
+   !> The next step size that the series would allow is near that of this one.
+   pure subroutine next_length(self, control, h, error)
+      !> The step, accepted
+      class(taylor_step_type), intent(in) :: self
+      !> Step control
+      type(controller_type), intent(inout) :: control
+      !> Length of the step, replaced by the next
+      real(wp), intent(inout) :: h
+      !> Error of the step in units of the tolerance
+      real(wp), intent(in) :: error
+
+      h = self%series%reach
+   end subroutine next_length
+
+   !> Attempt a step. Its length was chosen so that the error is within the tolerance.
+   pure subroutine attempt(self, problem, past, cursor, tolerance, work, error)
       !> The step
       class(taylor_step_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The past, facing this step
-      type(history_type), intent(inout) :: past
-      !> Start of the step
-      real(wp), intent(in) :: t
-      !> Length of the step
-      real(wp), intent(in) :: h
+      !> The past
+      type(history_type), intent(in) :: past
+      !> The cursor, on this step
+      type(cursor_type), intent(inout) :: cursor
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
+      !> Work so far
+      type(work_type), intent(inout) :: work
       !> 0, or not a number where the series is not finite
       real(wp), intent(out) :: error
 
-      self%t = t
-      self%h = h
+      self%t = cursor%t
+      self%h = cursor%h
       error = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (.not. self%ideal > 0.0_wp) return
-      ! beyond this, terms that have vanished in a very short step would count
-      self%serves = min(self%serves, growth*h)
-      call self%series%state(h, self%y_new)
+      if (.not. self%series%reach > 0.0_wp) return
+      ! beyond this, terms that vanish in a very short step would become large
+      self%valid_for = min(self%valid_for, growth*self%h)
+      call self%series%state(self%h, self%y_new)
       if (all(ieee_is_finite(self%y_new))) error = 0.0_wp
    end subroutine attempt
 
@@ -179,9 +190,9 @@ contains
    end subroutine interpolant
 
    !> Whether the step is much shorter than the time on which the solution changes: its second and
-   !> third terms are small beside the first, but for what truncation, at the level of the
-   !> tolerance, makes of them in a step at the limit of stability, or in a slow series by itself.
-   pure logical function held_back(self) result(value)
+   !> third terms are small beside the first. They may exceed that by the truncation error, which is
+   !> at the level of the tolerance, in a step at the limit of stability or in a slow series.
+   pure logical function stiff(self) result(value)
       !> The step
       class(taylor_step_type), intent(in) :: self
       real(wp) :: first, of_second, of_third, place, second, third, weight
@@ -202,11 +213,11 @@ contains
       of_second = 1.0_wp
       of_third = 1.0_wp
       if (.not. self%series%slow%holds) then
-         of_second = stability*self%order**2
-         of_third = of_second*self%order/6
+         of_second = stability*self%constants%order**2
+         of_third = of_second*self%constants%order/6
       end if
       value = second < small*first + of_second .and. third < small**2*first + of_third
-   end function held_back
+   end function stiff
 
    !> The end becomes the start.
    pure subroutine advance(self)
@@ -217,7 +228,7 @@ contains
       self%place = self%h
    end subroutine advance
 
-   !> Along a series its derivative.
+   !> The derivative of the series.
    pure function slope_here(self) result(slope)
       !> The step
       class(taylor_step_type), intent(in) :: self

@@ -1,0 +1,70 @@
+!> What a run has computed so far.
+module dde_work
+   use dde_kinds, only: int64, wp
+   implicit none (type, external)
+   private
+   public :: operations_of_evaluation, work_type
+
+   !> Additions and multiplications that cost as much as one evaluation by the explicit pair, for
+   !> each equation.
+   real(wp), parameter :: operations_of_evaluation = 200.0_wp
+
+   !> Counts of one run. Methods add to the first three.
+   type :: work_type
+      !> Evaluations of the right-hand side, or of the Taylor series
+      integer(int64) :: evaluations = 0
+      !> Matrices factorised
+      integer(int64) :: factorisations = 0
+      !> Additions and multiplications of factorisations and solutions
+      real(wp) :: operations = 0.0_wp
+      !> Number of equations
+      integer, private :: equations = 1
+      !> Cost of one evaluation by the method in use
+      real(wp), private :: cost = 1.0_wp
+      !> Evaluations by earlier methods, and their cost
+      integer(int64), private :: earlier_evaluations = 0
+      real(wp), private :: earlier_cost = 0.0_wp
+   contains
+      !> Another method takes over
+      procedure :: set_cost
+      !> All work, in evaluations of the explicit pair
+      procedure :: total
+   end type work_type
+
+   interface work_type
+      module procedure :: new_work
+   end interface work_type
+
+contains
+
+   !> Nothing done yet.
+   pure function new_work(equations) result(work)
+      !> Number of equations
+      integer, intent(in) :: equations
+      type(work_type) :: work
+
+      work%equations = equations
+   end function new_work
+
+   !> Another method takes over, whose evaluations have another cost.
+   pure subroutine set_cost(self, cost)
+      !> The work
+      class(work_type), intent(inout) :: self
+      !> Cost of one evaluation, in evaluations of the explicit pair
+      real(wp), intent(in) :: cost
+
+      self%earlier_cost = self%earlier_cost &
+                          + self%cost*(self%evaluations - self%earlier_evaluations)
+      self%earlier_evaluations = self%evaluations
+      self%cost = cost
+   end subroutine set_cost
+
+   !> All work, in evaluations of the explicit pair.
+   pure real(wp) function total(self) result(all_work)
+      !> The work
+      class(work_type), intent(in) :: self
+
+      all_work = self%earlier_cost + self%cost*(self%evaluations - self%earlier_evaluations) &
+              + self%operations/(operations_of_evaluation*self%equations)
+   end function total
+end module dde_work

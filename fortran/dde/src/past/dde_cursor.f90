@@ -1,0 +1,204 @@
+!> Where one step stands, and the delayed values over it: for each of them a cursor walks from
+!> polynomial to polynomial of the past.
+module dde_cursor
+   use dde_history, only: history_type
+   use dde_interpolant, only: newton_values
+   use dde_problem, only: dde_problem_type
+   use dde_time, only: elapsed, instant, later
+   use dde_kinds, only: int64, wp
+   implicit none (type, external)
+   private
+   public :: cursor_type
+
+   !> The solution may jump where a step starts and ends, so that a step reads what lies between:
+   !> pieces of the past that overlap it by less than this share of it are not read.
+   real(wp), parameter :: overlap = 4.0_wp*epsilon(1.0_wp)
+   !> The same overlap for the problem's history, in units of the spacing of times.
+   real(wp), parameter :: spacings = 4.0_wp
+   !> Most places that a method may read at once.
+   integer, parameter :: most_places = 16
+
+   !> One step, and what each delayed value reads at its start.
+   type :: cursor_type
+      !> Start of the step as an ordinary number
+      real(wp) :: t = 0.0_wp
+      !> Length of the step
+      real(wp) :: h = 0.0_wp
+      !> The right-hand side may jump where the step starts and ends: it is evaluated between these
+      real(wp) :: earliest = -huge(1.0_wp), latest = huge(1.0_wp)
+      !> Number of the past step that each delayed value reads
+      integer(int64), allocatable :: step(:)
+      !> Slot of that step
+      integer, allocatable :: slot(:)
+      !> Start of the current step less the delay, for each delayed value
+      type(instant), allocatable :: delayed_start(:)
+      !> The same, measured from the start of the past step
+      real(wp), allocatable :: offset(:)
+      !> Whether the delayed value lies before the first instant
+      logical, allocatable :: before_origin(:)
+   contains
+      !> Go to a step
+      procedure :: set
+      !> A time at which the right-hand side may be evaluated
+      procedure :: inside
+      !> All delayed values at places of the step
+      procedure :: values
+      !> A time in the problem's history
+      procedure :: time_before
+      !> Let one delayed value read a given past step
+      procedure :: read_from
+   end type cursor_type
+
+   interface cursor_type
+      module procedure :: new_cursor
+   end interface cursor_type
+
+contains
+
+   !> A cursor on no step.
+   pure function new_cursor(problem) result(cursor)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      type(cursor_type) :: cursor
+
+      associate (terms => size(problem%lag))
+         allocate (cursor%step(terms), source=0_int64)
+         allocate (cursor%slot(terms), source=0)
+         allocate (cursor%delayed_start(terms), cursor%offset(terms), cursor%before_origin(terms))
+      end associate
+   end function new_cursor
+
+   !> Go to the step from `start`, `length` long. Steps end at every instant where a delayed time
+   !> passes the first instant, so that a delayed value lies on one side of it for the whole step.
+   pure subroutine set(self, problem, past, start, length)
+      !> The cursor
+      class(cursor_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The past
+      type(history_type), intent(in) :: past
+      !> Start of the step
+      type(instant), intent(in) :: start
+      !> Its length
+      real(wp), intent(in) :: length
+      integer :: k
+
+      self%t = start%hi
+      self%h = length
+      do k = 1, size(self%offset)
+         self%delayed_start(k) = later(start, -problem%lag(k))
+         self%before_origin(k) = elapsed(past%origin, self%delayed_start(k)) < -0.5_wp*length
+         if (.not. self%before_origin(k)) then
+            call self%read_from(past, k, max(self%step(k), past%oldest))
+         end if
+      end do
+   end subroutine set
+
+   !> The time nearest to `t` at which the right-hand side may be evaluated.
+   pure real(wp) function inside(self, t) result(time)
+      !> The cursor
+      class(cursor_type), intent(in) :: self
+      !> A time from the start of the step to its end
+      real(wp), intent(in) :: t
+
+      time = max(self%earliest, min(self%latest, t))
+   end function inside
+
+   !> All delayed values at places of the step, each place after the one before.
+   pure subroutine values(self, problem, past, ahead, z)
+      !> The cursor
+      class(cursor_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The past
+      type(history_type), intent(in) :: past
+      !> Times since the start of the step, ascending, 0..length, at most `most_places`
+      real(wp), contiguous, intent(in) :: ahead(:)
+      !> Delayed values, shape (size(problem%lag), size(ahead))
+      real(wp), contiguous, intent(out) :: z(:, :)
+      real(wp) :: found(most_places)
+      integer :: i, k
+
+      do k = 1, size(z, 1)
+         if (self%before_origin(k)) then
+            do i = 1, size(ahead)
+               z(k, i) = problem%history(self%time_before(past, problem%lag(k), ahead(i)), &
+                                         problem%component(k))
+            end do
+         else
+            call look_up(self, past, k, ahead, found)
+            z(k, :) = found(:size(ahead))
+         end if
+      end do
+   end subroutine values
+
+   !> A time in the problem's history. Where that may jump it lies between those of the step's ends.
+   pure real(wp) function time_before(self, past, lag, ahead) result(time)
+      !> The cursor
+      class(cursor_type), intent(in) :: self
+      !> The past
+      type(history_type), intent(in) :: past
+      !> The delay
+      real(wp), intent(in) :: lag
+      !> Time since the start of the step
+      real(wp), intent(in) :: ahead
+      real(wp) :: margin
+
+      time = self%t + (ahead - lag)
+      if (.not. past%history_jumps) return
+      margin = spacings*spacing(max(abs(self%t), lag))
+      time = max(min(time, self%t + (self%h - lag) - margin), self%t - lag + margin)
+   end function time_before
+
+   !> One delayed value at several places, ascending: step by step of the past.
+   pure subroutine look_up(self, past, k, ahead, z)
+      !> The cursor
+      type(cursor_type), intent(inout) :: self
+      !> The past
+      type(history_type), intent(in) :: past
+      !> Which delayed value
+      integer, intent(in) :: k
+      !> Times since the start of the step, ascending
+      real(wp), contiguous, intent(in) :: ahead(:)
+      !> The delayed value there
+      real(wp), intent(inout) :: z(most_places)
+      real(wp) :: first_place, limit, margin
+      integer :: first, slot
+
+      margin = overlap*self%h
+      first_place = max(ahead(1), margin)
+      do while (self%offset(k) + first_place < 0.0_wp .and. self%step(k) > past%oldest)
+         call self%read_from(past, k, self%step(k) - 1)
+      end do
+      do while (self%offset(k) + first_place > past%length(self%slot(k)) &
+                .and. self%step(k) < past%newest)
+         call self%read_from(past, k, self%step(k) + 1)
+      end do
+      first = 1
+      do
+         slot = self%slot(k)
+         limit = merge(huge(1.0_wp), past%length(slot) + margin, self%step(k) == past%newest)
+         call newton_values(past%degree(slot), past%nodes(:, slot), &
+                            past%coefficients(:, past%row(k), slot), self%offset(k), &
+                            past%length(slot), limit, size(ahead), ahead, first, z)
+         if (first > size(ahead)) exit
+         call self%read_from(past, k, self%step(k) + 1)
+      end do
+   end subroutine look_up
+
+   !> Let delayed value k read past step number `step`.
+   pure subroutine read_from(self, past, k, step)
+      !> The cursor
+      class(cursor_type), intent(inout) :: self
+      !> The past
+      type(history_type), intent(in) :: past
+      !> Which delayed value
+      integer, intent(in) :: k
+      !> Number of the step
+      integer(int64), intent(in) :: step
+
+      self%step(k) = step
+      self%slot(k) = past%slot_of(step)
+      self%offset(k) = elapsed(past%start(self%slot(k)), self%delayed_start(k))
+   end subroutine read_from
+end module dde_cursor
