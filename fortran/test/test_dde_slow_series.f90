@@ -259,8 +259,8 @@ contains
                         failure)
          call expect_success(error, failure)
          call expect_close(error, outcome%y, known%y, 1000*10.0_wp**(-i), "1e-"//text(i))
-         call expect_between(error, real(outcome%implicit_steps, wp), &
-                             0.75_wp*outcome%accepted, real(outcome%accepted, wp), "implicit steps")
+         call expect_between(error, real(outcome%accepted, wp), 30.0_wp, 400.0_wp, "steps")
+         call expect(error, outcome%implicit_steps > 10, "implicit steps")
       end do
    end subroutine test_plain
 
@@ -275,8 +275,7 @@ contains
                      0.0_wp, 20.0_wp, at_tolerance(1.0e-6_wp, "auto"), outcome, failure)
       call expect_success(error, failure)
       call expect_between(error, real(outcome%accepted, wp), 20.0_wp, 2000.0_wp, "steps")
-      call expect_between(error, real(outcome%implicit_steps, wp), 10.0_wp, &
-                          real(outcome%accepted, wp), "implicit steps")
+      call expect(error, outcome%implicit_steps > 5, "implicit steps")
    end subroutine test_short_delay
 
    !> Where the block has come to rest, `auto` takes implicit steps without end.

@@ -3,6 +3,7 @@
 module test_dde_large
    use dde, only: integrate, integration_options, integration_result
    use dde_jacobian, only: jacobian_type
+   use dde_methods, only: price_of_trial
    use dde_tolerance, only: tolerance_type
    use dde_work, only: work_type
    use dde_errors, only: failure_type => error_type, text
@@ -159,6 +160,7 @@ contains
       type(failure_type), allocatable :: failure
       type(integration_result) :: auto, explicit, implicit
       type(cells) :: problem
+      real(wp) :: price
       integer :: banded, i, n
 
       do banded = 0, 1
@@ -178,7 +180,8 @@ contains
                call expect_success(error, failure)
                if (allocated(error)) return
                associate (better => min(explicit%work, implicit%work))
-                  call expect(error, auto%work <= 1.5_wp*better + 700.0_wp, &
+                  price = price_of_trial(problem, tolerance_type(n, 1.0e-5_wp, 1.0e-5_wp))
+                  call expect(error, auto%work <= 1.5_wp*better + 2*price, &
                               text(auto%work)//" by auto, "//text(explicit%work) &
                               //" by explicit, "//text(implicit%work)//" by radau9")
                end associate

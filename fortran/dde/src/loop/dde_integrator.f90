@@ -6,7 +6,7 @@ module dde_integrator
    use dde_diagnosis, only: not_finite
    use dde_event_search, only: endless, most_places
    use dde_events, only: event_watcher_type
-   use dde_methods, only: limiting_delay, longest_step, price_of_try
+   use dde_methods, only: limiting_delay, longest_step, price_of_trial
    use dde_outcome, only: event_met, explain, integration_result, limit_met, reached_end, &
                           value_not_finite
    use dde_output, only: deliver, sample_start
@@ -65,7 +65,7 @@ contains
       end if
       longest = longest_step(problem, run%step, longest_of_all)
       automatic = options%method == "auto"
-      if (automatic) switch%price = price_of_try(problem, run%tolerance)
+      if (automatic) switch%price = price_of_trial(problem, run%tolerance)
       shortest_delay = limiting_delay(problem)
       error_estimate = 0.0_wp
 

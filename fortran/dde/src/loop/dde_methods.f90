@@ -4,6 +4,7 @@ module dde_methods
    use dde_implicit_step, only: implicit_cost, implicit_step_type
    use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
+   use dde_switch, only: least_trial
    use dde_systems, only: complex_over_real, factor_operations
    use dde_taylor_step, only: taylor_step_type
    use dde_tolerance, only: tolerance_type
@@ -12,59 +13,40 @@ module dde_methods
    implicit none (type, external)
    private
    public :: change_method, choose_method, limiting_delay, longest_step, matching_method
-   public :: price_of_try
+   public :: price_of_trial
 
-   !> Tolerances from which on, and below which, `auto` takes another order than 9: fewer stages
-   !> cost less where little is asked, more where much is.
-   real(wp), parameter :: loose = 3.0e-5_wp, tight = 1.0e-11_wp
+   !> Tolerance below which `auto` takes order 13 in place of 9.
+   real(wp), parameter :: tight = 1.0e-11_wp
    !> Delayed values up to which an implicit step may be longer than the shortest delay: those that
    !> lie in the step itself are unknowns beside the stages.
    integer, parameter :: most_coupled = 64
 
    !> Iterations of a usual implicit step.
    integer, parameter :: usual_iterations = 3
-   !> Steps of the implicit method after which a try of it may fail, in its usual length.
-   real(wp), parameter :: steps_of_try = 4.0_wp
 
 contains
 
-   !> Work of a try of the implicit method that fails, in evaluations of the explicit pair.
-   pure real(wp) function price_of_try(problem, tolerance) result(price)
+   !> Work of a short trial of the implicit method, in evaluations of the explicit pair: one
+   !> Jacobian by differences, and steps that factorise anew.
+   pure real(wp) function price_of_trial(problem, tolerance) result(price)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
-      integer :: stages
-
-      select case (matching_method(problem, tolerance, implicit=.true.))
-      case ("radau5")
-         stages = 3
-      case ("radau9")
-         stages = 5
-      case default
-         stages = 7
-      end select
-      price = steps_of_try*work_of_step(problem, stages)
-   end function price_of_try
-
-   !> Work of a step with a new Jacobian by differences, in evaluations of the explicit pair.
-   pure real(wp) function work_of_step(problem, stages) result(work)
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> Number of stages
-      integer, intent(in) :: stages
-      integer :: columns
+      integer :: columns, stages
       real(wp) :: operations
 
+      stages = merge(5, 7, matching_method(problem, tolerance, implicit=.true.) == "radau9")
       columns = problem%n
       if (problem%lower >= 0) columns = min(problem%n, 1 + problem%lower + problem%upper)
       ! one real system, and one complex one for each pair of stages
       operations = (1 + complex_over_real*(stages/2)) &
                    *(factor_operations(problem%n, problem%lower >= 0, problem%lower, &
                                        problem%upper) + usual_iterations*2.0_wp*problem%n*columns)
-      work = implicit_cost*(usual_iterations*stages + 2 + columns) &
-             + operations/(operations_of_evaluation*problem%n)
-   end function work_of_step
+      price = implicit_cost*columns &
+              + least_trial*(implicit_cost*(usual_iterations*stages + 2) &
+                             + operations/(operations_of_evaluation*problem%n))
+   end function price_of_trial
 
    !> A step of the chosen method; `auto` begins with an explicit one.
    subroutine choose_method(problem, method, tolerance, step)
@@ -107,7 +89,6 @@ contains
          return
       end if
       method = "radau9"
-      if (tolerance%level >= loose) method = "radau5"
       if (tolerance%level < tight) method = "radau13"
    end function matching_method
 
