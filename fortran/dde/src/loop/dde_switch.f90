@@ -159,7 +159,7 @@ contains
       real(wp), intent(in) :: h_next
       logical :: delay_limits
 
-      delay_limits = h_next > beyond_the_delay*shortest_delay
+      delay_limits = h_next/beyond_the_delay > shortest_delay
       if (step%constants%implicit) then
          limited = (.not. step%stiff() .or. in_balance(problem, step)) &
                    .and. .not. delay_limits
