@@ -210,6 +210,7 @@ def project_files() -> list[str]:
     except (OSError, subprocess.CalledProcessError):
         paths = (path.relative_to(ROOT) for path in ROOT.rglob("*"))
         names = {str(path) for path in paths if not MADE & set(path.parts)}
+        names.add("results/README.md")
     return sorted(name for name in names if (ROOT / name).is_file())
 
 
