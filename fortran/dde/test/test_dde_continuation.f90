@@ -33,8 +33,28 @@ contains
                    new_unittest("another delay", test_lag), &
                    new_unittest("when steps run out", test_too_many_steps), &
                    new_unittest("from event to event", test_events), &
-                   new_unittest("through a file", test_file)]
+                   new_unittest("through a file", test_file), &
+                   new_unittest("names of methods", test_names)]
    end subroutine collect_dde_continuation
+
+   !> Each method that a caller may choose runs, and none runs in place of another.
+   subroutine test_names(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(continuation_type) :: continuation
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      integer :: i
+
+      do i = 1, size(methods)
+         if (methods(i) == "auto") cycle
+         continuation = continuation_type()
+         call integrate(sine(), 0.0_wp, 1.0_wp, at_tolerance(1.0e-6_wp, methods(i)), outcome, &
+                        failure, continuation=continuation)
+         call expect_success(error, failure)
+         call expect(error, continuation%method == methods(i), continuation%method//" for " &
+                     //methods(i))
+      end do
+   end subroutine test_names
 
    !> y = sin t, in the middle of the first delay, at its end, and on.
    subroutine test_sine(error)
