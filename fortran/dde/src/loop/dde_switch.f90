@@ -24,7 +24,7 @@ module dde_switch
    real(wp), parameter :: growing = 1.2_wp
    !> Proposed length, in units of the shortest delay, from which on the delay limits an explicit
    !> step.
-   real(wp), parameter :: beyond_the_delay = 2.0_wp
+   real(wp), parameter :: beyond_the_delay = 4.0_wp
 
    !> States of the choice.
    integer, parameter :: settled = 1, on_trial = 2
