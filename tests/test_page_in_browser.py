@@ -13,10 +13,13 @@ from conftest import ROOT
 
 BROWSER = ROOT / "tests" / "browser"
 PYTHON = BROWSER / ".venv" / "bin" / "python"
-pytestmark = pytest.mark.skipif(
-    not (PYTHON.exists() and Path("/usr/bin/chromium").exists()),
-    reason="no Chromium; `setup/setup.sh tests/browser` sets it up, and so does ./test",
-)
+pytestmark = [
+    pytest.mark.browser,
+    pytest.mark.skipif(
+        not (PYTHON.exists() and Path("/usr/bin/chromium").exists()),
+        reason="no Chromium; `setup/setup.sh tests/browser` sets it up, and so does ./test",
+    ),
+]
 
 
 def mailed(smoke, folder: Path) -> Path:
