@@ -72,6 +72,13 @@ def test_fpm_builds_it(tmp_path):
     assert "1.060954363" in run("fpm", "run", "--example", cwd=tmp_path / "dde")
 
 
+@pytest.mark.long
+def test_its_own_tests_pass_without_lapack(tmp_path):
+    """As fpm runs them, from a copy of its folder."""
+    shutil.copytree(PACKAGE, tmp_path / "dde")
+    run("fpm", "test", cwd=tmp_path / "dde")
+
+
 def test_it_stays_quiet_in_another_project(tmp_path):
     """As a folder of it: its tests and its installation stay away."""
     (tmp_path / "CMakeLists.txt").write_text(
