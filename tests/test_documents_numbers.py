@@ -224,7 +224,6 @@ SAID = [
     Said("docs/findings.md", "cycle of {} points in the section at {}", lambda: cycle_of("19")),
     Said("docs/findings.md", "| {1} | cycle of {0} points", lambda: cycle_of("23")),
     Said("docs/findings.md", "| from {:.3f} | chaos", lambda: [min(on_route("epsilon", "chaos"))]),
-    Said("docs/findings.md", "windows of cycles: {} points at {}", lambda: cycle_of("20")),
     Said(
         "docs/findings.md", "{} of the {} points are undecided",
         lambda: [len(on_route("epsilon", "undecided")), len(table("route-to-chaos.tsv"))],

@@ -56,7 +56,7 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       !> File and what it describes, for the message
       character(len=*), intent(in) :: place
-      !> Which: the name of its component
+      !> Name of its component
       character(len=*), intent(in) :: quantity
       !> Its value
       real(wp), intent(in) :: value

@@ -179,7 +179,7 @@ contains
       integer, intent(in) :: degree
       !> Coefficients of the delayed values
       real(wp), intent(in) :: z(0:degree, size(self%lag))
-      !> Coefficients: the last ones (at first the state at t and zeros), then better ones
+      !> Coefficients of the last iteration (at first the state at t and zeros), then better ones
       real(wp), intent(inout) :: y(0:degree, self%n)
 
       y = ieee_value(1.0_wp, ieee_quiet_nan)

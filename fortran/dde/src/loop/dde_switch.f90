@@ -29,11 +29,14 @@ module dde_switch
    !> States of the choice.
    integer, parameter :: settled = 1, on_trial = 2
 
-   !> Steps in a row: time and work, in evaluations of the explicit pair.
+   !> Steps in a row.
    type :: stretch_type
+      !> Their number
       integer :: steps = 0
+      !> Their time, and their work in evaluations of the explicit pair
       real(wp) :: time = 0.0_wp, work = 0.0_wp
    contains
+      !> One more step
       procedure :: add
       !> Time per work
       procedure :: pace
@@ -75,11 +78,11 @@ contains
    end subroutine add
 
    !> Time per work.
-   pure real(wp) function pace(self)
+   pure real(wp) function pace(self) result(value)
       !> The stretch
       class(stretch_type), intent(in) :: self
 
-      pace = self%time/max(1.0_wp, self%work)
+      value = self%time/max(1.0_wp, self%work)
    end function pace
 
    !> Take in an accepted step, and see whether the other method takes over.
