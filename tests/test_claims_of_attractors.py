@@ -38,7 +38,7 @@ def test_attractor_class(classes, verdict):
     found = TESTS["attractor_class"](of_classes(*classes), scene="mine", expected="cycle")
     assert found.verdict == verdict
     assert f"own history: {classes[0]} (exponents -0.01 +- 0.001, " in found.evidence
-    assert f"Other histories ({len(classes) - 1}): " in found.evidence
+    assert f"Classes from {len(classes) - 1} other histories: " in found.evidence
 
 
 def test_moved_scene_oscillates_no_more():
@@ -66,7 +66,7 @@ def test_spectrum_class(met):
     made = results(attractors=[row])
     found = TESTS["spectrum_class"](made, scene="mine", expected="torus")
     assert found.verdict == (REPRODUCED if met == "torus" else NOT_REPRODUCED)
-    assert f"mine: {met}; base frequencies of its peaks: 0.1." in found.evidence
+    assert f"mine by its spectrum: {met}. Base frequencies of the peaks: 0.1." in found.evidence
 
 
 @pytest.mark.parametrize(
@@ -132,14 +132,14 @@ def test_route_in_words():
     made = results(route=route_rows("cycle/1", "cycle/1", "undecided", "cycle/2", "chaos"))
     found = TESTS["route"](made, expected=["cycle", "chaos"])
     assert found.verdict == REPRODUCED
-    assert "cycle 0.1 to 0.2, cycle of period 2 0.4, chaos 0.5; 1 of 5" in found.evidence
+    assert "cycle 0.1 to 0.2, cycle of period 2 0.4, chaos 0.5. Undecided: 1 of 5" in found.evidence
 
 
 def test_long_route_is_cut():
-    """A sentence stays a sentence."""
+    """The evidence names 12 intervals and counts the others."""
     made = results(route=route_rows(*["cycle", "chaos"] * 10))
     found = TESTS["route"](made, expected=["cycle", "chaos"])
-    assert ", and 8 stretches more; 0 of 20 points undecided." in found.evidence
+    assert ", and 8 more intervals. Undecided: 0 of 20 points." in found.evidence
 
 
 @pytest.mark.parametrize("test", ["attractor_class", "spectrum_class", "delay_alone_makes"])

@@ -88,13 +88,13 @@ def test_kinds_of_hopf(l1, expected, verdict):
 
 
 def test_kinds_count_where_stability_changes():
-    """Beside other unstable pairs a bifurcation is told of, not judged."""
+    """A bifurcation beside other unstable pairs is counted, not judged."""
     curves = changed(hopf_curve(), l1=np.where(np.arange(12) < 3, 0.1, -0.1))
     curves = changed(curves, unstable_pairs=np.where(np.arange(12) < 3, 1, 0))
     test = TESTS["kinds_of_hopf"]
     found = test(on_plane(curves), planes=["plane"], expected=["supercritical"])
     assert found.verdict == REPRODUCED
-    assert "of all 12 points 3 are subcritical" in found.evidence
+    assert "Of all 12 points 3 are subcritical" in found.evidence
     nowhere = changed(curves, unstable_pairs=2)
     found = test(on_plane(nowhere), planes=["plane"], expected=["supercritical"])
     assert found.verdict == NOT_REPRODUCED

@@ -86,7 +86,7 @@ def test_equation_9():
     assert (wide.xi > 0).all()
     found = finding("equation_9", wide)
     assert found.verdict == CORRECTED
-    assert "asks for the other quadrant" in found.evidence
+    assert "requires the other quadrant" in found.evidence
 
 
 @pytest.mark.parametrize(

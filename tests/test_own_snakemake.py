@@ -72,7 +72,7 @@ def test_packages_that_are_missing_are_named(project, tmp_path):
     assert profile.startswith("Using workflow specific profile")
     assert said == (
         f"error: {python} lacks ruamel.yaml, f90nml, numpy, netCDF4; run ./reproduce, which sets up"
-        " what is missing, or . .venv/bin/activate where it did so before"
+        " what is missing; if it did so before, run . .venv/bin/activate"
     )
     assert [path.name for path in (project.folder / "results").iterdir()] == ["README.md"]
 

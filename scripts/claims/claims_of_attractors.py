@@ -17,8 +17,8 @@ from scripts.claims.claims_results import (
 )
 from scripts.tables.motion_rows import first_met
 
-STRETCHES_TOLD = 12
-"""Stretches of a route that its sentence names."""
+MOST_INTERVALS = 12
+"""Intervals of epsilon that the evidence of a route lists."""
 
 
 def attractor_class(results: Results, *, scene: str, expected: str) -> Finding:
@@ -28,9 +28,10 @@ def attractor_class(results: Results, *, scene: str, expected: str) -> Finding:
     known = results.stability_of(scene)
     where = ", ".join(f"{key} = {short(known[key])}" for key in ("tau", "epsilon", "xi", "gamma"))
     evidence = (
-        f"{scene} ({where}), own history: {in_words(own)}{exponents_of(own)}; by its section:"
-        f" {own['by_section']}, by its spectrum: {own['by_spectrum']}. Other histories"
-        f" ({len(others)}): {listed([f'{count} {name}' for name, count in sorted(met.items())])}."
+        f"Scene {scene} ({where}). Class from its own history: {in_words(own)}{exponents_of(own)}."
+        f" Class by the section: {own['by_section']}. Class by the spectrum: {own['by_spectrum']}."
+        f" Classes from {len(others)} other histories:"
+        f" {listed([f'{count} {name}' for name, count in sorted(met.items())])}."
     )
     if own["class"] == expected:
         return Finding(REPRODUCED, evidence)
@@ -44,7 +45,7 @@ def spectrum_class(results: Results, *, scene: str, expected: str) -> Finding:
     bases = [short(own[key]) for key in ("f1", "f2") if not math.isnan(own[key])]
     return decided(
         own["by_spectrum"] == expected,
-        f"Spectrum of {scene}: {own['by_spectrum']}; base frequencies of its peaks:"
+        f"Class of {scene} by its spectrum: {own['by_spectrum']}. Base frequencies of the peaks:"
         f" {listed(bases)}.",
     )
 
@@ -54,12 +55,12 @@ def sequence_of_scenes(results: Results, *, scenes: list[str], expected: list[st
     met = [in_words(results.attractors_of(scene)[0]) for scene in scenes]
     classes = [results.attractors_of(scene)[0]["class"] for scene in scenes]
     delays = [results.stability_of(scene)["tau"] for scene in scenes]
-    told = [f"{name} at tau = {short(delay)}" for name, delay in zip(met, delays, strict=True)]
+    parts = [f"{name} at tau = {short(delay)}" for name, delay in zip(met, delays, strict=True)]
     longer = all(before < after for before, after in pairwise(delays))
     return decided(
         classes == expected and longer,
-        f"In the paper's order: {', '.join(told)}; delays grow from each to the next:"
-        f" {'yes' if longer else 'no'}.",
+        f"Attractors in the paper's order: {', '.join(parts)}. Each delay is longer than the one"
+        f" before: {'yes' if longer else 'no'}.",
     )
 
 
@@ -69,9 +70,9 @@ def delay_alone_makes(results: Results, *, scene: str, expected: str) -> Finding
     stable = [f"{short(begin)} to {short(end)}" for begin, end in stable_delays(row)]
     return decided(
         own["class"] == expected and bool(stable),
-        f"At epsilon = {short(row['epsilon'])}, xi = {short(row['xi'])}: steady sliding is stable"
-        f" for tau {listed(stable)}; at tau = {short(row['tau'])} the attractor is:"
-        f" {in_words(own)}{exponents_of(own)}.",
+        f"At epsilon = {short(row['epsilon'])} and xi = {short(row['xi'])} steady sliding is stable"
+        f" for these tau up to {short(row['tau'])}: {listed(stable)}. At tau = {short(row['tau'])}"
+        f" the attractor is: {in_words(own)}{exponents_of(own)}.",
     )
 
 
@@ -85,14 +86,14 @@ def route(results: Results, *, expected: list[str]) -> Finding:
     end = classes.index(expected[-1]) + 1 if expected[-1] in classes else 0
     before = classes[max(0, end - len(expected)) : end]
     finer = stretches_of(sure, in_words)
-    told = [f"{in_words(stretch[0])} {epsilons_of(stretch)}" for stretch in finer]
-    left = len(told) - STRETCHES_TOLD
-    more = f", and {left} stretches more" if left > 0 else ""
+    parts = [f"{in_words(stretch[0])} {epsilons_of(stretch)}" for stretch in finer]
+    left = len(parts) - MOST_INTERVALS
+    more = f", and {left} more intervals" if left > 0 else ""
     return decided(
         before == expected,
-        f"Along tau = {short(rows[0]['tau'])}, xi = {short(rows[0]['xi'])}, with growing epsilon:"
-        f" {listed(told[:STRETCHES_TOLD])}{more}; {len(rows) - len(sure)} of {len(rows)} points"
-        " undecided.",
+        f"Classes with growing epsilon, at tau = {short(rows[0]['tau'])} and"
+        f" xi = {short(rows[0]['xi'])}: {listed(parts[:MOST_INTERVALS])}{more}. Undecided:"
+        f" {len(rows) - len(sure)} of {len(rows)} points.",
     )
 
 
@@ -122,12 +123,12 @@ def in_words(row: dict) -> str:
 
 def exponents_of(row: dict) -> str:
     """The largest exponents with their errors, in brackets, as far as there are any."""
-    told = [
+    parts = [
         f"{short(row[f'exponent_{i}'], 3)} +- {short(row[f'error_{i}'], 2)}"
         for i in (1, 2, 3)
         if not math.isnan(row[f"exponent_{i}"])
     ]
-    return f" (exponents {', '.join(told)})" if told else ""
+    return f" (exponents {', '.join(parts)})" if parts else ""
 
 
 TESTS = {

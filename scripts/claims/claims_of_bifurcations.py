@@ -35,9 +35,9 @@ def hopf_only_by_delay(results: Results, *, plane: str) -> Finding:
     return decided(
         False,
         f"At tau = 0, xi = {short(xi)}, gamma = {short(point['gamma'])} a pair of roots is"
-        f" imaginary at epsilon = {short(epsilon, 9)}; the criterion of Routh and Hurwitz gives"
-        f" gamma^2 xi/(xi + gamma^2) = {short(expected, 9)}, and a2 a1 - a0 = {short(hurwitz)}"
-        f" there; first Lyapunov coefficient {short(point['l1_1'])}.",
+        f" imaginary at epsilon = {short(epsilon, 9)}. The Routh-Hurwitz criterion gives"
+        f" gamma^2 xi/(xi + gamma^2) = {short(expected, 9)}. At this point a2 a1 - a0 ="
+        f" {short(hurwitz)} and the first Lyapunov coefficient is {short(point['l1_1'])}.",
     )
 
 
@@ -51,15 +51,15 @@ def kinds_of_hopf(results: Results, *, planes: list[str], expected: list[str]) -
         l1 += list(curves.l1.values[at_boundary])
         everywhere += list(curves.l1.values)
     epsilon, signs = np.array(epsilon), np.sign(l1)
-    told = []
+    parts = []
     for kind, sign in KINDS.items():
         these = epsilon[signs == sign]
         spread = f" (epsilon {short(these.min())} to {short(these.max())})" if these.size else ""
-        told.append(f"{kind} at {these.size}{spread}")
+        parts.append(f"{these.size} {kind}{spread}")
     met = {kind for kind, sign in KINDS.items() if (signs == sign).any()}
     evidence = (
-        f"Of {signs.size} points of {' and '.join(planes)} where steady sliding changes its"
-        f" stability: {', '.join(told)}, by the first Lyapunov coefficient; of all"
+        f"Steady sliding changes its stability at {signs.size} points of {' and '.join(planes)}."
+        f" By the first Lyapunov coefficient these are: {', '.join(parts)}. Of all"
         f" {len(everywhere)} points {int((np.array(everywhere) > 0).sum())} are subcritical."
     )
     if met == set(expected):
@@ -69,14 +69,14 @@ def kinds_of_hopf(results: Results, *, planes: list[str], expected: list[str]) -
 
 def delay_destabilises(results: Results, *, scenes: list[str]) -> Finding:
     """Whether each scene has a delay at which steady sliding loses its stability."""
-    told, holds = [], True
+    parts, holds = [], True
     for scene in scenes:
         row = results.stability_of(scene)
         lost = [place for place, before, _ in changes(row["tau_of_changes"]) if before == 0]
         where = f"at tau = {listed([short(place, 6) for place in lost])}" if lost else "at no tau"
-        told.append(f"{scene} {where}")
+        parts.append(f"{scene} {where}")
         holds = holds and bool(lost)
-    return decided(holds, f"Steady sliding loses its stability: {'; '.join(told)}.")
+    return decided(holds, f"A longer delay makes steady sliding unstable: {'; '.join(parts)}.")
 
 
 def pairs_gained_and_lost(results: Results, *, plane: str) -> Finding:
@@ -85,24 +85,24 @@ def pairs_gained_and_lost(results: Results, *, plane: str) -> Finding:
     gained, lost = int((crossing > 0).sum()), int((crossing < 0).sum())
     return decided(
         gained > 0 and lost > 0,
-        f"With a longer delay a pair becomes unstable at {gained} and stable at {lost} of"
-        f" {crossing.size} points of the curves.",
+        f"With a longer delay a pair of roots becomes unstable at {gained} of {crossing.size}"
+        f" points of the curves. A pair becomes stable at {lost} points.",
     )
 
 
 def amplitude_death(results: Results, *, scenes: list[str]) -> Finding:
     """Whether steady sliding that is unstable at a delay is stable at a longer one."""
-    told = []
+    parts = []
     for scene in scenes:
         row = results.stability_of(scene)
         regained = [
             place for place, before, after in changes(row["tau_of_changes"]) if before > after == 0
         ]
         if regained:
-            told.append(f"{scene} at tau = {', '.join(short(place, 6) for place in regained)}")
+            parts.append(f"{scene} at tau = {', '.join(short(place, 6) for place in regained)}")
     return decided(
-        bool(told),
-        f"Scenes in which a longer delay restores stability: {'; '.join(told) or 'none'}.",
+        bool(parts),
+        f"Scenes in which a longer delay restores stability: {'; '.join(parts) or 'none'}.",
     )
 
 
@@ -110,23 +110,24 @@ def unstable_pairs(results: Results, *, scene: str, least: int) -> Finding:
     """Whether a scene's steady sliding has at least so many unstable pairs of roots."""
     row = results.stability_of(scene)
     later = [place for place, _, after in changes(row["epsilon_of_changes"]) if after >= least]
-    where = f"from epsilon = {short(later[0])}" if later else "at no epsilon that was tried"
+    where = f"from epsilon = {short(later[0])}" if later else "at no epsilon in the range searched"
     return decided(
         row["unstable_pairs"] >= least,
-        f"Scene {scene} (tau = {short(row['tau'])}, epsilon = {short(row['epsilon'])}): unstable"
-        f" pairs of steady sliding: {row['unstable_pairs']:.0f}; {least} {where}.",
+        f"Unstable pairs of roots in scene {scene} (tau = {short(row['tau'])}, epsilon ="
+        f" {short(row['epsilon'])}): {row['unstable_pairs']:.0f}. At least {least} are unstable"
+        f" {where}.",
     )
 
 
 def roots_decide(results: Results, *, scenes: list[str]) -> Finding:
     """Whether runs come to rest exactly where no root has a positive real part."""
-    told, holds = [], True
+    parts, holds = [], True
     for scene in scenes:
         pairs = results.stability_of(scene)["unstable_pairs"]
         met = results.attractors_of(scene)[0]["class"]
-        told.append(f"{scene}: {pairs:.0f}, {met}")
+        parts.append(f"{scene}: {pairs:.0f}, {met}")
         holds = holds and (pairs == 0) == (met == "fixed point") and met != "undecided"
-    return decided(holds, f"Unstable pairs and attractor seen: {'; '.join(told)}.")
+    return decided(holds, f"Unstable pairs and attractor of each scene: {'; '.join(parts)}.")
 
 
 def independent_of_spring(results: Results, *, plane: str, limit: float) -> Finding:
@@ -141,8 +142,8 @@ def independent_of_spring(results: Results, *, plane: str, limit: float) -> Find
     return decided(
         bool(np.ptp(epsilon) <= limit),
         f"At tau = {delay} and gamma = {short(curves.attrs['gamma'])} steady sliding changes"
-        f" its stability at an epsilon from {short(epsilon.min())} to {short(epsilon.max())}, as"
-        f" xi = k L/A goes through {short(xi.min())} to {short(xi.max())}.",
+        f" its stability at epsilon from {short(epsilon.min())} to {short(epsilon.max())}. There"
+        f" xi = k L/A ranges from {short(xi.min())} to {short(xi.max())}.",
     )
 
 

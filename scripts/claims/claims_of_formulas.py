@@ -31,9 +31,9 @@ def equation_3(results: Results, *, plane: str, limit: float) -> Finding:
     return decided_after_correction(
         printed <= limit,
         corrected <= limit,
-        f"The linearisation of (3) at tau = 0 differs from (5) by up to {short(printed)} of the"
-        f" largest term as printed, and by up to {short(corrected)} with theta +"
-        f" (1 + epsilon) ln v ({points.omega.size} points).",
+        f"The linearisation of (3) is compared with (5) at tau = 0, at {points.omega.size} points."
+        f" As printed, it differs by up to {short(printed)} of the largest term. With theta +"
+        f" (1 + epsilon) ln v it differs by up to {short(corrected)}.",
     )
 
 
@@ -43,13 +43,17 @@ def equation_4(results: Results, *, plane: str, limit: float) -> Finding:
     printed = mismatch_with_5(points, points.tau, friction_of_4)
     corrected = mismatch_with_5(points, points.tau, friction_corrected).max()
     there = printed[np.isfinite(printed)]
-    differs = f"differs from (5) by up to {short(there.max())}" if there.size else "is nowhere"
+    elsewhere = (
+        f" Elsewhere it differs from (5) by up to {short(there.max())} of the largest term."
+        if there.size
+        else ""
+    )
     return decided_after_correction(
         printed.max() <= limit,
         corrected <= limit,
-        f"The linearisation of (4) as printed {differs} of the largest term and has no value at"
-        f" {printed.size - there.size} of {printed.size} points, where v - tau <= 0; with theta +"
-        f" (1 + epsilon) ln v(t - tau) it differs by up to {short(corrected)}.",
+        f"The linearisation of (4) as printed has no value at {printed.size - there.size} of"
+        f" {printed.size} points, where v - tau <= 0.{elsewhere} With theta + (1 + epsilon)"
+        f" ln v(t - tau) it differs by up to {short(corrected)}.",
     )
 
 
@@ -59,7 +63,7 @@ def equation_6(results: Results, *, planes: list[str], limit: float) -> Finding:
     return decided(
         largest <= limit,
         f"Largest residual of (6) as printed on the curves of {' and '.join(planes)}:"
-        f" {short(largest)} (its right side is 1 in size).",
+        f" {short(largest)}. The right side of (6) has absolute value 1.",
     )
 
 
@@ -74,7 +78,8 @@ def equation_8(results: Results, *, plane: str, limit: float) -> Finding:
         printed <= limit,
         corrected <= limit,
         f"Largest residual of (5) with the delay that fits best: {short(printed)} with gamma^1 as"
-        f" printed (epsilon off by up to {short(off)}), {short(corrected)} with gamma^2.",
+        f" printed, {short(corrected)} with gamma^2. With gamma^1 the error of epsilon is up to"
+        f" {short(off)}.",
     )
 
 
@@ -95,9 +100,10 @@ def equation_9(results: Results, *, plane: str, limit: float) -> Finding:
     return decided_after_correction(
         on_curve <= limit and false == 0,
         on_curve <= limit,
-        f"On the Hopf curves at tau = {short(tau[0])} (9) gives xi to {short(on_curve)}; of"
-        f" {kept.sum()} frequencies to which it gives a xi within the figure, (5) does not hold at"
-        f" {false}, where (6) asks for the other quadrant.",
+        f"On the Hopf curves at tau = {short(tau[0])} the relative error of xi by (9) is at most"
+        f" {short(on_curve)}. (9) gives a xi within the figure at {kept.sum()}"
+        f" frequencies. (5) does not hold at {false} of these, where (6) requires the other"
+        " quadrant.",
     )
 
 
@@ -109,8 +115,9 @@ def equation_10(results: Results, *, plane: str, limit: float) -> Finding:
     return decided_after_correction(
         printed <= limit,
         corrected <= limit,
-        f"Largest residual of (5): {short(printed)} with (10) as printed (tau off by up to"
-        f" {short(off)}), {short(corrected)} with + gamma^2 and the two-argument arctangent.",
+        f"Largest residual of (5): {short(printed)} with (10) as printed, {short(corrected)} with"
+        " + gamma^2 and the two-argument arctangent. The error of tau by (10) as printed is up to"
+        f" {short(off)}.",
     )
 
 
@@ -129,8 +136,8 @@ def hopf_curves(results: Results, *, planes: list[str], limit: float) -> Finding
     return decided_after_correction(
         printed <= limit,
         corrected <= limit,
-        f"{branches} branches, {points} points: largest residual of (5) {short(printed)} by the"
-        f" formulas as printed, {short(corrected)} as corrected.",
+        f"Largest residual of (5) at {points} points of {branches} branches: {short(printed)} with"
+        f" the formulas as printed, {short(corrected)} with the corrected formulas.",
     )
 
 

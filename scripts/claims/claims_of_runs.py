@@ -7,11 +7,11 @@ from scripts.claims.claims_results import Finding, Results, decided, decided_aft
 SMALL = 1e-3
 """An error that a figure does not show."""
 WITHIN_EXPECTED = 100.0
-"""Times tolerance and amplification within which an error is what these let expect."""
+"""Largest error that is expected, over tolerance times amplification."""
 
 
 def out_of_reach(results: Results, *, method: str, least: float, most: float) -> Finding:
-    """Whether no run of this method with gamma in this range comes to its end."""
+    """Whether no run of this method with gamma in this range is completed."""
     runs = [
         row
         for row in results.stability
@@ -21,16 +21,16 @@ def out_of_reach(results: Results, *, method: str, least: float, most: float) ->
     compared = [row for row in done if row["error_expected"] > 0]
     small = sum(row["error"] <= SMALL for row in compared)
     trusted = sum(row["error"] <= WITHIN_EXPECTED * row["error_expected"] for row in compared)
-    told = (
-        f"; of {len(compared)} errors against quadruple precision {small} are at most {SMALL:g} and"
-        f" {trusted} within {WITHIN_EXPECTED:g} times tolerance times amplification"
+    errors = (
+        f" {small} of {len(compared)} errors against quadruple precision are at most {SMALL:g}."
+        f" {trusted} are at most {WITHIN_EXPECTED:g} times tolerance times amplification."
         if compared
         else ""
     )
     return decided(
         bool(runs) and not done,
         f"{len(done)} of {len(runs)} runs by the method {method} with gamma from {least:g} to"
-        f" {most:g} come to their end{told}.",
+        f" {most:g} are completed.{errors}",
     )
 
 
@@ -38,14 +38,14 @@ def relaxation(results: Results, *, method: str, ratio: float) -> Finding:
     """Whether v spans at least this ratio between stick and slip in some run."""
     runs = [row for row in results.stability if row["method"] == method and row["status"] == "ok"]
     if not runs:
-        return decided(False, f"No run of {method} comes to its end.")
+        return decided(False, f"No run by the method {method} is completed.")
     spans = np.array([row["most_ln_v"] - row["least_ln_v"] for row in runs])
     widest = runs[int(spans.argmax())]
     wide = int((spans >= np.log(ratio)).sum())
     return decided(
         wide > 0,
-        f"In {wide} of {len(runs)} runs v spans a factor of {ratio:g} or more; in the widest"
-        f" ({widest['case']}) ln v goes from {short(widest['least_ln_v'])} to"
+        f"In {wide} of {len(runs)} runs v spans a factor of {ratio:g} or more. The factor is"
+        f" largest in {widest['case']}: ln v ranges from {short(widest['least_ln_v'])} to"
         f" {short(widest['most_ln_v'])}.",
     )
 
@@ -56,9 +56,9 @@ def stationary_state(results: Results, *, within: float) -> Finding:
     ends = [row["error"] for row in runs if row["status"] == "ok"]
     return decided(
         len(ends) == len(runs) > 0 and max(ends) <= within,
-        "du/dt = 0 leaves v = 1, then d theta/dt = 0 leaves theta = 0 and dv/dt = 0 leaves u = 0;"
-        f" {len(ends)} of {len(runs)} long runs that decay reach their end, at most"
-        f" {short(max(ends, default=np.nan))} from there.",
+        "du/dt = 0 gives v = 1. Then d theta/dt = 0 gives theta = 0, and dv/dt = 0 gives u = 0."
+        f" {len(ends)} of {len(runs)} long runs that decay are completed. They end at most"
+        f" {short(max(ends, default=np.nan))} from this state.",
     )
 
 
@@ -69,9 +69,9 @@ def velocity_step(results: Results) -> Finding:
     last = float(friction.mu[-1] - friction.mu[0])
     return decided(
         direct > 0 > direct + evolution and abs(last) < abs(direct + evolution),
-        f"On a step of v from {short(friction.attrs['v0'])} by {short(friction.attrs['delta_v'])}"
-        f" m/s friction jumps by {short(direct)}, then changes by {short(evolution)}; after the"
-        f" step back it ends {short(last)} from its first value.",
+        f"v rises from {short(friction.attrs['v0'])} m/s by {short(friction.attrs['delta_v'])} m/s."
+        f" Friction jumps by {short(direct)}, then changes by {short(evolution)}. After the step"
+        f" back it ends {short(last)} from its first value.",
     )
 
 
@@ -84,9 +84,9 @@ def friction_falls_with_epsilon(results: Results) -> Finding:
         bool((of_b < 0).all()),
         of_change < 0,
         f"By (1.1) friction changes by {short(of_b.min())} to {short(of_b.max())} per unit of B at"
-        f" the {of_b.size} samples of the velocity step, and its change after the step up by"
-        f" {short(of_change)}: where only the second is negative, a larger epsilon means more"
-        " friction at any given state, and a larger fall once the block has become faster.",
+        f" the {of_b.size} samples of the velocity step. Its change after the step up varies by"
+        f" {short(of_change)} per unit of B. If only the second value is negative, a larger"
+        " epsilon gives more friction in a given state, but a larger fall after the step up.",
     )
 
 

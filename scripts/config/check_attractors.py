@@ -36,7 +36,7 @@ def _of_scenes(config: dict) -> Iterator[str]:
     if "t_transient" in observation:
         yield (
             f"{place} observation: t_transient = {observation['t_transient']}; expected none:"
-            " that of the scene counts"
+            " that of the scene is used"
         )
     for name, scene in config["scenes"].items():
         if "attractors" in scene and scene["t_transient"] == 0:

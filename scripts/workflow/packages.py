@@ -35,7 +35,7 @@ def refuse_missing() -> None:
     if missing:
         raise PackageError(
             f"{sys.executable} lacks {', '.join(missing)}; run ./reproduce, which sets up what is"
-            " missing, or . .venv/bin/activate where it did so before"
+            " missing; if it did so before, run . .venv/bin/activate"
         )
 
 
