@@ -185,7 +185,7 @@ def test_route_shows_maxima_classes_and_exponents():
 
 def test_route_without_a_class_says_so():
     """All undecided."""
-    assert route_to_chaos.words([a_row("undecided", 0.1)]).endswith("first met: no class told")
+    assert route_to_chaos.words([a_row("undecided", 0.1)]).endswith("first met: none")
 
 
 def a_scene(name: str, met: str) -> true_torus.Scene:

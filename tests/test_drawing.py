@@ -197,7 +197,7 @@ def test_why_a_spectrum_is_undecided_is_said():
     )
     spectrum = a_spectrum("undecided", OTHER, bases_told_apart="no", ratio_of_bases="7/2")
     words = spectrum_rows.seen(spectrum, "")
-    assert "explained, 1 other peak, $f_2/f_1$ not told from 7/2\n" in words
+    assert "explained, 1 other peak, $f_2/f_1$ not distinguished from 7/2\n" in words
 
 
 def a_plane(ordinate: str, fixed: str) -> xr.Dataset:

@@ -140,7 +140,7 @@ def test_scene_that_keeps_less_is_drawn_as_far_as_it_goes():
 def test_scene_whose_attractor_is_unknown_says_so():
     """It is still drawn."""
     words = page_views.trajectory(run(count=101), [])["words"]
-    assert words.endswith("γ = 0.8: its attractor was not looked for")
+    assert words.endswith("γ = 0.8: its attractor was not computed")
 
 
 def test_atlas_has_a_map_for_each_stiffness():

@@ -128,5 +128,5 @@ def reason(spectrum: xr.Dataset) -> str:
     if others:
         reasons.append(f"{others} other peak{'s' if others > 1 else ''}")
     if spectrum.attrs.get("bases_told_apart") == "no":
-        reasons.append(f"$f_2/f_1$ not told from {spectrum.attrs['ratio_of_bases']}")
+        reasons.append(f"$f_2/f_1$ not distinguished from {spectrum.attrs['ratio_of_bases']}")
     return ", ".join(reasons)

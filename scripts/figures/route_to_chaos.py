@@ -53,7 +53,7 @@ def words(rows: list[dict]) -> str:
     one = rows[0]
     line = rf"$\tau$ = {one['tau']:g}, $\xi$ = {one['xi']:g}, $\gamma$ = {one['gamma']:g}"
     met = [rf"{name} from {epsilon:.3g}" for name, epsilon in first_met(rows).items()]
-    route = ", ".join(met) if met else "no class told"
+    route = ", ".join(met) if met else "none"
     return f"{line}: {count_in_words(rows)}\nwith growing $\\varepsilon$ first met: {route}"
 
 

@@ -52,7 +52,7 @@ def trajectory(run: xr.Dataset, attractors: list[dict]) -> dict:
     every = math.ceil(shown.sizes["time"] / MOST_POINTS)
     shown = shown.isel(time=slice(None, None, every))
     own = [row for row in attractors if row["scene"] == scene and row["history"] == 1]
-    known = verdict(own[0]) if own else "its attractor was not looked for"
+    known = verdict(own[0]) if own else "its attractor was not computed"
     return {
         "name": scene.replace("_", " "),
         "words": f"{parameters(run.attrs)}: {known}",
