@@ -9,7 +9,7 @@ import pytest
 from conftest import PROGRAMS, SMOKE, rules_in
 from disks import FULL, READ_ONLY, on_disk
 
-REMEDY = "; see that its folder is there, can be written and has room, then run again\n"
+REMEDY = "; check that its folder exists, is writable and has free space, then run again\n"
 SNAKEMAKE = Path(sys.executable).parent / "snakemake"
 
 

@@ -92,7 +92,9 @@ def test_last_of_two_runs_wins(programs, good_groups, program, first_to_end):
         said[name] = runs[name].communicate(timeout=60)[1]
     assert runs["newer"].returncode == 0, said["newer"]
     assert runs["older"].returncode == 1
-    given_way = "error: output.nc: another run began to write it; only the last one does"
+    given_way = (
+        "error: output.nc: another run has started to write this file; only the last one keeps it"
+    )
     assert said["older"].splitlines()[-1] == given_way
     assert programs.left_behind() == ["output.nc"]
     whole = programs.output.read_bytes()

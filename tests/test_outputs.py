@@ -31,7 +31,9 @@ def test_last_of_two_writers_wins(tmp_path, first_to_end):
     newer.__enter__().write_text("newer")
     if first_to_end == "newer":
         newer.__exit__(None, None, None)
-    with pytest.raises(FileError, match=r"table.tsv: another run began to write it; only the last"):
+    with pytest.raises(
+        FileError, match=r"table.tsv: another run has started to write this file; only the last"
+    ):
         older.__exit__(None, None, None)
     if first_to_end == "older":
         newer.__exit__(None, None, None)
@@ -64,7 +66,9 @@ def test_full_disk_is_told(tmp_path):
             unfinished.symlink_to("/dev/full")
             unfinished.write_text("a")
 
-    with pytest.raises(FileError, match=r"table.tsv: cannot write: No space left .*; see that its"):
+    with pytest.raises(
+        FileError, match=r"table.tsv: cannot write: No space left .*; check that its"
+    ):
         write_to_full_disk()
     assert list(tmp_path.iterdir()) == []
 
@@ -76,7 +80,7 @@ def test_truncated_netcdf_is_told(tmp_path, size):
     xr.Dataset({"v": ("time", [float(i) for i in range(1000)])}).to_netcdf(path)
     whole = path.read_bytes()
     path.write_bytes(whole[: size % len(whole)])
-    with pytest.raises(FileError, match=r"data.nc: cannot be read: .*; remove it and run again"):
+    with pytest.raises(FileError, match=r"data.nc: cannot be read: .*; remove it; the next run"):
         read(path)
 
 
@@ -92,5 +96,8 @@ def test_problem_with_a_file_ends_a_script_in_one_line(tmp_path):
 @pytest.mark.parametrize("log", ["nowhere/log", "."])
 def test_log_that_cannot_be_written_is_told(tmp_path, log):
     """The script does not begin."""
-    with pytest.raises(SystemExit, match=r"error: .*; see that its folder"), logged(tmp_path / log):
+    with (
+        pytest.raises(SystemExit, match=r"error: .*; check that its folder"),
+        logged(tmp_path / log),
+    ):
         raise AssertionError

@@ -122,7 +122,9 @@ def test_output_that_cannot_be_written_is_refused(programs, good_groups, program
     """In a missing folder, or where a folder, a device, a pipe or a link is; that stays."""
     programs.write(good_groups[program])
     line = refusal(programs, programs.run(program, "input.nml", "nowhere/output.nc"))
-    assert line.startswith("error: nowhere/output.nc: cannot write: there is no such folder; see")
+    assert line.startswith(
+        "error: nowhere/output.nc: cannot write: the folder does not exist; check"
+    )
     place = programs.folder / "of each kind.nml"
     for name in ("folder", "pipe", "link", "device"):
         place.mkdir()
@@ -202,7 +204,7 @@ def test_spectrum_of_a_truncated_trajectory_is_refused(programs, good_groups):
         target.write(source.read(os.path.getsize(whole) // 2))
     good_groups["spectrum"]["spectrum"]["trajectory"] = "half.nml"
     line = refusal(programs, programs.run_groups("spectrum", good_groups["spectrum"]))
-    assert "half.nml: cannot be opened (remove it to have it made anew): NetCDF: " in line
+    assert "half.nml: cannot be opened (remove it; the next run makes it again): NetCDF: " in line
 
 
 @pytest.mark.parametrize(

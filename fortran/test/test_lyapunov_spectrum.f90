@@ -242,7 +242,7 @@ contains
       call measure_growth(stiff(0.0_wp), settings, at_tolerance(1.0e-4_wp, "radau5"), measured, &
                           failure)
       call expect_failure(error, failure, &
-                          "is left of a vector without those before it; expected > 0.001")
+                          "is left of a tangent vector without those before it; expected > 0.001")
       settings%bounds = .true.
       call measure_growth(stiff(0.0_wp), settings, at_tolerance(1.0e-4_wp, "radau5"), measured, &
                           failure)

@@ -14,5 +14,5 @@ def read(path: str | Path) -> xr.Dataset:
     except OSError as problem:
         reason = problem.strerror
         raise FileError(
-            f"{path}: cannot be read: {reason}; remove it and run again to have it made anew"
+            f"{path}: cannot be read: {reason}; remove it; the next run makes it again"
         ) from problem

@@ -8,7 +8,7 @@ import traceback
 from collections.abc import Iterator
 from pathlib import Path
 
-REMEDY = "see that its folder is there, can be written and has room, then run again"
+REMEDY = "check that its folder exists, is writable and has free space, then run again"
 
 
 class FileError(Exception):
@@ -30,7 +30,9 @@ def written(path: str | Path) -> Iterator[Path]:
                 path.with_name(name).unlink(missing_ok=True)
         yield unfinished
         if not unfinished.exists():
-            raise FileError(f"{path}: another run began to write it; only the last one does")
+            raise FileError(
+                f"{path}: another run has started to write this file; only the last one keeps it"
+            )
         os.replace(unfinished, path)
     except OSError as problem:
         raise FileError(f"{path}: cannot write: {problem.strerror}; {REMEDY}") from problem

@@ -237,7 +237,7 @@ contains
          growth = log(max(norm, tiny(1.0_wp))/settings%vector_size)
       else if (halvings == 0) then
          call raise(error, "exponents: at t = "//text(time)//" a share of "//text(share) &
-                    //" is left of a vector without those before it; expected > " &
+                    //" is left of a tangent vector without those before it; expected > " &
                     //text(noise*options%relative)//" (ask for fewer exponents or a smaller " &
                     //"tolerance)")
       else

@@ -37,7 +37,7 @@ contains
       integer :: dimension, file, id, length, status
 
       call check(nf90_open(path, nf90_nowrite, file), &
-                 "cannot be opened (remove it to have it made anew)")
+                 "cannot be opened (remove it; the next run makes it again)")
       if (allocated(error)) return
       call check(nf90_inq_varid(file, variable, id), "holds no variable '"//variable &
                  //"' (add it to the variables of its scene)")
@@ -51,7 +51,7 @@ contains
          call check(nf90_inquire_dimension(file, dimension, len=length), "dimension 'time'")
          allocate (trajectory%samples(length))
          call check(nf90_get_var(file, id, trajectory%samples), "variable '"//variable &
-                    //"' cannot be read (remove the file to have it made anew)")
+                    //"' cannot be read (remove the file; the next run makes it again)")
       end if
       if (.not. allocated(error)) then
          if (.not. all(ieee_is_finite(trajectory%samples))) then

@@ -15,7 +15,7 @@ module unfinished_file
 
    !> What to do where a file cannot be written; the end of a message.
    character(len=*), parameter :: remedy = &
-      "; see that its folder is there, can be written and has room, then run again"
+      "; check that its folder exists, is writable and has free space, then run again"
    !> End of the other name.
    character(len=*), parameter :: ending = ".part"
 
@@ -64,7 +64,7 @@ contains
       case (0)
          return
       case (missing)
-         call raise(error, path//": cannot write: there is no such folder"//remedy)
+         call raise(error, path//": cannot write: the folder does not exist"//remedy)
       case (occupied)
          call raise(error, path//": cannot write: a folder, a device or a link is there; " &
                     //"expected a file, or nothing")
@@ -137,7 +137,8 @@ contains
       call check_place(self%path, error)
       if (allocated(error)) return
       if (answer == missing) then
-         call raise(error, self%path//": another run began to write it; only the last one does")
+         call raise(error, self%path//": another run has started to write this file; only the " &
+                    //"last one keeps it")
       else
          call explain(self%path, answer, error)
       end if

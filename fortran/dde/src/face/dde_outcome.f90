@@ -91,7 +91,8 @@ contains
 
       select case (outcome%reason)
       case (step_underflow)
-         why = "the step had to shrink to "//text(h)//", too small to move time; a singularity?"
+         why = "the step had to shrink to "//text(h) &
+               //", too small to change the time; a singularity?"
       case (too_many_steps)
          why = text(options%most_steps)//" steps (most_steps) were used up"
       case default
