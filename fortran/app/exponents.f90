@@ -46,7 +46,7 @@ program exponents
                                                t_begin=scene%t_transient, t_end=settings%t_end, &
                                                t_turning=settings%t_turning, &
                                                interval=settings%interval, &
-                                               blocks=settings%blocks), &
+                                               blocks=settings%blocks, across_flow=.true.), &
                           options(i), measured(i), error, progress=report)
       if (allocated(error)) exit
    end do

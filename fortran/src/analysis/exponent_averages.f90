@@ -3,6 +3,7 @@
 module exponent_averages
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde_kinds, only: wp
+   use gsl_distributions, only: student_quantile
    implicit none (type, external)
    private
    public :: average_growth, dimension_of, error_bars, exponent_type, running_averages, &
@@ -11,11 +12,18 @@ module exponent_averages
    !> An exponent this many error bars from zero, or closer, has no sign.
    real(wp), parameter :: error_bars = 3.0_wp
 
+   !> Share of a normal distribution above so many standard errors.
+   real(wp), parameter :: beyond_bars = 0.5_wp*erfc(error_bars/sqrt(2.0_wp))
+   !> Length of each smooth end, as a share of the time.
+   real(wp), parameter :: ends = 0.1_wp
+   !> Number of the lowest frequencies that the error is estimated by.
+   integer, parameter :: lowest = 8
+
    !> An exponent; per unit of time.
    type :: exponent_type
       !> Its value
       real(wp) :: value = 0.0_wp
-      !> Standard error from the spread of blocks
+      !> Standard error
       real(wp) :: error = 0.0_wp
       !> Value of each block
       real(wp), allocatable :: blocks(:)
@@ -23,35 +31,46 @@ module exponent_averages
 
 contains
 
-   !> Exponents in descending order. The value of a block is a mean weighted by the smooth bump
-   !> exp(-1/(x (1 - x))), x running through the block from 0 to 1, whose error falls faster than
-   !> any power of time where the motion is periodic or quasiperiodic (Das, Saiki, Sander and Yorke
-   !> 2017, Nonlinearity 30, 4111); the exponent is the plain mean of its blocks.
-   pure function average_growth(growth, interval, blocks) result(exponents)
+   !> Exponents in descending order. Their values are weighted means of the growth, the weights
+   !> level but for smooth ends: on a cycle or torus the error falls faster than any power of time
+   !> once the ends are longer than the periods (Das, Saiki, Sander and Yorke 2017, Nonlinearity 30,
+   !> 4111), and in chaos it is hardly larger than that of the plain mean.
+   !>
+   !> The variance of such a mean is the spectral density of the growth at frequency 0, seen through
+   !> the weights (Heidelberger and Welch 1981, Communications of the ACM 24, 233). It is estimated
+   !> by the lowest frequencies above 0: what varies slowly makes it large, fast swings do not count.
+   !> Student's distribution enlarges the error, so that three of it cover as much as three standard
+   !> errors that are known.
+   pure function average_growth(growth, length, blocks, flow) result(exponents)
       !> Logarithm of the growth of each vector in each interval, shape (vectors, intervals)
       real(wp), intent(in) :: growth(:, :)
-      !> Length of an interval
-      real(wp), intent(in) :: interval
-      !> Number of blocks, at least 2, a divisor of the number of intervals
+      !> Length of each interval, shape (intervals)
+      real(wp), intent(in) :: length(:)
+      !> Number of blocks, a divisor of the number of intervals
       integer, intent(in) :: blocks
+      !> Whether the exponent of the flow, which is 0, is to be added
+      logical, intent(in) :: flow
       type(exponent_type), allocatable :: exponents(:)
       type(exponent_type) :: moving
-      real(wp) :: bump(size(growth, 2)/blocks)
-      integer :: block, i, j, length
+      real(wp) :: of_block(size(length)/blocks), weight(size(length))
+      integer :: block, i, j, first, last
 
-      length = size(bump)
-      do i = 1, length
-         associate (x => (i - 0.5_wp)/length)
-            bump(i) = exp(-1.0_wp/(x*(1.0_wp - x)))
-         end associate
-      end do
-      bump = bump/(interval*sum(bump))
-      allocate (exponents(size(growth, 1)))
+      of_block = level_with_smooth_ends(size(of_block))
+      weight = level_with_smooth_ends(size(weight))
+      weight = weight/sum(weight*length)
+      allocate (exponents(size(growth, 1) + merge(1, 0, flow)))
       do j = 1, size(exponents)
-         moving%blocks = [(sum(bump*growth(j, (block - 1)*length + 1:block*length)), &
-                           block=1, blocks)]
-         moving%value = sum(moving%blocks)/blocks
-         moving%error = sqrt(sum((moving%blocks - moving%value)**2)/(blocks*(blocks - 1.0_wp)))
+         moving = exponent_type(blocks=[(0.0_wp, block=1, blocks)])
+         if (j <= size(growth, 1)) then
+            moving%value = sum(weight*growth(j, :))
+            moving%error = error_of_mean(weight, growth(j, :) - moving%value*length)
+            do block = 1, blocks
+               first = (block - 1)*size(of_block) + 1
+               last = block*size(of_block)
+               moving%blocks(block) = sum(of_block*growth(j, first:last)) &
+                                      /sum(of_block*length(first:last))
+            end do
+         end if
          i = j - 1
          do while (i >= 1)
             if (exponents(i)%value >= moving%value) exit
@@ -62,12 +81,48 @@ contains
       end do
    end function average_growth
 
+   !> Weights that are 1 but for ends that rise like exp(-1/x).
+   pure function level_with_smooth_ends(n) result(weights)
+      !> How many
+      integer, intent(in) :: n
+      real(wp) :: weights(n)
+      integer :: i
+
+      weights = 1.0_wp
+      do i = 1, n
+         associate (x => min(i - 0.5_wp, n - i + 0.5_wp)/(ends*n))
+            if (x < 1.0_wp) weights(i) = 1.0_wp/(1.0_wp + exp(1.0_wp/x - 1.0_wp/(1.0_wp - x)))
+         end associate
+      end do
+   end function level_with_smooth_ends
+
+   !> Standard error of the weighted mean of a signal: the root mean square of its weighted Fourier
+   !> sums at the lowest frequencies.
+   pure real(wp) function error_of_mean(weight, deviation) result(error)
+      !> Weights
+      real(wp), intent(in) :: weight(:)
+      !> The signal less its mean
+      real(wp), intent(in) :: deviation(:)
+      real(wp) :: phase(size(weight)), squares
+      real(wp), parameter :: pi = acos(-1.0_wp)
+      integer :: i, k, n
+
+      n = size(weight)
+      squares = 0.0_wp
+      do k = 1, lowest
+         phase = [(2.0_wp*pi*k*(i - 0.5_wp)/n, i=1, n)]
+         squares = squares + sum(weight*deviation*cos(phase))**2 &
+                   + sum(weight*deviation*sin(phase))**2
+      end do
+      error = sqrt(squares/lowest)*student_quantile(beyond_bars, 2*lowest)/error_bars
+   end function error_of_mean
+
    !> Plain averages of the growth from the beginning on, at evenly spaced times.
-   pure subroutine running_averages(growth, interval, most_times, time, averages)
+   pure subroutine running_averages(growth, length, most_times, time, averages)
       !> Logarithm of the growth of each vector in each interval, shape (vectors, intervals)
       real(wp), intent(in) :: growth(:, :)
-      !> Length of an interval
-      real(wp), intent(in) :: interval
+      !> Length of each interval, shape (intervals)
+      real(wp), intent(in) :: length(:)
       !> Most times
       integer, intent(in) :: most_times
       !> Times since the beginning
@@ -82,7 +137,7 @@ contains
       total = 0.0_wp
       do i = 1, size(time)
          total = total + sum(growth(:, (i - 1)*every + 1:i*every), dim=2)
-         time(i) = i*every*interval
+         time(i) = sum(length(:i*every))
          averages(:, i) = total/time(i)
       end do
    end subroutine running_averages

@@ -28,26 +28,35 @@ module lyapunov_spectrum
       real(wp) :: t_end = 0.0_wp
       !> Time before the beginning in which the vectors turn to the directions of growth
       real(wp) :: t_turning = 0.0_wp
-      !> Longest time between two orthonormalisations
+      !> Longest mean time between two orthonormalisations
       real(wp) :: interval = 0.0_wp
       !> Number of blocks
       integer :: blocks = 0
-      !> Norm of the vectors after orthonormalisation: what of the solver's absolute tolerance they
-      !> may claim
-      real(wp) :: vector_size = 1.0_wp
+      !> Norm of the vectors after orthonormalisation. They need fewer digits than the solution: the
+      !> absolute tolerance over this is their relative one.
+      real(wp) :: vector_size = 0.01_wp
       !> Whether a vector lost to noise gives a bound: what is left of it, noise and all, is its
       !> growth, and it goes on from there. Otherwise that is an error.
       logical :: bounds = .false.
+      !> Whether one of the exponents is that of the flow, which is 0 where the problem does not
+      !> depend on time and the motion comes to no rest. It needs no vector: the others are then
+      !> orthogonal to the flow.
+      logical :: across_flow = .false.
+   contains
+      !> Number of vectors
+      procedure :: vectors => number_of_vectors
    end type growth_settings_type
 
    !> What was measured.
    type :: growth_type
       !> Time at which measuring began: t_begin, or later where the delays reach further back
       real(wp) :: t_begin = 0.0_wp
-      !> Time between two orthonormalisations
+      !> Mean time between two orthonormalisations
       real(wp) :: interval = 0.0_wp
-      !> Logarithm of the growth of each vector in each interval, shape (exponents, intervals)
+      !> Logarithm of the growth of each vector in each interval, shape (vectors, intervals)
       real(wp), allocatable :: growth(:, :)
+      !> Length of each interval, shape (intervals)
+      real(wp), allocatable :: length(:)
       !> Least share of a vector that was orthogonal to those before it
       real(wp) :: least_share = 1.0_wp
       !> Whether growth of the last vectors is only bounded from above
@@ -63,6 +72,14 @@ module lyapunov_spectrum
    end type growth_type
 
 contains
+
+   !> Number of vectors: that of exponents, less that of the flow.
+   pure integer function number_of_vectors(self) result(vectors)
+      !> What growth is measured over
+      class(growth_settings_type), intent(in) :: self
+
+      vectors = self%exponents - merge(1, 0, self%across_flow)
+   end function number_of_vectors
 
    !> Growth of tangent vectors along a solution that begins at t = 0, or goes on from where an
    !> earlier run ended: then the vectors begin there, or where the delays are over, and turn before
@@ -85,7 +102,7 @@ contains
       type(continuation_type) :: approach
       type(integration_result) :: outcome
       type(tangent_problem_type) :: tangent
-      real(wp) :: begun, growth(settings%exponents), norm(settings%exponents), share, start
+      real(wp) :: begun, growth(settings%vectors()), norm(settings%vectors()), share, start
       integer :: i, intervals, turning
 
       call check(problem, settings, error)
@@ -111,9 +128,10 @@ contains
          call integrate(problem, begun, start, options, outcome, error, continuation=approach)
          if (allocated(error)) return
       end if
-      tangent = tangent_problem_type(problem, settings%exponents)
+      tangent = tangent_problem_type(problem, settings%vectors())
       call start_vectors(tangent, approach, measured%continuation)
-      call orthonormalise(tangent, settings%vector_size, measured%continuation, norm, share)
+      call orthonormalise(tangent, settings%vector_size, settings%across_flow, &
+                          measured%continuation, norm, share)
       ! no solution of the variational equations yet: a kink
       measured%continuation%rate = [approach%rate, (0.0_wp, i=1, tangent%n - problem%n)]
       intervals = intervals_in(settings%t_end - measured%t_begin, settings)
@@ -124,7 +142,7 @@ contains
          if (allocated(error)) return
          if (present(progress)) call progress%advance(i, turning + intervals)
       end do
-      allocate (measured%growth(settings%exponents, 0))
+      allocate (measured%growth(settings%vectors(), 0), measured%length(0))
       call go_on(tangent, settings, options, settings%t_end, intervals, turning, measured, &
                  error, progress)
    end subroutine measure_growth
@@ -144,12 +162,13 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       associate (intervals => size(measured%growth, 2), start => measured%continuation%time(1))
-         call go_on(tangent_problem_type(problem, settings%exponents), settings, options, &
+         call go_on(tangent_problem_type(problem, settings%vectors()), settings, options, &
                     start + intervals*measured%interval, intervals, 0, measured, error)
       end associate
    end subroutine extend_growth
 
-   !> Measure interval by interval.
+   !> Measure interval by interval. Intervals are of uneven length, so that a period of the motion
+   !> that is nearly a multiple of them looks no slow drift.
    subroutine go_on(tangent, settings, options, t_end, intervals, done, measured, error, progress)
       !> The problem with its tangent vectors
       type(tangent_problem_type), intent(in) :: tangent
@@ -170,19 +189,33 @@ contains
       !> Receiver of the number of intervals done
       class(progress_receiver_type), intent(inout), optional :: progress
       real(wp), allocatable :: growth(:, :)
+      real(wp) :: time(0:intervals)
       integer :: i
 
       measured%interval = (t_end - measured%continuation%time(1))/intervals
-      allocate (growth(settings%exponents, intervals))
+      time = [(t_end - (intervals - i - uneven(i))*measured%interval, i=0, intervals)]
+      time(0) = measured%continuation%time(1)
+      time(intervals) = t_end
+      allocate (growth(settings%vectors(), intervals))
       do i = 1, intervals
-         call pass(tangent, settings, options, t_end - (intervals - i)*measured%interval, &
-                   most_halvings, measured, growth(:, i), error)
+         call pass(tangent, settings, options, time(i), most_halvings, measured, growth(:, i), &
+                   error)
          if (allocated(error)) return
          if (present(progress)) call progress%advance(done + i, done + intervals)
       end do
       measured%growth = reshape([measured%growth, growth], &
-                                [settings%exponents, size(measured%growth, 2) + intervals])
+                                [settings%vectors(), size(measured%growth, 2) + intervals])
+      measured%length = [measured%length, time(1:) - time(:intervals - 1)]
    end subroutine go_on
+
+   !> An irregular number between -0.35 and 0.35: a fraction of the golden ratio times a square.
+   elemental real(wp) function uneven(i) result(value)
+      !> Its place in the sequence
+      integer, intent(in) :: i
+      real(wp), parameter :: golden = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp)
+
+      value = 0.7_wp*(modulo(golden*real(i, wp)**2, 1.0_wp) - 0.5_wp)
+   end function uneven
 
    !> Number of intervals in so long a time, the same in each block.
    pure integer function intervals_in(time, settings) result(intervals)
@@ -217,9 +250,10 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(continuation_type) :: before
       type(integration_result) :: outcome
-      real(wp) :: first_half(size(growth)), norm(size(growth)), share
+      real(wp) :: first_half(size(growth)), lost, norm(size(growth)), share
 
       growth = 0.0_wp
+      lost = noise*max(options%relative, epsilon(1.0_wp))/min(1.0_wp, settings%vector_size)
       before = measured%continuation
       call integrate(tangent, before%time(1), time, options, outcome, error, &
                      continuation=measured%continuation)
@@ -228,8 +262,9 @@ contains
       measured%time = measured%time + (time - before%time(1))
       measured%steps = measured%steps + outcome%accepted
       measured%implicit_steps = measured%implicit_steps + outcome%implicit_steps
-      call orthonormalise(tangent, settings%vector_size, measured%continuation, norm, share)
-      if (share > noise*max(options%relative, epsilon(1.0_wp))) then
+      call orthonormalise(tangent, settings%vector_size, settings%across_flow, &
+                          measured%continuation, norm, share)
+      if (share > lost) then
          measured%least_share = min(measured%least_share, share)
          growth = log(norm/settings%vector_size)
       else if (halvings == 0 .and. settings%bounds) then
@@ -238,7 +273,7 @@ contains
       else if (halvings == 0) then
          call raise(error, "exponents: at t = "//text(time)//" a share of "//text(share) &
                     //" is left of a tangent vector without those before it; expected > " &
-                    //text(noise*options%relative)//" (ask for fewer exponents or a smaller " &
+                    //text(lost)//" (ask for fewer exponents or a smaller " &
                     //"tolerance)")
       else
          measured%continuation = before
@@ -259,9 +294,9 @@ contains
       !> What is wrong
       type(error_type), allocatable, intent(out) :: error
 
-      if (settings%exponents < 1) then
-         call raise(error, "exponents: "//text(settings%exponents)//" asked for; at least 1 " &
-                    //"expected")
+      if (settings%vectors() < 1) then
+         call raise(error, "exponents: "//text(settings%exponents)//" asked for; at least " &
+                    //text(settings%exponents - settings%vectors() + 1)//" expected")
       else if (size(problem%lag) == 0 .and. settings%exponents > problem%n) then
          call raise(error, "exponents: "//text(settings%exponents)//" asked for of " &
                     //text(problem%n)//" equations without delay; at most as many expected")

@@ -4,8 +4,9 @@ module motion_classes
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: agreed, chaos, class_by_exponents, class_names, cycle_motion, fixed_point, torus
+   public :: agree, chaos, class_by_exponents, class_names, clear, cycle_motion, fixed_point, torus
    public :: undecided
+   public :: contradicted, no_class_by_exponents, none, not_confirmed, reason_names
 
    !> Classes of motion.
    enum, bind(c)
@@ -15,6 +16,20 @@ module motion_classes
    !> Their names, from `undecided` on.
    character(len=11), parameter :: class_names(0:4) = ["undecided  ", "fixed point", &
                                                        "cycle      ", "torus      ", "chaos      "]
+
+   !> Why a class is undecided.
+   enum, bind(c)
+      enumerator :: none, no_class_by_exponents, contradicted, not_confirmed
+   end enum
+
+   !> These reasons in words, from `none` on.
+   character(len=21), parameter :: reason_names(0:3) = ["none                 ", &
+                                                        "no class by exponents", &
+                                                        "contradicted         ", &
+                                                        "not confirmed        "]
+
+   !> An exponent so many standard errors from zero is far from it.
+   real(wp), parameter :: far = 6.0_wp
 
 contains
 
@@ -53,19 +68,43 @@ contains
       end if
    end function class_by_exponents
 
-   !> The class by exponents, if at least one of the others confirms it and none contradicts it.
-   pure integer function agreed(by_exponents, by_section, by_spectrum) result(found)
+   !> The class by exponents, if none of the others contradicts it, and if one confirms it or it is
+   !> clear by the exponents alone.
+   pure subroutine agree(exponents, by_exponents, by_section, by_spectrum, found, reason)
+      !> Exponents, descending
+      type(exponent_type), intent(in) :: exponents(:)
       !> Class by exponents
       integer, intent(in) :: by_exponents
       !> Class by the section; `undecided` neither confirms nor contradicts
       integer, intent(in) :: by_section
       !> Class by the spectrum; `undecided` neither confirms nor contradicts
       integer, intent(in) :: by_spectrum
+      !> The class
+      integer, intent(out) :: found
+      !> Why it is undecided, of `reason_names`
+      integer, intent(out) :: reason
 
       associate (others => [by_section, by_spectrum])
-         found = by_exponents
-         if (any(others /= undecided .and. others /= found)) found = undecided
-         if (all(others == undecided)) found = undecided
+         found = undecided
+         if (by_exponents == undecided) then
+            reason = no_class_by_exponents
+         else if (any(others /= undecided .and. others /= by_exponents)) then
+            reason = contradicted
+         else if (all(others == undecided) .and. .not. clear(exponents)) then
+            reason = not_confirmed
+         else
+            found = by_exponents
+            reason = none
+         end if
       end associate
-   end function agreed
+   end subroutine agree
+
+   !> Whether one exponent is the flow's and all others are far from zero: then they need no
+   !> confirmation. If all of them are negative, the attractor is a cycle.
+   pure logical function clear(exponents) result(value)
+      !> Exponents, descending
+      type(exponent_type), intent(in) :: exponents(:)
+
+      value = count(abs(exponents%value) <= far*exponents%error) == 1
+   end function clear
 end module motion_classes

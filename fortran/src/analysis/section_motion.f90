@@ -1,24 +1,30 @@
 !> The class of motion by the points of a Poincare section: a few points that repeat are a cycle;
 !> points that are a smooth function of two phases, each turning at a base frequency, are a torus.
+!> Other points have no class: they may be those of chaos, of a long cycle, or of a torus that is
+!> not smooth at their resolution.
 module section_motion
    use dde_kinds, only: wp
-   use motion_classes, only: chaos, cycle_motion, torus, undecided
+   use motion_classes, only: cycle_motion, torus, undecided
    implicit none (type, external)
    private
-   public :: judge_section, section_verdict_type
+   public :: judge_section, period_of_tail, section_verdict_type
 
    !> Fewest points for a class, fewest repetitions of a cycle, and most points used.
    integer, parameter :: fewest_points = 40, fewest_turns = 4, most_points = 1000
    !> Longest period of a cycle, in points.
-   integer, parameter :: longest_period = 64
+   integer, parameter :: longest_period = 128
    !> Points of a cycle repeat within this share of the scale.
    real(wp), parameter :: same_point = 1.0e-3_wp
+   !> The last points of a settled cycle repeat within this share of the scale, so many times and
+   !> in so many points at least. The distance may not grow, unless it is below the second share.
+   real(wp), parameter :: settled = 1.0e-5_wp, negligible = 1.0e-7_wp
+   integer, parameter :: last_turns = 3, last_points = 12
    !> Largest roughness of a torus.
    real(wp), parameter :: torus_roughness = 0.05_wp
 
    !> What was found.
    type :: section_verdict_type
-      !> cycle_motion, torus, chaos or undecided
+      !> cycle_motion, torus or undecided
       integer :: class = undecided
       !> Points after which a cycle repeats, 0 where it is none
       integer :: period = 0
@@ -58,8 +64,35 @@ contains
       if (all(bases > 0.0_wp)) then
          verdict%roughness = roughness_of(scaled, times(first:)*bases(1), times(first:)*bases(2))
       end if
-      verdict%class = merge(torus, chaos, verdict%roughness <= torus_roughness)
+      if (verdict%roughness <= torus_roughness) verdict%class = torus
    end subroutine judge_section
+
+   !> Points after which the last ones repeat so closely that the cycle is reached, 0 if it is not.
+   pure integer function period_of_tail(points, scale) result(period)
+      !> Points in order of time, shape (coordinates, points)
+      real(wp), intent(in) :: points(:, :)
+      !> Scale of the motion in each coordinate, > 0
+      real(wp), intent(in) :: scale(:)
+      real(wp) :: distance(size(points, 2))
+      integer :: i, repeats
+
+      associate (n => size(points, 2))
+         do period = 1, longest_period
+            repeats = max(last_turns*period, last_points)
+            if (repeats + period > n) exit
+            do i = n - repeats + 1, n
+               distance(i) = norm2((points(:, i) - points(:, i - period))/scale)
+               if (distance(i) > settled) exit
+            end do
+            if (i <= n) cycle
+            associate (first => maxval(distance(n - repeats + 1:n - repeats + period)), &
+                       last => maxval(distance(n - period + 1:n)))
+               if (last <= max(first, negligible)) return
+            end associate
+         end do
+      end associate
+      period = 0
+   end function period_of_tail
 
    !> Points after which all come again, 0 when they do not.
    pure integer function period_of(points) result(period)

@@ -24,6 +24,10 @@ module tangent_problem
       procedure :: history => undisturbed_history
       procedure :: rhs => variational_equations
       procedure :: jacobian => blocks_on_the_diagonal
+      procedure :: series => solution_and_vectors
+      procedure :: past_series => undisturbed_past
+      procedure :: relaxation_rate => undisturbed_rate
+      procedure :: slow_series => slow_solution_and_vectors
    end type tangent_problem_type
 
    interface tangent_problem_type
@@ -44,6 +48,7 @@ contains
       allocate (problem%base, source=base)
       problem%vectors = vectors
       problem%n = base%n*(vectors + 1)
+      problem%analytic = base%analytic .and. base%analytic_tangents
       allocate (problem%lag, source=[((base%lag(k), k=1, size(base%lag)), j=0, vectors)])
       allocate (problem%component, source=[((base%component(k) + j*base%n, &
                                              k=1, size(base%lag)), j=0, vectors)])
@@ -138,4 +143,81 @@ contains
          end do
       end associate
    end subroutine blocks_on_the_diagonal
+
+   !> Taylor series of the solution, and of the vectors along it.
+   pure subroutine solution_and_vectors(self, t, unit, degree, z, y)
+      !> The problem
+      class(tangent_problem_type), intent(in) :: self
+      !> Time
+      real(wp), intent(in) :: t
+      !> Unit of time of the powers
+      real(wp), intent(in) :: unit
+      !> Degree of the series
+      integer, intent(in) :: degree
+      !> Coefficients of the delayed values
+      real(wp), intent(in) :: z(0:degree, size(self%lag))
+      !> Coefficients of state and tangent vectors; y(0, :) is given
+      real(wp), intent(inout) :: y(0:degree, self%n)
+
+      associate (base => self%base, n => self%base%n, delays => size(self%base%lag))
+         call base%series(t, unit, degree, z, y)
+         call base%tangent_series(t, unit, degree, z, y, self%vectors, z(:, delays + 1:), &
+                                  y(:, n + 1:))
+      end associate
+   end subroutine solution_and_vectors
+
+   !> Taylor series before the first instant: no disturbance.
+   pure subroutine undisturbed_past(self, t, component, unit, y)
+      !> The problem
+      class(tangent_problem_type), intent(in) :: self
+      !> Time
+      real(wp), intent(in) :: t
+      !> Index into state and tangent vectors
+      integer, intent(in) :: component
+      !> Unit of time of the powers
+      real(wp), intent(in) :: unit
+      !> Coefficients
+      real(wp), intent(out) :: y(0:)
+
+      y = 0.0_wp
+      if (component <= self%base%n) call self%base%past_series(t, component, unit, y)
+   end subroutine undisturbed_past
+
+   !> Fast components of the vectors approach their balance as those of the state do.
+   pure function undisturbed_rate(self, t, y) result(rate)
+      !> The problem
+      class(tangent_problem_type), intent(in) :: self
+      !> Time
+      real(wp), intent(in) :: t
+      !> State and tangent vectors
+      real(wp), intent(in) :: y(self%n)
+      !> The rate
+      real(wp) :: rate
+
+      rate = self%base%relaxation_rate(t, y)
+   end function undisturbed_rate
+
+   !> A better series of the slow solution, and of the vectors along it.
+   pure subroutine slow_solution_and_vectors(self, t, unit, degree, z, y)
+      !> The problem
+      class(tangent_problem_type), intent(in) :: self
+      !> Time
+      real(wp), intent(in) :: t
+      !> Unit of time of the powers
+      real(wp), intent(in) :: unit
+      !> Degree of the series
+      integer, intent(in) :: degree
+      !> Coefficients of the delayed values
+      real(wp), intent(in) :: z(0:degree, size(self%lag))
+      !> Coefficients of the last iteration; better ones
+      real(wp), intent(inout) :: y(0:degree, self%n)
+      real(wp) :: before(0:degree, self%base%n)
+
+      associate (base => self%base, n => self%base%n, delays => size(self%base%lag))
+         before = y(:, :n)
+         call base%slow_series(t, unit, degree, z, y)
+         call base%slow_tangent_series(t, unit, degree, z, before, y, self%vectors, &
+                                       z(:, delays + 1:), y(:, n + 1:))
+      end associate
+   end subroutine slow_solution_and_vectors
 end module tangent_problem

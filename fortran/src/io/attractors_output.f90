@@ -7,7 +7,7 @@ module attractors_output
    use dde_errors, only: error_type
    use exponent_averages, only: sign_bound
    use dde_kinds, only: int64, wp
-   use motion_classes, only: class_names
+   use motion_classes, only: class_names, reason_names
    use netcdf_output, only: output_file_type
    use points_input, only: points_settings_type
    implicit none (type, external)
@@ -46,10 +46,12 @@ contains
          call put("history_theta", points%history%theta, "theta for t <= 0")
          call put("history_u", points%history%u, "u for t <= 0")
          call put("history_v", points%history%v, "v for t <= 0")
-         call put_class("class", found%class, "class of the motion")
-         call put_class("by_exponents", found%by_exponents, "class by Lyapunov exponents")
-         call put_class("by_section", found%by_section, "class by the section v = 1, v rising")
-         call put_class("by_spectrum", found%by_spectrum, "class by the spectrum of v")
+         call put_flags("class", found%class, class_names, "class of the motion")
+         call put_flags("reason", found%reason, reason_names, "why the class is undecided")
+         call put("time", found%time, "time until the class was certain, or the limit")
+         call put_flags("by_exponents", found%by_exponents, class_names, "class by Lyapunov exponents")
+         call put_flags("by_section", found%by_section, class_names, "class by the section v = 1, v rising")
+         call put_flags("by_spectrum", found%by_spectrum, class_names, "class by the spectrum of v")
          call put_exponents()
          call put_integers("period", found%period, "points of a cycle in the section, 0: none")
          call put("roughness", found%roughness, &
@@ -93,20 +95,22 @@ contains
          call file%put(file%integer_variable(name, rows, long_name), values)
       end subroutine put_integers
 
-      !> A class at each point.
-      subroutine put_class(name, values, long_name)
+      !> One of several words at each point.
+      subroutine put_flags(name, values, words, long_name)
          !> Its name
          character(len=*), intent(in) :: name
-         !> Its values
+         !> Which of the words, from 0
          integer, intent(in) :: values(:)
+         !> The words
+         character(len=*), intent(in) :: words(:)
          !> What it is
          character(len=*), intent(in) :: long_name
          integer :: id
 
          id = file%integer_variable(name, rows, long_name)
-         call file%attribute("flag_meanings", meanings(), id)
+         call file%attribute("flag_meanings", meanings(words), id)
          call file%put(id, values)
-      end subroutine put_class
+      end subroutine put_flags
 
       !> Exponents and their errors.
       subroutine put_exponents()
@@ -131,21 +135,23 @@ contains
       end subroutine put_exponents
    end subroutine write_attractors
 
-   !> The classes in words, joined, in the order of their numbers from 0.
-   pure function meanings() result(words)
-      character(len=:), allocatable :: words
-      character(len=len(class_names)) :: name
+   !> Words joined, each without blanks of its own.
+   pure function meanings(words) result(line)
+      !> Words
+      character(len=*), intent(in) :: words(:)
+      character(len=:), allocatable :: line
+      character(len=len(words)) :: name
       integer :: i, j
 
-      words = ""
-      do i = 0, ubound(class_names, 1)
-         name = class_names(i)
+      line = ""
+      do i = 1, size(words)
+         name = words(i)
          do j = 1, len_trim(name)
             if (name(j:j) == " ") name(j:j) = "_"
          end do
-         words = words//" "//trim(name)
+         line = line//" "//trim(name)
       end do
-      words = words(2:)
+      line = line(2:)
    end function meanings
 
    !> How attractors were found.
@@ -180,8 +186,8 @@ contains
 
       least = ieee_value(1.0_wp, ieee_quiet_nan)
       most = least
-      if (.not. allocated(finding%attractor%maxima)) return
-      associate (maxima => finding%attractor%maxima)
+      if (.not. allocated(finding%attractor%motion%maxima)) return
+      associate (maxima => finding%attractor%motion%maxima)
          if (size(maxima) == 0) return
          least = minval(maxima)
          most = maxval(maxima)
@@ -207,14 +213,14 @@ contains
       u = maxima
       do i = 1, size(findings)
          associate (found => findings(i)%attractor)
-            if (.not. allocated(found%maxima)) cycle
-            n = min(kept, size(found%maxima))
-            first = size(found%maxima) - n + 1
-            maxima(:n, i) = found%maxima(first:)
-            n = min(kept, size(found%section, 2))
-            first = size(found%section, 2) - n + 1
-            theta(:n, i) = found%section(1, first:)
-            u(:n, i) = found%section(2, first:)
+            if (.not. allocated(found%motion%maxima)) cycle
+            n = min(kept, size(found%motion%maxima))
+            first = size(found%motion%maxima) - n + 1
+            maxima(:n, i) = found%motion%maxima(first:)
+            n = min(kept, size(found%motion%section, 2))
+            first = size(found%motion%section, 2) - n + 1
+            theta(:n, i) = found%motion%section(1, first:)
+            u(:n, i) = found%motion%section(2, first:)
          end associate
       end do
       dimensions = [file%dimension("kept", kept), rows]

@@ -43,7 +43,8 @@ contains
 
       allocate (blocks(settings%exponents, settings%blocks))
       do i = size(options), 1, -1
-         exponents = average_growth(measured(i)%growth, measured(i)%interval, settings%blocks)
+         exponents = average_growth(measured(i)%growth, measured(i)%length, settings%blocks, &
+                                    flow=.true.)
          values(:, i) = exponents%value
          bars(:, i) = exponents%error
          bounds(:, i) = sign_bound(exponents, settings%zero_level)
@@ -53,7 +54,7 @@ contains
          blocks(i, :) = exponents(i)%blocks
       end do
       associate (first => measured(1))
-         call running_averages(first%growth, first%interval, most_times, time, averages)
+         call running_averages(with_flow(first%growth), first%length, most_times, time, averages)
          call file%create(path, "Lyapunov exponents of the spring block with delayed friction")
          ids = [file%dimension("exponent", settings%exponents), &
                 file%dimension("run", size(options)), &
@@ -95,4 +96,17 @@ contains
       end associate
       call file%finish(error)
    end subroutine write_exponents
+
+   !> The growth of the vectors and, after those that grow, that of the flow: none.
+   pure function with_flow(growth) result(whole)
+      !> Growth of the vectors, shape (vectors, intervals)
+      real(wp), intent(in) :: growth(:, :)
+      real(wp) :: whole(size(growth, 1) + 1, size(growth, 2))
+      integer :: growing
+
+      growing = count(sum(growth, dim=2) > 0.0_wp)
+      whole(:growing, :) = growth(:growing, :)
+      whole(growing + 1, :) = 0.0_wp
+      whole(growing + 2:, :) = growth(growing + 1:, :)
+   end function with_flow
 end module exponents_output

@@ -4,6 +4,7 @@ module spring_block
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use block_parameters, only: block_history_type, block_parameters_type
    use block_series, only: series_of_block, slow_series_of_block
+   use block_tangent_series, only: slow_tangent_series_of_block, tangent_series_of_block
    use block_state, only: index_of_ln_v, index_of_theta, index_of_u, largest_ln_v, least_ln_v
    use dde, only: dde_problem_type
    use dde_kinds, only: wp
@@ -26,6 +27,8 @@ module spring_block
       procedure :: past_series => constant_series
       procedure :: relaxation_rate => relaxation_of_w
       procedure :: slow_series => slow_series_of_4
+      procedure :: tangent_series => tangent_series_of_4
+      procedure :: slow_tangent_series => slow_tangent_series_of_4
    end type spring_block_type
 
    interface spring_block_type
@@ -44,6 +47,7 @@ contains
 
       block%n = 3
       block%analytic = .true.
+      block%analytic_tangents = .true.
       associate (tau => parameters%tau)
          allocate (block%lag, source=pack([tau], tau > 0.0_wp))
          allocate (block%component, source=pack([index_of_ln_v], tau > 0.0_wp))
@@ -200,6 +204,55 @@ contains
 
       call slow_series_of_block(self%parameters, unit, degree, size(z, 2), z, y)
    end subroutine slow_series_of_4
+
+   !> Taylor series of disturbances of the solution of (4).
+   pure subroutine tangent_series_of_4(self, t, unit, degree, z, y, vectors, dz, dy)
+      !> The block
+      class(spring_block_type), intent(in) :: self
+      !> Time, without influence
+      real(wp), intent(in) :: t
+      !> Unit of time of the powers
+      real(wp), intent(in) :: unit
+      !> Degree of the series
+      integer, intent(in) :: degree
+      !> Coefficients of w(t - tau), or nothing
+      real(wp), intent(in) :: z(0:degree, size(self%lag))
+      !> Coefficients of theta, u, w
+      real(wp), intent(in) :: y(0:degree, self%n)
+      !> Number of disturbances
+      integer, intent(in) :: vectors
+      !> Coefficients of the disturbances of w(t - tau), or nothing
+      real(wp), intent(in) :: dz(0:degree, size(self%lag), vectors)
+      !> Coefficients of the disturbances of theta, u, w; dy(0, :, :) is given
+      real(wp), intent(inout) :: dy(0:degree, self%n, vectors)
+
+      call tangent_series_of_block(self%parameters, unit, degree, size(z, 2), z, y, vectors, dz, dy)
+   end subroutine tangent_series_of_4
+
+   !> A better Taylor series of disturbances of the slow solution of (4).
+   pure subroutine slow_tangent_series_of_4(self, t, unit, degree, z, before, y, vectors, dz, dy)
+      !> The block
+      class(spring_block_type), intent(in) :: self
+      !> Time, without influence
+      real(wp), intent(in) :: t
+      !> Unit of time of the powers
+      real(wp), intent(in) :: unit
+      !> Degree of the series
+      integer, intent(in) :: degree
+      !> Coefficients of w(t - tau), or nothing
+      real(wp), intent(in) :: z(0:degree, size(self%lag))
+      !> Coefficients of theta, u, w as they were, and better ones
+      real(wp), intent(in) :: before(0:degree, self%n), y(0:degree, self%n)
+      !> Number of disturbances
+      integer, intent(in) :: vectors
+      !> Coefficients of the disturbances of w(t - tau), or nothing
+      real(wp), intent(in) :: dz(0:degree, size(self%lag), vectors)
+      !> Coefficients of the disturbances of theta, u, w as they were; better ones
+      real(wp), intent(inout) :: dy(0:degree, self%n, vectors)
+
+      call slow_tangent_series_of_block(self%parameters, unit, degree, size(z, 2), z, before, y, &
+                                        vectors, dz, dy)
+   end subroutine slow_tangent_series_of_4
 
    !> Series of the constant history.
    pure subroutine constant_series(self, t, component, unit, y)

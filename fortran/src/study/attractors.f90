@@ -1,37 +1,37 @@
 !> The attractor that the delayed block comes to from one history, and its class: by Lyapunov
 !> exponents, confirmed by a Poincare section and by the spectrum of v.
 !>
-!> The section is v = 1, v rising (where u is least), its points are (theta, u).
+!> The approach ends when the block is at rest or on a cycle, at the latest after a stated time.
+!> Then the motion is observed and its exponents are measured, for longer and longer times, until
+!> the class is certain or a limit is reached.
 module attractors
    use base_frequencies, only: bases_type, label_peaks
-   use dde, only: continuation_type, event_table, integrate, integration_options, &
-                  integration_result, table_sampler
+   use dde, only: continuation_type, integrate, integration_options, integration_result
    use dde_errors, only: error_type
    use exponent_averages, only: average_growth, exponent_type
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, measure_growth
-   use motion_classes, only: agreed, chaos, class_by_exponents, cycle_motion, fixed_point, torus, &
-                             undecided
+   use motion_classes, only: agree, chaos, class_by_exponents, clear, cycle_motion, fixed_point, &
+                             no_class_by_exponents, none, torus, undecided
+   use observed_motion, only: observed_motion_type
    use steady_sliding, only: settles, sliding_exponents
-   use section_motion, only: judge_section, section_verdict_type
+   use section_motion, only: judge_section, period_of_tail, section_verdict_type
    use spectral_peaks, only: find_peaks, peak_type
    use spectrum, only: power_spectrum
    use spectrum_verdict, only: continuum, line_share, one_base, spectrum_kind, two_bases
-   use spring_block, only: index_of_ln_v, index_of_theta, index_of_u, spring_block_type
+   use spring_block, only: spring_block_type
    implicit none (type, external)
    private
    public :: attractor_settings_type, attractor_type, find_attractor
 
-   !> Numbers of the two event functions.
-   enum, bind(c)
-      enumerator :: section = 1, maximum
-   end enum
+   !> Parts of the approach, after each of which rest and cycles are looked for.
+   integer, parameter :: approach_parts = 10
 
    !> How an attractor is found and judged.
    type :: attractor_settings_type
-      !> Time of the approach, left out
+      !> Longest time of the approach, left out
       real(wp) :: t_transient = 0.0_wp
-      !> Time in which it is observed, and exponents are measured
+      !> Time in which it is first observed, and exponents are measured
       real(wp) :: t_observed = 0.0_wp
       !> Time in which tangent vectors turn before
       real(wp) :: t_turning = 0.0_wp
@@ -45,7 +45,7 @@ module attractors
       real(wp) :: zero_level = 0.0_wp
       !> Longest error bar of a zero exponent
       real(wp) :: longest_bar = 0.0_wp
-      !> How often the time of measuring exponents is doubled while their class is undecided
+      !> How often that time is doubled while the class is undecided
       integer :: doublings = 0
       !> Time between the samples of the spectrum
       real(wp) :: sample_interval = 0.0_wp
@@ -63,6 +63,10 @@ module attractors
       !> Classes, of `motion_classes`
       integer :: class = undecided, by_exponents = undecided, by_section = undecided
       integer :: by_spectrum = undecided
+      !> Why the class is undecided, of `motion_classes`
+      integer :: reason = none
+      !> Time after which the class was certain, or the limit
+      real(wp) :: time = 0.0_wp
       !> Leading exponents, descending
       type(exponent_type), allocatable :: exponents(:)
       !> Points after which a cycle repeats in the section, 0 where none
@@ -73,18 +77,14 @@ module attractors
       real(wp) :: bases(2) = 0.0_wp
       !> Share of the power of v in the lines of these
       real(wp) :: line_share = 0.0_wp
-      !> Maxima of v
-      real(wp), allocatable :: maxima(:)
-      !> Points (theta, u) of the section, shape (2, points)
-      real(wp), allocatable :: section(:, :)
-      !> When it was at each, shape (points)
-      real(wp), allocatable :: section_time(:)
+      !> What was seen of it
+      type(observed_motion_type) :: motion
    end type attractor_type
 
 contains
 
-   !> Find the attractor of the block's own history.
-   subroutine find_attractor(block_model, settings, options, attractor, error)
+   !> Find the attractor of the block's own history, or the one that an earlier motion comes to.
+   subroutine find_attractor(block_model, settings, options, attractor, error, start)
       !> The block and its history
       type(spring_block_type), intent(in) :: block_model
       !> How
@@ -95,45 +95,83 @@ contains
       type(attractor_type), intent(out) :: attractor
       !> The run ended before its time, or exponents cannot be measured
       type(error_type), allocatable, intent(out) :: error
-      type(continuation_type) :: arrived, onward
-      type(event_table) :: events
+      !> Where an earlier motion ended
+      type(continuation_type), intent(in), optional :: start
       type(integration_result) :: outcome
-      type(table_sampler) :: samples
-      real(wp) :: t_end
-      integer :: i
 
-      call integrate(block_model, 0.0_wp, settings%t_transient, options, outcome, error, &
-                     continuation=arrived)
-      if (allocated(error)) return
-      events = event_table([index_of_ln_v, index_of_ln_v], level=[0.0_wp, 0.0_wp], &
-                           direction=[1, -1], of_slope=[.false., .true.])
-      t_end = settings%t_transient + settings%t_observed
-      ! rounding may put the last one beyond the end, where there is none
-      samples = table_sampler([index_of_theta, index_of_u, index_of_ln_v], &
-                              [(min(settings%t_transient + i*settings%sample_interval, t_end), &
-                                i=0, int(settings%t_observed/settings%sample_interval))])
-      onward = arrived
-      call integrate(block_model, settings%t_transient, t_end, options, outcome, error, &
-                     sampler=samples, watcher=events, continuation=onward)
-      if (allocated(error)) return
-      call keep_events(events, attractor)
-
-      if (settles(samples%values(3, :))) then
-         call sliding_exponents(block_model, exponents_of(block_model, settings), &
-                                attractor%exponents, error)
+      if (present(start)) then
+         attractor%motion%continuation = start
+      else
+         call integrate(block_model, 0.0_wp, 0.0_wp, options, outcome, error, &
+                        continuation=attractor%motion%continuation)
          if (allocated(error)) return
-         if (all(attractor%exponents%value < 0.0_wp)) then
-            attractor%class = fixed_point
-            attractor%by_exponents = fixed_point
-            attractor%by_section = fixed_point
-            attractor%by_spectrum = fixed_point
-            return
-         end if
       end if
-      call judge_motion(block_model, settings, options, arrived, samples, attractor, error)
-      if (allocated(error)) return
-      attractor%class = agreed(attractor%by_exponents, attractor%by_section, attractor%by_spectrum)
+      associate (now => attractor%motion%continuation%time)
+         attractor%time = now(1)
+         call approach(block_model, settings, options, attractor, error)
+         if (allocated(error)) return
+         if (attractor%class == undecided) call judge_motion(block_model, settings, options, &
+                                                             attractor, error)
+         attractor%time = now(1) - attractor%time
+      end associate
    end subroutine find_attractor
+
+   !> Wait until the block is at rest or on a cycle, but not longer than the approach may take.
+   subroutine approach(block_model, settings, options, attractor, error)
+      !> The block
+      type(spring_block_type), intent(in) :: block_model
+      !> How
+      type(attractor_settings_type), intent(in) :: settings
+      !> Method and tolerances
+      type(integration_options), intent(in) :: options
+      !> The attractor
+      type(attractor_type), intent(inout) :: attractor
+      !> The run ended before its time
+      type(error_type), allocatable, intent(out) :: error
+      integer :: part
+
+      do part = 1, approach_parts
+         call attractor%motion%clear()
+         call attractor%motion%observe(block_model, settings%t_transient/approach_parts, &
+                                       settings%sample_interval, options, error)
+         if (allocated(error)) return
+         call judge_rest(block_model, settings, attractor, error)
+         if (allocated(error) .or. attractor%class == fixed_point) return
+         if (on_cycle(attractor%motion)) return
+      end do
+   end subroutine approach
+
+   !> Whether the block has come to rest: it stays close to steady sliding or approaches it, and
+   !> steady sliding is stable.
+   subroutine judge_rest(block_model, settings, attractor, error)
+      !> The block
+      type(spring_block_type), intent(in) :: block_model
+      !> How
+      type(attractor_settings_type), intent(in) :: settings
+      !> The attractor
+      type(attractor_type), intent(inout) :: attractor
+      !> The roots of (5) cannot be found
+      type(error_type), allocatable, intent(out) :: error
+      type(exponent_type), allocatable :: exponents(:)
+
+      if (.not. settles(attractor%motion%samples(3, :))) return
+      call sliding_exponents(block_model, exponents_of(block_model, settings), exponents, error)
+      if (allocated(error)) return
+      if (.not. all(exponents%value < 0.0_wp)) return
+      attractor%exponents = exponents
+      attractor%class = fixed_point
+      attractor%by_exponents = fixed_point
+      attractor%by_section = fixed_point
+      attractor%by_spectrum = fixed_point
+   end subroutine judge_rest
+
+   !> Whether the last points of the section are those of a cycle.
+   pure logical function on_cycle(motion) result(value)
+      !> The motion
+      type(observed_motion_type), intent(in) :: motion
+
+      value = period_of_tail(motion%section, motion%scale()) > 0
+   end function on_cycle
 
    !> Number of exponents: without delay there are no more than equations.
    pure integer function exponents_of(block_model, settings) result(exponents)
@@ -146,71 +184,130 @@ contains
       if (size(block_model%lag) == 0) exponents = min(exponents, block_model%n)
    end function exponents_of
 
-   !> Maxima of v and points of the section.
-   pure subroutine keep_events(events, attractor)
-      !> Events met
-      type(event_table), intent(in) :: events
-      !> The attractor
-      type(attractor_type), intent(inout) :: attractor
-      integer :: i
-
-      if (events%received == 0) then
-         allocate (attractor%maxima(0), attractor%section(2, 0), attractor%section_time(0))
-         return
-      end if
-      associate (met => events%which(:events%received), rows => [(i, i=1, events%received)])
-         attractor%maxima = exp(events%y(index_of_ln_v, pack(rows, met == maximum)))
-         associate (passages => pack(rows, met == section))
-            attractor%section = events%y([index_of_theta, index_of_u], passages)
-            attractor%section_time = events%time(passages)%hi
-         end associate
-      end associate
-   end subroutine keep_events
-
-   !> A block in motion: its class by exponents, by the section and by the spectrum.
-   subroutine judge_motion(block_model, settings, options, arrived, samples, attractor, error)
+   !> A block in motion: observe it until its class is certain.
+   subroutine judge_motion(block_model, settings, options, attractor, error)
       !> The block
       type(spring_block_type), intent(in) :: block_model
       !> How
       type(attractor_settings_type), intent(in) :: settings
       !> Method and tolerances
       type(integration_options), intent(in) :: options
-      !> Where the approach ended
-      type(continuation_type), intent(in) :: arrived
-      !> theta, u and ln v
-      type(table_sampler), intent(in) :: samples
       !> The attractor
       type(attractor_type), intent(inout) :: attractor
       !> Exponents cannot be measured
       type(error_type), allocatable, intent(out) :: error
-      type(growth_settings_type) :: wanted
       type(growth_type) :: measured
-      type(section_verdict_type) :: in_section
-      integer :: i
+      logical :: restarted
+      integer :: doubled
+      real(wp) :: time
+
+      restarted = on_cycle(attractor%motion)
+      if (.not. restarted) call attractor%motion%clear()
+      call begin_growth(block_model, settings, options, attractor, measured, error)
+      time = settings%t_observed
+      doubled = 0
+      do
+         if (allocated(error)) return
+         call attractor%motion%observe(block_model, time, settings%sample_interval, options, error)
+         if (allocated(error)) return
+         call judge_rest(block_model, settings, attractor, error)
+         if (allocated(error) .or. attractor%class == fixed_point) return
+         if (.not. restarted .and. on_cycle(attractor%motion)) then
+            ! what came before was the approach
+            call begin_growth(block_model, settings, options, attractor, measured, error)
+            if (allocated(error)) return
+            restarted = .true.
+            doubled = 0
+         end if
+         call judge(settings, measured, doubled == settings%doublings, attractor, error)
+         if (allocated(error) .or. attractor%class /= undecided &
+             .or. doubled == settings%doublings) return
+         doubled = doubled + 1
+         time = sum(measured%length)
+         call extend_growth(block_model, growth_settings(block_model, settings, 0.0_wp), options, &
+                            measured, error)
+      end do
+   end subroutine judge_motion
+
+   !> Begin to measure exponents where the motion is.
+   subroutine begin_growth(block_model, settings, options, attractor, measured, error)
+      !> The block
+      type(spring_block_type), intent(in) :: block_model
+      !> How
+      type(attractor_settings_type), intent(in) :: settings
+      !> Method and tolerances
+      type(integration_options), intent(in) :: options
+      !> The attractor
+      type(attractor_type), intent(in) :: attractor
+      !> The growth
+      type(growth_type), intent(out) :: measured
+      !> Exponents cannot be measured
+      type(error_type), allocatable, intent(out) :: error
+
+      associate (now => attractor%motion%continuation)
+         call measure_growth(block_model, &
+                             growth_settings(block_model, settings, &
+                                             now%time(1) + settings%t_turning &
+                                             + settings%t_observed), &
+                             options, measured, error, now)
+      end associate
+   end subroutine begin_growth
+
+   !> What growth is measured over.
+   pure type(growth_settings_type) function growth_settings(block_model, settings, t_end) &
+      result(wanted)
+      !> The block
+      type(spring_block_type), intent(in) :: block_model
+      !> How attractors are judged
+      type(attractor_settings_type), intent(in) :: settings
+      !> When it ends
+      real(wp), intent(in) :: t_end
 
       wanted = growth_settings_type(exponents=exponents_of(block_model, settings), &
-                                    t_turning=settings%t_turning, &
-                                    t_end=settings%t_transient + settings%t_turning &
-                                    + settings%t_observed, &
-                               interval=settings%interval, blocks=settings%blocks, bounds=.true.)
-      call measure_growth(block_model, wanted, options, measured, error, arrived)
-      do i = 0, settings%doublings
-         if (allocated(error)) return
-         attractor%exponents = average_growth(measured%growth, measured%interval, settings%blocks)
-         attractor%by_exponents = class_by_exponents(attractor%exponents, settings%zero_level, &
-                                                     settings%longest_bar)
-         if (attractor%by_exponents /= undecided .or. i == settings%doublings) exit
-         call extend_growth(block_model, wanted, options, measured, error)
-      end do
+                                    t_turning=settings%t_turning, t_end=t_end, &
+                                    interval=settings%interval, blocks=settings%blocks, &
+                                    bounds=.true., across_flow=.true.)
+   end function growth_settings
 
-      call judge_spectrum(exp(samples%values(3, :)), settings, attractor, error)
-      if (allocated(error)) return
-      call judge_section(attractor%section, attractor%section_time, &
-                         [(spread_of(samples%values(i, :)), i=1, 2)], attractor%bases, in_section)
-      attractor%by_section = in_section%class
-      attractor%period = in_section%period
-      attractor%roughness = in_section%roughness
-   end subroutine judge_motion
+   !> The class by what was seen so far. The spectrum is computed where it matters.
+   subroutine judge(settings, measured, last, attractor, error)
+      !> How
+      type(attractor_settings_type), intent(in) :: settings
+      !> Growth of the vectors
+      type(growth_type), intent(in) :: measured
+      !> Whether this is the last judgement
+      logical, intent(in) :: last
+      !> The attractor
+      type(attractor_type), intent(inout) :: attractor
+      !> Too few samples
+      type(error_type), allocatable, intent(out) :: error
+      type(section_verdict_type) :: in_section
+
+      attractor%exponents = average_growth(measured%growth, measured%length, settings%blocks, &
+                                           flow=.true.)
+      attractor%by_exponents = class_by_exponents(attractor%exponents, settings%zero_level, &
+                                                  settings%longest_bar)
+      attractor%by_section = undecided
+      attractor%by_spectrum = undecided
+      attractor%reason = no_class_by_exponents
+      if (attractor%by_exponents == undecided .and. .not. last) return
+      associate (motion => attractor%motion)
+         attractor%period = period_of_tail(motion%section, motion%scale())
+         if (attractor%period > 0) then
+            attractor%by_section = cycle_motion
+         else if (.not. clear(attractor%exponents)) then
+            call judge_spectrum(exp(motion%samples(3, :)), settings, attractor, error)
+            if (allocated(error)) return
+            call judge_section(motion%section, motion%section_time, motion%scale(), &
+                               attractor%bases, in_section)
+            attractor%by_section = in_section%class
+            attractor%period = in_section%period
+            attractor%roughness = in_section%roughness
+         end if
+      end associate
+      call agree(attractor%exponents, attractor%by_exponents, attractor%by_section, &
+                 attractor%by_spectrum, attractor%class, attractor%reason)
+   end subroutine judge
 
    !> The class by the lines in the spectrum of v.
    subroutine judge_spectrum(v, settings, attractor, error)
@@ -244,14 +341,4 @@ contains
          attractor%by_spectrum = undecided
       end select
    end subroutine judge_spectrum
-
-   !> Standard deviation.
-   pure real(wp) function spread_of(values) result(spread)
-      !> Values
-      real(wp), intent(in) :: values(:)
-
-      associate (n => size(values))
-         spread = max(norm2(values - sum(values)/n)/sqrt(real(n, wp)), tiny(1.0_wp))
-      end associate
-   end function spread_of
 end module attractors

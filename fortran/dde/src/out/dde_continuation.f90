@@ -13,6 +13,9 @@ module dde_continuation
    private
    public :: continuation_type
 
+   !> A step may end so far before the next one begins, in units of the spacing of times.
+   real(wp), parameter :: rounding = 4.0_wp
+
    !> The end of a run. It is empty (`y` not allocated) before the first run. Each instant is the
    !> sum of a pair of numbers, the second being the rounding error of the first.
    type :: continuation_type
@@ -45,6 +48,8 @@ module dde_continuation
       real(wp), allocatable :: step_start(:, :)
       !> Its length, shape (steps)
       real(wp), allocatable :: step_length(:)
+      !> Time from its start for which its polynomial is valid, shape (steps)
+      real(wp), allocatable :: valid_for(:)
       !> Newton nodes of its polynomial, shape (degree, steps)
       real(wp), allocatable :: nodes(:, :)
       !> Newton coefficients, shape (1 + degree, kept, steps), 0 above the degree of the step
@@ -134,7 +139,7 @@ contains
                  now => instant(self%time(1), self%time(2)))
          if (elapsed(origin, oldest) <= 0.0_wp) return
          do k = 1, size(problem%lag)
-            if (elapsed(oldest, later(now, -problem%lag(k))) >= 0.0_wp) cycle
+            if (elapsed(oldest, later(now, -problem%lag(k))) >= -rounding*spacing(now%hi)) cycle
             call raise(error, "integrate: lag("//text(k)//") = "//text(problem%lag(k)) &
                        //" reaches beyond the past that the continuation keeps; at most " &
                        //text(elapsed(oldest, now))//" expected")
@@ -153,7 +158,8 @@ contains
               .and. allocated(self%passages) .and. allocated(self%generation) &
               .and. allocated(self%kept) &
               .and. allocated(self%step_start) .and. allocated(self%step_length) &
-              .and. allocated(self%nodes) .and. allocated(self%coefficients)
+              .and. allocated(self%valid_for) .and. allocated(self%nodes) &
+              .and. allocated(self%coefficients)
       if (.not. value) return
       steps = size(self%step_length)
       value = any(size(self%slope) == [0, size(self%y)]) &
@@ -161,6 +167,7 @@ contains
               .and. all(shape(self%kink) == [2, size(self%passages)]) &
               .and. size(self%generation) == size(self%passages) &
               .and. all(shape(self%step_start) == [2, steps]) &
+              .and. size(self%valid_for) == steps &
               .and. size(self%nodes, 1) <= highest_degree .and. size(self%nodes, 2) == steps &
               .and. all(shape(self%coefficients) &
                         == [1 + size(self%nodes, 1), size(self%kept), steps])
@@ -208,12 +215,12 @@ contains
       self%kept = past%kept
       degree = past%degree_in_use()
       steps = int(past%newest - past%oldest + 1)
-      allocate (self%step_start(2, steps), self%step_length(steps))
+      allocate (self%step_start(2, steps), self%step_length(steps), self%valid_for(steps))
       allocate (self%nodes(degree, steps), self%coefficients(1 + degree, size(past%kept), steps))
       i = 0
       do step = past%oldest, past%newest
          i = i + 1
-         call past%recall(step, start, self%step_length(i), self%nodes(:, i), &
+         call past%recall(step, start, self%step_length(i), self%valid_for(i), self%nodes(:, i), &
                           self%coefficients(:, :, i))
          self%step_start(:, i) = [start%hi, start%lo]
       end do
@@ -237,7 +244,7 @@ contains
       do i = 1, size(self%step_length)
          call past%append(instant(self%step_start(1, i), self%step_start(2, i)), &
                           self%step_length(i), self%nodes(:, i), self%coefficients(:, :, i), &
-                          valid_for=self%step_length(i))
+                          self%valid_for(i))
       end do
       allocate (kinks(size(self%passages)))
       kinks%at%hi = self%kink(1, :)

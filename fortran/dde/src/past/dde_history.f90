@@ -154,7 +154,7 @@ contains
    end subroutine open_slot
 
    !> Step number `step`, oldest..newest, as it was stored.
-   pure subroutine recall(self, step, start, length, nodes, coefficients)
+   pure subroutine recall(self, step, start, length, valid_for, nodes, coefficients)
       !> The past
       class(history_type), intent(in) :: self
       !> Number of the step
@@ -163,6 +163,8 @@ contains
       type(instant), intent(out) :: start
       !> Length of the step
       real(wp), intent(out) :: length
+      !> Time from `start` for which its polynomial is valid
+      real(wp), intent(out) :: valid_for
       !> Newton nodes of its polynomial, as many as its degree at least
       real(wp), intent(out) :: nodes(:)
       !> Newton coefficients of the kept components, shape (0:size(nodes), kept)
@@ -172,6 +174,7 @@ contains
       slot = self%slot_of(step)
       start = self%start(slot)
       length = self%length(slot)
+      valid_for = self%valid_for(slot)
       nodes = self%nodes(:size(nodes), slot)
       coefficients = self%coefficients(0:size(nodes), :, slot)
       coefficients(self%degree(slot) + 1:, :) = 0.0_wp
