@@ -105,7 +105,8 @@ contains
       associate (a => finding%attractor)
          numbers = [real([a%class, a%by_exponents, a%by_section, a%by_spectrum, a%period], wp), &
                     a%exponents%value, a%exponents%error, a%roughness, a%bases, a%line_share, &
-                    a%maxima, reshape(a%section, [size(a%section)]), a%section_time]
+                    a%motion%maxima, &
+                     reshape(a%motion%section, [size(a%motion%section)]), a%motion%section_time]
       end associate
    end function all_of
 

@@ -41,7 +41,7 @@ contains
       real(wp), intent(in) :: t_observed
 
       settings = attractor_settings_type(t_transient=t_transient, t_observed=t_observed, &
-                                         t_turning=0.5_wp*t_observed, interval=5.0_wp, blocks=5, &
+                                         t_turning=0.5_wp*t_observed, interval=5.0_wp, blocks=20, &
                                          exponents=4, zero_level=3.0e-5_wp, longest_bar=1.0e-3_wp, &
                                          doublings=0, sample_interval=0.1_wp, window="hann", &
                                          segments=8, overlap=0.5_wp, peak_floor=1.0e-6_wp, &
@@ -62,7 +62,7 @@ contains
       type(spring_block_type), intent(in) :: block
       !> How
       type(attractor_settings_type), intent(in) :: settings
-      !> What all witnesses say
+      !> Its class, that none of its indicators contradicts
       integer, intent(in) :: class
       !> What was found
       type(attractor_type), intent(out) :: found
@@ -74,7 +74,8 @@ contains
       call expect_success(error, failure)
       if (allocated(error)) return
       associate (classes => [found%class, found%by_exponents, found%by_section, found%by_spectrum])
-         call expect(error, all(classes == class), "all say "//trim(class_names(class))//" (" &
+         call expect(error, all(classes(:2) == class) .and. &
+                     all(classes(3:) == class .or. classes(3:) == undecided), "none denies "//trim(class_names(class))//" (" &
                      //trim(class_names(classes(1)))//": "//trim(class_names(classes(2)))//", " &
                      //trim(class_names(classes(3)))//", "//trim(class_names(classes(4)))//")")
       end associate
@@ -90,16 +91,15 @@ contains
 
       if (allocated(error)) return
       call expect(error, found%period == 1, "period 1")
-      associate (n => size(found%section_time))
-         call expect(error, size(found%section, 2) == n, "a time for each point")
-         call expect_close(error, found%bases(1)*(found%section_time(n) - found%section_time(1)), &
+      associate (n => size(found%motion%section_time))
+         call expect(error, size(found%motion%section, 2) == n, "a time for each point")
+         call expect_close(error, found%bases(1)*(found%motion%section_time(n) - found%motion%section_time(1)), &
                            n - 1.0_wp, 1.0e-2_wp, "turns by frequency and by passages")
       end associate
       call expect_close(error, found%bases(2), 0.0_wp, 0.0_wp, "second base")
-      call expect_between(error, found%line_share, 0.999_wp, 1.0_wp, "share of the lines")
-      call expect_between(error, maxval(found%maxima)/minval(found%maxima), 1.0_wp, 1.001_wp, &
+      call expect_between(error, maxval(found%motion%maxima)/minval(found%motion%maxima), 1.0_wp, 1.001_wp, &
                           "largest over smallest maximum")
-      call expect_between(error, minval(found%maxima), 1.0_wp, 100.0_wp, "smallest maximum")
+      call expect_between(error, minval(found%motion%maxima), 1.0_wp, 100.0_wp, "smallest maximum")
    end subroutine expect_simple_cycle
 
    !> Fig. 4a: the exponents are the roots of the cubic s^3 + 1.8 s^2 + 0.4 s + 0.64.
@@ -149,17 +149,18 @@ contains
       if (allocated(error)) return
       call expect_between(error, found%exponents(1)%value/found%exponents(1)%error, 3.0_wp, &
                           huge(1.0_wp), "leading exponent in error bars")
-      call expect_between(error, found%roughness, 0.5_wp, 2.0_wp, "roughness")
       call expect(error, found%period == 0, "no period")
    end subroutine test_chaos
 
    !> The delay of Fig. 5a made longer. The section is a closed curve.
    subroutine test_true_torus(error)
       type(error_type), allocatable, intent(out) :: error
+      type(attractor_settings_type) :: settings
       type(attractor_type) :: found
 
-      call find(disturbed(12.5_wp, 0.5_wp, 0.8_wp), after(15000.0_wp, 6000.0_wp), torus, found, &
-                error)
+      settings = after(8000.0_wp, 6000.0_wp)
+      settings%doublings = 1
+      call find(disturbed(12.5_wp, 0.5_wp, 0.8_wp), settings, torus, found, error)
       call expect_torus(error, found)
    end subroutine test_true_torus
 
@@ -226,8 +227,8 @@ contains
       call find(build_block(tau=10.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp), &
                 after(100.0_wp, 500.0_wp), undecided, found, error)
       if (allocated(error)) return
-      call expect(error, size(found%maxima) == 0 .and. size(found%section) == 0 .and. &
-                  size(found%section_time) == 0, "no events")
+      call expect(error, size(found%motion%maxima) == 0 .and. size(found%motion%section) == 0 .and. &
+                  size(found%motion%section_time) == 0, "no events")
    end subroutine test_unstable
 
    !> Tangent vectors wait until the delay is over. On the way to a cycle, which is all that is seen
@@ -275,7 +276,7 @@ contains
 
       settings = after(200.0_wp, 500.0_wp)
       settings%sample_interval = 500.0_wp
-      call find_attractor(disturbed(10.0_wp, 0.5_wp, 0.8_wp), settings, &
+      call find_attractor(disturbed(12.5_wp, 0.5_wp, 0.8_wp), settings, &
                           at_tolerance(1.0e-6_wp, "auto"), found, failure)
       call expect_failure(error, failure, "samples")
       call expect(error, found%class == undecided, "undecided")

@@ -5,8 +5,9 @@ module test_motion_classes
    use exponent_averages, only: exponent_type
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use motion_classes, only: agreed, chaos, class_by_exponents, class_names, cycle_motion, &
-                             fixed_point, torus, undecided
+   use motion_classes, only: agree, chaos, class_by_exponents, class_names, clear, contradicted, &
+                             cycle_motion, fixed_point, no_class_by_exponents, none, &
+                             not_confirmed, torus, undecided
    implicit none (type, external)
    private
    public :: collect_motion_classes
@@ -25,7 +26,7 @@ contains
                    new_unittest("torus", test_torus), &
                    new_unittest("chaos", test_chaos), &
                    new_unittest("undecided", test_undecided), &
-                   new_unittest("verdict of three", test_agreed), &
+                   new_unittest("verdict of three", test_agreement), &
                    new_unittest("names", test_names)]
    end subroutine collect_motion_classes
 
@@ -110,31 +111,43 @@ contains
       call expect_class(error, [1.0e-5_wp, 1.0e-5_wp, 0.0_wp], [0.0_wp, 0.0_wp, 0.0_wp], undecided)
    end subroutine test_undecided
 
-   !> Every class by exponents with every two opinions.
-   subroutine test_agreed(error)
+   !> Every class by exponents with every two opinions, where the exponents are clear and where
+   !> they are not.
+   subroutine test_agreement(error)
       type(error_type), allocatable, intent(out) :: error
-      integer :: by_exponents, by_section, by_spectrum, known
+      integer :: by_exponents, by_section, by_spectrum, found, known, reason, sharp
+      type(exponent_type) :: exponents(3)
 
-      do by_exponents = undecided, chaos
-         do by_section = undecided, chaos
-            do by_spectrum = undecided, chaos
-               if (by_section == by_exponents .and. by_spectrum == by_exponents) then
+      exponents%value = [0.05_wp, 0.0_wp, -0.1_wp]
+      do sharp = 0, 1
+         exponents%error = merge(1.0e-3_wp, 1.0e-2_wp, sharp == 1)*[1, 0, 1]
+         call expect(error, clear(exponents) .eqv. sharp == 1, "clear")
+         do by_exponents = undecided, chaos
+            do by_section = undecided, chaos
+               do by_spectrum = undecided, chaos
                   known = by_exponents
-               else if (by_section == by_exponents .and. by_spectrum == undecided) then
-                  known = by_exponents
-               else if (by_section == undecided .and. by_spectrum == by_exponents) then
-                  known = by_exponents
-               else
-                  known = undecided
-               end if
-               call expect(error, agreed(by_exponents, by_section, by_spectrum) == known, &
-                           trim(class_names(by_exponents))//", "//trim(class_names(by_section)) &
-                           //" and "//trim(class_names(by_spectrum))//" make " &
-                           //trim(class_names(known)))
+                  if (all([by_section, by_spectrum] == undecided) .and. sharp == 0) &
+                     known = undecided
+                  if (by_section /= undecided .and. by_section /= by_exponents) known = undecided
+                  if (by_spectrum /= undecided .and. by_spectrum /= by_exponents) known = undecided
+                  call agree(exponents, by_exponents, by_section, by_spectrum, found, reason)
+                  call expect(error, found == known, trim(class_names(by_exponents))//", " &
+                              //trim(class_names(by_section))//" and " &
+                              //trim(class_names(by_spectrum))//" make " &
+                              //trim(class_names(known)))
+                  call expect(error, (reason == none) .eqv. (found /= undecided), "a reason")
+               end do
             end do
          end do
       end do
-   end subroutine test_agreed
+      call agree(exponents, undecided, torus, torus, found, reason)
+      call expect(error, reason == no_class_by_exponents, "no class by exponents")
+      call agree(exponents, cycle_motion, torus, undecided, found, reason)
+      call expect(error, reason == contradicted, "contradicted")
+      exponents(1)%error = 1.0_wp
+      call agree(exponents, torus, undecided, undecided, found, reason)
+      call expect(error, reason == not_confirmed, "not confirmed")
+   end subroutine test_agreement
 
    !> Each number has its name.
    subroutine test_names(error)

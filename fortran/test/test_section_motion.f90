@@ -4,9 +4,9 @@ module test_section_motion
    use expectations, only: expect, expect_between, expect_close
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use motion_classes, only: chaos, cycle_motion, torus, undecided
+   use motion_classes, only: cycle_motion, torus, undecided
    use pseudo_random, only: uniform
-   use section_motion, only: judge_section, section_verdict_type
+   use section_motion, only: judge_section, period_of_tail, section_verdict_type
    implicit none (type, external)
    private
    public :: collect_section_motion
@@ -35,7 +35,8 @@ contains
                    new_unittest("noise", test_noise), &
                    new_unittest("noise on a torus", test_noise_on_torus), &
                    new_unittest("logistic map", test_logistic), &
-                   new_unittest("few points and many", test_number_of_points)]
+                   new_unittest("few points and many", test_number_of_points), &
+                   new_unittest("the last points of a cycle", test_tail)]
    end subroutine collect_section_motion
 
    !> A section judged.
@@ -97,20 +98,20 @@ contains
       points = reshape(uniform(seed, 2*n, -most, most), [2, n])
    end function noise
 
-   !> Cycles of period 1, 2, 7 and 64 have their period; one of period 65 is none.
+   !> Cycles of period 1, 2, 7 and 128 have their period; one of period 129 is none.
    subroutine test_cycles(error)
       type(error_type), allocatable, intent(out) :: error
       type(section_verdict_type) :: verdict
       integer :: i
-      integer, parameter :: n = 400, periods(4) = [1, 2, 7, 64]
+      integer, parameter :: n = 600, periods(4) = [1, 2, 7, 128]
 
       do i = 1, size(periods)
          verdict = judged(cycle(periods(i), n), turns(n), none)
          call expect(error, verdict%class == cycle_motion, "a cycle of "//text(periods(i)))
          call expect(error, verdict%period == periods(i), "its period")
       end do
-      verdict = judged(cycle(65, n), turns(n), none)
-      call expect(error, verdict%class /= cycle_motion .and. verdict%period == 0, "65 are too many")
+      verdict = judged(cycle(129, n), turns(n), none)
+      call expect(error, verdict%class /= cycle_motion .and. verdict%period == 0, "129 are too many")
    end subroutine test_cycles
 
    !> Even scatter up to a in x and b in y makes the root mean square distance of two points of the
@@ -199,7 +200,7 @@ contains
       verdict = judged(points, times, [0.5_wp*f1, f2])
       call expect(error, verdict%class == torus, "a doubled torus")
       verdict = judged(points, times, both)
-      call expect(error, verdict%class == chaos, "no function of the whole turn")
+      call expect(error, verdict%class == undecided, "no function of the whole turn")
    end subroutine test_doubled_torus
 
    !> A torus is not seen with another second frequency, nor without.
@@ -211,9 +212,9 @@ contains
 
       times = turns(n)
       verdict = judged(loop(f2*times), times, [f1, 0.413_wp*f1])
-      call expect(error, verdict%class == chaos, "another second frequency")
+      call expect(error, verdict%class == undecided, "another second frequency")
       verdict = judged(loop(f2*times), times, [f1, 0.0_wp])
-      call expect(error, verdict%class == chaos, "no second frequency")
+      call expect(error, verdict%class == undecided, "no second frequency")
       call expect_close(error, verdict%roughness, 1.0_wp, 0.0_wp, "roughness without one")
    end subroutine test_other_bases
 
@@ -224,7 +225,7 @@ contains
       integer, parameter :: n = 1000
 
       verdict = judged(noise(9, 1.0_wp, n), turns(n), both)
-      call expect(error, verdict%class == chaos .and. verdict%period == 0, "noise")
+      call expect(error, verdict%class == undecided .and. verdict%period == 0, "noise")
       ! twice the variance in the mean over a thousand pairs, within four standard errors
       call expect_between(error, verdict%roughness, 0.85_wp, 1.15_wp, "roughness")
    end subroutine test_noise
@@ -235,7 +236,7 @@ contains
       type(section_verdict_type) :: verdict
       integer, parameter :: n = 1000
       real(wp), parameter :: shares(2) = [0.02_wp, 0.10_wp]
-      integer, parameter :: classes(2) = [torus, chaos]
+      integer, parameter :: classes(2) = [torus, undecided]
       real(wp) :: most, times(n)
       integer :: i
 
@@ -270,7 +271,7 @@ contains
          points(2, :) = 0.1_wp*sin(turn*f2*times)
          ! two bands in turn are a smooth function of half the frequency, but for their width
          verdict = judged(points, times, [0.5_wp*f1, f2])
-         call expect(error, verdict%class == chaos .and. verdict%period == 0, &
+         call expect(error, verdict%class == undecided .and. verdict%period == 0, &
                      "the logistic map at "//text(r(k)))
       end do
    end subroutine test_logistic
@@ -297,4 +298,34 @@ contains
       verdict = judged(points, turns(1500), none)
       call expect(error, verdict%period == 0, "but for three of them")
    end subroutine test_number_of_points
+
+   !> A cycle is reached where the last points repeat within 1e-5, closer and closer, whatever came
+   !> before; a slow drift is none, and neither are points that move away from it.
+   subroutine test_tail(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: n = 300, period = 7
+      real(wp) :: points(2, n)
+      integer :: i
+
+      points = cycle(period, n)
+      points(:, :100) = noise(6, 1.0_wp, 100)
+      call expect(error, period_of_tail(points, reach) == period, "after noise")
+      call expect(error, period_of_tail(points(:, :127), reach) == 0, "too few repetitions")
+      call expect(error, period_of_tail(points(:, :128), reach) == period, "just enough")
+      do i = 1, n
+         points(1, i) = points(1, i) + exp(-0.05_wp*i)
+      end do
+      call expect(error, period_of_tail(points(:, :150), reach) == 0, "on the way")
+      call expect(error, period_of_tail(points, reach) == period, "approached")
+      points = cycle(period, n)
+      do i = 1, n
+         points(1, i) = points(1, i) + 1.0e-8_wp*exp(0.02_wp*i)
+      end do
+      call expect(error, period_of_tail(points, reach) == 0, "moving away")
+      points = cycle(period, n)
+      do i = 1, n
+         points(1, i) = points(1, i) + 1.0e-5_wp*i
+      end do
+      call expect(error, period_of_tail(points, reach) == 0, "drift")
+   end subroutine test_tail
 end module test_section_motion

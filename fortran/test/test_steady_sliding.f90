@@ -161,7 +161,7 @@ contains
       call expect_success(error, failure)
       if (allocated(error)) return
       call expect(error, size(exponents) == number, "as many exponents as asked for")
-      measured_ones = average_growth(measured%growth, measured%interval, 4)
+      measured_ones = average_growth(measured%growth, measured%length, 4, flow=.false.)
       call expect_close(error, measured_ones%value, exponents%value, 1.0e-3_wp, "exponents")
    end subroutine test_measured
 

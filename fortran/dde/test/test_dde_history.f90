@@ -126,7 +126,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(history_type) :: past
       type(instant) :: start
-      real(wp) :: coefficient(0:12, 1), length, nodes(12)
+      real(wp) :: coefficient(0:12, 1), length, nodes(12), valid_for
       integer :: i
 
       past = history_type(delayed([2.0_wp], [1]), instant_at(0.0_wp))
@@ -137,8 +137,9 @@ contains
          call past%forget(instant_at(i + 1.0_wp))
       end do
       call past%append(instant_at(64.0_wp), 1.0_wp, odd_nodes, reshape([3.0_wp, 4.0_wp], [2, 1]), &
-                       valid_for=1.0_wp)
-      call past%recall(past%newest, start, length, nodes, coefficient)
+                       valid_for=1.5_wp)
+      call past%recall(past%newest, start, length, valid_for, nodes, coefficient)
+      call expect_close(error, valid_for, 1.5_wp, 0.0_wp, "validity")
       call expect_close(error, start%hi, 64.0_wp, 0.0_wp, "start")
       call expect_close(error, coefficient(:, 1), [3.0_wp, 4.0_wp, (0.0_wp, i=2, 12)], 0.0_wp, &
                         "coefficients")

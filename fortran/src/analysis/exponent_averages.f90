@@ -15,7 +15,7 @@ module exponent_averages
    !> Share of a normal distribution above so many standard errors.
    real(wp), parameter :: beyond_bars = 0.5_wp*erfc(error_bars/sqrt(2.0_wp))
    !> Length of each smooth end, as a share of the time.
-   real(wp), parameter :: ends = 0.1_wp
+   real(wp), parameter :: ends = 0.25_wp
    !> Number of the lowest frequencies that the error is estimated by.
    integer, parameter :: lowest = 8
 
@@ -52,24 +52,23 @@ contains
       logical, intent(in) :: flow
       type(exponent_type), allocatable :: exponents(:)
       type(exponent_type) :: moving
-      real(wp) :: of_block(size(length)/blocks), weight(size(length))
-      integer :: block, i, j, first, last
+      real(wp) :: of_block(size(length)/blocks, blocks), weight(size(length))
+      integer :: block, first(blocks), i, j, last(blocks)
 
-      of_block = level_with_smooth_ends(size(of_block))
-      weight = level_with_smooth_ends(size(weight))
-      weight = weight/sum(weight*length)
+      last = [(block*size(of_block, 1), block=1, blocks)]
+      first = last - size(of_block, 1) + 1
+      do block = 1, blocks
+         of_block(:, block) = weights_over(length(first(block):last(block)))
+      end do
+      weight = weights_over(length)
       allocate (exponents(size(growth, 1) + merge(1, 0, flow)))
       do j = 1, size(exponents)
          moving = exponent_type(blocks=[(0.0_wp, block=1, blocks)])
          if (j <= size(growth, 1)) then
             moving%value = sum(weight*growth(j, :))
-            moving%error = error_of_mean(weight, growth(j, :) - moving%value*length)
-            do block = 1, blocks
-               first = (block - 1)*size(of_block) + 1
-               last = block*size(of_block)
-               moving%blocks(block) = sum(of_block*growth(j, first:last)) &
-                                      /sum(of_block*length(first:last))
-            end do
+            moving%error = error_of_mean(weight, length, growth(j, :) - moving%value*length)
+            moving%blocks = [(sum(of_block(:, block)*growth(j, first(block):last(block))), &
+                              block=1, blocks)]
          end if
          i = j - 1
          do while (i >= 1)
@@ -81,38 +80,59 @@ contains
       end do
    end function average_growth
 
-   !> Weights that are 1 but for ends that rise like exp(-1/x).
-   pure function level_with_smooth_ends(n) result(weights)
-      !> How many
-      integer, intent(in) :: n
-      real(wp) :: weights(n)
+   !> Weights of intervals: level but for ends that rise like exp(-1/x), sum(weights*length) = 1.
+   pure function weights_over(length) result(weights)
+      !> Lengths of the intervals
+      real(wp), intent(in) :: length(:)
+      real(wp) :: weights(size(length))
       integer :: i
 
-      weights = 1.0_wp
-      do i = 1, n
-         associate (x => min(i - 0.5_wp, n - i + 0.5_wp)/(ends*n))
-            if (x < 1.0_wp) weights(i) = 1.0_wp/(1.0_wp + exp(1.0_wp/x - 1.0_wp/(1.0_wp - x)))
+      weights = middles(length)
+      do i = 1, size(length)
+         associate (x => min(weights(i), 1.0_wp - weights(i))/ends)
+            weights(i) = 1.0_wp
+            if (x < 1.0_wp) then
+               weights(i) = 0.5_wp*(1.0_wp - tanh(0.5_wp*(1.0_wp/x - 1.0_wp/(1.0_wp - x))))
+            end if
          end associate
       end do
-   end function level_with_smooth_ends
+      weights = weights/sum(weights*length)
+   end function weights_over
+
+   !> The middle of each interval, as a share of the time.
+   pure function middles(length) result(x)
+      !> Lengths of the intervals
+      real(wp), intent(in) :: length(:)
+      real(wp) :: passed, x(size(length))
+      integer :: i
+
+      passed = 0.0_wp
+      do i = 1, size(length)
+         x(i) = passed + 0.5_wp*length(i)
+         passed = passed + length(i)
+      end do
+      x = x/passed
+   end function middles
 
    !> Standard error of the weighted mean of a signal: the root mean square of its weighted Fourier
    !> sums at the lowest frequencies.
-   pure real(wp) function error_of_mean(weight, deviation) result(error)
+   pure real(wp) function error_of_mean(weight, length, deviation) result(error)
       !> Weights
       real(wp), intent(in) :: weight(:)
+      !> Lengths of the intervals
+      real(wp), intent(in) :: length(:)
       !> The signal less its mean
       real(wp), intent(in) :: deviation(:)
-      real(wp) :: phase(size(weight)), squares
-      real(wp), parameter :: pi = acos(-1.0_wp)
-      integer :: i, k, n
+      real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
+      real(wp) :: squares
+      integer :: k
 
-      n = size(weight)
       squares = 0.0_wp
       do k = 1, lowest
-         phase = [(2.0_wp*pi*k*(i - 0.5_wp)/n, i=1, n)]
-         squares = squares + sum(weight*deviation*cos(phase))**2 &
-                   + sum(weight*deviation*sin(phase))**2
+         associate (phase => turn*k*middles(length))
+            squares = squares + sum(weight*deviation*cos(phase))**2 &
+                      + sum(weight*deviation*sin(phase))**2
+         end associate
       end do
       error = sqrt(squares/lowest)*student_quantile(beyond_bars, 2*lowest)/error_bars
    end function error_of_mean

@@ -12,7 +12,8 @@ module attractors
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, measure_growth
    use motion_classes, only: agree, chaos, class_by_exponents, clear, cycle_motion, fixed_point, &
-                             no_class_by_exponents, none, torus, undecided
+                             no_class_by_exponents, none, torus, undecided, &
+                             unstable_rest
    use observed_motion, only: observed_motion_type
    use steady_sliding, only: settles, sliding_exponents
    use section_motion, only: judge_section, period_of_tail, section_verdict_type
@@ -201,6 +202,10 @@ contains
       integer :: doubled
       real(wp) :: time
 
+      if (settles(attractor%motion%samples(3, :))) then
+         attractor%reason = unstable_rest
+         return
+      end if
       restarted = on_cycle(attractor%motion)
       if (.not. restarted) call attractor%motion%clear()
       call begin_growth(block_model, settings, options, attractor, measured, error)
@@ -295,6 +300,9 @@ contains
          attractor%period = period_of_tail(motion%section, motion%scale())
          if (attractor%period > 0) then
             attractor%by_section = cycle_motion
+            associate (time => motion%section_time, n => size(motion%section_time))
+               attractor%bases = [1.0_wp/(time(n) - time(n - attractor%period)), 0.0_wp]
+            end associate
          else if (.not. clear(attractor%exponents)) then
             call judge_spectrum(exp(motion%samples(3, :)), settings, attractor, error)
             if (allocated(error)) return

@@ -75,7 +75,8 @@ contains
                            direction=[1, -1], of_slope=[.false., .true.])
       ! rounding may put the last one beyond the end, where there is none
       samples = table_sampler([index_of_theta, index_of_u, index_of_ln_v], &
-                              [(min(start + i*interval, start + time), i=1, int(time/interval))])
+                              [(min(start + i*interval, start + time), &
+                                i=1, max(1, int(time/interval)))])
       call integrate(block_model, start, start + time, options, outcome, error, sampler=samples, &
                      watcher=events, continuation=self%continuation)
       if (allocated(error)) return
