@@ -103,7 +103,7 @@ contains
       do method = 1, size(names)
          call solve(linear(n=1, lag=[1.0_wp], component=[1], past=[1.0_wp], first=[1.0_wp]), &
                     growth_settings_type(exponents=6, t_begin=50.0_wp, t_end=350.0_wp, &
-                                         t_turning=49.0_wp, interval=0.05_wp, blocks=3), &
+                                         t_turning=49.0_wp, interval=0.04_wp, blocks=3), &
                     at_tolerance(1.0e-10_wp, names(method)), exponents, error)
          if (allocated(error)) return
          do i = 0, 2
