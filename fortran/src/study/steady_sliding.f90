@@ -5,6 +5,7 @@ module steady_sliding
    use dde_errors, only: error_type
    use exponent_averages, only: exponent_type
    use dde_kinds, only: wp
+   use root_counts, only: roots_right_of
    use spring_block, only: spring_block_type
    implicit none (type, external)
    private
@@ -45,13 +46,14 @@ contains
       real(wp) :: bound
       integer :: i
 
-      bound = first_bound
-      do
-         call roots_of_block(block_model%parameters, bound, roots, error)
-         if (allocated(error)) return
-         if (size(roots) >= count .or. bound <= last_bound) exit
-         bound = 2.0_wp*bound
-      end do
+      associate (p => block_model%parameters)
+         bound = first_bound
+         do while (bound > last_bound .and. roots_right_of(p, bound) < count)
+            bound = 2.0_wp*bound
+         end do
+         call roots_of_block(p, bound, roots, error)
+      end associate
+      if (allocated(error)) return
       exponents = [(exponent_type(value=real(roots(i))), i=1, min(count, size(roots)))]
    end subroutine sliding_exponents
 end module steady_sliding
