@@ -1,6 +1,7 @@
 !> How many characteristic roots of (5) lie to the right of a line, by the principle of the
 !> argument: along s = bound + i w, w = 0..infinity, the argument of Delta(s) grows by
-!> (3/2 - Z) pi, where Z is their number.
+!> (3/2 - Z) pi, where Z is their number. The largest terms of Delta(s) at large w are the leading
+!> part s^2 (s + 1 + gamma^2/xi), the argument of which is known.
 module root_counts
    use block_parameters, only: block_parameters_type
    use characteristic_function, only: delta, slope_bound, terms
@@ -9,8 +10,8 @@ module root_counts
    private
    public :: pairs_beside, roots_right_of
 
-   !> Largest change of Delta in a step, in units of Delta.
-   real(wp), parameter :: step_share = 0.3_wp
+   !> Bound on the change of Delta in a step, in units of Delta: below 1, its argument is certain.
+   real(wp), parameter :: step_share = 0.9_wp
    !> Least step, in units of w and for w = 0, so that a root on the line does not stop the walk.
    real(wp), parameter :: least_share = 1.0e-14_wp, least_step = 1.0e-30_wp
    !> Radius, in units of omega, of the way around a known root i omega.
@@ -54,8 +55,8 @@ contains
       number = number_of(p, growth, 0.0_wp)/2
    end function pairs_beside
 
-   !> Number of roots from the growth of the argument up to `far_end`; beyond it Delta(s) tends to
-   !> s^3.
+   !> Number of roots from the growth of the argument up to `far_end`; from there on it grows as that
+   !> of the leading part.
    pure integer function number_of(p, growth, bound) result(number)
       !> Parameters
       type(block_parameters_type), intent(in) :: p
@@ -63,24 +64,27 @@ contains
       real(wp), intent(in) :: growth
       !> Real part of the line
       real(wp), intent(in) :: bound
-      complex(wp) :: s
+      complex(wp) :: factor, s
+      real(wp) :: rest
 
       s = cmplx(bound, far_end(p, bound), kind=wp)
-      number = nint(1.5_wp - (growth - angle(delta(p, s)/cmplx(0.0_wp, aimag(s), kind=wp)**3))/pi)
+      factor = s + (1.0_wp + p%gamma**2/p%xi)
+      rest = 1.5_wp*pi - 2.0_wp*angle(s) - angle(factor) - angle(delta(p, s)/(s**2*factor))
+      number = nint(1.5_wp - (growth + rest)/pi)
    end function number_of
 
-   !> A w from which on s^3 outweighs all other terms.
+   !> A w from which on the leading part outweighs the other terms; their ratio grows with w.
    pure real(wp) function far_end(p, bound) result(w)
       !> Parameters
       type(block_parameters_type), intent(in) :: p
       !> Real part of the line
       real(wp), intent(in) :: bound
-      real(wp) :: term(5)
+      complex(wp) :: term(5)
 
-      w = 1.0_wp + 4.0_wp*abs(bound)
+      w = 1.0_wp
       do
-         term = abs(terms(p, cmplx(bound, w, kind=wp)))
-         if (term(1) > 3.0_wp*sum(term(2:))) exit
+         term = terms(p, cmplx(bound, w, kind=wp))
+         if (abs(term(1) + term(2)) > 2.0_wp*sum(abs(term(3:)))) exit
          w = 2.0_wp*w
       end do
    end function far_end
