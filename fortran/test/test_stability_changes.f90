@@ -155,7 +155,7 @@ contains
       call expect_failure(error, failure, "a bound nearer to 0 expected")
    end subroutine test_roots
 
-   !> Random parameters.
+   !> Random parameters; every third gamma is between 1e-2 and 1e12.
    pure type(block_parameters_type) function random_block(i) result(p)
       !> Number of the block
       integer, intent(in) :: i
@@ -164,5 +164,6 @@ contains
       x = uniform(i, 4, 0.0_wp, 1.0_wp)
       p = block_parameters_type(tau=15.0_wp*x(1), epsilon=1.5_wp*x(2), xi=0.2_wp + x(3), &
                                 gamma=0.3_wp + x(4))
+      if (modulo(i, 3) == 0) p%gamma = 10.0_wp**(14.0_wp*x(4) - 2.0_wp)
    end function random_block
 end module test_stability_changes

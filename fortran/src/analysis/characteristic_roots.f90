@@ -195,8 +195,7 @@ contains
 
       allocate (roots(0))
       do i = 1, size(approximate)
-         if (aimag(approximate(i)) < 0.0_wp) cycle
-         if (real(approximate(i)) < bound - longest_way*(1.0_wp + abs(approximate(i)))) cycle
+         if (real(approximate(i)) < bound - longest_way .or. aimag(approximate(i)) < 0.0_wp) cycle
          call follow_newton(system, approximate(i), s, found)
          if (.not. found .or. real(s) <= bound) cycle
          if (any(abs(s - roots) <= same_root*(1.0_wp + abs(s)))) cycle
