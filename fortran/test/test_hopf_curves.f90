@@ -1,11 +1,11 @@
 !> Hopf curves in their windows, those of the paper's Figures 2 and 3 and five more, against the
 !> closed form and characteristic roots followed by Newton's method.
 module test_hopf_curves
-   use closed_form, only: closed_epsilon, closed_tau
-   use dde_errors, only: failure_type => error_type, text
-   use expectations, only: expect, expect_between, expect_close, expect_success
-   use hopf_curves, only: curve_point_type, trace_curves
-   use hopf_planes, only: curve_plane_type, tau_plane_type
+   use closed_form, only: closed_epsilon
+   use dde_errors, only: text
+   use expectations, only: expect, expect_between, expect_close
+   use hopf_curves, only: curve_point_type
+   use hopf_planes, only: curve_plane_type
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use traced_planes, only: closed_delta, known_point, place_of, planes, root_near, trace, &
@@ -31,7 +31,6 @@ contains
       testsuite = [new_unittest("points in the window, on the curve", test_points), &
                    new_unittest("chords", test_chords), &
                    new_unittest("pieces are all there", test_pieces), &
-                   new_unittest("a narrow range of frequencies", test_narrow), &
                    new_unittest("both halves of each loop", test_halves), &
                    new_unittest("crossing by theorem", test_crossing), &
                    new_unittest("crossing by Newton's method", test_newton), &
@@ -128,26 +127,6 @@ contains
          end associate
       end do
    end subroutine test_pieces
-
-   !> At gamma = 0.01 all frequencies of the window lie within 0.01 of gamma; branch 0 goes from the
-   !> point without delay to the edge tau = 30.
-   subroutine test_narrow(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(curve_point_type), allocatable :: points(:)
-
-      call trace_curves(tau_plane_type(gamma=0.01_wp, epsilon_window=[0.0_wp, 1.5_wp], &
-                                       ordinate_window=[0.0_wp, 30.0_wp], xi=0.5_wp), points, &
-                        failure)
-      call expect_success(error, failure)
-      call expect(error, size(points) > 10, "there are points")
-      if (allocated(error)) return
-      call expect(error, maxval(points%branch) == 0, "one branch")
-      call expect_close(error, minval(points%parameters%tau), 0.0_wp, 1.0e-9_wp, "least delay")
-      call expect_close(error, maxval(points%parameters%tau), 30.0_wp, 1.0e-9_wp, "longest delay")
-      call expect_close(error, points%parameters%tau, closed_tau(points%omega, 0.5_wp, 0.01_wp, 0), &
-                        1.0e-9_wp, "delays in closed form")
-   end subroutine test_narrow
 
    !> The loops of Figure 2 have points on both sides of, and near, the least epsilon.
    subroutine test_halves(error)

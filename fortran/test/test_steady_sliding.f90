@@ -111,7 +111,7 @@ contains
 
    !> The Hopf set in closed form: with B = xi (gamma^2 - omega^2)/(gamma^2 omega),
    !> 1 + epsilon = sqrt((1 + omega^2) (1 + B^2)), tau = (atan B - atan omega + 2 pi k)/omega, a
-   !> pair of roots is imaginary. At gamma = 0.8 it is the rightmost one at the first of these delays.
+   !> pair of roots is imaginary. At the first of these delays and gamma = 0.8 it is the rightmost.
    subroutine test_hopf_points(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
@@ -137,7 +137,8 @@ contains
                               "two zero exponents at tau = "//text(tau)//", epsilon = " &
                               //text(epsilon)//", gamma = "//text(gamma))
                   p = block_parameters_type(tau, epsilon, xi, gamma)
-                  call expect(error, count(exponents%value > 1.0e-9_wp) == 2*pairs_beside(p, [omega]), &
+                  call expect(error, count(exponents%value > 1.0e-9_wp) &
+                              == 2*pairs_beside(p, [omega]), &
                               "unstable pairs beside it at tau = "//text(tau))
                   if (j == 1 .and. k == 0) call expect(error, &
                                                        all(exponents(3:)%value < -1.0e-3_wp), &

@@ -25,7 +25,7 @@ module traced_planes
 contains
 
    !> Trace plane number i: Figures 2 and 3, loops that leave the window on their way, a short
-   !> delay, pieces up to the largest omega there can be, branches up to the highest, and the largest
+   !> delay, pieces up to the largest omega there can be, branches up to the highest, and a large
    !> gamma.
    subroutine trace(i, traced, error)
       !> Number of the plane

@@ -55,8 +55,8 @@ contains
       number = number_of(p, growth, 0.0_wp)/2
    end function pairs_beside
 
-   !> Number of roots from the growth of the argument up to `far_end`; from there on it grows as that
-   !> of the leading part.
+   !> Number of roots from the growth of the argument up to `far_end`; from there on the argument
+   !> grows as that of the leading part.
    pure integer function number_of(p, growth, bound) result(number)
       !> Parameters
       type(block_parameters_type), intent(in) :: p
