@@ -153,6 +153,11 @@ contains
       call expect_close(error, abs(aimag(roots(1)) - 0.619666_wp), 0.0_wp, 1.0e-6_wp, "frequency")
       call roots_of_block(torus, -1.0_wp, roots, failure)
       call expect_failure(error, failure, "a bound nearer to 0 expected")
+      ! there are exp(100), or more than the largest number
+      call roots_of_block(torus, -10.0_wp, roots, failure)
+      call expect_failure(error, failure, "more than 512 roots above -10.0; a bound nearer to 0")
+      call roots_of_block(torus, -100.0_wp, roots, failure)
+      call expect_failure(error, failure, "more than 512 roots above -100.0; a bound nearer to 0")
    end subroutine test_roots
 
    !> Random parameters; every third gamma is between 1e-2 and 1e12.

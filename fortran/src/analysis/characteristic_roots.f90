@@ -9,10 +9,12 @@ module characteristic_roots
    use lapack, only: eigenvalues, solve
    implicit none (type, external)
    private
-   public :: find_roots
+   public :: find_roots, most_roots
 
    !> Intervals between the nodes of the first try and of the last.
    integer, parameter :: first_intervals = 16, most_intervals = 512
+   !> No more roots than these are found.
+   integer, parameter :: most_roots = most_intervals
    !> Roots nearer than this, relative to 1 + |s|, are the same.
    real(wp), parameter :: same_root = 1.0e-8_wp
    !> Farthest way from an eigenvalue to its root, relative to 1 + |s|.

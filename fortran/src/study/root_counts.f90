@@ -8,7 +8,7 @@ module root_counts
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: pairs_beside, roots_right_of
+   public :: has_more_roots, pairs_beside, roots_right_of
 
    !> Bound on the change of Delta in a step, in units of Delta: below 1, its argument is certain.
    real(wp), parameter :: step_share = 0.9_wp
@@ -18,6 +18,8 @@ module root_counts
    real(wp), parameter :: radius_share = 1.0e-5_wp
    !> Steps of that way.
    integer, parameter :: arc_steps = 32
+   !> Largest -bound tau: beyond it exp(-s tau) is near the largest number.
+   real(wp), parameter :: largest_exponent = 400.0_wp
    !> Half a turn.
    real(wp), parameter :: pi = acos(-1.0_wp)
 
@@ -32,6 +34,35 @@ contains
 
       number = number_of(p, line_growth(p, bound, 0.0_wp, far_end(p, bound)), bound)
    end function roots_right_of
+
+   !> Whether there are surely more than `number` roots with real part above `bound`. It does not
+   !> count them, which takes long. Where the delayed term is larger than twice the sum of the
+   !> others, the argument of Delta falls by tau per unit of w. The rest of the line changes it by a
+   !> few turns.
+   pure logical function has_more_roots(p, bound, number) result(value)
+      !> Parameters
+      type(block_parameters_type), intent(in) :: p
+      !> Real part of the line
+      real(wp), intent(in) :: bound
+      !> The number
+      integer, intent(in) :: number
+      real(wp) :: first, last, size_of(5), w
+      integer :: i
+
+      value = -bound*p%tau > largest_exponent
+      if (value) return
+      first = 0.0_wp
+      last = 0.0_wp
+      do i = -16, 200
+         w = 2.0_wp**i
+         size_of = abs(terms(p, cmplx(bound, w, kind=wp)))
+         if (size_of(5) > 2.0_wp*sum(size_of(:4))) then
+            if (first <= 0.0_wp) first = w
+            last = w
+         end if
+      end do
+      value = p%tau*(last - first)/pi > 2.0_wp*(number + 4)
+   end function has_more_roots
 
    !> Number of pairs of roots with positive real part where some pairs i omega are on the
    !> imaginary axis, which are left out.
