@@ -45,7 +45,7 @@ contains
 
       intervals = first_intervals
       if (present(expected)) then
-         ! n roots above the bound need at least n intervals
+         ! with one delayed component, fewer intervals do not resolve so many roots
          do while (intervals < expected)
             intervals = 2*intervals
          end do
