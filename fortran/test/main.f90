@@ -15,6 +15,7 @@ program tester
    use test_dde_switch, only: collect_dde_switch
    use test_dde_taylor, only: collect_dde_taylor
    use test_exponents, only: collect_exponents
+   use test_extreme_gamma, only: collect_extreme_gamma
    use test_friction_law, only: collect_friction_law
    use test_gsl_roots, only: collect_gsl_roots
    use test_hopf_condition, only: collect_hopf_condition
@@ -52,6 +53,7 @@ program tester
                              new_testsuite("dde_switch", collect_dde_switch), &
                              new_testsuite("dde_taylor", collect_dde_taylor), &
                              new_testsuite("exponents", collect_exponents), &
+                             new_testsuite("extreme_gamma", collect_extreme_gamma), &
                              new_testsuite("friction_law", collect_friction_law), &
                              new_testsuite("gsl_roots", collect_gsl_roots), &
                              new_testsuite("hopf_condition", collect_hopf_condition), &

@@ -1,4 +1,4 @@
-!> Hopf curves in their windows, those of the paper's Figures 2 and 3 and four more, against the
+!> Hopf curves in their windows, those of the paper's Figures 2 and 3 and five more, against the
 !> closed form and characteristic roots followed by Newton's method.
 module test_hopf_curves
    use closed_form, only: closed_epsilon

@@ -153,9 +153,14 @@ contains
       call expect_close(error, abs(aimag(roots(1)) - 0.619666_wp), 0.0_wp, 1.0e-6_wp, "frequency")
       call roots_of_block(torus, -1.0_wp, roots, failure)
       call expect_failure(error, failure, "a bound nearer to 0 expected")
+      ! there are exp(100), or more than the largest number
+      call roots_of_block(torus, -10.0_wp, roots, failure)
+      call expect_failure(error, failure, "more than 512 roots above -10.0; a bound nearer to 0")
+      call roots_of_block(torus, -100.0_wp, roots, failure)
+      call expect_failure(error, failure, "more than 512 roots above -100.0; a bound nearer to 0")
    end subroutine test_roots
 
-   !> Random parameters.
+   !> Random parameters; every third gamma is between 1e-2 and 1e12.
    pure type(block_parameters_type) function random_block(i) result(p)
       !> Number of the block
       integer, intent(in) :: i
@@ -164,5 +169,6 @@ contains
       x = uniform(i, 4, 0.0_wp, 1.0_wp)
       p = block_parameters_type(tau=15.0_wp*x(1), epsilon=1.5_wp*x(2), xi=0.2_wp + x(3), &
                                 gamma=0.3_wp + x(4))
+      if (modulo(i, 3) == 0) p%gamma = 10.0_wp**(14.0_wp*x(4) - 2.0_wp)
    end function random_block
 end module test_stability_changes

@@ -1,6 +1,7 @@
 !> Blocks that approach steady sliding, and the exponents there.
 module test_steady_sliding
    use block_builder, only: build_block
+   use block_parameters, only: block_parameters_type
    use dde, only: continuation_type, integrate, integration_result
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_close, expect_success
@@ -10,6 +11,7 @@ module test_steady_sliding
    use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use steady_sliding, only: settles, sliding_exponents
+   use root_counts, only: pairs_beside
    use solving, only: at_tolerance
    use spring_block, only: spring_block_type
    implicit none (type, external)
@@ -91,7 +93,7 @@ contains
                companion(2, 1) = 1.0_wp
                companion(3, 2) = 1.0_wp
                companion(1, :) = -[1.0_wp + square/xi, square*(1.0_wp - epsilon/xi), square]
-               call eigenvalues(companion, roots, failure)
+               call eigenvalues(companion, [1.0_wp, 1.0_wp, 1.0_wp], roots, failure)
                call expect_success(error, failure)
                known = [maxval(roots%re), sum(roots%re) - maxval(roots%re) - minval(roots%re), &
                         minval(roots%re)]
@@ -109,30 +111,40 @@ contains
 
    !> The Hopf set in closed form: with B = xi (gamma^2 - omega^2)/(gamma^2 omega),
    !> 1 + epsilon = sqrt((1 + omega^2) (1 + B^2)), tau = (atan B - atan omega + 2 pi k)/omega, a
-   !> pair of roots is imaginary. At the first of these delays it is the rightmost one.
+   !> pair of roots is imaginary. At the first of these delays and gamma = 0.8 it is the rightmost.
    subroutine test_hopf_points(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(exponent_type), allocatable :: exponents(:)
       real(wp), parameter :: all_omega(3) = [0.3_wp, 0.45_wp, 0.56568542494923802_wp]
-      real(wp), parameter :: gamma = 0.8_wp, pi = acos(-1.0_wp), xi = 0.8_wp
+      real(wp), parameter :: all_gamma(3) = [0.8_wp, 1.0e8_wp, 1.0e12_wp], pi = acos(-1.0_wp)
+      real(wp), parameter :: xi = 0.8_wp
+      type(block_parameters_type) :: p
       real(wp) :: b, epsilon, tau
-      integer :: i, k
+      integer :: i, j, k
 
-      do i = 1, size(all_omega)
-         do k = 0, 1
-            associate (omega => all_omega(i))
-               b = xi*(gamma**2 - omega**2)/(gamma**2*omega)
-               epsilon = sqrt((1.0_wp + omega**2)*(1.0_wp + b**2)) - 1.0_wp
-               tau = (atan(b) - atan(omega) + 2.0_wp*pi*k)/omega
-            end associate
-            call sliding_exponents(steady(tau, epsilon, xi, gamma), 12, exponents, failure)
-            call expect_success(error, failure)
-            if (allocated(error)) return
-            call expect(error, count(abs(exponents%value) <= 1.0e-9_wp) == 2, &
-                        "two zero exponents at tau = "//text(tau)//", epsilon = "//text(epsilon))
-            if (k == 0) call expect(error, all(exponents(3:)%value < -1.0e-3_wp), &
-                                    "the others negative at tau = "//text(tau))
+      do j = 1, size(all_gamma)
+         do i = 1, size(all_omega)
+            do k = 0, 1
+               associate (omega => all_omega(i), gamma => all_gamma(j))
+                  b = xi*(1.0_wp - (omega/gamma)**2)/omega
+                  epsilon = sqrt((1.0_wp + omega**2)*(1.0_wp + b**2)) - 1.0_wp
+                  tau = (atan(b) - atan(omega) + 2.0_wp*pi*k)/omega
+                  call sliding_exponents(steady(tau, epsilon, xi, gamma), 30, exponents, failure)
+                  call expect_success(error, failure)
+                  if (allocated(error)) return
+                  call expect(error, count(abs(exponents%value) <= 1.0e-9_wp) == 2, &
+                              "two zero exponents at tau = "//text(tau)//", epsilon = " &
+                              //text(epsilon)//", gamma = "//text(gamma))
+                  p = block_parameters_type(tau, epsilon, xi, gamma)
+                  call expect(error, count(exponents%value > 1.0e-9_wp) &
+                              == 2*pairs_beside(p, [omega]), &
+                              "unstable pairs beside it at tau = "//text(tau))
+                  if (j == 1 .and. k == 0) call expect(error, &
+                                                       all(exponents(3:)%value < -1.0e-3_wp), &
+                                                       "none at tau = "//text(tau))
+               end associate
+            end do
          end do
       end do
    end subroutine test_hopf_points

@@ -12,7 +12,7 @@ module traced_planes
    public :: closed_delta, known_point, place_of, planes, root_near, trace, traced_plane
 
    !> Number of planes.
-   integer, parameter :: planes = 6
+   integer, parameter :: planes = 7
 
    !> A plane and what was traced in it.
    type :: traced_plane
@@ -25,7 +25,8 @@ module traced_planes
 contains
 
    !> Trace plane number i: Figures 2 and 3, loops that leave the window on their way, a short
-   !> delay, pieces up to the largest omega there can be, and branches up to the highest.
+   !> delay, pieces up to the largest omega there can be, branches up to the highest, and a large
+   !> gamma.
    subroutine trace(i, traced, error)
       !> Number of the plane
       integer, intent(in) :: i
@@ -51,9 +52,12 @@ contains
       case (5)
          traced%plane = tau_plane_type(gamma=0.75_wp, epsilon_window=[0.0_wp, 0.25_wp], &
                                        ordinate_window=[0.0_wp, 30.0_wp], xi=0.5_wp)
-      case default
+      case (6)
          traced%plane = tau_plane_type(gamma=1.0_wp, epsilon_window=[0.0_wp, 1.5_wp], &
                                        ordinate_window=[0.0_wp, 30.0_wp], xi=0.01_wp)
+      case default
+         traced%plane = tau_plane_type(gamma=1.0e12_wp, epsilon_window=[0.0_wp, 1.5_wp], &
+                                       ordinate_window=[0.0_wp, 30.0_wp], xi=0.5_wp)
       end select
       call trace_curves(traced%plane, traced%points, failure)
       call expect_success(error, failure)

@@ -1,6 +1,7 @@
 !> Characteristic roots of a linear delay system: Chebyshev collocation of the infinitesimal
 !> generator (Breda, Maset and Vermiglio 2005), each eigenvalue refined by Newton's method on
-!> det Delta(s), with so many nodes that twice as many change nothing.
+!> det Delta(s), with so many nodes that the expected number of roots is found, or, where none is
+!> known, that twice as many nodes change nothing.
 module characteristic_roots
    use delay_equation, only: linear_system_type
    use dde_errors, only: error_type, raise, text
@@ -8,10 +9,12 @@ module characteristic_roots
    use lapack, only: eigenvalues, solve
    implicit none (type, external)
    private
-   public :: find_roots
+   public :: find_roots, most_roots
 
    !> Intervals between the nodes of the first try and of the last.
-   integer, parameter :: first_intervals = 16, most_intervals = 256
+   integer, parameter :: first_intervals = 16, most_intervals = 512
+   !> No more roots than these are found.
+   integer, parameter :: most_roots = most_intervals
    !> Roots nearer than this, relative to 1 + |s|, are the same.
    real(wp), parameter :: same_root = 1.0e-8_wp
    !> Farthest way from an eigenvalue to its root, relative to 1 + |s|.
@@ -26,29 +29,36 @@ contains
 
    !> All simple roots with real part above `bound`, the rightmost first; of a pair, the one above
    !> the real axis first.
-   subroutine find_roots(system, bound, roots, error)
+   subroutine find_roots(system, bound, roots, error, expected)
       !> The system
       type(linear_system_type), intent(in) :: system
       !> Least real part
       real(wp), intent(in) :: bound
       !> The roots
       complex(wp), allocatable, intent(out) :: roots(:)
-      !> Not the same with twice as many nodes
+      !> Not as many as expected, or not the same with twice as many nodes
       type(error_type), allocatable, intent(out) :: error
+      !> Their number, if it is known
+      integer, intent(in), optional :: expected
       complex(wp), allocatable :: approximate(:), before(:)
       integer :: intervals
 
-      if (maxval(system%lag) <= 0.0_wp) then
-         call eigenvalues(sum(system%a, dim=3), approximate, error)
-         if (.not. allocated(error)) roots = refined(system, bound, approximate)
-         return
-      end if
       intervals = first_intervals
+      if (present(expected)) then
+         ! with one delayed component, fewer intervals do not resolve so many roots
+         do while (intervals < expected)
+            intervals = 2*intervals
+         end do
+      end if
       do while (intervals <= most_intervals)
-         call eigenvalues(generator(system, intervals), approximate, error)
+         call approximate_roots(system, intervals, approximate, error)
          if (allocated(error)) return
          roots = refined(system, bound, approximate)
-         if (allocated(before)) then
+         if (present(expected)) then
+            if (size(roots) == expected) return
+         else if (maxval(system%lag) <= 0.0_wp) then
+            return
+         else if (allocated(before)) then
             if (size(before) == size(roots)) then
                if (all(abs(roots - before) <= same_root*(1.0_wp + abs(roots)))) return
             end if
@@ -56,37 +66,74 @@ contains
          call move_alloc(roots, before)
          intervals = 2*intervals
       end do
-      call raise(error, "find_roots: roots with real part above "//text(bound) &
-                 //" are not settled with "//text(most_intervals)//" intervals and lag " &
+      call raise(error, "find_roots: the roots with real part above "//text(bound) &
+                 //" are not found with "//text(most_intervals)//" intervals and lag " &
                  //text(maxval(system%lag))//"; a bound nearer to 0 expected")
    end subroutine find_roots
 
-   !> The generator on Chebyshev nodes from 0 back to the longest lag: the system itself at 0,
-   !> differentiation of the history elsewhere.
-   pure function generator(system, intervals) result(matrix)
+   !> The eigenvalues s of the scaled generator, M s x = G x.
+   subroutine approximate_roots(system, intervals, approximate, error)
       !> The system
       type(linear_system_type), intent(in) :: system
       !> Intervals between the nodes
       integer, intent(in) :: intervals
+      !> The eigenvalues
+      complex(wp), allocatable, intent(out) :: approximate(:)
+      !> They cannot be found
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable :: divisor(:), matrix(:, :)
+      real(wp) :: unit
+
+      ! the unit of time is the longest lag
+      unit = maxval(system%lag)
+      if (unit > 0.0_wp) then
+         matrix = generator(system, intervals, unit)
+      else
+         unit = 1.0_wp
+         matrix = sum(system%a, dim=3)
+      end if
+      ! a row of large entries (a fast component) gets a small mass; otherwise its size would be
+      ! that of the rounding errors of all roots
+      divisor = max(1.0_wp, maxval(abs(matrix), dim=2))
+      call eigenvalues(matrix/spread(divisor, 2, size(divisor)), 1.0_wp/divisor, approximate, error)
+      approximate = approximate/unit
+   end subroutine approximate_roots
+
+   !> The generator on Chebyshev nodes from 0 back to the longest lag: the system itself at 0,
+   !> differentiation of the history elsewhere. Only delayed components have a history.
+   pure function generator(system, intervals, unit) result(matrix)
+      !> The system
+      type(linear_system_type), intent(in) :: system
+      !> Intervals between the nodes
+      integer, intent(in) :: intervals
+      !> Unit of time: the longest lag
+      real(wp), intent(in) :: unit
       real(wp), allocatable :: matrix(:, :)
       real(wp) :: row(0:intervals), weight(0:intervals), x(0:intervals)
+      integer, allocatable :: delayed(:), place(:, :)
       integer :: i, j, k, n
 
       n = size(system%a, 1)
-      allocate (matrix(n*(intervals + 1), n*(intervals + 1)))
+      delayed = delayed_components(system)
+      ! column j of `place` holds the components at node j
+      allocate (place(size(delayed), 0:intervals))
+      place(:, 0) = delayed
+      place(:, 1:) = reshape([(n + i, i=1, size(delayed)*intervals)], [size(delayed), intervals])
+      allocate (matrix(n + size(delayed)*intervals, n + size(delayed)*intervals))
       matrix = 0.0_wp
-      associate (longest => maxval(system%lag))
-         x = [(0.5_wp*longest*(cos(pi*i/intervals) - 1.0_wp), i=0, intervals)]
-      end associate
+      x = [(0.5_wp*(cos(pi*i/intervals) - 1.0_wp), i=0, intervals)]
       weight = [(1.0_wp - 2.0_wp*modulo(i, 2), i=0, intervals)]
       weight([0, intervals]) = 0.5_wp*weight([0, intervals])
       do k = 1, size(system%lag)
-         row = interpolation(x, weight, -system%lag(k))
-         do j = 0, intervals
-            associate (block => matrix(:n, j*n + 1:(j + 1)*n))
-               block = block + row(j)*system%a(:, :, k)
-            end associate
-         end do
+         if (system%lag(k) > 0.0_wp) then
+            row = interpolation(x, weight, -system%lag(k)/unit)
+            do j = 0, intervals
+               matrix(:n, place(:, j)) = matrix(:n, place(:, j)) &
+                                         + row(j)*unit*system%a(:, delayed, k)
+            end do
+         else
+            matrix(:n, :n) = matrix(:n, :n) + unit*system%a(:, :, k)
+         end if
       end do
       do i = 1, intervals
          row = 0.0_wp
@@ -95,12 +142,24 @@ contains
          end do
          row(i) = -sum(row)
          do j = 0, intervals
-            do k = 1, n
-               matrix(i*n + k, j*n + k) = row(j)
+            do k = 1, size(delayed)
+               matrix(place(k, i), place(k, j)) = row(j)
             end do
          end do
       end do
    end function generator
+
+   !> Components with a delayed value in the system.
+   pure function delayed_components(system) result(components)
+      !> The system
+      type(linear_system_type), intent(in) :: system
+      integer, allocatable :: components(:)
+      integer :: i, k
+
+      components = pack([(i, i=1, size(system%a, 2))], &
+                        [(any([(system%lag(k) > 0.0_wp .and. any(abs(system%a(:, i, k)) > 0.0_wp), &
+                                k=1, size(system%lag))]), i=1, size(system%a, 2))])
+   end function delayed_components
 
    !> Coefficients by which values at the nodes give the value between them.
    pure function interpolation(x, weight, at) result(row)

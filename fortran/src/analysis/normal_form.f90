@@ -30,13 +30,18 @@ contains
       complex(wp), dimension(size(equation%linear%a, 1)) :: p, q
       complex(wp), dimension(size(equation%linear%a, 1), size(equation%linear%lag)) :: &
          phi, history_11, history_20
-      complex(wp) :: s
+      complex(wp) :: delta(size(q), size(q)), s
+      real(wp) :: row_size(size(q))
 
       l1 = 0.0_wp
       s = cmplx(0.0_wp, omega, kind=wp)
       associate (linear => equation%linear)
-         call null_vectors(linear%characteristic_matrix(s), q, p, error)
+         delta = linear%characteristic_matrix(s)
+         ! rows of one size: otherwise the rounding errors of a large row are those of all
+         row_size = maxval(abs(delta), dim=2)
+         call null_vectors(delta/spread(row_size, 2, size(q)), q, p, error)
          if (allocated(error)) return
+         p = p/row_size
          p = p/sum(p*matmul(linear%characteristic_slope(s), q))
          phi = history_of(q, s, linear%lag)
          call respond(equation, 2.0_wp*s, equation%second(phi, phi), history_20, error)

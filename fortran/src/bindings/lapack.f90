@@ -7,15 +7,16 @@ module lapack
    public :: eigenvalues, null_vectors, solve
 
    interface
-      subroutine dgeev(jobvl, jobvr, n, a, lda, wr, wi, vl, ldvl, vr, ldvr, work, lwork, info)
+      subroutine dggev(jobvl, jobvr, n, a, lda, b, ldb, alphar, alphai, beta, vl, ldvl, vr, ldvr, &
+                       work, lwork, info)
          import :: wp
          implicit none (type, external)
          character(len=1), intent(in) :: jobvl, jobvr
-         integer, intent(in) :: n, lda, ldvl, ldvr, lwork
-         real(wp), intent(inout) :: a(lda, *)
-         real(wp), intent(out) :: wr(*), wi(*), vl(ldvl, *), vr(ldvr, *), work(*)
+         integer, intent(in) :: n, lda, ldb, ldvl, ldvr, lwork
+         real(wp), intent(inout) :: a(lda, *), b(ldb, *)
+         real(wp), intent(out) :: alphar(*), alphai(*), beta(*), vl(ldvl, *), vr(ldvr, *), work(*)
          integer, intent(out) :: info
-      end subroutine dgeev
+      end subroutine dggev
 
       subroutine zgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
          import :: wp
@@ -39,26 +40,34 @@ module lapack
 
 contains
 
-   !> Eigenvalues of a real matrix.
-   subroutine eigenvalues(matrix, values, error)
+   !> The finite eigenvalues s of matrix x = s M x, where M is diagonal.
+   subroutine eigenvalues(matrix, mass, values, error)
       !> The matrix, shape (n, n)
       real(wp), intent(in) :: matrix(:, :)
-      !> Its eigenvalues, shape (n)
+      !> Diagonal of M, shape (n)
+      real(wp), intent(in) :: mass(:)
+      !> The eigenvalues that rounding distinguishes from infinite ones, at most n
       complex(wp), allocatable, intent(out) :: values(:)
       !> No convergence
       type(error_type), allocatable, intent(out) :: error
-      real(wp), allocatable :: a(:, :), imaginary(:), real_part(:), work(:)
+      real(wp), allocatable :: a(:, :), alpha(:, :), b(:, :), beta(:), work(:)
       real(wp), dimension(1, 1) :: no_left, no_right
-      integer :: info, n
+      logical, allocatable :: finite(:)
+      integer :: i, info, n
 
       n = size(matrix, 1)
       allocate (a, source=matrix)
-      allocate (real_part(n), imaginary(n), work(34*n))
-      call dgeev("N", "N", n, a, n, real_part, imaginary, no_left, 1, no_right, 1, &
+      allocate (b(n, n), source=0.0_wp)
+      do i = 1, n
+         b(i, i) = mass(i)
+      end do
+      allocate (alpha(n, 2), beta(n), work(34*n))
+      call dggev("N", "N", n, a, n, b, n, alpha(:, 1), alpha(:, 2), beta, no_left, 1, no_right, 1, &
                  work, size(work), info)
-      if (info /= 0) call raise(error, "eigenvalues: dgeev returns "//text(info)//" for " &
+      if (info /= 0) call raise(error, "eigenvalues: dggev returns "//text(info)//" for " &
                                 //text(n)//" rows; 0 expected")
-      values = cmplx(real_part, imaginary, kind=wp)
+      finite = beta > epsilon(1.0_wp)*hypot(alpha(:, 1), alpha(:, 2))
+      values = pack(cmplx(alpha(:, 1), alpha(:, 2), kind=wp), finite)/pack(beta, finite)
    end subroutine eigenvalues
 
    !> Solution of a system for several right-hand sides.

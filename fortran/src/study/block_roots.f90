@@ -2,10 +2,10 @@
 module block_roots
    use block_equation, only: block_equation_type
    use block_parameters, only: block_parameters_type
-   use characteristic_roots, only: find_roots
+   use characteristic_roots, only: find_roots, most_roots
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use root_counts, only: roots_right_of
+   use root_counts, only: has_more_roots, roots_right_of
    implicit none (type, external)
    private
    public :: roots_of_block
@@ -20,18 +20,16 @@ contains
       real(wp), intent(in) :: bound
       !> The roots
       complex(wp), allocatable, intent(out) :: roots(:)
-      !> They are not settled, or not as many as the principle of the argument says
+      !> Too many, or not as many found as the principle of the argument says
       type(error_type), allocatable, intent(out) :: error
       type(block_equation_type) :: equation
 
       equation = block_equation_type(p)
-      call find_roots(equation%linear, bound, roots, error)
-      if (allocated(error)) return
-      associate (number => roots_right_of(p, bound))
-         if (size(roots) /= number) then
-            call raise(error, "roots_of_block: "//text(size(roots))//" roots above "//text(bound) &
-                       //"; "//text(number)//" expected by the principle of the argument")
-         end if
-      end associate
+      if (has_more_roots(p, bound, most_roots)) then
+         call raise(error, "roots_of_block: more than "//text(most_roots)//" roots above " &
+                    //text(bound)//"; a bound nearer to 0 expected")
+         return
+      end if
+      call find_roots(equation%linear, bound, roots, error, expected=roots_right_of(p, bound))
    end subroutine roots_of_block
 end module block_roots

@@ -73,6 +73,8 @@ contains
       allocate (margin%plane, source=plane)
       omega_most = largest_omega(plane%epsilon_window(2))
       call plane%bounds(omega_most, omega_least, k_most)
+      ! |B| of `least_omega` is the same at gamma^2/omega, and larger beyond it
+      omega_most = min(omega_most, plane%gamma**2/omega_least)
       omega(:) = [(omega_least + (omega_most - omega_least)*i/scan_points, i=0, scan_points)]
       piece = 0
       do k = 0, k_most

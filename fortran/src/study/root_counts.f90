@@ -1,22 +1,25 @@
 !> How many characteristic roots of (5) lie to the right of a line, by the principle of the
 !> argument: along s = bound + i w, w = 0..infinity, the argument of Delta(s) grows by
-!> (3/2 - Z) pi, where Z is their number.
+!> (3/2 - Z) pi, where Z is their number. The largest terms of Delta(s) at large w are the leading
+!> part s^2 (s + 1 + gamma^2/xi), the argument of which is known.
 module root_counts
    use block_parameters, only: block_parameters_type
    use characteristic_function, only: delta, slope_bound, terms
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: pairs_beside, roots_right_of
+   public :: has_more_roots, pairs_beside, roots_right_of
 
-   !> Largest change of Delta in a step, in units of Delta.
-   real(wp), parameter :: step_share = 0.3_wp
+   !> Bound on the change of Delta in a step, in units of Delta: below 1, its argument is certain.
+   real(wp), parameter :: step_share = 0.9_wp
    !> Least step, in units of w and for w = 0, so that a root on the line does not stop the walk.
    real(wp), parameter :: least_share = 1.0e-14_wp, least_step = 1.0e-30_wp
    !> Radius, in units of omega, of the way around a known root i omega.
    real(wp), parameter :: radius_share = 1.0e-5_wp
    !> Steps of that way.
    integer, parameter :: arc_steps = 32
+   !> Largest -bound tau: beyond it exp(-s tau) is near the largest number.
+   real(wp), parameter :: largest_exponent = 400.0_wp
    !> Half a turn.
    real(wp), parameter :: pi = acos(-1.0_wp)
 
@@ -31,6 +34,35 @@ contains
 
       number = number_of(p, line_growth(p, bound, 0.0_wp, far_end(p, bound)), bound)
    end function roots_right_of
+
+   !> Whether there are surely more than `number` roots with real part above `bound`. It does not
+   !> count them, which takes long. Where the delayed term is larger than twice the sum of the
+   !> others, the argument of Delta falls by tau per unit of w. The rest of the line changes it by a
+   !> few turns.
+   pure logical function has_more_roots(p, bound, number) result(value)
+      !> Parameters
+      type(block_parameters_type), intent(in) :: p
+      !> Real part of the line
+      real(wp), intent(in) :: bound
+      !> The number
+      integer, intent(in) :: number
+      real(wp) :: first, last, size_of(5), w
+      integer :: i
+
+      value = -bound*p%tau > largest_exponent
+      if (value) return
+      first = 0.0_wp
+      last = 0.0_wp
+      do i = -16, 200
+         w = 2.0_wp**i
+         size_of = abs(terms(p, cmplx(bound, w, kind=wp)))
+         if (size_of(5) > 2.0_wp*sum(size_of(:4))) then
+            if (first <= 0.0_wp) first = w
+            last = w
+         end if
+      end do
+      value = p%tau*(last - first)/pi > 2.0_wp*(number + 4)
+   end function has_more_roots
 
    !> Number of pairs of roots with positive real part where some pairs i omega are on the
    !> imaginary axis, which are left out.
@@ -54,8 +86,8 @@ contains
       number = number_of(p, growth, 0.0_wp)/2
    end function pairs_beside
 
-   !> Number of roots from the growth of the argument up to `far_end`; beyond it Delta(s) tends to
-   !> s^3.
+   !> Number of roots from the growth of the argument up to `far_end`; from there on the argument
+   !> grows as that of the leading part.
    pure integer function number_of(p, growth, bound) result(number)
       !> Parameters
       type(block_parameters_type), intent(in) :: p
@@ -63,24 +95,27 @@ contains
       real(wp), intent(in) :: growth
       !> Real part of the line
       real(wp), intent(in) :: bound
-      complex(wp) :: s
+      complex(wp) :: factor, s
+      real(wp) :: rest
 
       s = cmplx(bound, far_end(p, bound), kind=wp)
-      number = nint(1.5_wp - (growth - angle(delta(p, s)/cmplx(0.0_wp, aimag(s), kind=wp)**3))/pi)
+      factor = s + (1.0_wp + p%gamma**2/p%xi)
+      rest = 1.5_wp*pi - 2.0_wp*angle(s) - angle(factor) - angle(delta(p, s)/(s**2*factor))
+      number = nint(1.5_wp - (growth + rest)/pi)
    end function number_of
 
-   !> A w from which on s^3 outweighs all other terms.
+   !> A w from which on the leading part outweighs the other terms; their ratio grows with w.
    pure real(wp) function far_end(p, bound) result(w)
       !> Parameters
       type(block_parameters_type), intent(in) :: p
       !> Real part of the line
       real(wp), intent(in) :: bound
-      real(wp) :: term(5)
+      complex(wp) :: term(5)
 
-      w = 1.0_wp + 4.0_wp*abs(bound)
+      w = 1.0_wp
       do
-         term = abs(terms(p, cmplx(bound, w, kind=wp)))
-         if (term(1) > 3.0_wp*sum(term(2:))) exit
+         term = terms(p, cmplx(bound, w, kind=wp))
+         if (abs(term(1) + term(2)) > 2.0_wp*sum(abs(term(3:)))) exit
          w = 2.0_wp*w
       end do
    end function far_end

@@ -1,10 +1,12 @@
 !> Whether a block approaches steady sliding, and the exponents there: the real parts of the roots
 !> of (5).
 module steady_sliding
+   use block_parameters, only: block_parameters_type
    use block_roots, only: roots_of_block
    use dde_errors, only: error_type
    use exponent_averages, only: exponent_type
    use dde_kinds, only: wp
+   use root_counts, only: roots_right_of
    use spring_block, only: spring_block_type
    implicit none (type, external)
    private
@@ -15,6 +17,8 @@ module steady_sliding
    real(wp), parameter :: small = 1.0e-3_wp, near = 0.2_wp, shrunk = 0.8_wp
    !> First bound above which roots of (5) are sought, and the last.
    real(wp), parameter :: first_bound = -1.0_wp/64.0_wp, last_bound = -8.0_wp
+   !> Halvings of the interval between a bound with too few roots and one with many.
+   integer, parameter :: most_halvings = 20
 
 contains
 
@@ -42,16 +46,43 @@ contains
       !> The roots cannot be found
       type(error_type), allocatable, intent(out) :: error
       complex(wp), allocatable :: roots(:)
-      real(wp) :: bound
       integer :: i
 
-      bound = first_bound
-      do
-         call roots_of_block(block_model%parameters, bound, roots, error)
-         if (allocated(error)) return
-         if (size(roots) >= count .or. bound <= last_bound) exit
-         bound = 2.0_wp*bound
-      end do
+      associate (p => block_model%parameters)
+         call roots_of_block(p, bound_for(p, count), roots, error)
+      end associate
+      if (allocated(error)) return
       exponents = [(exponent_type(value=real(roots(i))), i=1, min(count, size(roots)))]
    end subroutine sliding_exponents
+
+   !> A bound with at least so many roots of (5) above it, and not many more; or the last bound.
+   pure real(wp) function bound_for(p, count) result(bound)
+      !> Parameters
+      type(block_parameters_type), intent(in) :: p
+      !> How many
+      integer, intent(in) :: count
+      real(wp) :: nearer
+      integer :: i, number, there
+
+      bound = first_bound
+      nearer = bound
+      number = roots_right_of(p, bound)
+      do while (number < count .and. bound > last_bound)
+         nearer = bound
+         bound = 2.0_wp*bound
+         number = roots_right_of(p, bound)
+      end do
+      do i = 1, most_halvings
+         if (number <= 2*count .or. nearer <= bound) exit
+         associate (middle => 0.5_wp*(nearer + bound))
+            there = roots_right_of(p, middle)
+            if (there < count) then
+               nearer = middle
+            else
+               bound = middle
+               number = there
+            end if
+         end associate
+      end do
+   end function bound_for
 end module steady_sliding

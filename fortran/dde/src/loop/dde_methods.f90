@@ -36,7 +36,7 @@ contains
       integer :: columns, stages
       real(wp) :: operations
 
-      stages = merge(5, 7, matching_method(problem, tolerance, implicit=.true.) == "radau9")
+      stages = implicit_stages(tolerance)
       columns = problem%n
       if (problem%lower >= 0) columns = min(problem%n, 1 + problem%lower + problem%upper)
       ! one real system, and one complex one for each pair of stages
@@ -84,13 +84,21 @@ contains
       logical, intent(in) :: implicit
       character(len=8) :: method
 
-      if (.not. implicit) then
+      if (implicit) then
+         ! the order of Radau IIA with s stages is 2 s - 1
+         write (method, "(a,i0)") "radau", 2*implicit_stages(tolerance) - 1
+      else
          method = merge("taylor  ", "explicit", problem%analytic)
-         return
       end if
-      method = "radau9"
-      if (tolerance%level < tight) method = "radau13"
    end function matching_method
+
+   !> Number of stages of the implicit method of `auto`.
+   pure integer function implicit_stages(tolerance) result(stages)
+      !> Tolerance of each component
+      type(tolerance_type), intent(in) :: tolerance
+
+      stages = merge(7, 5, tolerance%level < tight)
+   end function implicit_stages
 
    !> The other method takes over where the step stands.
    subroutine change_method(problem, tolerance, step)
