@@ -31,6 +31,7 @@ rule all:
 
 include: "rules/build.smk"
 include: "rules/trajectories.smk"
+include: "rules/slip_events.smk"
 include: "rules/curves.smk"
 include: "rules/linear_stability.smk"
 include: "rules/spectra.smk"

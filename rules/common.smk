@@ -51,6 +51,7 @@ LEDGER_TABLES = {
     "linear_stability": "results/tables/linear-stability.tsv",
     "stability": "results/tables/stability.tsv",
     "attractors": "results/tables/attractors.tsv",
+    "atlas": "results/tables/atlas-coarse.tsv",
     "route": "results/tables/route-to-chaos.tsv",
 }
 

@@ -5,6 +5,8 @@ rule claims:
     input:
         **LEDGER_TABLES,
         curves=expand("results/hopf/{plane}.nc", plane=config["hopf_curves"]),
+        spectra=result_files.spectra_of_figures(config),
+        slip_events=result_files.slip_events_of_figure(config),
         friction="results/friction/velocity_step.nc",
         code=code_of("claims/ledger.py"),
     output:
@@ -18,5 +20,6 @@ rule claims:
         "results/logs/tables/claims.log",
     params:
         claims=claims_listed(),
+        tables=list(LEDGER_TABLES),
     script:
         "../scripts/claims/ledger.py"

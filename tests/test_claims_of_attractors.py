@@ -1,9 +1,7 @@
 """Verdicts on where runs end, on made-up tables of attractors and of a route."""
 
-import math
-
 import pytest
-from made_up_results import CLASSES, attractor_row, results, route_rows, stability_row
+from made_up_results import attractor_row, results, route_rows, stability_row
 
 from scripts.claims.claims_of_attractors import TESTS
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED
@@ -57,16 +55,6 @@ def test_table_as_it_is_written(tmp_path):
     assert found.verdict == CORRECTED
     assert "1 cycle of period 2" in found.evidence
     assert "nan" not in found.evidence
-
-
-@pytest.mark.parametrize("met", CLASSES)
-def test_spectrum_class(met):
-    """The word of the spectrum alone counts."""
-    row = attractor_row("cycle", by_spectrum=met, f1=0.1, f2=math.nan)
-    made = results(attractors=[row])
-    found = TESTS["spectrum_class"](made, scene="mine", expected="torus")
-    assert found.verdict == (REPRODUCED if met == "torus" else NOT_REPRODUCED)
-    assert f"mine by its spectrum: {met}. Base frequencies of the peaks: 0.1." in found.evidence
 
 
 @pytest.mark.parametrize(
@@ -142,7 +130,7 @@ def test_long_route_is_cut():
     assert ", and 8 more intervals. Undecided: 0 of 20 points." in found.evidence
 
 
-@pytest.mark.parametrize("test", ["attractor_class", "spectrum_class", "delay_alone_makes"])
+@pytest.mark.parametrize("test", ["attractor_class", "delay_alone_makes"])
 def test_scene_without_a_row_is_an_error(test):
     """It names table and scene."""
     made = results(attractors=[attractor_row("cycle", "other")])

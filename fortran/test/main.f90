@@ -26,6 +26,7 @@ program tester
    use test_motion_classes, only: collect_motion_classes
    use test_progress, only: collect_progress
    use test_section_motion, only: collect_section_motion
+   use test_slip_events, only: collect_slip_events
    use test_spectral_peaks, only: collect_spectral_peaks
    use test_spectrum, only: collect_spectrum
    use test_spectrum_verdict, only: collect_spectrum_verdict
@@ -63,6 +64,7 @@ program tester
                              new_testsuite("motion_classes", collect_motion_classes), &
                              new_testsuite("progress", collect_progress), &
                              new_testsuite("section_motion", collect_section_motion), &
+                             new_testsuite("slip_events", collect_slip_events), &
                              new_testsuite("spectral_peaks", collect_spectral_peaks), &
                              new_testsuite("spectrum", collect_spectrum), &
                              new_testsuite("spectrum_verdict", collect_spectrum_verdict), &

@@ -9,6 +9,9 @@ FOLDER = Path(__file__).parents[2] / "config"
 CLAIMS = FOLDER / "claims.yaml"
 SCHEMA = FOLDER / "claims-schema.yaml"
 
+KEYS_OF = {"scene": ("scene", "periodic"), "plane": ("plane", "at_fixed_xi", "at_fixed_tau")}
+"""Parameters of tests that name one scene or one plane."""
+
 
 def listed() -> dict:
     """What the file says, unchecked."""
@@ -53,11 +56,11 @@ def _wrong(claim: dict, config: dict, shown: set[str]):
 
 def _unknown_names(parameters: dict, config: dict):
     """Scenes and planes that the configuration does not have."""
-    for key, known in (("scene", config["scenes"]), ("plane", config["hopf_curves"])):
-        named = parameters.get(f"{key}s", [parameters[key]] if key in parameters else [])
-        for name in named:
+    for kind, known in (("scene", config["scenes"]), ("plane", config["hopf_curves"])):
+        named = [parameters[key] for key in KEYS_OF[kind] if key in parameters]
+        for name in [*named, *parameters.get(f"{kind}s", [])]:
             if name not in known:
-                yield f"{key} {name!r}; expected one of: {', '.join(known)}"
+                yield f"{kind} {name!r}; expected one of: {', '.join(known)}"
 
 
 def _contradictions(test: str, parameters: dict):
@@ -67,7 +70,7 @@ def _contradictions(test: str, parameters: dict):
             f"{len(parameters['expected'])} classes for {len(parameters['scenes'])} scenes;"
             " expected one each"
         )
-    if test == "out_of_reach" and parameters["least"] > parameters["most"]:
+    if "least" in parameters and "most" in parameters and parameters["least"] > parameters["most"]:
         yield (
             f"least = {parameters['least']}; expected a finite number <= most ="
             f" {parameters['most']}"

@@ -39,17 +39,6 @@ def attractor_class(results: Results, *, scene: str, expected: str) -> Finding:
     return Finding(CORRECTED if elsewhere else NOT_REPRODUCED, evidence)
 
 
-def spectrum_class(results: Results, *, scene: str, expected: str) -> Finding:
-    """Whether the spectrum of the scene's run is one of this class."""
-    own = results.attractors_of(scene)[0]
-    bases = [short(own[key]) for key in ("f1", "f2") if not math.isnan(own[key])]
-    return decided(
-        own["by_spectrum"] == expected,
-        f"Class of {scene} by its spectrum: {own['by_spectrum']}. Base frequencies of the peaks:"
-        f" {listed(bases)}.",
-    )
-
-
 def sequence_of_scenes(results: Results, *, scenes: list[str], expected: list[str]) -> Finding:
     """Whether scenes with longer and longer delays are of these classes in turn."""
     met = [in_words(results.attractors_of(scene)[0]) for scene in scenes]
@@ -133,7 +122,6 @@ def exponents_of(row: dict) -> str:
 
 TESTS = {
     "attractor_class": attractor_class,
-    "spectrum_class": spectrum_class,
     "sequence_of_scenes": sequence_of_scenes,
     "delay_alone_makes": delay_alone_makes,
     "route": route,

@@ -34,12 +34,23 @@ class Results:
     linear_stability: list[dict]
     stability: list[dict]
     attractors: list[dict]
+    atlas: list[dict]
     route: list[dict]
+    spectra: dict[str, xr.Dataset]
+    slip_events: dict[str, xr.Dataset]
 
     def stability_of(self, scene: str) -> dict:
         """The scene's row of linear stability."""
         (row,) = rows_about(self.linear_stability, "linear-stability.tsv", scene)
         return row
+
+    def spectrum_of(self, scene: str) -> xr.Dataset:
+        """The spectrum of the scene's v."""
+        return data_about(self.spectra, "results/spectra", scene)
+
+    def events_of(self, scene: str) -> xr.Dataset:
+        """The scene's slip events."""
+        return data_about(self.slip_events, "results/slip_events", scene)
 
     def attractors_of(self, scene: str) -> list[dict]:
         """The scene's attractors, that of its own history first."""
@@ -47,11 +58,14 @@ class Results:
         return sorted(rows, key=lambda row: row["history"])
 
 
-def read_results(curves: list[str], friction: str, tables: dict[str, str]) -> Results:
-    """Read the files; `tables` by the names of `Results`."""
+def read_results(friction: str, data: dict[str, list[str]], tables: dict[str, str]) -> Results:
+    """Read the files; `data` and `tables` by the names of `Results`."""
     return Results(
-        curves={Path(path).stem: xr.load_dataset(path) for path in curves},
         friction=xr.load_dataset(friction),
+        **{
+            name: {Path(path).stem: xr.load_dataset(path) for path in paths}
+            for name, paths in data.items()
+        },
         **{name: read_table(path) for name, path in tables.items()},
     )
 
@@ -63,6 +77,13 @@ def rows_about(rows: list[dict], table: str, scene: str) -> list[dict]:
         known = sorted({row["scene"] for row in rows})
         raise ValueError(f"{table}: no row of scene '{scene}'; there are: {', '.join(known)}")
     return found
+
+
+def data_about(data: dict[str, xr.Dataset], folder: str, scene: str) -> xr.Dataset:
+    """The file of a scene; to have none is an error."""
+    if scene not in data:
+        raise ValueError(f"{folder}: no file of scene '{scene}'; there are: {', '.join(data)}")
+    return data[scene]
 
 
 def changes(cell: str | float) -> list[tuple[float, int, int]]:

@@ -61,6 +61,7 @@ ENTRIES = {
         category="Supplement",
         inputs={"runs": exponents_of_scenes, "table": "results/tables/exponents.tsv"},
     ),
+    "events": Entry(category="Supplement", rows=("slip_events",)),
     "stability": Entry(category="Solver", inputs={"table": "results/tables/stability.tsv"}),
     "work_precision": Entry(
         category="Solver",
