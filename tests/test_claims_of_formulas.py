@@ -88,9 +88,9 @@ def test_equation_9():
     assert (wide.xi > 0).all()
     found = finding("equation_9", wide)
     assert found.verdict == REPRODUCED
-    beside = re.search(r"At (\d+) of (\d+) frequencies", found.evidence)
+    beside = re.search(r"at (\d+) of (\d+) frequencies", found.evidence)
     assert 0 < int(beside[1]) < int(beside[2])
-    assert "At 0 of " in finding("equation_9", curves).evidence
+    assert "at 0 of " in finding("equation_9", curves).evidence
 
 
 @pytest.mark.parametrize(

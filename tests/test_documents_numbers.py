@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cache
 
 import netCDF4
+import numpy as np
 import pytest
 from conftest import ROOT
 
@@ -167,7 +168,86 @@ def horizon(scene: str) -> list[float]:
     return [float(row["horizon"]) for row in rows if row["scene"] == scene]
 
 
+def events(scene: str, variable: str) -> np.ndarray:
+    """A variable of the slip events of a scene."""
+    path = RESULTS / "slip_events" / f"{scene}.nc"
+    if not path.exists():
+        pytest.skip(f"{path} is not made")
+    with netCDF4.Dataset(path) as data:
+        return data[variable][:].data
+
+
+def variation(scene: str, variable: str) -> float:
+    """Coefficient of variation, in per cent."""
+    values = events(scene, variable)
+    return 100 * values.std() / values.mean()
+
+
+def powers_of_slip(scene: str) -> list[float]:
+    """Slope of N(>= s) in logarithms, between shares of 95 and 50 % and of 25 and 5 % of events."""
+    slip = events(scene, "slip")
+    return [
+        math.log(more / less) / math.log(np.quantile(slip, 1 - less) / np.quantile(slip, 1 - more))
+        for more, less in ((0.95, 0.5), (0.25, 0.05))
+    ]
+
+
+def slower_than_the_plate(scene: str) -> float:
+    """Share of the time, in per cent."""
+    return 100 * (1 - events(scene, "duration").sum() / events(scene, "recurrence_time").sum())
+
+
+def least_span(scene: str) -> float:
+    """Least factor that v spans in an event."""
+    return (events(scene, "peak_velocity") / events(scene, "least_velocity")).min()
+
+
+def difference_of_mu0() -> float:
+    """Steady friction at v0 less mu0."""
+    path = RESULTS / "friction" / "velocity_step.nc"
+    if not path.exists():
+        pytest.skip(f"{path} is not made")
+    with netCDF4.Dataset(path) as response:
+        return float(response["mu"][0]) - response.mu0
+
+
 SAID = [
+    Said(
+        "docs/findings.md", "has a mean of {:.2f} L/v0 and a coefficient of variation of {:.0f} %",
+        lambda: [
+            events("chaos", "recurrence_time").mean(), variation("chaos", "recurrence_time")
+        ],
+    ),
+    Said(
+        "docs/findings.md", "The slip has a coefficient of variation of {:.0f} %",
+        lambda: [variation("chaos", "slip")],
+    ),
+    Said(
+        "docs/findings.md", "both coefficients are below {} %",
+        lambda: [0.001 if max(
+            variation("oscillation", name) for name in ("slip", "recurrence_time")
+        ) < 0.001 else "more"],
+    ),
+    Said(
+        "docs/findings.md", "like 1/s^{:.2f} among small events and like 1/s^{:.1f} among",
+        lambda: powers_of_slip("chaos"),
+    ),
+    Said(
+        "docs/findings.md", "In `oscillation` v stays between {:.2f} and {:.2f}",
+        lambda: [
+            events("oscillation", "least_velocity").min(),
+            events("oscillation", "peak_velocity").max(),
+        ],
+    ),
+    Said(
+        "docs/findings.md", "slower than the plate for {:.1f} % of the time, and v spans a factor"
+        " of {}",
+        lambda: [
+            slower_than_the_plate("stick_slip"),
+            f"{least_span('stick_slip'):.1e}".replace("e+0", "e"),
+        ],
+    ),
+    Said("docs/findings.md", "the difference is {:.4f}", lambda: [difference_of_mu0()]),
     Said("README.md", "f1 = {:.4f}, with weak", lambda: frequencies("oscillation")),
     Said("README.md", "**limit cycle**, f1 = {:.4f};", lambda: frequencies("torus")),
     Said(

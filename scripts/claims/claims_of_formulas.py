@@ -100,9 +100,9 @@ def equation_9(results: Results, *, plane: str, limit: float) -> Finding:
     return decided(
         on_curve <= limit,
         f"At {points.omega.size} points of the Hopf curves at tau = {short(tau[0])} the relative"
-        f" error of xi by (9) as printed is at most {short(on_curve)}. Remark: (9) is necessary but"
-        f" not sufficient. At {false} of {kept.sum()} frequencies where it gives a xi within the"
-        " figure, (6) has the opposite sign and (5) does not hold.",
+        f" error of xi by (9) as printed is at most {short(on_curve)}. Remark: (9) also gives a xi"
+        f" where (6) asks for 1 + epsilon < 0. This happens at {false} of {kept.sum()} frequencies"
+        " with a xi within the figure.",
     )
 
 
