@@ -48,7 +48,7 @@ def stiffness_forbids(results: Results, *, method: str, least: float, most: floa
         " precision."
     )
     if runs and solved == len(runs):
-        return Finding(NOT_REPRODUCED, evidence)
+        return Finding(NOT_REPRODUCED, f"{evidence} So stiffness does not prevent a solution.")
     return Finding(CORRECTED if solved else REPRODUCED, evidence)
 
 
