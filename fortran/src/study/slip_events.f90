@@ -13,7 +13,7 @@ module slip_events
 
    !> Numbers of the event functions.
    enum, bind(c)
-      enumerator :: onset = 1, stop, maximum, minimum
+      enumerator :: onset = 1, finish, maximum, minimum
    end enum
 
    !> Slip events in their order; all nondimensional, each of shape (events).
@@ -85,8 +85,8 @@ contains
                     y => passages%y(:, begin(i):begin(i + 1)))
             events%onset(i) = time(1)
             events%recurrence_time(i) = time(size(time)) - time(1)
-            events%duration(i) = time(findloc(rows, stop, dim=1)) - time(1)
-            events%slip(i) = y(index_of_u, findloc(rows, stop, dim=1)) - y(index_of_u, 1) &
+            events%duration(i) = time(findloc(rows, finish, dim=1)) - time(1)
+            events%slip(i) = y(index_of_u, findloc(rows, finish, dim=1)) - y(index_of_u, 1) &
                              + events%duration(i)
             events%peak_velocity(i) = exp(maxval(y(index_of_ln_v, :), mask=rows == maximum))
             events%least_velocity(i) = exp(minval(y(index_of_ln_v, :), mask=rows == minimum))
