@@ -31,6 +31,7 @@ GOOD = {
     "same_state_law": {"limit": 1e-6},
     "independent_of_spring": {"plane": "xi_of_epsilon", "limit": 1e-3},
     "attractor_class": {"scene": "torus", "expected": "torus"},
+    "positive_exponent": {"scene": "chaos"},
     "sequence_of_scenes": {"scenes": ["torus", "chaos"], "expected": ["torus", "chaos"]},
     "route": {"expected": ["cycle", "torus"]},
     "out_of_reach": {"method": "auto", "least": 1e4, "most": 1e12},

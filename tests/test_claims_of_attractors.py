@@ -1,5 +1,7 @@
 """Verdicts on where runs end, on made-up tables of attractors and of a route."""
 
+import math
+
 import pytest
 from made_up_results import attractor_row, results, route_rows, stability_row
 
@@ -55,6 +57,32 @@ def test_table_as_it_is_written(tmp_path):
     assert found.verdict == CORRECTED
     assert "1 cycle of period 2" in found.evidence
     assert "nan" not in found.evidence
+
+
+@pytest.mark.parametrize(
+    ("exponents", "verdict", "beyond"),
+    [
+        ([0.02, 0.018], REPRODUCED, 2),
+        ([0.02, 0.002], NOT_REPRODUCED, 1),
+        ([-0.02, -0.01], NOT_REPRODUCED, 0),
+        ([0.02, math.nan], NOT_REPRODUCED, 1),
+    ],
+)
+def test_positive_exponent(exponents, verdict, beyond):
+    """By three standard errors, of 0.001 each, in every run."""
+    rows = [
+        attractor_row("chaos", history=i + 1, exponent_1=value) for i, value in enumerate(exponents)
+    ]
+    found = TESTS["positive_exponent"](results(attractors=rows), scene="mine")
+    assert found.verdict == verdict
+    assert f"above zero in {beyond} of them" in found.evidence
+    assert "nan" not in found.evidence
+
+
+def test_no_exponent_is_no_chaos():
+    """Nothing is concluded from nothing."""
+    made = results(attractors=[attractor_row("undecided", exponent_1=math.nan)])
+    assert TESTS["positive_exponent"](made, scene="mine").verdict == NOT_REPRODUCED
 
 
 @pytest.mark.parametrize(
@@ -130,9 +158,11 @@ def test_long_route_is_cut():
     assert ", and 8 more intervals. Undecided: 0 of 20 points." in found.evidence
 
 
-@pytest.mark.parametrize("test", ["attractor_class", "delay_alone_makes"])
-def test_scene_without_a_row_is_an_error(test):
+@pytest.mark.parametrize(
+    ("test", "given"), [("attractor_class", {"expected": "chaos"}), ("positive_exponent", {})]
+)
+def test_scene_without_a_row_is_an_error(test, given):
     """It names table and scene."""
     made = results(attractors=[attractor_row("cycle", "other")])
     with pytest.raises(ValueError, match=r"attractors.tsv: no row of scene 'mine'.*: other"):
-        TESTS[test](made, scene="mine", expected="chaos")
+        TESTS[test](made, scene="mine", **given)

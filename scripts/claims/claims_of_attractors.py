@@ -17,6 +17,8 @@ from scripts.claims.claims_results import (
 )
 from scripts.tables.motion_rows import first_met
 
+ERRORS = 3
+"""Standard errors beyond which an exponent is not zero."""
 MOST_INTERVALS = 12
 """Intervals of epsilon that the evidence of a route lists."""
 
@@ -37,6 +39,23 @@ def attractor_class(results: Results, *, scene: str, expected: str) -> Finding:
         return Finding(REPRODUCED, evidence)
     elsewhere = any(row["class"] == expected for row in others)
     return Finding(CORRECTED if elsewhere else NOT_REPRODUCED, evidence)
+
+
+def positive_exponent(results: Results, *, scene: str) -> Finding:
+    """Whether the largest exponent is positive beyond its error, from every history."""
+    rows = results.attractors_of(scene)
+    measured = [row for row in rows if not math.isnan(row["exponent_1"])]
+    if not measured:
+        return decided(False, f"No exponent of scene {scene} is measured.")
+    values = [row["exponent_1"] for row in measured]
+    beyond = sum(row["exponent_1"] > ERRORS * row["error_1"] for row in measured)
+    return decided(
+        beyond == len(rows),
+        f"The largest Lyapunov exponent of scene {scene} is {short(values[0], 3)} +-"
+        f" {short(measured[0]['error_1'], 2)} v0/L from the first of {len(rows)} histories. From"
+        f" all of them it is {short(min(values), 3)} to {short(max(values), 3)} v0/L. It is more than"
+        f" {ERRORS} standard errors above zero in {beyond} of them.",
+    )
 
 
 def sequence_of_scenes(results: Results, *, scenes: list[str], expected: list[str]) -> Finding:
@@ -122,6 +141,7 @@ def exponents_of(row: dict) -> str:
 
 TESTS = {
     "attractor_class": attractor_class,
+    "positive_exponent": positive_exponent,
     "sequence_of_scenes": sequence_of_scenes,
     "delay_alone_makes": delay_alone_makes,
     "route": route,
