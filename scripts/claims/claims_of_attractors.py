@@ -53,8 +53,8 @@ def positive_exponent(results: Results, *, scene: str) -> Finding:
         beyond == len(rows),
         f"The largest Lyapunov exponent of scene {scene} is {short(values[0], 3)} +-"
         f" {short(measured[0]['error_1'], 2)} v0/L from the first of {len(rows)} histories. From"
-        f" all of them it is {short(min(values), 3)} to {short(max(values), 3)} v0/L. It is more than"
-        f" {ERRORS} standard errors above zero in {beyond} of them.",
+        f" all of them it is {short(min(values), 3)} to {short(max(values), 3)} v0/L. It is more"
+        f" than {ERRORS} standard errors above zero in {beyond} of them.",
     )
 
 
