@@ -82,7 +82,7 @@ def test_files_are_read_by_name(tmp_path):
     """Planes by the names of their files, tables by the names of results."""
     hopf_curve().to_netcdf(tmp_path / "a_plane.nc")
     hopf_curve(k=2).to_netcdf(tmp_path / "friction.nc")
-    names = ["hopf_points", "linear_stability", "stability", "attractors", "route"]
+    names = ["hopf_points", "linear_stability", "stability", "attractors", "routes"]
     for name in names:
         write_table(tmp_path / name, [{"scene": name}])
     found = read_results(

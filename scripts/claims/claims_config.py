@@ -52,9 +52,13 @@ def _wrong(claim: dict, config: dict, shown: set[str]):
 
 
 def _unknown_names(parameters: dict, config: dict):
-    """Scenes and planes that the configuration does not have."""
-    for key, known in (("scene", config["scenes"]), ("plane", config["hopf_curves"])):
-        named = parameters.get(f"{key}s", [parameters[key]] if key in parameters else [])
+    """Scenes, planes and routes that the configuration does not have."""
+    for key, known in (
+        ("scene", config["scenes"]),
+        ("plane", config["hopf_curves"]),
+        ("route", config["routes"]["lines"]),
+    ):
+        named = [*parameters.get(f"{key}s", []), *([parameters[key]] if key in parameters else [])]
         for name in named:
             if name not in known:
                 yield f"{key} {name!r}; expected one of: {', '.join(known)}"
@@ -62,7 +66,7 @@ def _unknown_names(parameters: dict, config: dict):
 
 def _contradictions(test: str, parameters: dict):
     """Parameters that do not go together."""
-    if test == "sequence_of_scenes" and len(parameters["scenes"]) != len(parameters["expected"]):
+    if test == "delays_in_turn" and len(parameters["scenes"]) != len(parameters["expected"]):
         yield (
             f"{len(parameters['expected'])} classes for {len(parameters['scenes'])} scenes;"
             " expected one each"

@@ -7,6 +7,7 @@ from scripts.claims import (
     claims_of_attractors,
     claims_of_bifurcations,
     claims_of_formulas,
+    claims_of_routes,
     claims_of_runs,
 )
 from scripts.claims.claims_config import named_test
@@ -18,6 +19,7 @@ TESTS = {
     **claims_of_formulas.TESTS,
     **claims_of_bifurcations.TESTS,
     **claims_of_attractors.TESTS,
+    **claims_of_routes.TESTS,
     **claims_of_runs.TESTS,
 }
 """Each test by its name in config/claims.yaml."""
@@ -66,7 +68,7 @@ def write_json(path: str | Path, rows: list[dict]) -> None:
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         given = snakemake.input
-        names = ("hopf_points", "linear_stability", "stability", "attractors", "route")
+        names = ("hopf_points", "linear_stability", "stability", "attractors", "routes")
         tables = {name: given[name] for name in names}
         found = read_results(given.curves, given.friction, tables)
         table = rows_of(snakemake.params.claims, found)
