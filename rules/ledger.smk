@@ -20,6 +20,5 @@ rule claims:
         "results/logs/tables/claims.log",
     params:
         claims=claims_listed(),
-        tables=list(LEDGER_TABLES),
     script:
         "../scripts/claims/ledger.py"

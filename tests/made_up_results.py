@@ -41,7 +41,7 @@ def changed(curves: xr.Dataset, **values) -> xr.Dataset:
 def results(**given) -> Results:
     """Results of which a test uses some."""
     empty = {"curves": {}, "friction": xr.Dataset(), "hopf_points": [], "linear_stability": []}
-    empty |= {name: [] for name in ("stability", "attractors", "atlas", "route")}
+    empty |= {name: [] for name in ("stability", "attractors", "atlas", "routes")}
     return Results(**{**empty, "spectra": {}, "slip_events": {}, **given})
 
 
@@ -88,14 +88,15 @@ def attractor_row(met: str, scene: str = "mine", history: int = 1, **given) -> d
     }
 
 
-def route_rows(*classes: str) -> list[dict]:
-    """Rows of route-to-chaos.tsv: these classes at growing epsilon, last first."""
+def route_rows(*classes: str, name: str = "mine", run: str = "near", along: str = "tau"):
+    """Rows of a route: classes, with a period behind a /, at 0.1, 0.2 and so on, last first."""
+    place = {"tau": 10.0, "epsilon": 0.5, "xi": 0.8, "gamma": 0.8}
     rows = [
         {
-            "epsilon": 0.1 * (i + 1),
-            "tau": 10.0,
-            "xi": 0.8,
-            "gamma": 0.8,
+            "route": name,
+            "run": run,
+            **place,
+            along: 0.1 * (i + 1),
             "class": met.split("/")[0],
             "period": float(met.split("/")[1]) if "/" in met else math.nan,
         }

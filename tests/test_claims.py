@@ -91,7 +91,7 @@ def test_files_are_read_by_name(tmp_path):
     hopf_curve(k=2).to_netcdf(tmp_path / "friction.nc")
     spectrum(x1=1.0).to_netcdf(tmp_path / "a_spectrum.nc")
     slip_events().to_netcdf(tmp_path / "some_events.nc")
-    names = ["hopf_points", "linear_stability", "stability", "attractors", "atlas", "route"]
+    names = ["hopf_points", "linear_stability", "stability", "attractors", "atlas", "routes"]
     for name in names:
         write_table(tmp_path / name, [{"scene": name}])
     found = read_results(

@@ -20,7 +20,6 @@ from scripts.claims.claims_results import (
     NOT_REPRODUCED,
     REPRODUCED,
     changes,
-    stable_delays,
 )
 from scripts.claims.roots_of_5 import unstable_pairs
 
@@ -36,24 +35,6 @@ def test_changes_of_a_cell():
     """Every place with its pairs; none of an empty cell."""
     assert changes("2.5 (0 -> 1); 1e-3 (12 -> 11)") == [(2.5, 0, 1), (1e-3, 12, 11)]
     assert changes(math.nan) == []
-
-
-@pytest.mark.parametrize(
-    ("tau", "cell", "pairs", "delays"),
-    [
-        (3.0, "2 (0 -> 1); 5 (1 -> 0)", 1, [(0, 2)]),
-        (6.0, "2 (0 -> 1); 5 (1 -> 0)", 0, [(0, 2), (5, 6)]),
-        (6.0, "2 (1 -> 0); 5 (0 -> 1)", 1, [(2, 5)]),
-        (6.0, "2 (1 -> 2)", 2, []),
-        (6.0, math.nan, 0, [(0, 6)]),
-        (6.0, math.nan, 1, []),
-        (0.0, "2 (0 -> 1)", 0, []),
-    ],
-)
-def test_stable_delays(tau, cell, pairs, delays):
-    """Up to the scene's own delay."""
-    row = stability_row(tau=tau, tau_of_changes=cell, unstable_pairs=pairs)
-    assert stable_delays(row) == delays
 
 
 def test_hopf_only_by_delay():
@@ -140,17 +121,6 @@ def test_amplitude_death(cell, verdict, words):
     found = TESTS["amplitude_death"](made, scenes=["mine"])
     assert found.verdict == verdict
     assert words in found.evidence
-
-
-def test_unstable_pairs():
-    """So many, or where they come."""
-    test = TESTS["unstable_pairs"]
-    made = with_scenes(mine={"unstable_pairs": 1.0})
-    assert test(made, scene="mine", least=1).verdict == REPRODUCED
-    found = test(made, scene="mine", least=2)
-    assert found.verdict == NOT_REPRODUCED
-    assert "from epsilon = 0.9" in found.evidence
-    assert "at no epsilon" in test(made, scene="mine", least=3).evidence
 
 
 @pytest.mark.parametrize(

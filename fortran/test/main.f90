@@ -3,6 +3,7 @@ program tester
    use, intrinsic :: iso_fortran_env, only: error_unit
    use mctc_env_testing, only: new_testsuite, run_testsuite, testsuite_type
    use test_attractor_points, only: collect_attractor_points
+   use test_attractor_sweep, only: collect_attractor_sweep
    use test_attractors, only: collect_attractors
    use test_base_frequencies, only: collect_base_frequencies
    use test_block_parameters, only: collect_block_parameters
@@ -41,6 +42,7 @@ program tester
    integer :: failed, i, run
 
    allocate (suites, source=[new_testsuite("attractor_points", collect_attractor_points), &
+                             new_testsuite("attractor_sweep", collect_attractor_sweep), &
                              new_testsuite("attractors", collect_attractors), &
                              new_testsuite("base_frequencies", collect_base_frequencies), &
                              new_testsuite("block_parameters", collect_block_parameters), &

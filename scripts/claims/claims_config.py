@@ -9,8 +9,12 @@ FOLDER = Path(__file__).parents[2] / "config"
 CLAIMS = FOLDER / "claims.yaml"
 SCHEMA = FOLDER / "claims-schema.yaml"
 
-KEYS_OF = {"scene": ("scene", "periodic"), "plane": ("plane", "at_fixed_xi", "at_fixed_tau")}
-"""Parameters of tests that name one scene or one plane."""
+KEYS_OF = {
+    "scene": ("scene", "periodic"),
+    "plane": ("plane", "at_fixed_xi", "at_fixed_tau"),
+    "route": ("route",),
+}
+"""Parameters of tests that name one scene, one plane or one route."""
 
 
 def listed() -> dict:
@@ -55,8 +59,12 @@ def _wrong(claim: dict, config: dict, shown: set[str]):
 
 
 def _unknown_names(parameters: dict, config: dict):
-    """Scenes and planes that the configuration does not have."""
-    for kind, known in (("scene", config["scenes"]), ("plane", config["hopf_curves"])):
+    """Scenes, planes and routes that the configuration does not have."""
+    for kind, known in (
+        ("scene", config["scenes"]),
+        ("plane", config["hopf_curves"]),
+        ("route", config["routes"]["lines"]),
+    ):
         named = [parameters[key] for key in KEYS_OF[kind] if key in parameters]
         for name in [*named, *parameters.get(f"{kind}s", [])]:
             if name not in known:
@@ -65,7 +73,7 @@ def _unknown_names(parameters: dict, config: dict):
 
 def _contradictions(test: str, parameters: dict):
     """Parameters that do not go together."""
-    if test == "sequence_of_scenes" and len(parameters["scenes"]) != len(parameters["expected"]):
+    if test == "delays_in_turn" and len(parameters["scenes"]) != len(parameters["expected"]):
         yield (
             f"{len(parameters['expected'])} classes for {len(parameters['scenes'])} scenes;"
             " expected one each"

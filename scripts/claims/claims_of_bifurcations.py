@@ -160,19 +160,6 @@ def amplitude_death(results: Results, *, scenes: list[str]) -> Finding:
     )
 
 
-def unstable_pairs(results: Results, *, scene: str, least: int) -> Finding:
-    """Whether a scene's steady sliding has at least so many unstable pairs of roots."""
-    row = results.stability_of(scene)
-    later = [place for place, _, after in changes(row["epsilon_of_changes"]) if after >= least]
-    where = f"from epsilon = {short(later[0])}" if later else "at no epsilon in the range searched"
-    return decided(
-        row["unstable_pairs"] >= least,
-        f"Unstable pairs of roots in scene {scene} (tau = {short(row['tau'])}, epsilon ="
-        f" {short(row['epsilon'])}): {row['unstable_pairs']:.0f}. At least {least} are unstable"
-        f" {where}.",
-    )
-
-
 def roots_decide(results: Results, *, least_motion: float) -> Finding:
     """Whether no motion comes to rest where (5) has an unstable root, in the atlas and scenes."""
     rows = [row for row in results.atlas + results.attractors if row["class"] != "undecided"]
@@ -223,7 +210,6 @@ TESTS = {
     "delay_destabilises": delay_destabilises,
     "pairs_gained_and_lost": pairs_gained_and_lost,
     "amplitude_death": amplitude_death,
-    "unstable_pairs": unstable_pairs,
     "roots_decide": roots_decide,
     "independent_of_spring": independent_of_spring,
 }

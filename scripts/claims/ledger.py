@@ -9,6 +9,7 @@ from scripts.claims import (
     claims_of_events,
     claims_of_formulas,
     claims_of_friction,
+    claims_of_routes,
     claims_of_runs,
     claims_of_spectra,
 )
@@ -21,6 +22,7 @@ TESTS = {
     **claims_of_formulas.TESTS,
     **claims_of_bifurcations.TESTS,
     **claims_of_attractors.TESTS,
+    **claims_of_routes.TESTS,
     **claims_of_spectra.TESTS,
     **claims_of_events.TESTS,
     **claims_of_runs.TESTS,
@@ -72,7 +74,8 @@ def write_json(path: str | Path, rows: list[dict]) -> None:
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         given = snakemake.input
-        tables = {name: given[name] for name in snakemake.params.tables}
+        names = ("hopf_points", "linear_stability", "stability", "attractors", "atlas", "routes")
+        tables = {name: given[name] for name in names}
         data = {name: given[name] for name in ("curves", "spectra", "slip_events")}
         found = read_results(given.friction, data, tables)
         table = rows_of(snakemake.params.claims, found)

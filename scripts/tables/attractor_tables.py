@@ -1,4 +1,4 @@
-"""Tables of attractors, one row a run: scenes with their histories, the atlas, the route."""
+"""Tables of attractors, one row a point: scenes with their histories, the atlas, routes."""
 
 from pathlib import Path
 
@@ -23,8 +23,8 @@ def rows_of(run: xr.Dataset) -> list[dict]:
         {
             "epsilon": float(point.epsilon),
             "tau": float(point.tau),
-            "xi": float(run.attrs["xi"]),
-            "gamma": float(run.attrs["gamma"]),
+            "xi": float(point.xi),
+            "gamma": float(point.gamma),
             "theta": float(point.history_theta),
             "u": float(point.history_u),
             "v": float(point.history_v),
@@ -73,6 +73,11 @@ def scene_rows(scene: str, run: xr.Dataset) -> list[dict]:
     return rows
 
 
+def route_rows(path: Path, run: xr.Dataset) -> list[dict]:
+    """Rows of a run along a route, named by the file: its history or its sweep."""
+    return [{"route": path.parent.name, "run": path.stem, **row} for row in rows_of(run)]
+
+
 def same_attractor(one: dict, other: dict) -> bool:
     """Whether two runs came to one and the same attractor, as far as can be told."""
     if one["class"] != other["class"] or one["problem"]:
@@ -90,8 +95,10 @@ def same_attractor(one: dict, other: dict) -> bool:
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         runs = [(Path(path), read(path)) for path in snakemake.input.runs]
-        if snakemake.params.by_scene:
-            table = [row for path, run in runs for row in scene_rows(path.stem, run)]
-        else:
-            table = [row for _, run in runs for row in rows_of(run)]
-        write_table(snakemake.output[0], table)
+        rows_by_kind = {
+            "scenes": lambda path, run: scene_rows(path.stem, run),
+            "route": route_rows,
+            "atlas": lambda _, run: rows_of(run),
+        }
+        rows = rows_by_kind[snakemake.params.of]
+        write_table(snakemake.output[0], [row for path, run in runs for row in rows(path, run)])

@@ -83,8 +83,8 @@ module attractors
 
 contains
 
-   !> Find the attractor of the block's own history.
-   subroutine find_attractor(block_model, settings, options, attractor, error)
+   !> Find the attractor of the block's own history, or of where another run ended.
+   subroutine find_attractor(block_model, settings, options, attractor, error, start, arrived)
       !> The block and its history
       type(spring_block_type), intent(in) :: block_model
       !> How
@@ -95,27 +95,34 @@ contains
       type(attractor_type), intent(out) :: attractor
       !> The run ended before its time, or exponents cannot be measured
       type(error_type), allocatable, intent(out) :: error
-      type(continuation_type) :: arrived, onward
+      !> Where another run ended; empty: the block's own history
+      type(continuation_type), intent(in), optional :: start
+      !> Where the observation ended; empty on an error before
+      type(continuation_type), intent(out), optional :: arrived
+      type(continuation_type) :: approached, onward
       type(event_table) :: events
       type(integration_result) :: outcome
       type(table_sampler) :: samples
-      real(wp) :: t_end
+      real(wp) :: t_approached, t_end
       integer :: i
 
-      call integrate(block_model, 0.0_wp, settings%t_transient, options, outcome, error, &
-                     continuation=arrived)
+      if (present(start)) approached = start
+      t_approached = approached%time(1) + settings%t_transient
+      call integrate(block_model, approached%time(1), t_approached, options, outcome, error, &
+                     continuation=approached)
       if (allocated(error)) return
       events = event_table([index_of_ln_v, index_of_ln_v], level=[0.0_wp, 0.0_wp], &
                            direction=[1, -1], of_slope=[.false., .true.])
-      t_end = settings%t_transient + settings%t_observed
+      t_end = t_approached + settings%t_observed
       ! rounding may put the last one beyond the end, where there is none
       samples = table_sampler([index_of_theta, index_of_u, index_of_ln_v], &
-                              [(min(settings%t_transient + i*settings%sample_interval, t_end), &
+                              [(min(t_approached + i*settings%sample_interval, t_end), &
                                 i=0, int(settings%t_observed/settings%sample_interval))])
-      onward = arrived
-      call integrate(block_model, settings%t_transient, t_end, options, outcome, error, &
+      onward = approached
+      call integrate(block_model, t_approached, t_end, options, outcome, error, &
                      sampler=samples, watcher=events, continuation=onward)
       if (allocated(error)) return
+      if (present(arrived)) arrived = onward
       call keep_events(events, attractor)
 
       if (settles(samples%values(3, :))) then
@@ -130,7 +137,7 @@ contains
             return
          end if
       end if
-      call judge_motion(block_model, settings, options, arrived, samples, attractor, error)
+      call judge_motion(block_model, settings, options, approached, samples, attractor, error)
       if (allocated(error)) return
       attractor%class = agreed(attractor%by_exponents, attractor%by_section, attractor%by_spectrum)
    end subroutine find_attractor
@@ -190,7 +197,7 @@ contains
 
       wanted = growth_settings_type(exponents=exponents_of(block_model, settings), &
                                     t_turning=settings%t_turning, &
-                                    t_end=settings%t_transient + settings%t_turning &
+                                    t_end=arrived%time(1) + settings%t_turning &
                                     + settings%t_observed, &
                                interval=settings%interval, blocks=settings%blocks, bounds=.true.)
       call measure_growth(block_model, wanted, options, measured, error, arrived)
