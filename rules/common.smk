@@ -53,7 +53,6 @@ LEDGER_TABLES = {
     "stability": "results/tables/stability.tsv",
     "attractors": "results/tables/attractors.tsv",
     "routes": result_files.tables_of_routes(config),
-    "basins": "results/tables/basins.tsv",
 }
 
 
