@@ -26,6 +26,7 @@ rule all:
         "results/tables/tolerance-proportionality.tsv",
         "results/tables/hopf-points.tsv",
         "results/tables/linear-stability.tsv",
+        "results/tables/basins.tsv",
         "results/tables/claims.tsv",
 
 

@@ -54,7 +54,6 @@ LEDGER_TABLES = {
     "attractors": "results/tables/attractors.tsv",
     "atlas": "results/tables/atlas-coarse.tsv",
     "routes": result_files.tables_of_routes(config),
-    "basins": "results/tables/basins.tsv",
 }
 
 

@@ -159,6 +159,19 @@ def test_attractors_are_numbered_as_they_are_met():
     assert [row["history"] for row in rows] == [1, 2, 3, 4, 5]
 
 
+@pytest.mark.parametrize(("fastest", "tame"), [(1.9, "yes"), (2.1, "no")])
+def test_histories_slower_than_the_attractor_are_tame(fastest, tame):
+    """All of them; a run that failed has no attractor."""
+    run = a_run(
+        ["cycle"] * 3,
+        history_v=[1.0, fastest, 1.0],
+        largest_maximum=[2.0, 2.0, math.nan],
+        problem=[" ", " ", "it stopped"],
+    )
+    rows = attractor_tables.scene_rows("mine", run)
+    assert [row["tame_histories"] for row in rows] == [tame] * 3
+
+
 @pytest.mark.parametrize("name", ["cycle", "torus"])
 @pytest.mark.parametrize(("factor", "numbers"), [(1.005, [1, 1]), (1.02, [1, 2])])
 @pytest.mark.parametrize("key", ["smallest_maximum", "largest_maximum"])
@@ -212,6 +225,16 @@ def test_shares_of_basins_have_standard_errors():
     assert (first["share"], second["share"]) == (0.6, 0.2)
     assert first["share_error"] == pytest.approx(math.sqrt(0.6 * 0.4 / 5))
     assert (second["class"], second["tau"]) == ("chaos", 1.0)
+
+
+def test_undecided_runs_share_a_row_of_basins():
+    """Whatever their exponents."""
+    run = a_run(["undecided", "cycle", "undecided"], lyapunov_exponent=[0.1, 0.0, 0.5])
+    rows = basins_table.basin_rows("mine", run)
+    assert [(row["class"], round(3 * row["share"])) for row in rows] == [
+        ("undecided", 2),
+        ("cycle", 1),
+    ]
 
 
 def test_points_are_counted_and_cycles_parted():

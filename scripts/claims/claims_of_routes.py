@@ -110,17 +110,14 @@ def sequences(rows: list[dict], expected: list[str]) -> Turns:
 
 
 def changes(rows: list[dict], before: list[str], after: str) -> Turns:
-    """The first stretch of a class beyond others, and the last of these before it."""
+    """Stretches of some classes, and the first of another class beyond them."""
     found: Turns = {}
     for run, stretches in stretches_of(rows).items():
-        found[run] = []
-        earlier = None
-        for stretch in stretches:
-            if stretch.motion in before:
-                earlier = stretch
-            elif stretch.motion == after and earlier is not None:
-                found[run] = [[earlier, stretch]]
-                break
+        motions = [stretch.motion for stretch in stretches]
+        first = next((i for i, motion in enumerate(motions) if motion in before), len(motions))
+        end = motions.index(after, first) if after in motions[first:] else 0
+        earlier = [stretch for stretch in stretches[first:end] if stretch.motion in before]
+        found[run] = [[*earlier, stretches[end]]] if earlier else []
     return found
 
 

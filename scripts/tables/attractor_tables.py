@@ -58,10 +58,18 @@ def positive(value: xr.DataArray) -> float:
 
 
 def scene_rows(scene: str, run: xr.Dataset) -> list[dict]:
-    """Rows of a scene, numbered by history and by attractor; a run that failed came to none."""
+    """Rows of a scene, numbered by history and by attractor; a run that failed came to none.
+
+    Histories are tame if v is at most as large in all of them as on the attractors: they cannot be
+    expected to find motions of larger slip events.
+    """
     found: list[dict] = []
     rows = []
-    for history, row in enumerate(rows_of(run), start=1):
+    of_runs = rows_of(run)
+    maxima = [row["largest_maximum"] for row in of_runs]
+    largest = max((value for value in maxima if not np.isnan(value)), default=0.0)
+    tame = "yes" if max(row["v"] for row in of_runs) <= largest else "no"
+    for history, row in enumerate(of_runs, start=1):
         number = next(
             (i for i, other in enumerate(found, start=1) if same_attractor(row, other)), None
         )
@@ -69,7 +77,9 @@ def scene_rows(scene: str, run: xr.Dataset) -> list[dict]:
             found.append(row)
             number = len(found)
         number = np.nan if number is None else number
-        rows.append({"scene": scene, "history": history, "attractor": number, **row})
+        rows.append(
+            {"scene": scene, "history": history, "attractor": number, **row, "tame_histories": tame}
+        )
     return rows
 
 

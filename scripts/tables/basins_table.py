@@ -10,6 +10,7 @@ from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
 from scripts.namelists.study_cases import PARAMETERS
 from scripts.tables.attractor_tables import scene_rows
+from scripts.tables.motion_rows import UNDECIDED
 
 OF_MOTION = (
     *("class", "period", "exponent_1", "error_1", "exponent_2", "error_2", "f1", "f2"),
@@ -18,8 +19,14 @@ OF_MOTION = (
 
 
 def basin_rows(place: str, run: xr.Dataset) -> list[dict]:
-    """A row for each motion at a place, the most frequent first; failed runs belong to none."""
+    """A row for each motion at a place, the most frequent first; failed runs belong to none.
+
+    Runs that are undecided share a row.
+    """
     rows = scene_rows(place, run)
+    unsure = [row for row in rows if row["class"] == UNDECIDED and not row["problem"]]
+    for row in unsure:
+        row["attractor"] = unsure[0]["attractor"]
     numbers = [row["attractor"] for row in rows if not math.isnan(row["attractor"])]
     motions = sorted(set(numbers), key=lambda number: (-numbers.count(number), number))
     found = []
