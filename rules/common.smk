@@ -212,6 +212,12 @@ def claims_listed():
         raise WorkflowError(problems) from None
 
 
+def data_for_claims(kind):
+    """Data of scenes that claims need, of one kind: the name of their folder."""
+    scenes = claims_config.scenes_for(kind, claims_listed())
+    return result_files.paths_of_scenes(kind, scenes)
+
+
 def on_page():
     """What the page shows of each figure beside its files."""
     return [

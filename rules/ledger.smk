@@ -5,8 +5,8 @@ rule claims:
     input:
         **LEDGER_TABLES,
         curves=expand("results/hopf/{plane}.nc", plane=config["hopf_curves"]),
-        spectra=result_files.spectra_of_figures(config),
-        slip_events=result_files.slip_events_of_figure(config),
+        spectra=data_for_claims("spectra"),
+        slip_events=data_for_claims("slip_events"),
         friction="results/friction/velocity_step.nc",
         code=code_of("claims/ledger.py"),
     output:

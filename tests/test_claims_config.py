@@ -5,7 +5,7 @@ import inspect
 
 import pytest
 
-from scripts.claims import claims_config, ledger
+from scripts.claims import claims_config, claims_of_events, claims_of_spectra, ledger
 from scripts.config.check_config import checked
 from scripts.config.read_config import ConfigError, read
 
@@ -109,6 +109,17 @@ def test_every_test_is_used_and_every_claim_stands_somewhere():
     assert used == set(ledger.TESTS)
     assert len(listed) >= 20
     assert len({claim["claim"] for claim in listed.values()}) == len(listed)
+
+
+def test_data_of_scenes_are_known():
+    """Of every test of spectra and events; and each claim's scenes are found, once."""
+    tests = {"spectra": claims_of_spectra.TESTS, "slip_events": claims_of_events.TESTS}
+    assert claims_config.DATA_OF == {name: data for data in tests for name in tests[data]}
+    named = ["single_peak", "spectrum_class", "aperiodic_events", "power_law_of_sizes"]
+    claims = {name: with_test(name)["claims"]["mine"] for name in [*named, "equation_10"]}
+    claims["untested"] = UNTESTED
+    assert claims_config.scenes_for("spectra", claims) == ["oscillation", "torus"]
+    assert claims_config.scenes_for("slip_events", claims) == ["chaos", "oscillation"]
 
 
 def test_no_verdict_is_written_in_the_list():

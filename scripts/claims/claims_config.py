@@ -16,6 +16,15 @@ KEYS_OF = {
 }
 """Parameters of tests that name one scene, one plane or one route."""
 
+DATA_OF = {
+    "single_peak": "spectra",
+    "spectrum_class": "spectra",
+    "aperiodic_events": "slip_events",
+    "power_law_of_sizes": "slip_events",
+    "relaxation": "slip_events",
+}
+"""Tests that read data of the scenes they name, and which."""
+
 
 def listed() -> dict:
     """What the file says, unchecked."""
@@ -43,6 +52,21 @@ def named_test(claim: dict) -> tuple[str, dict]:
     return name, parameters
 
 
+def scenes_for(data: str, claims: dict) -> list[str]:
+    """Scenes whose data of this kind the claims need, each once."""
+    tested = [named_test(claim) for claim in claims.values() if "test" in claim]
+    named = (parameters for test, parameters in tested if DATA_OF.get(test) == data)
+    return list(dict.fromkeys(name for parameters in named for name in _named("scene", parameters)))
+
+
+def _named(kind: str, parameters: dict) -> list[str]:
+    """Scenes, planes or routes that parameters name."""
+    return [
+        *(parameters[key] for key in KEYS_OF[kind] if key in parameters),
+        *parameters.get(f"{kind}s", []),
+    ]
+
+
 def _wrong(claim: dict, config: dict, shown: set[str]):
     """Problems of one claim that involve more than one key."""
     given = [key for key in ("test", "not_testable") if key in claim]
@@ -65,8 +89,7 @@ def _unknown_names(parameters: dict, config: dict):
         ("plane", config["hopf_curves"]),
         ("route", config["routes"]["lines"]),
     ):
-        named = [parameters[key] for key in KEYS_OF[kind] if key in parameters]
-        for name in [*named, *parameters.get(f"{kind}s", [])]:
+        for name in _named(kind, parameters):
             if name not in known:
                 yield f"{kind} {name!r}; expected one of: {', '.join(known)}"
 

@@ -18,17 +18,6 @@ def scenes_with(config: dict, key: str) -> list[str]:
     return [name for name, scene in config["scenes"].items() if key in scene]
 
 
-def spectra_of_figures(config: dict) -> list[str]:
-    """Spectra that figures 6 and 7 show."""
-    shown = dict.fromkeys([*scenes_of(config, "figure_6"), *scenes_of(config, "figure_7")])
-    return paths_of_scenes("spectra", list(shown))
-
-
-def slip_events_of_figure(config: dict) -> list[str]:
-    """Slip events that their figure shows."""
-    return paths_of_scenes("slip_events", scenes_of(config, "events"))
-
-
 def numbered(parts: int) -> list[str]:
     """Names of so many parts, in order."""
     return [f"{part:04}" for part in range(1, parts + 1)]
