@@ -287,7 +287,7 @@ SAID = [
         "docs/findings.md", "{} of the {} points are undecided",
         lambda: [sum(row["class"] == "undecided" for row in routes()), len(routes())],
     ),
-    Said("docs/findings.md", "small cycle to epsilon = {:g}", last_small_cycle),
+    Said("docs/findings.md", "small cycle to epsilon = {:g}. Beyond", last_small_cycle),
     Said("docs/findings.md", "maxima of v jump from {:.1f} to {:.1f}", jump_of_maxima),
     Said(
         "docs/findings.md", "large cycle to epsilon = {:g}, where steady sliding is stable",
