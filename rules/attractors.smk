@@ -69,6 +69,7 @@ rule route_table:
 rule basins_table:
     input:
         runs=result_files.runs_of_basins(config),
+        routes=result_files.tables_of_routes(config),
         code=code_of("tables/basins_table.py"),
     output:
         "results/tables/basins.tsv",
