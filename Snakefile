@@ -26,11 +26,13 @@ rule all:
         "results/tables/tolerance-proportionality.tsv",
         "results/tables/hopf-points.tsv",
         "results/tables/linear-stability.tsv",
+        "results/tables/basins.tsv",
         "results/tables/claims.tsv",
 
 
 include: "rules/build.smk"
 include: "rules/trajectories.smk"
+include: "rules/slip_events.smk"
 include: "rules/curves.smk"
 include: "rules/linear_stability.smk"
 include: "rules/spectra.smk"

@@ -1,6 +1,7 @@
 # Attractors and their classes: of scenes from several histories, over the plane of epsilon and tau
-# (the atlas), and along the route to chaos. A survey is cut into parts, each a job of its own: one
-# core each leaves fewer cores idle than the program's threads (--set-threads attractors_runs=2).
+# (the atlas), along routes, and from random histories (basins). A survey is cut into parts, each a
+# job of its own: one core each leaves fewer cores idle than the program's threads
+# (--set-threads attractors_runs=2).
 
 
 rule attractors_namelist:
@@ -46,23 +47,36 @@ rule attractors_table:
     log:
         "results/logs/tables/attractors.log",
     params:
-        by_scene=True,
+        of="scenes",
     script:
         "../scripts/tables/attractor_tables.py"
 
 
 rule route_table:
     input:
-        runs=result_files.parts_of_route(config),
+        runs=runs_of_route,
         code=code_of("tables/attractor_tables.py"),
     output:
-        "results/tables/route-to-chaos.tsv",
+        "results/tables/routes/{line}.tsv",
     log:
-        "results/logs/tables/route-to-chaos.log",
+        "results/logs/tables/routes/{line}.log",
     params:
-        by_scene=False,
+        of="route",
     script:
         "../scripts/tables/attractor_tables.py"
+
+
+rule basins_table:
+    input:
+        runs=result_files.runs_of_basins(config),
+        routes=result_files.tables_of_routes(config),
+        code=code_of("tables/basins_table.py"),
+    output:
+        "results/tables/basins.tsv",
+    log:
+        "results/logs/tables/basins.log",
+    script:
+        "../scripts/tables/basins_table.py"
 
 
 rule atlas_table:
@@ -74,6 +88,6 @@ rule atlas_table:
     log:
         "results/logs/tables/atlas-{grid}.log",
     params:
-        by_scene=False,
+        of="atlas",
     script:
         "../scripts/tables/attractor_tables.py"

@@ -37,6 +37,7 @@ except (before_run.FolderError, read_config.ConfigError) as problems:
     raise WorkflowError(problems) from None
 
 
+LINES = "|".join(config["routes"]["lines"])
 FAMILIES = list(config["stability"]["families"])
 MEASURED = study_cases.measured_study(config)
 WORK_SCENES = list(MEASURED["cases"])
@@ -51,7 +52,8 @@ LEDGER_TABLES = {
     "linear_stability": "results/tables/linear-stability.tsv",
     "stability": "results/tables/stability.tsv",
     "attractors": "results/tables/attractors.tsv",
-    "route": "results/tables/route-to-chaos.tsv",
+    "atlas": "results/tables/atlas-coarse.tsv",
+    "routes": result_files.tables_of_routes(config),
 }
 
 
@@ -61,7 +63,8 @@ wildcard_constraints:
     family="|".join([*FAMILIES, *WORK_SCENES]),
     work_scene="|".join(WORK_SCENES),
     study="stability|trust",
-    survey=f"scenes|route|atlas/(coarse|fine)/({'|'.join(config['atlas']['planes'])})",
+    survey=f"scenes|basins|routes/({LINES})|atlas/(coarse|fine)/({'|'.join(config['atlas']['planes'])})",
+    line=LINES,
     part=r"\w+",
     grid="coarse|fine",
 
@@ -129,14 +132,22 @@ def survey_groups(wildcards):
     """How attractors of a part of a survey are looked for, as namelist groups."""
     if wildcards.survey == "scenes":
         groups = attractor_surveys.scene_groups(config, wildcards.part)
-    elif wildcards.survey == "route":
-        groups = attractor_surveys.route_groups(config, int(wildcards.part))
+    elif wildcards.survey == "basins":
+        groups = attractor_surveys.basin_groups(config, wildcards.part)
+    elif wildcards.survey.startswith("routes/"):
+        line = wildcards.survey.removeprefix("routes/")
+        groups = attractor_surveys.route_groups(config, line, wildcards.part)
     else:
         _, grid, plane = wildcards.survey.split("/")
         groups = attractor_surveys.atlas_groups(
             config, plane, grid, int(wildcards.part)
         )
     return {"runs": groups}
+
+
+def runs_of_route(wildcards):
+    """Files of all runs along a route."""
+    return result_files.runs_of_route(config, wildcards.line)
 
 
 def parts_of_atlas(wildcards):
@@ -193,11 +204,18 @@ def references_of_families():
 
 def claims_listed():
     """The paper's claims with their tests, checked."""
-    shown = {*FIGURES, *(Path(table).name for table in LEDGER_TABLES.values())}
+    tables = [table for table in LEDGER_TABLES.values() if isinstance(table, str)]
+    shown = {*FIGURES, *(Path(table).name for table in tables)}
     try:
         return claims_config.checked(claims_config.listed(), config, shown)
     except read_config.ConfigError as problems:
         raise WorkflowError(problems) from None
+
+
+def data_for_claims(kind):
+    """Data of scenes that claims need, of one kind: the name of their folder."""
+    scenes = claims_config.scenes_for(kind, claims_listed())
+    return result_files.paths_of_scenes(kind, scenes)
 
 
 def on_page():

@@ -5,6 +5,8 @@ rule claims:
     input:
         **LEDGER_TABLES,
         curves=expand("results/hopf/{plane}.nc", plane=config["hopf_curves"]),
+        spectra=data_for_claims("spectra"),
+        slip_events=data_for_claims("slip_events"),
         friction="results/friction/velocity_step.nc",
         code=code_of("claims/ledger.py"),
     output:

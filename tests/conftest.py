@@ -27,7 +27,7 @@ SMOKE = ("--configfile", "config/smoke.yaml")
 """Arguments for a run in smoke size; further config files may follow, targets must stand before."""
 PROGRAMS = [
     *("trajectory", "spectrum", "hopf", "linear_stability", "velocity_step", "exponents"),
-    *("attractors", "measure", "reference"),
+    *("attractors", "measure", "reference", "slip_events"),
 ]
 BUILT = "spectrum"
 """The program that the smoke run builds."""
@@ -37,6 +37,7 @@ GROUPS = {
     "hopf": "hopf_curves",
     "linear_stability": "linear_stability",
     "velocity_step": "velocity_step",
+    "slip_events": "scene",
 }
 """Namelist group of each program that reads one alone."""
 MADE = {
@@ -347,6 +348,7 @@ def good_inputs(filled_config, trajectory_file) -> dict[str, dict]:
             **config["linear_stability"],
         },
         "velocity_step": config["velocity_step"],
+        "slip_events": {**scene, "variables": ["theta", "u", "v"]},
     }
 
 

@@ -20,6 +20,8 @@ OPTIONAL = {"docs", *(name for name, entry in ENTRIES.items() if entry.optional)
 FAMILIES = settings("stability", "families")
 WORK_SCENES = [*settings("work_precision", "scenes"), *settings("work_precision", "cases")]
 PLANES = settings("atlas", "planes")
+LINES = settings("routes", "lines")
+RUNS = [*settings("routes", "histories"), "up", "down"]
 SCENES = ["oscillation", "torus", "chaos", "true_torus"]
 """Scenes that move."""
 TRAJECTORY = {"build", "scene_namelist", "trajectory"}
@@ -28,6 +30,7 @@ RULES_FOR = {
     "hopf": {"build", "hopf_namelist", "hopf_curves"},
     "trajectories": TRAJECTORY,
     "spectra": {*TRAJECTORY, "spectrum_namelist", "spectrum"},
+    "slip_events": {"build", "scene_namelist", "slip_events"},
     "friction": {"build", "velocity_step_namelist", "velocity_step"},
     "exponents": {"build", "exponents_namelist", "exponents_runs"},
     "attractors": ATTRACTORS,
@@ -51,16 +54,17 @@ RULES_FOR = {
     },
     "atlas-coarse.tsv": {*ATTRACTORS, "atlas_table"},
     "attractors.tsv": {*ATTRACTORS, "attractors_table"},
-    "route-to-chaos.tsv": {*ATTRACTORS, "route_table"},
+    **{f"{line}.tsv": {*ATTRACTORS, "route_table"} for line in LINES},
     "benchmarks.tsv": set(),
 }
 """Rules that make a result: data by their folder, tables by their name."""
-RULES_OF_ATTRACTORS = {*ATTRACTORS, "attractors_table", "route_table"}
+RULES_OF_ATTRACTORS = {*ATTRACTORS, "attractors_table", "route_table", "basins_table"}
 """Rules that the ledger needs besides."""
 PROGRAMS_FOR = {
     "hopf": ["hopf"],
     "trajectories": ["trajectory"],
     "spectra": ["trajectory", "spectrum"],
+    "slip_events": ["slip_events"],
     "friction": ["velocity_step"],
     "exponents": ["exponents"],
     "attractors": ["attractors"],
@@ -69,7 +73,7 @@ PROGRAMS_FOR = {
     "work-precision.tsv": ["measure", "reference"],
     "atlas-coarse.tsv": ["attractors"],
     "attractors.tsv": ["attractors"],
-    "route-to-chaos.tsv": ["attractors"],
+    **{f"{line}.tsv": ["attractors"] for line in LINES},
     "benchmarks.tsv": [],
 }
 """Programs that make a result, named in the same way."""
@@ -81,7 +85,7 @@ DATA_OF_TABLES = {
     },
     "atlas-coarse.tsv": {f"{plane}/{part:04}.nc" for plane in PLANES for part in range(1, 5)},
     "attractors.tsv": {f"scenes/{scene}.nc" for scene in ["fixed_point", *SCENES]},
-    "route-to-chaos.tsv": {"route/0001.nc", "route/0002.nc"},
+    **{f"{line}.tsv": {f"{line}/{run}.nc" for run in RUNS} for line in LINES},
     "benchmarks.tsv": set(),
 }
 """Data behind each table, by folder and name."""

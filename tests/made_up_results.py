@@ -1,4 +1,4 @@
-"""Results made up for tests of the ledger: Hopf curves in closed form, and rows of tables."""
+"""Results made up for tests of the ledger: curves, spectra and events, and rows of tables."""
 
 import math
 
@@ -41,7 +41,8 @@ def changed(curves: xr.Dataset, **values) -> xr.Dataset:
 def results(**given) -> Results:
     """Results of which a test uses some."""
     empty = {"curves": {}, "friction": xr.Dataset(), "hopf_points": [], "linear_stability": []}
-    return Results(**{**empty, "stability": [], "attractors": [], "route": [], **given})
+    empty |= {name: [] for name in ("stability", "attractors", "atlas", "routes")}
+    return Results(**{**empty, "spectra": {}, "slip_events": {}, **given})
 
 
 def on_plane(curves: xr.Dataset) -> Results:
@@ -69,6 +70,10 @@ def attractor_row(met: str, scene: str = "mine", history: int = 1, **given) -> d
     return {
         "scene": scene,
         "history": float(history),
+        "tau": 3.0,
+        "epsilon": 0.4,
+        "xi": 0.8,
+        "gamma": 0.8,
         "class": met,
         "period": 1.0 if met == "cycle" else math.nan,
         "by_exponents": met,
@@ -78,24 +83,47 @@ def attractor_row(met: str, scene: str = "mine", history: int = 1, **given) -> d
         **{f"error_{i}": 0.001 for i in (1, 2, 3)},
         "f1": 0.1,
         "f2": 0.17 if met == "torus" else math.nan,
+        "largest_maximum": 1.0 if met == "fixed point" else 2.0,
         **given,
     }
 
 
-def route_rows(*classes: str) -> list[dict]:
-    """Rows of route-to-chaos.tsv: these classes at growing epsilon, last first."""
+def route_rows(*classes: str, name: str = "mine", run: str = "near", along: str = "tau"):
+    """Rows of a route: classes, with a period behind a /, at 0.1, 0.2 and so on, last first."""
+    place = {"tau": 10.0, "epsilon": 0.5, "xi": 0.8, "gamma": 0.8}
     rows = [
         {
-            "epsilon": 0.1 * (i + 1),
-            "tau": 10.0,
-            "xi": 0.8,
-            "gamma": 0.8,
+            "route": name,
+            "run": run,
+            **place,
+            along: 0.1 * (i + 1),
             "class": met.split("/")[0],
             "period": float(met.split("/")[1]) if "/" in met else math.nan,
         }
         for i, met in enumerate(classes)
     ]
     return rows[::-1]
+
+
+def spectrum(kind: str = "one base", **heights: float) -> xr.Dataset:
+    """A spectrum of this kind with peaks at multiples of 0.1: `x2=5.0` is one of 5 at 0.2."""
+    multiples = [int(name.removeprefix("x")) for name in heights]
+    peaks = {
+        "peak_frequency": [0.1 * multiple for multiple in multiples],
+        "peak_power": list(heights.values()),
+        "peak_multiple": multiples,
+    }
+    attributes = {"spectrum_kind": kind, "continuum_share": 0.69}
+    return xr.Dataset({name: ("peak", value) for name, value in peaks.items()}, attrs=attributes)
+
+
+def slip_events(**values) -> xr.Dataset:
+    """As many slip events as the longest of these values, in which v spans 10 and half is stick."""
+    size = max((np.size(value) for value in values.values()), default=200)
+    made = {"recurrence_time": 8.0, "duration": 4.0, "slip": 6.0, "peak_velocity": 2.0}
+    made |= {"least_velocity": 0.2, **values}
+    data = {name: ("event", np.broadcast_to(value, size)) for name, value in made.items()}
+    return xr.Dataset(data, attrs={"tau": 7.0, "gamma": 0.8})
 
 
 def run_row(**given) -> dict:
@@ -106,6 +134,7 @@ def run_row(**given) -> dict:
         "gamma": 1e6,
         "method": "auto",
         "status": "ok",
+        "steps": 200.0,
         "least_ln_v": -10.0,
         "most_ln_v": 3.0,
         "error": 1e-9,

@@ -1,4 +1,4 @@
-"""Figures of the atlas, of the true torus and of the route, from small made-up tables."""
+"""Figures of the atlas, of the true torus and of routes, from small made-up tables."""
 
 import math
 
@@ -16,14 +16,14 @@ from matplotlib.figure import Figure
 from scripts.drawing import class_map
 from scripts.drawing.spectrum_rows import BASE, COMBINATION, HARMONIC, SECOND_BASE
 from scripts.drawing.style import STYLE
-from scripts.figures import atlas, route_to_chaos, true_torus
+from scripts.figures import atlas, routes, true_torus
 from scripts.tables.motion_rows import COLOURS
 
 PLACES = {
-    "first": {"epsilon": 0.35, "tau": 10.0, "xi": 0.8},
-    "at_zero": {"epsilon": 0.3, "tau": 0.0, "xi": 0.8},
-    "first_neighbour": {"epsilon": 0.5, "tau": 10.0, "xi": 0.8},
-    "elsewhere": {"epsilon": 0.7, "tau": 7.0, "xi": 0.5},
+    "first": {"epsilon": 0.35, "tau": 10.0, "xi": 0.8, "gamma": 0.8},
+    "at_zero": {"epsilon": 0.3, "tau": 0.0, "xi": 0.8, "gamma": 0.8},
+    "first_neighbour": {"epsilon": 0.5, "tau": 10.0, "xi": 0.8, "gamma": 0.8},
+    "elsewhere": {"epsilon": 0.7, "tau": 7.0, "xi": 0.5, "gamma": 0.8},
 }
 
 
@@ -36,7 +36,7 @@ def _style():
 
 
 def a_row(met: str, epsilon: float, tau: float = 7.0, xi: float = 0.5, **given) -> dict:
-    """A row of the atlas or the route."""
+    """A row of the atlas or a route."""
     place = {"epsilon": epsilon, "tau": tau, "xi": xi, "gamma": 0.8, "problem": math.nan}
     return attractor_row(met) | place | given
 
@@ -153,39 +153,64 @@ def test_names_of_scenes_keep_clear_of_each_other(drawn):
     assert not any(one.overlaps(other) for one in boxes for other in boxes if one is not other)
 
 
-def test_route_shows_maxima_classes_and_exponents():
-    """Over one axis; the title tells what is met first."""
-    classes = ["cycle", "undecided", "torus", "chaos", "torus"]
-    rows = [a_row(met, 0.1 * (i + 1)) for i, met in enumerate(classes)]
-    maxima = np.full((5, 3), np.nan)
-    maxima[:, :2] = np.arange(1, 6)[:, None]
-    runs = [
-        xr.Dataset(
-            {
-                "epsilon": ("point", 0.1 * np.arange(1, 6)[part]),
-                "maximum": (("point", "kept"), maxima[part]),
-            }
-        )
-        for part in (slice(0, 2), slice(2, 5))
-    ]
-    figure = route_to_chaos.draw(rows[::-1], runs)
-    assert_on_page(figure)
-    above, strip, below = figure.axes
-    points = [point for line in above.lines for point in line.get_xydata().tolist()]
-    expected = [[0.1 * v, v] for v in range(1, 6) for _ in range(2)]
-    np.testing.assert_allclose(points, expected)
+@pytest.fixture
+def routes_drawn() -> Figure:
+    """Two routes with two runs each: one along epsilon, one along tau, which has a scene on it."""
+    rows, runs = [], {}
+    for name, along in (("one", "epsilon"), ("other", "tau")):
+        places = [0.1, 0.2, 0.3, 0.4]
+        for run, classes in {
+            "near": ["cycle", "undecided", "torus", "chaos"],
+            "up": ["cycle", "torus", "torus", "chaos"],
+        }.items():
+            ends = {"epsilon": 0.5, "tau": 7.0}
+            rows += [
+                a_row(met, **{**ends, along: place}) | {"route": name, "run": run}
+                for met, place in zip(classes, places, strict=True)
+            ]
+            maxima = np.array([[1.0, np.nan], [2.0, 2.5], [3.0, 3.5], [4.0, 4.5]])
+            data = {along: ("point", places), "maximum": (("point", "kept"), maxima)}
+            runs[name, run] = xr.Dataset(data)
+    rows[3] |= {"problem": "it stopped", "class": "undecided"}
+    scene = {"tau": 0.2, "epsilon": 0.5, "xi": 0.5, "gamma": 0.8}
+    return routes.draw(rows, runs, {"on_it": scene, "elsewhere": {**scene, "xi": 0.8}})
+
+
+def test_routes_show_maxima_classes_and_exponents(routes_drawn):
+    """A panel each, one below the other, named by the parameter that varies."""
+    assert_on_page(routes_drawn)
+    above, strips, below = routes_drawn.axes[:3]
+    shown = np.array([point for line in above.lines for point in line.get_xydata()])
+    np.testing.assert_allclose(np.unique(shown[:, 1]), [1, 2, 2.5, 3, 3.5, 4, 4.5])
     title = title_of(above)
-    assert "5 points, 1 undecided" in title
-    assert title.endswith("first met: cycle from 0.1, torus from 0.3, chaos from 0.4")
-    assert len(strip.collections[0].get_array().ravel()) == 5
-    assert len(below.containers) == 3
-    bars = below.containers[1].lines[2][0].get_segments()
-    np.testing.assert_allclose(sorted(bars[0][:, 1]), [-0.021, -0.019])
+    assert r"$\tau$ = 7, $\xi$ = 0.5, $\gamma$ = 0.8: 8 points, 1 undecided, 1 failed" in title
+    assert below.get_xlabel() == r"sensitivity of the velocity relaxation $\varepsilon$"
+    assert routes_drawn.axes[5].get_xlabel() == r"delay $\tau$"
+    assert [text.get_text() for text in strips.get_yticklabels()] == ["near", "up"]
+    meshes = [item for item in strips.collections if isinstance(item, QuadMesh)]
+    expected = [COLOURS[name] for name in ("cycle", "torus", "torus", "chaos")]
+    colours = meshes[1].get_facecolors().reshape(-1, 4)
+    np.testing.assert_allclose(colours, [to_rgba(colour) for colour in expected])
+    assert len(below.containers) == 2
 
 
-def test_route_without_a_class_says_so():
-    """All undecided."""
-    assert route_to_chaos.words([a_row("undecided", 0.1)]).endswith("first met: none")
+def test_runs_of_a_route_do_not_cover_each_other(routes_drawn):
+    """Their dots stand beside each other, nearer to their place than to the next."""
+    near, up = (line.get_xdata() for line in routes_drawn.axes[0].lines)
+    np.testing.assert_allclose(up - near, 0.1 * routes.SPREAD)
+    np.testing.assert_allclose(0.5 * (up + near), [0.1, 0.2, 0.2, 0.3, 0.3, 0.4, 0.4])
+
+
+def test_scenes_on_a_route_are_named(routes_drawn):
+    """Those with the values of the other parameters."""
+    texts = [[text.get_text() for text in axes.texts] for axes in routes_drawn.axes]
+    assert texts == [[], [], [], ["on it"], [], []]
+
+
+def test_failed_points_of_a_route_are_crossed(routes_drawn):
+    """In the strip of their run."""
+    crosses = [line for line in routes_drawn.axes[1].lines if line.get_marker() == "x"]
+    assert [(line.get_xdata()[0], line.get_ydata()[0]) for line in crosses] == [(0.4, 0)]
 
 
 def a_scene(name: str, met: str) -> true_torus.Scene:
@@ -274,7 +299,7 @@ def test_scene_of_the_true_torus_needs_attractors(config):
     assert line.startswith("config figures true_torus rows a: scene = 'torus'; expected ")
 
 
-@pytest.mark.parametrize("survey", ["attractors", "route"])
+@pytest.mark.parametrize("survey", ["attractors", "routes"])
 def test_figures_need_points_that_are_kept(config, survey):
     """The line names the key."""
     config[survey]["observation"]["kept"] = 0

@@ -2,6 +2,7 @@
 
 import copy
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,8 +10,8 @@ import xarray as xr
 
 from scripts.config.check_config import checked
 from scripts.namelists import attractor_surveys
-from scripts.tables import attractor_tables
-from scripts.tables.motion_rows import count_in_words, first_met, kind_of
+from scripts.tables import attractor_tables, basins_table
+from scripts.tables.motion_rows import count_in_words, kind_of, parameter_of
 
 CLASSES = ["undecided", "fixed point", "cycle", "torus", "chaos"]
 
@@ -43,42 +44,52 @@ def test_parts_of_the_atlas_cut_its_delays(full, grid):
         assert points["epsilon_part"] == [1, settings["epsilon_count"]]
         assert points["epsilon_window"] == full["atlas"]["epsilon_window"]
         assert points["tau_window"] == full["atlas"]["tau_window"]
-        assert (points["xi"], points["gamma"]) == (0.8, 0.8)
+        assert points["xi_window"] == points["gamma_window"] == [0.8, 0.8]
         rows += range(points["tau_part"][0], points["tau_part"][1] + 1)
     assert rows == list(range(1, settings["tau_count"] + 1))
 
 
-def test_parts_of_the_route_cut_its_epsilons(full):
-    """One delay, its own observation, and what spectra are asked for."""
-    rows = []
-    for part in range(1, full["route"]["parts"] + 1):
-        groups = attractor_surveys.route_groups(full, part)
-        points = groups["points"]
-        assert (points["tau_window"], points["tau_count"]) == ([7.0, 7.0], 1)
-        rows += range(points["epsilon_part"][0], points["epsilon_part"][1] + 1)
-        assert groups["observation"].items() >= full["spectra"].items()
-        assert "kept" not in groups["observation"]
-        assert points["kept"] == full["route"]["observation"]["kept"]
-    assert rows == list(range(1, full["route"]["epsilon_count"] + 1))
+@pytest.mark.parametrize(("run", "sweep"), [("near", "none"), ("slip", "none"), ("up", "up")])
+def test_runs_of_a_route_go_along_its_parameter(full, run, sweep):
+    """Three values are fixed; sweeps start from the first history."""
+    routes = full["routes"]
+    groups = attractor_surveys.route_groups(full, "chaos_in_epsilon", run)
+    points, line = groups["points"], routes["lines"]["chaos_in_epsilon"]
+    assert points["sweep"] == sweep
+    assert (points["epsilon_window"], points["epsilon_count"]) == (line["window"], line["count"])
+    assert points["epsilon_part"] == [1, line["count"]]
+    assert (points["tau_window"], points["tau_count"]) == ([7.0, 7.0], 1)
+    history = routes["histories"].get(run, routes["histories"]["near"])
+    assert [points[key] for key in ("theta", "u", "v")] == [
+        [history[key]] for key in ("theta", "u", "v")
+    ]
+    assert groups["observation"].items() >= full["spectra"].items()
+    assert "kept" not in groups["observation"]
+    assert points["kept"] == routes["observation"]["kept"]
 
 
-def test_histories_are_drawn_by_the_seed_and_the_own_one_is_first(full):
+def test_basins_have_random_histories_only(full):
+    """As many as asked for, at the parameters of the place."""
+    points = attractor_surveys.basin_groups(full, "three_cycles")["points"]
+    assert len(points["v"]) == full["basins"]["count"]
+    assert points["tau_window"] == [7.0, 7.0]
+    assert min(points["u"]) < -5.0
+
+
+def test_histories_are_drawn_by_the_seed(full):
     """The same each time, more of them begin with the same, another seed gives others."""
     ranges = full["attractors"]["histories"]
-    own = {"theta": 0.1, "u": 0.2, "v": 0.3}
-    drawn = attractor_surveys.drawn_histories(own, 6, ranges)
-    assert drawn[0] == own
-    assert drawn == attractor_surveys.drawn_histories(own, 6, copy.deepcopy(ranges))
-    assert drawn == attractor_surveys.drawn_histories(own, 9, ranges)[:6]
-    other = attractor_surveys.drawn_histories(own, 6, {**ranges, "seed": ranges["seed"] + 1})
-    assert other[0] == own
-    assert all(one != another for one, another in zip(drawn[1:], other[1:], strict=True))
+    drawn = attractor_surveys.drawn_histories(5, ranges)
+    assert drawn == attractor_surveys.drawn_histories(5, copy.deepcopy(ranges))
+    assert drawn == attractor_surveys.drawn_histories(8, ranges)[:5]
+    other = attractor_surveys.drawn_histories(5, {**ranges, "seed": ranges["seed"] + 1})
+    assert all(one != another for one, another in zip(drawn, other, strict=True))
 
 
 def test_histories_fill_their_ranges(full):
     """Evenly in theta, u and ln v."""
     ranges = {"seed": 3, "theta": [-1.0, 0.0], "u": [5.0, 7.0], "ln_v": [-4.0, -2.0]}
-    drawn = attractor_surveys.drawn_histories({}, 2001, ranges)[1:]
+    drawn = attractor_surveys.drawn_histories(2000, ranges)
     for key, values in (
         ("theta", [history["theta"] for history in drawn]),
         ("u", [history["u"] for history in drawn]),
@@ -106,7 +117,8 @@ def a_run(classes: list[str], **given) -> xr.Dataset:
     numbers = [CLASSES.index(name) for name in classes]
     meanings = " ".join(name.replace(" ", "_") for name in CLASSES)
     points = {
-        **dict.fromkeys(("epsilon", "tau", "history_theta", "history_u", "history_v"), 1.0),
+        **dict.fromkeys(("tau", "epsilon", "xi", "gamma"), 1.0),
+        **dict.fromkeys(("history_theta", "history_u", "history_v"), 1.0),
         **{"period": 1, "base_1": 0.1, "base_2": 0.0, "roughness": 0.5},
         **{"smallest_maximum": 1.0, "largest_maximum": 2.0},
         **given,
@@ -120,7 +132,7 @@ def a_run(classes: list[str], **given) -> xr.Dataset:
         first = np.broadcast_to(value, size)
         data[key] = (("point", "exponent"), np.stack([first, first - 1], axis=1))
     data["problem"] = ("point", words.astype(object))
-    return xr.Dataset(data, attrs={"xi": 0.5, "gamma": 0.8})
+    return xr.Dataset(data)
 
 
 def attractors_in(run: xr.Dataset) -> list[int]:
@@ -145,6 +157,19 @@ def test_attractors_are_numbered_as_they_are_met():
     assert attractors_in(run) == [1, 2, 1, 3, 2]
     rows = attractor_tables.scene_rows("mine", run)
     assert [row["history"] for row in rows] == [1, 2, 3, 4, 5]
+
+
+@pytest.mark.parametrize(("fastest", "tame"), [(1.9, "yes"), (2.1, "no")])
+def test_histories_slower_than_the_attractor_are_tame(fastest, tame):
+    """All of them; a run that failed has no attractor."""
+    run = a_run(
+        ["cycle"] * 3,
+        history_v=[1.0, fastest, 1.0],
+        largest_maximum=[2.0, 2.0, math.nan],
+        problem=[" ", " ", "it stopped"],
+    )
+    rows = attractor_tables.scene_rows("mine", run)
+    assert [row["tame_histories"] for row in rows] == [tame] * 3
 
 
 @pytest.mark.parametrize("name", ["cycle", "torus"])
@@ -175,13 +200,59 @@ def test_fixed_point_is_one():
     assert attractors_in(run) == [1, 1]
 
 
-def test_classes_met_are_in_the_order_of_epsilon():
-    """Each from its first point on; what is undecided is no class."""
-    classes = ["undecided", "cycle", "torus", "undecided", "cycle", "chaos"]
-    rows = [{"epsilon": 0.1 * i, "class": name} for i, name in enumerate(classes)]
-    first = first_met(rows[::-1])
-    assert list(first) == ["cycle", "torus", "chaos"]
-    np.testing.assert_allclose(list(first.values()), [0.1, 0.2, 0.5])
+def test_rows_of_a_route_name_route_and_run():
+    """By folder and file."""
+    rows = attractor_tables.route_rows(Path("results/mine/up.nc"), a_run(["cycle", "torus"]))
+    assert [(row["route"], row["run"], row["class"]) for row in rows] == [
+        ("mine", "up", "cycle"),
+        ("mine", "up", "torus"),
+    ]
+
+
+@pytest.mark.parametrize("along", ["tau", "epsilon", "xi", "gamma"])
+def test_parameter_of_a_route(along):
+    """The one that varies."""
+    run = a_run(["cycle", "cycle"], **{along: [1.0, 2.0]})
+    assert parameter_of(attractor_tables.rows_of(run)) == along
+
+
+def test_shares_of_basins_have_standard_errors():
+    """The most frequent motion first; a failed run belongs to none and counts as a history."""
+    classes = ["cycle", "chaos", "cycle", "undecided", "cycle"]
+    run = a_run(classes, problem=[" ", " ", " ", "it stopped", " "])
+    first, second = basins_table.basin_rows("mine", run, [])
+    assert (first["motion"], first["class"], first["histories"]) == (1, "cycle", 5)
+    assert (first["share"], second["share"]) == (0.6, 0.2)
+    assert first["share_error"] == pytest.approx(math.sqrt(0.6 * 0.4 / 5))
+    assert (second["class"], second["tau"]) == ("chaos", 1.0)
+
+
+def test_motions_that_only_a_route_shows_have_no_share():
+    """At the same parameters, each once; undecided points and known motions are none."""
+    run = a_run(["cycle", "cycle"])
+    other = a_run(
+        ["cycle", "cycle", "chaos", "chaos", "undecided", "fixed point"],
+        tau=[1.0] * 5 + [2.0],
+        period=[1, 3, 0, 0, 0, 0],
+    )
+    rows = attractor_tables.route_rows(Path("results/mine/up.nc"), other)
+    found = basins_table.basin_rows("place", run, [{**row, "problem": math.nan} for row in rows])
+    assert [(row["class"], row["period"], row["share"], row["shown_by"]) for row in found[:2]] == [
+        ("cycle", 1.0, 1.0, "histories"),
+        ("cycle", 3.0, 0.0, "mine up"),
+    ]
+    assert [row["class"] for row in found[2:]] == ["chaos"]
+    assert found[2]["share_error"] == 0.0
+
+
+def test_undecided_runs_share_a_row_of_basins():
+    """Whatever their exponents."""
+    run = a_run(["undecided", "cycle", "undecided"], lyapunov_exponent=[0.1, 0.0, 0.5])
+    rows = basins_table.basin_rows("mine", run, [])
+    assert [(row["class"], round(3 * row["share"])) for row in rows] == [
+        ("undecided", 2),
+        ("cycle", 1),
+    ]
 
 
 def test_points_are_counted_and_cycles_parted():

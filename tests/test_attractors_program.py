@@ -31,10 +31,38 @@ def test_points_are_the_rectangle_for_each_history(programs, groups):
     for key in ("class", "by_exponents", "by_section", "by_spectrum"):
         assert found[key].attrs["flag_meanings"] == meanings
         assert set(found[key].values) <= set(range(5))
-    settings = {"name": "a part", "xi": 0.8, "gamma": 0.8, "method": "auto", "tolerance": 1e-6}
+    assert found.xi.values.tolist() == found.gamma.values.tolist() == [0.8] * 8
+    settings = {"name": "a part", "sweep": "none", "method": "auto", "tolerance": 1e-6}
     recorded = ("t_transient", "t_observed", "t_turning", "interval", "blocks", "zero_level")
     assert found.attrs.items() >= (settings | {key: OBSERVATION[key] for key in recorded}).items()
     assert found.problem.str.strip().values.tolist() == [""] * 8
+
+
+def test_each_parameter_is_an_axis(programs, groups):
+    """Epsilon runs fastest, then tau, xi and gamma."""
+    groups["points"] |= {"tau_part": [1, 1], "theta": [0.0], "u": [0.0], "v": [1.0]}
+    groups["points"] |= {"xi_window": [0.5, 0.8], "xi_count": 4, "xi_part": [3, 4]}
+    groups["points"] |= {"gamma_window": [0.8, 1e8], "gamma_count": 2, "gamma_part": [1, 2]}
+    found = programs.made_of("attractors", groups)
+    np.testing.assert_allclose(found.epsilon, [0.3, 0.5] * 4, rtol=1e-15)
+    np.testing.assert_allclose(found.xi, [0.7, 0.7, 0.8, 0.8] * 2, rtol=1e-15)
+    assert found.gamma.values.tolist() == [0.8] * 4 + [1e8] * 4
+
+
+@pytest.mark.parametrize(
+    ("direction", "order"), [("up", slice(None)), ("down", slice(None, None, -1))]
+)
+def test_sweep_is_in_its_order(programs, groups, direction, order):
+    """The direction is told; the first point is what it is alone, the others start elsewhere."""
+    groups["points"] |= {"tau_part": [2, 2], "theta": [0.0], "u": [0.0], "v": [1.1]}
+    alone = programs.made_of("attractors", groups)
+    groups["points"]["sweep"] = direction
+    found = programs.made_of("attractors", groups)
+    assert found.attrs["sweep"] == direction
+    np.testing.assert_array_equal(found.epsilon, alone.epsilon[order])
+    maxima, of_alone = found.maximum.values, alone.maximum.values[order]
+    np.testing.assert_array_equal(maxima[0], of_alone[0])
+    assert not np.array_equal(maxima[1], of_alone[1])
 
 
 def test_fixed_point_has_the_roots_and_no_more(programs, groups):

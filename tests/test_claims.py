@@ -5,7 +5,14 @@ import json
 
 import pytest
 from conftest import SMOKE
-from made_up_results import attractor_row, hopf_curve, results, stability_row
+from made_up_results import (
+    attractor_row,
+    hopf_curve,
+    results,
+    slip_events,
+    spectrum,
+    stability_row,
+)
 
 from scripts.claims import ledger
 from scripts.claims.claims_config import listed
@@ -82,15 +89,23 @@ def test_files_are_read_by_name(tmp_path):
     """Planes by the names of their files, tables by the names of results."""
     hopf_curve().to_netcdf(tmp_path / "a_plane.nc")
     hopf_curve(k=2).to_netcdf(tmp_path / "friction.nc")
-    names = ["hopf_points", "linear_stability", "stability", "attractors", "route"]
+    spectrum(x1=1.0).to_netcdf(tmp_path / "a_spectrum.nc")
+    slip_events().to_netcdf(tmp_path / "some_events.nc")
+    names = ["hopf_points", "linear_stability", "stability", "attractors", "atlas", "routes"]
     for name in names:
         write_table(tmp_path / name, [{"scene": name}])
     found = read_results(
-        [str(tmp_path / "a_plane.nc")],
         str(tmp_path / "friction.nc"),
+        {
+            "curves": [str(tmp_path / "a_plane.nc")],
+            "spectra": [str(tmp_path / "a_spectrum.nc")],
+            "slip_events": [str(tmp_path / "some_events.nc")],
+        },
         {name: str(tmp_path / name) for name in names},
     )
     assert list(found.curves) == ["a_plane"]
+    assert list(found.spectra) == ["a_spectrum"]
+    assert list(found.slip_events) == ["some_events"]
     assert (found.friction.branch == 2).all()
     for name in names:
         assert getattr(found, name) == [{"scene": name}]

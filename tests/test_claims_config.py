@@ -5,7 +5,7 @@ import inspect
 
 import pytest
 
-from scripts.claims import claims_config, ledger
+from scripts.claims import claims_config, claims_of_events, claims_of_spectra, ledger
 from scripts.config.check_config import checked
 from scripts.config.read_config import ConfigError, read
 
@@ -16,14 +16,32 @@ GOOD = {
     "equation_10": {"plane": "tau_of_epsilon"},
     "hopf_curves": {"planes": ["tau_of_epsilon", "xi_of_epsilon"], "limit": 1e-9},
     "kinds_of_hopf": {"planes": ["tau_of_epsilon"], "expected": ["supercritical"]},
-    "unstable_pairs": {"scene": "torus", "least": 2},
-    "roots_decide": {"scenes": ["torus", "chaos"]},
+    "roots_decide": {"least_motion": 1e-3},
+    "hopf_by_delay": {"scenes": ["torus", "chaos"]},
+    "hopf_depends_on": {
+        "at_fixed_xi": "tau_of_epsilon",
+        "at_fixed_tau": "xi_of_epsilon",
+        "limit": 1e-3,
+    },
+    "single_peak": {"scene": "oscillation"},
+    "spectrum_class": {"scene": "torus", "expected": "two bases"},
+    "aperiodic_events": {"scene": "chaos", "periodic": "oscillation"},
+    "power_law_of_sizes": {"scene": "chaos", "spread": 1.5},
+    "same_state_law": {"limit": 1e-6},
     "independent_of_spring": {"plane": "xi_of_epsilon", "limit": 1e-3},
     "attractor_class": {"scene": "torus", "expected": "torus"},
-    "sequence_of_scenes": {"scenes": ["torus", "chaos"], "expected": ["torus", "chaos"]},
-    "route": {"expected": ["cycle", "torus"]},
+    "positive_exponent": {"scene": "chaos"},
+    "route": {"routes": ["chaos_in_tau"], "expected": ["cycle", "torus"]},
+    "leads_to": {"routes": ["chaos_in_tau"], "before": ["cycle"], "after": "chaos"},
+    "delays_in_turn": {
+        "scenes": ["torus", "chaos"],
+        "expected": ["torus", "chaos"],
+        "route": "torus_in_tau",
+    },
+    "second_zero": {"scene": "torus", "route": "torus_in_tau"},
     "out_of_reach": {"method": "auto", "least": 1e4, "most": 1e12},
-    "relaxation": {"method": "auto", "ratio": 10.0},
+    "stiffness_forbids": {"method": "auto", "least": 1e4, "most": 1e12},
+    "relaxation": {"scenes": ["stick_slip"], "ratio": 10.0, "stick": 0.9},
     "stationary_state": {"within": 1e-6},
     "velocity_step": {},
 }
@@ -91,6 +109,17 @@ def test_every_test_is_used_and_every_claim_stands_somewhere():
     assert used == set(ledger.TESTS)
     assert len(listed) >= 20
     assert len({claim["claim"] for claim in listed.values()}) == len(listed)
+
+
+def test_data_of_scenes_are_known():
+    """Of every test of spectra and events; and each claim's scenes are found, once."""
+    tests = {"spectra": claims_of_spectra.TESTS, "slip_events": claims_of_events.TESTS}
+    assert claims_config.DATA_OF == {name: data for data in tests for name in tests[data]}
+    named = ["single_peak", "spectrum_class", "aperiodic_events", "power_law_of_sizes"]
+    claims = {name: with_test(name)["claims"]["mine"] for name in [*named, "equation_10"]}
+    claims["untested"] = UNTESTED
+    assert claims_config.scenes_for("spectra", claims) == ["oscillation", "torus"]
+    assert claims_config.scenes_for("slip_events", claims) == ["chaos", "oscillation"]
 
 
 def test_no_verdict_is_written_in_the_list():
@@ -176,20 +205,30 @@ def test_bad_claim_is_refused(accept, said, words):
         ("hopf_curves", {"planes": ["nowhere"]}, "plane 'nowhere'; expected one of"),
         ("kinds_of_hopf", {"expected": ["critical"]}, "expected one of: supercritical"),
         ("kinds_of_hopf", {"expected": []}, "expected = []; expected kinds of Hopf"),
-        ("unstable_pairs", {"least": 0}, "least = 0; expected least number"),
-        ("unstable_pairs", {"least": 1.5}, "least = 1.5; expected least number"),
-        ("unstable_pairs", {"scene": "nobody"}, "scene 'nobody'; expected one of: fixed_point"),
-        ("roots_decide", {"scenes": ["nobody"]}, "scene 'nobody'; expected one of: fixed_point"),
-        ("roots_decide", {"scenes": []}, "scenes = []; expected names of scenes"),
+        ("second_zero", {"scene": "nobody"}, "scene 'nobody'; expected one of: fixed_point"),
+        ("second_zero", {"route": "nowhere"}, "route 'nowhere'; expected one of: chaos_in_tau"),
+        ("leads_to", {"routes": ["nowhere"]}, "route 'nowhere'; expected one of: chaos_in_tau"),
+        ("leads_to", {"before": ["ring"]}, "expected one of: fixed point"),
+        ("hopf_by_delay", {"scenes": ["nobody"]}, "scene 'nobody'; expected one of: fixed_point"),
+        ("hopf_by_delay", {"scenes": []}, "scenes = []; expected names of scenes"),
+        ("roots_decide", {"least_motion": 0.0}, "least_motion = 0.0; expected largest v - 1"),
+        ("hopf_depends_on", {"at_fixed_xi": "nowhere"}, "plane 'nowhere'; expected one of: tau_of"),
+        ("hopf_depends_on", {"at_fixed_tau": "nowhere"}, "plane 'nowhere'; expected one of: tau_o"),
+        ("aperiodic_events", {"periodic": "nobody"}, "scene 'nobody'; expected one of: fixed_poin"),
+        ("power_law_of_sizes", {"spread": 0.5}, "spread = 0.5; expected largest over least"),
+        ("spectrum_class", {"expected": "torus"}, "expected = 'torus'; expected kind of a spectr"),
+        ("same_state_law", {"limit": 0.0}, "limit = 0.0; expected largest difference"),
         ("independent_of_spring", {"limit": -1.0}, "limit = -1.0; expected spread"),
         ("attractor_class", {"expected": "ring"}, "expected = 'ring'; expected class"),
         ("attractor_class", {"expected": "undecided"}, "expected = 'undecided'; expected class"),
-        ("sequence_of_scenes", {"expected": ["torus"]}, "1 classes for 2 scenes"),
+        ("delays_in_turn", {"expected": ["torus"]}, "1 classes for 2 scenes"),
         ("route", {"expected": []}, "expected = []; expected classes"),
         ("out_of_reach", {"method": "rk4"}, "method = 'rk4'; expected method of a run"),
         ("out_of_reach", {"least": 1e13}, "least = 10000000000000.0; expected a finite number <="),
         ("out_of_reach", {"most": -1.0}, "most = -1.0; expected largest gamma"),
+        ("stiffness_forbids", {"least": 1e13}, "least = 10000000000000.0; expected a finite numb"),
         ("relaxation", {"ratio": 1.0}, "ratio = 1.0; expected largest velocity"),
+        ("relaxation", {"stick": 1.0}, "stick = 1.0; expected least share"),
         ("stationary_state", {"within": 0.0}, "within = 0.0; expected distance"),
         ("velocity_step", {"plane": "tau_of_epsilon"}, "unknown key ['plane']"),
     ],

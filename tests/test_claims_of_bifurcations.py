@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+import xarray as xr
 from made_up_results import (
     attractor_row,
     changed,
@@ -19,8 +20,8 @@ from scripts.claims.claims_results import (
     NOT_REPRODUCED,
     REPRODUCED,
     changes,
-    stable_delays,
 )
+from scripts.claims.roots_of_5 import unstable_pairs
 
 BOTH = ["supercritical", "subcritical"]
 
@@ -36,24 +37,6 @@ def test_changes_of_a_cell():
     assert changes(math.nan) == []
 
 
-@pytest.mark.parametrize(
-    ("tau", "cell", "pairs", "delays"),
-    [
-        (3.0, "2 (0 -> 1); 5 (1 -> 0)", 1, [(0, 2)]),
-        (6.0, "2 (0 -> 1); 5 (1 -> 0)", 0, [(0, 2), (5, 6)]),
-        (6.0, "2 (1 -> 0); 5 (0 -> 1)", 1, [(2, 5)]),
-        (6.0, "2 (1 -> 2)", 2, []),
-        (6.0, math.nan, 0, [(0, 6)]),
-        (6.0, math.nan, 1, []),
-        (0.0, "2 (0 -> 1)", 0, []),
-    ],
-)
-def test_stable_delays(tau, cell, pairs, delays):
-    """Up to the scene's own delay."""
-    row = stability_row(tau=tau, tau_of_changes=cell, unstable_pairs=pairs)
-    assert stable_delays(row) == delays
-
-
 def test_hopf_only_by_delay():
     """A point without delay refutes it, in its own plane only."""
     point = {"of": "plane", "kind": "hopf_without_delay", "xi": 0.5, "gamma": 0.8, "l1_1": -0.05}
@@ -62,9 +45,8 @@ def test_hopf_only_by_delay():
     found = test(results(hopf_points=[point]), plane="plane")
     assert found.verdict == NOT_REPRODUCED
     assert "epsilon = 0.280701754" in found.evidence
-    assert float(found.evidence.split("a2 a1 - a0 = ")[1].split(" ")[0]) == pytest.approx(
-        0, abs=1e-15
-    )
+    assert "gamma^2 xi/(xi + gamma^2) = 0.280701754" in found.evidence
+    assert "supercritical" in found.evidence
     others = [point | {"of": "other"}, point | {"kind": "double_hopf"}]
     assert test(results(hopf_points=others), plane="plane").verdict == REPRODUCED
 
@@ -141,33 +123,112 @@ def test_amplitude_death(cell, verdict, words):
     assert words in found.evidence
 
 
-def test_unstable_pairs():
-    """So many, or where they come."""
-    test = TESTS["unstable_pairs"]
-    made = with_scenes(mine={"unstable_pairs": 1.0})
-    assert test(made, scene="mine", least=1).verdict == REPRODUCED
-    found = test(made, scene="mine", least=2)
-    assert found.verdict == NOT_REPRODUCED
-    assert "from epsilon = 0.9" in found.evidence
-    assert "at no epsilon" in test(made, scene="mine", least=3).evidence
+@pytest.mark.parametrize(
+    ("cells", "verdict"),
+    [
+        (["2 (0 -> 1)", "1 (1 -> 0); 5 (0 -> 1)"], REPRODUCED),
+        (["1 (1 -> 0); 5 (0 -> 1)"], NOT_REPRODUCED),
+        ([math.nan], NOT_REPRODUCED),
+    ],
+)
+def test_hopf_by_delay(cells, verdict):
+    """Stable without delay and unstable at some delay, in one scene at least."""
+    names = [f"scene_{i}" for i in range(len(cells))]
+    made = with_scenes(
+        **{name: {"tau_of_changes": cell} for name, cell in zip(names, cells, strict=True)}
+    )
+    found = TESTS["hopf_by_delay"](made, scenes=names)
+    assert found.verdict == verdict
+    assert ("at tau = 2" in found.evidence) == (verdict == REPRODUCED)
 
 
 @pytest.mark.parametrize(
-    ("pairs", "met", "verdict"),
+    ("with_tau", "with_xi", "verdict"),
     [
-        (0, "fixed point", REPRODUCED),
-        (1, "torus", REPRODUCED),
-        (0, "cycle", NOT_REPRODUCED),
-        (1, "fixed point", NOT_REPRODUCED),
-        (1, "undecided", NOT_REPRODUCED),
+        (0.1, 0.1, CORRECTED),
+        (0.0, 0.1, REPRODUCED),
+        (0.1, 0.0, NOT_REPRODUCED),
     ],
 )
-def test_roots_decide(pairs, met, verdict):
-    """Rest without unstable pair, motion with one."""
-    made = results(
-        linear_stability=[stability_row(unstable_pairs=pairs)], attractors=[attractor_row(met)]
-    )
-    assert TESTS["roots_decide"](made, scenes=["mine"]).verdict == verdict
+def test_hopf_depends_on(with_tau, with_xi, verdict):
+    """On xi it must, on the delay it must not."""
+    curves = {
+        name: changed(hopf_curve(), epsilon=np.linspace(0.3, 0.3 + spread, 12))
+        for name, spread in (("a", with_tau), ("b", with_xi))
+    }
+    test = TESTS["hopf_depends_on"]
+    found = test(results(curves=curves), at_fixed_xi="a", at_fixed_tau="b", limit=1e-3)
+    assert found.verdict == verdict
+    assert found.evidence.endswith("also depends on tau.") == (verdict == CORRECTED)
+    nowhere = {name: changed(curve, unstable_pairs=1) for name, curve in curves.items()}
+    found = test(results(curves=nowhere), at_fixed_xi="a", at_fixed_tau="b", limit=1e-3)
+    assert found.verdict == NOT_REPRODUCED
+
+
+BELOW, ABOVE = {"epsilon": 0.2, "tau": 0.0}, {"epsilon": 0.4, "tau": 0.0}
+"""Beside the Hopf point without delay, epsilon = gamma^2 xi/(xi + gamma^2) = 0.356 at xi = 0.8."""
+
+
+@pytest.mark.parametrize(
+    ("rows", "verdict"),
+    [
+        ([("fixed point", BELOW), ("torus", ABOVE)], REPRODUCED),
+        ([("fixed point", BELOW), ("cycle", BELOW), ("chaos", ABOVE)], REPRODUCED),
+        ([("fixed point", BELOW), ("undecided", ABOVE)], NOT_REPRODUCED),
+        ([("fixed point", BELOW), ("cycle", ABOVE), ("fixed point", ABOVE)], NOT_REPRODUCED),
+        (
+            [("fixed point", BELOW), ("cycle", {**ABOVE, "largest_maximum": 1 + 1e-6})],
+            NOT_REPRODUCED,
+        ),
+        ([("cycle", BELOW), ("cycle", ABOVE)], NOT_REPRODUCED),
+        ([("fixed point", BELOW)], NOT_REPRODUCED),
+    ],
+)
+def test_roots_decide(rows, verdict):
+    """No rest with an unstable root; with none, rest or another attractor; both must be met."""
+    made = [attractor_row(met, **given) for met, given in rows]
+    found = TESTS["roots_decide"](results(atlas=made[1:], attractors=made[:1]), least_motion=1e-3)
+    assert found.verdict == verdict
+
+
+@pytest.mark.parametrize(
+    ("given", "pairs"),
+    [
+        ({"epsilon": 0.355, "tau": 0.0}, 0),
+        ({"epsilon": 0.357, "tau": 0.0}, 1),
+        ({"epsilon": -0.5, "tau": 50.0}, 0),
+    ],
+)
+def test_pairs_without_delay_and_without_crossing(given, pairs):
+    """By Routh and Hurwitz; and friction that grows with v is stable at every delay."""
+    assert unstable_pairs(xi=0.8, gamma=0.8, **given) == pairs
+
+
+@pytest.mark.parametrize("k", [1, 2])
+def test_pairs_change_on_hopf_curves(k):
+    """By one, and nowhere else: on curves in closed form, a little to both sides."""
+    curves = hopf_curve(k=k)
+    for epsilon, tau in zip(curves.epsilon.values, curves.tau.values, strict=True):
+        before, after = (
+            unstable_pairs(epsilon=epsilon, tau=tau + off, xi=0.5, gamma=0.8)
+            for off in (-1e-6, 1e-6)
+        )
+        assert abs(after - before) == 1
+
+
+@pytest.mark.parametrize(("plane", "xi"), [("tau_of_epsilon", 0.5), ("tau_of_epsilon_xi_08", 0.8)])
+def test_pairs_are_those_of_the_program(smoke, plane, xi):
+    """Which counts them by the argument principle, in every cell of the plane."""
+    curves = xr.load_dataset(smoke.folder / "results" / "hopf" / f"{plane}.nc")
+    counted = [
+        [
+            unstable_pairs(epsilon=float(epsilon), tau=float(tau), xi=xi, gamma=0.8)
+            for epsilon in curves.map_epsilon
+        ]
+        for tau in curves.map_ordinate
+    ]
+    np.testing.assert_array_equal(curves.map_unstable_pairs, counted)
+    assert curves.map_unstable_pairs.max() >= 2
 
 
 def test_independent_of_spring():

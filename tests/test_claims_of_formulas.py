@@ -1,5 +1,7 @@
 """Verdicts on the printed equations, on Hopf curves in closed form."""
 
+import re
+
 import numpy as np
 import pytest
 from made_up_results import changed, hopf_curve, on_plane, results
@@ -75,7 +77,7 @@ def curve_at_delay(omega: np.ndarray):
 
 
 def test_equation_9():
-    """Right on one stretch; over a longer one it also gives points of another quadrant."""
+    """Right on the curve; that it also gives points beside a longer curve is a remark."""
     stretch = np.linspace(0.49, 0.53, 10)
     curves = curve_at_delay(stretch)
     assert (curves.xi > 0).all()
@@ -85,8 +87,10 @@ def test_equation_9():
     wide = curve_at_delay(np.append(stretch, 0.95))
     assert (wide.xi > 0).all()
     found = finding("equation_9", wide)
-    assert found.verdict == CORRECTED
-    assert "requires the other quadrant" in found.evidence
+    assert found.verdict == REPRODUCED
+    beside = re.search(r"at (\d+) of (\d+) frequencies", found.evidence)
+    assert 0 < int(beside[1]) < int(beside[2])
+    assert "at 0 of " in finding("equation_9", curves).evidence
 
 
 @pytest.mark.parametrize(

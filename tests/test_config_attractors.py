@@ -1,4 +1,4 @@
-"""Checking what a configuration says about attractors, the atlas and the route to chaos."""
+"""Checking what a configuration says about attractors, the atlas, routes and basins."""
 
 import pytest
 from config_refusals import line_about, place_of, put, refusal
@@ -8,14 +8,87 @@ from scripts.config.check_config import checked
 
 OF_SCENES = ("attractors", "observation")
 COARSE = ("atlas", "grids", "coarse")
-OBSERVATIONS = [OF_SCENES, (*COARSE, "observation"), ("route", "observation")]
+OF_OTHERS = [(section, "observation") for section in ("routes", "basins")]
+OBSERVATIONS = [OF_SCENES, (*COARSE, "observation"), *OF_OTHERS]
+LINE = ("routes", "lines", "chaos_in_tau")
 
 
 @pytest.mark.parametrize("name", ["Xi", "a b", "", 5])
 def test_plane_whose_name_makes_no_file_name_is_refused(config, name):
     """As of a scene."""
-    config["atlas"]["planes"][name] = {"xi": 1.0}
+    config["atlas"]["planes"][name] = {"xi": 1.0, "gamma": 1.0}
     assert f"config atlas planes: name {name!r}; expected " in refusal(config)
+
+
+@pytest.mark.parametrize(
+    "path", [("routes", "lines"), ("routes", "histories"), ("basins", "places")]
+)
+@pytest.mark.parametrize("name", ["Xi", 5])
+def test_other_names_that_make_no_file_name_are_refused(config, path, name):
+    """Of lines, histories and places."""
+    section = config[path[0]][path[1]]
+    section[name] = next(iter(section.values()))
+    assert f"{place_of(path)}: name {name!r}; expected " in refusal(config)
+
+
+def test_history_with_the_name_of_a_sweep_is_refused(config):
+    """Both would be the same file."""
+    config["routes"]["histories"]["up"] = {}
+    assert "config routes histories: name 'up'; expected another" in refusal(config)
+
+
+def test_routes_without_histories_are_refused(config):
+    """Sweeps would have no start."""
+    config["routes"]["histories"] = {}
+    assert "config routes: histories = {}; expected histories" in refusal(config)
+
+
+def test_routes_without_sweeps_are_allowed(config):
+    """Fixed histories alone."""
+    config["routes"]["sweeps"] = []
+    checked(config)
+
+
+@pytest.mark.parametrize("along", ["tau", "epsilon", "xi", "gamma"])
+def test_line_along_any_parameter(config, along):
+    """It has the values of the three others; one of them missing is said."""
+    values = {"tau": 7.0, "epsilon": 0.5, "xi": 0.5, "gamma": 0.8}
+    fixed = {key: value for key, value in values.items() if key != along}
+    line = {"along": along, "window": [0.1, 0.2], "count": 3}
+    config["routes"]["lines"]["mine"] = {**line, **fixed}
+    checked(config)
+    fixed.popitem()
+    config["routes"]["lines"]["mine"] = {**line, **fixed}
+    (missing,) = set(values) - set(fixed) - {along}
+    assert f"config routes lines mine: key ['{missing}'] is missing" in refusal(config)
+
+
+def test_value_of_the_parameter_that_varies_is_refused(config):
+    """It would be without effect."""
+    put(config, (*LINE, "tau"), 7.0)
+    line = line_about(refusal(config), "tau")
+    assert line == "config routes lines chaos_in_tau: tau = 7.0; expected no value, it is along tau"
+
+
+@pytest.mark.parametrize(
+    ("along", "window"),
+    [("tau", [-0.1, 1.0]), ("epsilon", [-1.0, 1.0]), ("xi", [0.0, 1.0]), ("gamma", [0.0, 1.0])],
+)
+def test_line_beyond_the_range_of_its_parameter_is_refused(config, along, window):
+    """The line names the window and the bound."""
+    values = {"tau": 7.0, "epsilon": 0.5, "xi": 0.5, "gamma": 0.8} | {"window": window}
+    del values[along]
+    config["routes"]["lines"]["mine"] = {"along": along, "count": 3, **values}
+    assert line_about(refusal(config), "window").startswith(
+        f"config routes lines mine: window = {window}; expected two ascending numbers >"
+    )
+
+
+def test_former_section_names_the_new_one(config):
+    """The single route is a line of `routes` now."""
+    config["route"] = {}
+    assert "unknown key ['route']; allowed: " in refusal(config)
+    assert "(is it meant to be 'routes'?)" in refusal(config)
 
 
 def test_atlas_without_planes_is_refused(config):
@@ -24,16 +97,15 @@ def test_atlas_without_planes_is_refused(config):
     assert "planes = {}; expected " in refusal(config)
 
 
-@pytest.mark.parametrize(("path", "key"), [(COARSE, "tau_count"), (("route",), "epsilon_count")])
-def test_more_parts_than_places_are_refused(config, path, key):
+def test_more_parts_than_places_are_refused(config):
     """Of the side that is cut; as many are fine."""
-    put(config, (*path, key), 3)
-    put(config, (*path, "parts"), 3)
+    put(config, (*COARSE, "tau_count"), 3)
+    put(config, (*COARSE, "parts"), 3)
     checked(config)
-    put(config, (*path, "parts"), 4)
+    put(config, (*COARSE, "parts"), 4)
     line = line_about(refusal(config), "parts")
     assert line.startswith(
-        f"{place_of(path)}: parts = 4; expected a whole number >= 1 and <= {key} = 3"
+        f"{place_of(COARSE)}: parts = 4; expected a whole number >= 1 and <= tau_count = 3"
     )
 
 

@@ -41,7 +41,8 @@ OBSERVATIONS = [
     ("attractors", "observation"),
     (*COARSE, "observation"),
     ("atlas", "grids", "fine", "observation"),
-    ("route", "observation"),
+    ("routes", "observation"),
+    ("basins", "observation"),
 ]
 OBSERVED = {
     "t_observed": POSITIVE,
@@ -58,6 +59,8 @@ OBSERVED = {
     "most_steps": ("a whole number >= 1", [0, 1.5, 1000000001]),
     "kept": ("a whole number >= 0", [-1, 1.5, 100001]),
 }
+LINE = ("routes", "lines", "chaos_in_epsilon")
+PLACE = ("basins", "places", "three_cycles")
 FAMILY = ("stability", "families", "growth")
 MEASURED = ("work_precision", "cases", "stick")
 MEASURED_SCENE = ("work_precision", "scenes", "torus")
@@ -175,13 +178,16 @@ RANGES = {
     **{(*place, key): rule for place in OBSERVATIONS for key, rule in OBSERVED.items()},
     **{(*place, "t_transient"): POSITIVE for place in OBSERVATIONS[1:]},
     **below("attractors", "histories", seed=("a whole number >= 0", [-1, 0.5, None])),
-    **below("atlas", gamma=POSITIVE),
     **below("atlas", "history", v=HISTORY_V),
-    **below("atlas", "planes", "xi_05", xi=POSITIVE),
+    **below("atlas", "planes", "xi_05", xi=POSITIVE, gamma=POSITIVE),
     **below(*COARSE, epsilon_count=GRID_COUNT, tau_count=GRID_COUNT, parts=COUNT),
-    **below("route", xi=POSITIVE, gamma=POSITIVE, tau=NOT_NEGATIVE),
-    **below("route", epsilon_count=GRID_COUNT, parts=COUNT),
-    **below("route", "history", v=HISTORY_V),
+    **below("routes", "histories", "slip", v=HISTORY_V),
+    **below(*LINE, xi=POSITIVE, gamma=POSITIVE, tau=NOT_NEGATIVE, count=GRID_COUNT),
+    **below(*LINE, along=("one of: tau, epsilon, xi, gamma", ["v", None])),
+    **below("routes", sweeps=("up, down", [["up", "up"], "up", None])),
+    **block(*PLACE),
+    **below("basins", count=("a whole number >= 1", [0, 1.5, 1001])),
+    **below("basins", "histories", seed=("a whole number >= 0", [-1, 0.5, None])),
 }
 """For each key: words of its range, and values out of range."""
 ELEMENTS = {
@@ -195,6 +201,7 @@ ELEMENTS = {
         u=("a finite number", [float("nan")]),
         v=("> 0", [0.0]),
     ),
+    **below("routes", sweeps=("one of: up, down", ["left"])),
     **below("stability", methods=("one of: auto, explicit", ["rk4_cubic"])),
     **below(
         "work_precision",
@@ -210,9 +217,13 @@ WINDOWS = {
         for plane in ("tau_of_epsilon", "xi_of_epsilon")
         for axis in ("epsilon", "ordinate")
     },
-    **{("attractors", "histories", key): [0.6, 0.5] for key in ("theta", "u", "ln_v")},
-    **{(place, "epsilon_window"): [0.6, 0.5] for place in ("atlas", "route")},
-    ("atlas", "tau_window"): [0.6, 0.5],
+    **{
+        (section, "histories", key): [0.6, 0.5]
+        for section in ("attractors", "basins")
+        for key in ("theta", "u", "ln_v")
+    },
+    **{("atlas", f"{axis}_window"): [0.6, 0.5] for axis in ("epsilon", "tau")},
+    (*LINE, "window"): [0.6, 0.5],
 }
 """Windows, each with numbers that do not ascend."""
 BEYOND = {
@@ -224,12 +235,13 @@ BEYOND = {
     ("attractors", "histories", "ln_v"): (">= -700.0 and <= 700.0", [[-701.0, 0.0], [0.0, 701.0]]),
     ("atlas", "epsilon_window"): ("> -1.0", [[-1.0, 0.5]]),
     ("atlas", "tau_window"): (">= 0.0", [[-0.1, 5.0]]),
-    ("route", "epsilon_window"): ("> -1.0", [[-1.0, 0.5]]),
+    (*LINE, "window"): ("> -1.0", [[-1.0, 0.5]]),
 }
 """For each window: words of its bounds, and windows beyond them."""
 SECTIONS = [
     *(("scenes",), ("figures",), ("spectra",), ("hopf_curves",), ("velocity_step",)),
-    *(("stability",), ("work_precision",), ("attractors",), ("atlas",), ("route",)),
+    *(("stability",), ("work_precision",), ("attractors",), ("atlas",), ("routes",)),
+    ("basins",),
 ]
 MISSING = [
     *SECTIONS,
@@ -241,15 +253,19 @@ MISSING = [
     (*MEASURED_SCENE, "t_end"),
     *(("attractors", key) for key in ("histories", "observation")),
     *(("attractors", "histories", key) for key in ("seed", "theta", "u", "ln_v")),
-    *(("atlas", key) for key in ("gamma", "epsilon_window", "tau_window", "planes", "grids")),
-    ("atlas", "planes", "xi_05", "xi"),
+    *(("atlas", key) for key in ("epsilon_window", "tau_window", "planes", "grids")),
+    *(("atlas", "planes", "xi_05", key) for key in ("xi", "gamma")),
     *(("atlas", "grids", key) for key in ("coarse", "fine")),
     *((*COARSE, key) for key in ("epsilon_count", "tau_count", "parts", "observation")),
-    *(("route", key) for key in ("xi", "gamma", "tau", "epsilon_window", "epsilon_count", "parts")),
+    *(("routes", key) for key in ("histories", "sweeps", "observation", "lines")),
+    *((*LINE, key) for key in ("along", "window", "count")),
+    *(("basins", key) for key in ("count", "histories", "observation", "places")),
+    *((*PLACE, key) for key in ("tau", "epsilon", "xi", "gamma")),
     *((*place, key) for place in OBSERVATIONS for key in ("t_observed", "t_turning")),
 ]
 """Keys without a default."""
-NAMED = {("atlas", "planes"), ("stability", "families")}
+NAMED = {("atlas", "planes"), ("stability", "families"), ("routes", "histories")}
+NAMED |= {("routes", "lines"), ("basins", "places")}
 NAMED |= {("work_precision", "scenes"), ("work_precision", "cases")}
 """Sections whose keys are names of the user's choice."""
 
@@ -257,7 +273,6 @@ NAMED |= {("work_precision", "scenes"), ("work_precision", "cases")}
 @pytest.fixture
 def whole(config) -> dict:
     """A config in which every section with a default stands, to change."""
-    config["route"]["history"] = {"v": 1.1}
     config["atlas"]["history"] = {"v": 1.1}
     return checked(config)
 

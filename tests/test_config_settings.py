@@ -6,14 +6,14 @@ from config_refusals import assert_refused, line_about, refusal
 from scripts.config.check_config import checked
 
 
-@pytest.mark.parametrize("figure", ["figure_4", "figure_5", "figure_6", "figure_7"])
+@pytest.mark.parametrize("figure", ["figure_4", "figure_5", "figure_6", "figure_7", "events"])
 def test_figure_row_of_an_unknown_scene_is_refused(config, figure):
     """The line names figure, row, value and the scenes there are."""
     config["figures"][figure]["rows"]["a"]["scene"] = "nowhere"
     line = line_about(refusal(config), "scene")
     assert figure in line
     assert " a: scene = 'nowhere'; expected one of: " in line
-    assert line.endswith("fixed_point, oscillation, torus, chaos, true_torus")
+    assert line.endswith("fixed_point, oscillation, torus, chaos, true_torus, stick_slip")
 
 
 def test_values_that_contradict_others_are_refused(config):

@@ -6,10 +6,17 @@ from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
+from itertools import pairwise
 
 import netCDF4
+import numpy as np
 import pytest
 from conftest import ROOT
+from expected_rules import settings
+
+from scripts.claims.claims_of_routes import Stretch, stretches_of
+from scripts.claims.claims_results import short
+from scripts.files.tsv import read_table
 
 RESULTS = ROOT / "results"
 
@@ -99,24 +106,57 @@ def frequencies(scene: str) -> list[float]:
         return [float(value) for value in spectrum["base_frequency"][:].compressed()]
 
 
-def on_route(column: str, *wanted: str) -> list[float]:
-    """A column of the route, at all points of these classes."""
-    return [float(row[column]) for row in table("route-to-chaos.tsv") if row["class"] in wanted]
+def route(line: str) -> list[dict]:
+    """Rows of a route."""
+    path = RESULTS / "tables" / "routes" / f"{line}.tsv"
+    if not path.exists():
+        pytest.skip(f"{path} is not made")
+    return read_table(path)
 
 
-def cycle_of(period: str) -> list[str]:
-    """Period and epsilon of the locked cycle of the route with so many points in its section."""
-    rows = [row for row in table("route-to-chaos.tsv") if row["period"] == period]
-    return [period, f"{float(rows[0]['epsilon']):.3f}"]
+@cache
+def routes() -> list[dict]:
+    """Rows of all routes."""
+    return [row for line in settings("routes", "lines") for row in route(line)]
+
+
+def stretch(line: str, motion: str, number: int = 0, run: str = "up") -> Stretch:
+    """A stretch of a class along a route, in the sweep up if nothing else is said."""
+    found = stretches_of(route(line))[run]
+    return [one for one in found if one.motion == motion][number]
+
+
+def begins(line: str, *motions: tuple[str, int]) -> list[str]:
+    """Where stretches begin."""
+    return [short(stretch(line, *motion).first) for motion in motions]
 
 
 def jump_of_maxima() -> list[float]:
-    """Largest maximum of v before and after its largest jump among cycles, and both epsilons."""
-    plain = [row for row in table("route-to-chaos.tsv") if row["period"] == "1"]
-    values = [float(row["largest_maximum"]) for row in plain]
-    last = max(range(len(plain) - 1), key=lambda i: values[i + 1] - values[i])
-    places = [float(row["epsilon"]) for row in plain[last : last + 2]]
-    return [*values[last : last + 2], *places]
+    """Largest maximum of v before and after the largest jump among cycles on the way up."""
+    plain = [row for row in route("chaos_in_epsilon") if row["run"] == "up" and row["period"] == 1]
+    values = [row["largest_maximum"] for row in sorted(plain, key=lambda row: row["epsilon"])]
+    return list(max(pairwise(values), key=lambda pair: pair[1] - pair[0]))
+
+
+def last_small_cycle() -> list[float]:
+    """The last epsilon before that jump."""
+    small = jump_of_maxima()[0]
+    rows = [row for row in route("chaos_in_epsilon") if row["run"] == "up"]
+    return [row["epsilon"] for row in rows if row["largest_maximum"] == small]
+
+
+def basin(place: str, motion: int) -> list[float]:
+    """Largest maximum of v, share in per cent and its standard error."""
+    (row,) = [
+        row for row in table("basins.tsv") if (row["place"], row["motion"]) == (place, str(motion))
+    ]
+    share, error = (100 * float(row[key]) for key in ("share", "share_error"))
+    return [float(row["largest_maximum"]), share, error]
+
+
+def basin_histories() -> list[str]:
+    """Number of random histories at each place."""
+    return sorted({row["histories"] for row in table("basins.tsv")})
 
 
 def shares(kind: str) -> list[float]:
@@ -167,7 +207,86 @@ def horizon(scene: str) -> list[float]:
     return [float(row["horizon"]) for row in rows if row["scene"] == scene]
 
 
+def events(scene: str, variable: str) -> np.ndarray:
+    """A variable of the slip events of a scene."""
+    path = RESULTS / "slip_events" / f"{scene}.nc"
+    if not path.exists():
+        pytest.skip(f"{path} is not made")
+    with netCDF4.Dataset(path) as data:
+        return data[variable][:].data
+
+
+def variation(scene: str, variable: str) -> float:
+    """Coefficient of variation, in per cent."""
+    values = events(scene, variable)
+    return 100 * values.std() / values.mean()
+
+
+def powers_of_slip(scene: str) -> list[float]:
+    """Slope of N(>= s) in logarithms, between shares of 95 and 50 % and of 25 and 5 % of events."""
+    slip = events(scene, "slip")
+    return [
+        math.log(more / less) / math.log(np.quantile(slip, 1 - less) / np.quantile(slip, 1 - more))
+        for more, less in ((0.95, 0.5), (0.25, 0.05))
+    ]
+
+
+def slower_than_the_plate(scene: str) -> float:
+    """Share of the time, in per cent."""
+    return 100 * (1 - events(scene, "duration").sum() / events(scene, "recurrence_time").sum())
+
+
+def least_span(scene: str) -> float:
+    """Least factor that v spans in an event."""
+    return (events(scene, "peak_velocity") / events(scene, "least_velocity")).min()
+
+
+def difference_of_mu0() -> float:
+    """Steady friction at v0 less mu0."""
+    path = RESULTS / "friction" / "velocity_step.nc"
+    if not path.exists():
+        pytest.skip(f"{path} is not made")
+    with netCDF4.Dataset(path) as response:
+        return float(response["mu"][0]) - response.mu0
+
+
 SAID = [
+    Said(
+        "docs/findings.md", "has a mean of {:.2f} L/v0 and a coefficient of variation of {:.0f} %",
+        lambda: [
+            events("chaos", "recurrence_time").mean(), variation("chaos", "recurrence_time")
+        ],
+    ),
+    Said(
+        "docs/findings.md", "The slip has a coefficient of variation of {:.0f} %",
+        lambda: [variation("chaos", "slip")],
+    ),
+    Said(
+        "docs/findings.md", "both coefficients are below {} %",
+        lambda: [0.001 if max(
+            variation("oscillation", name) for name in ("slip", "recurrence_time")
+        ) < 0.001 else "more"],
+    ),
+    Said(
+        "docs/findings.md", "like 1/s^{:.2f} among small events and like 1/s^{:.1f} among",
+        lambda: powers_of_slip("chaos"),
+    ),
+    Said(
+        "docs/findings.md", "In `oscillation` v stays between {:.2f} and {:.2f}",
+        lambda: [
+            events("oscillation", "least_velocity").min(),
+            events("oscillation", "peak_velocity").max(),
+        ],
+    ),
+    Said(
+        "docs/findings.md", "slower than the plate for {:.1f} % of the time, and v spans a factor"
+        " of {}",
+        lambda: [
+            slower_than_the_plate("stick_slip"),
+            f"{least_span('stick_slip'):.1e}".replace("e+0", "e"),
+        ],
+    ),
+    Said("docs/findings.md", "the difference is {:.4f}", lambda: [difference_of_mu0()]),
     Said("README.md", "f1 = {:.4f}, with weak", lambda: frequencies("oscillation")),
     Said("README.md", "**limit cycle**, f1 = {:.4f};", lambda: frequencies("torus")),
     Said(
@@ -212,22 +331,61 @@ SAID = [
         lambda: frequencies("true_torus"),
     ),
     Said(
-        "docs/findings.md", "| up to {:.3f} | steady",
-        lambda: [max(on_route("epsilon", "fixed point"))],
+        "docs/findings.md", "tau = {} | {} | {} | {} | | `torus_in_tau` | epsilon",
+        lambda: [
+            short(stretch("chaos_in_tau", "fixed point").last),
+            *begins("chaos_in_tau", ("cycle", 1), ("torus", 0), ("chaos", 0)),
+        ],
     ),
-    Said("docs/findings.md", "| from {:.3f} | cycle", lambda: [min(on_route("epsilon", "cycle"))]),
     Said(
-        "docs/findings.md", "maxima of v jump from {:.1f} to {:.1f} between {:.3f} and {:.3f}",
-        jump_of_maxima,
+        "docs/findings.md", "tau = {} | {} | {} | {} | | `torus_in_tau`, again",
+        lambda: [
+            short(stretch("torus_in_tau", "fixed point").last),
+            *begins("torus_in_tau", ("cycle", 1), ("torus", 0), ("chaos", 0)),
+        ],
     ),
-    Said("docs/findings.md", "| from {:.3f} | torus", lambda: [min(on_route("epsilon", "torus"))]),
-    Said("docs/findings.md", "cycle of {} points in the section at {}", lambda: cycle_of("19")),
-    Said("docs/findings.md", "| {1} | cycle of {0} points", lambda: cycle_of("23")),
-    Said("docs/findings.md", "| from {:.3f} | chaos", lambda: [min(on_route("epsilon", "chaos"))]),
+    Said(
+        "docs/findings.md", "again | | | {} | {} | {} |",
+        lambda: begins("torus_in_tau", ("cycle", 2), ("torus", 1), ("chaos", 1)),
+    ),
+    Said(
+        "docs/findings.md", "xi = {} | {} | {} |",
+        lambda: begins("chaos_in_xi", ("cycle", 0), ("torus", 0), ("chaos", 0)),
+    ),
+    Said(
+        "docs/findings.md", "| epsilon = {} | {} | {} | {} |",
+        lambda: [
+            short(stretch("chaos_in_epsilon", "fixed point").last),
+            *begins("chaos_in_epsilon", ("cycle", 0), ("torus", 0), ("chaos", 0)),
+        ],
+    ),
+    Said(
+        "docs/findings.md", "Up to tau = {} and {} there is a cycle without",
+        lambda: [short(stretch(line, "cycle").last) for line in ("chaos_in_tau", "torus_in_tau")],
+    ),
     Said(
         "docs/findings.md", "{} of the {} points are undecided",
-        lambda: [len(on_route("epsilon", "undecided")), len(table("route-to-chaos.tsv"))],
+        lambda: [sum(row["class"] == "undecided" for row in routes()), len(routes())],
     ),
+    Said("docs/findings.md", "small cycle to epsilon = {:g}. Beyond", last_small_cycle),
+    Said("docs/findings.md", "maxima of v jump from {:.1f} to {:.1f}", jump_of_maxima),
+    Said(
+        "docs/findings.md", "large cycle to epsilon = {:g}, where steady sliding is stable",
+        lambda: [stretch("chaos_in_epsilon", "cycle", run="down").first],
+    ),
+    Said(
+        "docs/findings.md", "small cycle, v up to {:.1f} | {:.0f} ± {:.0f} %",
+        lambda: basin("three_cycles", 1),
+    ),
+    Said(
+        "docs/findings.md", "large cycle, v up to {:.1f} | {:.0f} ± {:.0f} %",
+        lambda: basin("three_cycles", 3),
+    ),
+    Said(
+        "docs/findings.md", "another cycle, v up to {:.1f} | {:.0f} ± {:.0f} %",
+        lambda: basin("rest_and_cycle", 1),
+    ),
+    Said("docs/findings.md", "share of {} random histories", lambda: basin_histories()),
     Said(
         "docs/findings.md", "{:.0f} and {:.0f} % of its points are fixed points",
         lambda: shares("fixed point"),

@@ -8,7 +8,8 @@ from scripts.files.tsv import read_table
 from scripts.tables.hopf_points_table import death_rows_of
 from scripts.tables.linear_stability_table import amplitude_death, row_of
 
-SCENES = {"fixed_point": 0, "oscillation": 1, "torus": 1, "chaos": 1, "true_torus": 1}
+SCENES = {"fixed_point": 0, "oscillation": 1, "torus": 1, "chaos": 1}
+SCENES |= {"true_torus": 1, "stick_slip": 1}
 """Number of unstable pairs."""
 
 

@@ -20,6 +20,7 @@ REFUSED = {
     "hopf": ("hopf_curves", "gamma", 0.0, "gamma = 0.0; expected a finite number > 0"),
     "linear_stability": ("linear_stability", "xi", -1.0, "xi = -1.0; expected a finite number > 0"),
     "velocity_step": ("velocity_step", "samples", 1, "samples = 1; expected a whole number >= 2"),
+    "slip_events": ("scene", "xi", -1.0, "scene 'torus': xi = -1.0; expected a finite number > 0"),
     "exponents": ("exponents", "blocks", 1, "blocks = 1; expected a whole number >= 2"),
     "attractors": ("observation", "interval", 0.0, "interval = 0.0; expected a finite number > 0"),
     "measure": ("measure", "repeats", -1, "repeats = -1; expected a whole number >= 0"),

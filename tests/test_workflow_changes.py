@@ -14,7 +14,8 @@ from scripts.figures.entries import FIGURES, script_of
 
 COMPUTE = {
     *("attractors_runs", "exponents_runs", "hopf_curves", "linear_stability", "measurement"),
-    *("reference", "spectrum", "trajectory", "velocity_step", "work_precision_runs"),
+    *("reference", "spectrum", "slip_events", "trajectory", "velocity_step"),
+    "work_precision_runs",
 }
 """Rules that run a program."""
 STYLE = "scripts/drawing/paper.mplstyle"
@@ -121,13 +122,13 @@ def test_what_was_removed_is_made_again(scratch):
 
 
 def test_changed_scene_reruns_only_what_depends_on_it(scratch):
-    """Another tolerance of the torus: its trajectory, spectrum, exponents and their figures."""
+    """Another tolerance of the torus: its trajectory, spectrum, exponents, figures and claims."""
     (scratch.folder / "mine.yaml").write_text("scenes: { torus: { tolerance: 1.0e-8 } }")
     before = scratch.outputs()
     run = scratch.snakemake(*SMOKE, "mine.yaml")
     assert run.returncode == 0, run.stdout
     expected = {"all", "scene_namelist", "trajectory", "spectrum", "figure_5", "figure_6"}
-    expected |= {"true_torus", "page"}
+    expected |= {"true_torus", "claims", "page"}
     expected |= {"exponents_namelist", "exponents_runs", "exponents_table", "exponents"}
     assert rules_in(run.stdout) == expected
     after = scratch.outputs()
@@ -135,7 +136,8 @@ def test_changed_scene_reruns_only_what_depends_on_it(scratch):
     changed = {name for name in after if after[name] != before[name]}
     assert {"trajectories/torus.nc", "namelists/trajectories/torus.nml"} <= changed
     assert all(
-        "torus" in name or name.startswith(("figures/figure_5", "figures/exp", "tables/exp"))
+        "torus" in name
+        or name.startswith(("figures/figure_5", "figures/exp", "tables/exp", "tables/claims"))
         for name in changed
         if not name.startswith("figures/figure_6")
     )

@@ -1,7 +1,8 @@
-!> Attractors of the delayed block over a rectangle of the (epsilon, tau) plane, from one history or
-!> several, with their classes.
+!> Attractors of the delayed block on a grid of its parameters, from one history or several, or
+!> along a sweep, with their classes.
 program attractors_program
    use attractor_points, only: find_attractors, finding_type
+   use attractor_sweep, only: sweep_attractors
    use attractors, only: attractor_settings_type
    use attractors_output, only: write_attractors
    use dde, only: integration_options
@@ -26,7 +27,11 @@ program attractors_program
    call read_points(namelist_path, asked, error)
    call stop_on(error)
    report = progress_type("attractors of "//trim(asked%name))
-   call find_attractors(asked%points, settings, options, findings, report)
+   if (asked%sweep == "none") then
+      call find_attractors(asked%points, settings, options, findings, report)
+   else
+      call sweep_attractors(asked%points, settings, options, findings, report)
+   end if
    call report%finish()
    call write_attractors(output_path, asked, settings, options, findings, error)
    call stop_on(error)

@@ -3,6 +3,7 @@ program tester
    use, intrinsic :: iso_fortran_env, only: error_unit
    use mctc_env_testing, only: new_testsuite, run_testsuite, testsuite_type
    use test_attractor_points, only: collect_attractor_points
+   use test_attractor_sweep, only: collect_attractor_sweep
    use test_attractors, only: collect_attractors
    use test_base_frequencies, only: collect_base_frequencies
    use test_block_parameters, only: collect_block_parameters
@@ -27,6 +28,7 @@ program tester
    use test_motion_classes, only: collect_motion_classes
    use test_progress, only: collect_progress
    use test_section_motion, only: collect_section_motion
+   use test_slip_events, only: collect_slip_events
    use test_spectral_peaks, only: collect_spectral_peaks
    use test_spectrum, only: collect_spectrum
    use test_spectrum_verdict, only: collect_spectrum_verdict
@@ -41,6 +43,7 @@ program tester
    integer :: failed, i, run
 
    allocate (suites, source=[new_testsuite("attractor_points", collect_attractor_points), &
+                             new_testsuite("attractor_sweep", collect_attractor_sweep), &
                              new_testsuite("attractors", collect_attractors), &
                              new_testsuite("base_frequencies", collect_base_frequencies), &
                              new_testsuite("block_parameters", collect_block_parameters), &
@@ -65,6 +68,7 @@ program tester
                              new_testsuite("motion_classes", collect_motion_classes), &
                              new_testsuite("progress", collect_progress), &
                              new_testsuite("section_motion", collect_section_motion), &
+                             new_testsuite("slip_events", collect_slip_events), &
                              new_testsuite("spectral_peaks", collect_spectral_peaks), &
                              new_testsuite("spectrum", collect_spectrum), &
                              new_testsuite("spectrum_verdict", collect_spectrum_verdict), &

@@ -83,12 +83,16 @@ contains
       character(len=*), parameter :: part = "; expected first and last, 1 <= first <= last <= 3"
 
       call expect_refusals(error, points_reader, "points", [character(len=line_length) :: &
-         "name = 'a part'", "xi = 0.8", "gamma = 0.8", "epsilon_window = 0.1, 0.5", &
-         "epsilon_count = 3", "epsilon_part = 2, 3", "tau_window = 0.0, 10.0", "tau_count = 3", &
-         "tau_part = 1, 2", "theta = 0.0, 0.5", "u = 0.0, -0.5", "v = 1.1, 1.5", "kept = 100"], [ &
+         "name = 'a part'", "epsilon_window = 0.1, 0.5", "epsilon_count = 3", &
+         "epsilon_part = 2, 3", "tau_window = 0.0, 10.0", "tau_count = 3", "tau_part = 1, 1", &
+         "xi_window = 0.8, 0.8", "xi_count = 1", "xi_part = 1, 1", "gamma_window = 0.8, 1.0e8", &
+         "gamma_count = 1", "gamma_part = 1, 1", "theta = 0.0", "u = 0.0", "v = 1.1", &
+         "sweep = 'up'", "kept = 100"], [ &
          spoiled("name", "'"//repeat("a", 129)//"'", "letters of name = 129; expected"), &
-         spoiled("xi", "0.0", "xi = 0.0"//above_0), &
-         spoiled("gamma", "0.0", "gamma = 0.0"//above_0), &
+         spoiled("xi_window", "0.0, 0.8", "xi_window = 0.0"//above_0), &
+         spoiled("xi_part", "1, 2", "xi_part = 1, 2; expected first and last"), &
+         spoiled("gamma_window", "0.8, 0.0", "gamma_window = 0.0"//above_0), &
+         spoiled("gamma_count", "0", "gamma_count = 0"//from_1), &
          spoiled("epsilon_window", "-1.0, 0.5", "epsilon_window = -1.0"//above_minus_1), &
          spoiled("epsilon_window", "0.5, -2.0", "epsilon_window = -2.0"//above_minus_1), &
          spoiled("epsilon_window", "0.5", "epsilon_window = NaN"//above_minus_1), &
@@ -102,11 +106,14 @@ contains
          spoiled("epsilon_part", "2, 1", "epsilon_part = 2, 1"//part), &
          spoiled("tau_part", "1, 4", "tau_part = 1, 4"//part), &
          spoiled("tau_part", "4, 4", "tau_part = 4, 4"//part), &
-         spoiled("theta", "0.0, 0.5, 1.0", "u(3) = NaN; expected a finite number"), &
-         spoiled("u", "0.0", "u(2) = NaN; expected a finite number"), &
-         spoiled("v", "1.1", "v(2) = NaN"//above_0), &
-         spoiled("v", "1.1, 0.0", "v(2) = 0.0"//above_0), &
+         spoiled("theta", "0.0, 0.5", "u(2) = NaN; expected a finite number"), &
+         spoiled("u", "0.0, 0.5", "theta(2) = NaN; expected a finite number"), &
+         spoiled("u", "0.0, 0.5, theta = 0.0, 0.5", "v(2) = NaN"//above_0), &
+         spoiled("v", "0.0", "v(1) = 0.0"//above_0), &
          spoiled("v", "1001*1.1", "namelist group &points: "), &
+         spoiled("sweep", "'left'", "sweep = 'left'; expected one of 'none' 'up' 'down'"), &
+         spoiled("tau_part", "1, 2", "sweep = 'up' along 2 parameters; expected at most one"), &
+         spoiled("v", "1.1, 1.5, u = 0.0, 0.0, theta = 0.0, 0.0", "'up' from 2 histories;"), &
          spoiled("kept", "-1", "kept = -1"//from_0_count), &
          spoiled("kept", "100001", "kept = 100001; expected a whole number <= 100000")])
    end subroutine test_points

@@ -9,6 +9,22 @@ FOLDER = Path(__file__).parents[2] / "config"
 CLAIMS = FOLDER / "claims.yaml"
 SCHEMA = FOLDER / "claims-schema.yaml"
 
+KEYS_OF = {
+    "scene": ("scene", "periodic"),
+    "plane": ("plane", "at_fixed_xi", "at_fixed_tau"),
+    "route": ("route",),
+}
+"""Parameters of tests that name one scene, one plane or one route."""
+
+DATA_OF = {
+    "single_peak": "spectra",
+    "spectrum_class": "spectra",
+    "aperiodic_events": "slip_events",
+    "power_law_of_sizes": "slip_events",
+    "relaxation": "slip_events",
+}
+"""Tests that read data of the scenes they name, and which."""
+
 
 def listed() -> dict:
     """What the file says, unchecked."""
@@ -36,6 +52,21 @@ def named_test(claim: dict) -> tuple[str, dict]:
     return name, parameters
 
 
+def scenes_for(data: str, claims: dict) -> list[str]:
+    """Scenes whose data of this kind the claims need, each once."""
+    tested = [named_test(claim) for claim in claims.values() if "test" in claim]
+    named = (parameters for test, parameters in tested if DATA_OF.get(test) == data)
+    return list(dict.fromkeys(name for parameters in named for name in _named("scene", parameters)))
+
+
+def _named(kind: str, parameters: dict) -> list[str]:
+    """Scenes, planes or routes that parameters name."""
+    return [
+        *(parameters[key] for key in KEYS_OF[kind] if key in parameters),
+        *parameters.get(f"{kind}s", []),
+    ]
+
+
 def _wrong(claim: dict, config: dict, shown: set[str]):
     """Problems of one claim that involve more than one key."""
     given = [key for key in ("test", "not_testable") if key in claim]
@@ -52,22 +83,25 @@ def _wrong(claim: dict, config: dict, shown: set[str]):
 
 
 def _unknown_names(parameters: dict, config: dict):
-    """Scenes and planes that the configuration does not have."""
-    for key, known in (("scene", config["scenes"]), ("plane", config["hopf_curves"])):
-        named = parameters.get(f"{key}s", [parameters[key]] if key in parameters else [])
-        for name in named:
+    """Scenes, planes and routes that the configuration does not have."""
+    for kind, known in (
+        ("scene", config["scenes"]),
+        ("plane", config["hopf_curves"]),
+        ("route", config["routes"]["lines"]),
+    ):
+        for name in _named(kind, parameters):
             if name not in known:
-                yield f"{key} {name!r}; expected one of: {', '.join(known)}"
+                yield f"{kind} {name!r}; expected one of: {', '.join(known)}"
 
 
 def _contradictions(test: str, parameters: dict):
     """Parameters that do not go together."""
-    if test == "sequence_of_scenes" and len(parameters["scenes"]) != len(parameters["expected"]):
+    if test == "delays_in_turn" and len(parameters["scenes"]) != len(parameters["expected"]):
         yield (
             f"{len(parameters['expected'])} classes for {len(parameters['scenes'])} scenes;"
             " expected one each"
         )
-    if test == "out_of_reach" and parameters["least"] > parameters["most"]:
+    if "least" in parameters and "most" in parameters and parameters["least"] > parameters["most"]:
         yield (
             f"least = {parameters['least']}; expected a finite number <= most ="
             f" {parameters['most']}"

@@ -1,8 +1,7 @@
-"""Claims about where runs end, by the tables attractors.tsv and route-to-chaos.tsv."""
+"""Claims about where runs end, by the table attractors.tsv."""
 
 import math
 from collections import Counter
-from itertools import pairwise
 
 from scripts.claims.claims_results import (
     CORRECTED,
@@ -13,12 +12,10 @@ from scripts.claims.claims_results import (
     decided,
     listed,
     short,
-    stable_delays,
 )
-from scripts.tables.motion_rows import first_met
 
-MOST_INTERVALS = 12
-"""Intervals of epsilon that the evidence of a route lists."""
+ERRORS = 3
+"""Standard errors beyond which an exponent is not zero."""
 
 
 def attractor_class(results: Results, *, scene: str, expected: str) -> Finding:
@@ -39,79 +36,21 @@ def attractor_class(results: Results, *, scene: str, expected: str) -> Finding:
     return Finding(CORRECTED if elsewhere else NOT_REPRODUCED, evidence)
 
 
-def spectrum_class(results: Results, *, scene: str, expected: str) -> Finding:
-    """Whether the spectrum of the scene's run is one of this class."""
-    own = results.attractors_of(scene)[0]
-    bases = [short(own[key]) for key in ("f1", "f2") if not math.isnan(own[key])]
+def positive_exponent(results: Results, *, scene: str) -> Finding:
+    """Whether the largest exponent is positive beyond its error, from every history."""
+    rows = results.attractors_of(scene)
+    measured = [row for row in rows if not math.isnan(row["exponent_1"])]
+    if not measured:
+        return decided(False, f"No exponent of scene {scene} is measured.")
+    values = [row["exponent_1"] for row in measured]
+    beyond = sum(row["exponent_1"] > ERRORS * row["error_1"] for row in measured)
     return decided(
-        own["by_spectrum"] == expected,
-        f"Class of {scene} by its spectrum: {own['by_spectrum']}. Base frequencies of the peaks:"
-        f" {listed(bases)}.",
+        beyond == len(rows),
+        f"The largest Lyapunov exponent of scene {scene} is {short(values[0], 3)} +-"
+        f" {short(measured[0]['error_1'], 2)} v0/L from the first of {len(rows)} histories. From"
+        f" all of them it is {short(min(values), 3)} to {short(max(values), 3)} v0/L. It is more"
+        f" than {ERRORS} standard errors above zero in {beyond} of them.",
     )
-
-
-def sequence_of_scenes(results: Results, *, scenes: list[str], expected: list[str]) -> Finding:
-    """Whether scenes with longer and longer delays are of these classes in turn."""
-    met = [in_words(results.attractors_of(scene)[0]) for scene in scenes]
-    classes = [results.attractors_of(scene)[0]["class"] for scene in scenes]
-    delays = [results.stability_of(scene)["tau"] for scene in scenes]
-    parts = [f"{name} at tau = {short(delay)}" for name, delay in zip(met, delays, strict=True)]
-    longer = all(before < after for before, after in pairwise(delays))
-    return decided(
-        classes == expected and longer,
-        f"Attractors in the paper's order: {', '.join(parts)}. Each delay is longer than the one"
-        f" before: {'yes' if longer else 'no'}.",
-    )
-
-
-def delay_alone_makes(results: Results, *, scene: str, expected: str) -> Finding:
-    """Whether a scene's class comes from stable steady sliding by a longer delay alone."""
-    own, row = results.attractors_of(scene)[0], results.stability_of(scene)
-    stable = [f"{short(begin)} to {short(end)}" for begin, end in stable_delays(row)]
-    return decided(
-        own["class"] == expected and bool(stable),
-        f"At epsilon = {short(row['epsilon'])} and xi = {short(row['xi'])} steady sliding is stable"
-        f" for these tau up to {short(row['tau'])}: {listed(stable)}. At tau = {short(row['tau'])}"
-        f" the attractor is: {in_words(own)}{exponents_of(own)}.",
-    )
-
-
-def route(results: Results, *, expected: list[str]) -> Finding:
-    """Whether these classes, with growing epsilon, are first met in this order and one by one."""
-    rows = sorted(results.route, key=lambda row: row["epsilon"])
-    if not rows:
-        return decided(False, "route-to-chaos.tsv has no row.")
-    sure = [row for row in rows if row["class"] != "undecided"]
-    classes = list(first_met(rows))
-    end = classes.index(expected[-1]) + 1 if expected[-1] in classes else 0
-    before = classes[max(0, end - len(expected)) : end]
-    finer = stretches_of(sure, in_words)
-    parts = [f"{in_words(stretch[0])} {epsilons_of(stretch)}" for stretch in finer]
-    left = len(parts) - MOST_INTERVALS
-    more = f", and {left} more intervals" if left > 0 else ""
-    return decided(
-        before == expected,
-        f"Classes with growing epsilon, at tau = {short(rows[0]['tau'])} and"
-        f" xi = {short(rows[0]['xi'])}: {listed(parts[:MOST_INTERVALS])}{more}. Undecided:"
-        f" {len(rows) - len(sure)} of {len(rows)} points.",
-    )
-
-
-def stretches_of(rows: list[dict], key) -> list[list[dict]]:
-    """Neighbours of the same key together."""
-    stretches: list[list[dict]] = []
-    for row in rows:
-        if stretches and key(stretches[-1][0]) == key(row):
-            stretches[-1].append(row)
-        else:
-            stretches.append([row])
-    return stretches
-
-
-def epsilons_of(stretch: list[dict]) -> str:
-    """From where to where."""
-    first, last = (short(stretch[i]["epsilon"]) for i in (0, -1))
-    return first if first == last else f"{first} to {last}"
 
 
 def in_words(row: dict) -> str:
@@ -133,8 +72,5 @@ def exponents_of(row: dict) -> str:
 
 TESTS = {
     "attractor_class": attractor_class,
-    "spectrum_class": spectrum_class,
-    "sequence_of_scenes": sequence_of_scenes,
-    "delay_alone_makes": delay_alone_makes,
-    "route": route,
+    "positive_exponent": positive_exponent,
 }

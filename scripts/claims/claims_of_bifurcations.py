@@ -13,9 +13,31 @@ from scripts.claims.claims_results import (
     listed,
     short,
 )
+from scripts.claims.roots_of_5 import unstable_pairs as unstable_pairs_of_5
 
 KINDS = {"supercritical": -1, "subcritical": 1}
 """Kinds of a Hopf bifurcation by the sign of the first Lyapunov coefficient."""
+
+
+def hopf_by_delay(results: Results, *, scenes: list[str]) -> Finding:
+    """Whether steady sliding that is stable without delay loses its stability at some delay."""
+    parts, beside, lost = [], [], False
+    for scene in scenes:
+        row = results.stability_of(scene)
+        where = f"{scene} (epsilon = {short(row['epsilon'])}, xi = {short(row['xi'])})"
+        crossed = changes(row["tau_of_changes"])
+        if not crossed or crossed[0][1] > 0:
+            beside.append(where)
+            continue
+        place = crossed[0][0]
+        lost = True
+        parts.append(f"{where} at tau = {short(place, 6)}")
+    return decided(
+        lost,
+        "Steady sliding is stable without delay, and a pair of roots crosses the imaginary axis"
+        f" when only the delay grows, in {listed(parts)}. There is no such point in:"
+        f" {listed(beside)}.",
+    )
 
 
 def hopf_only_by_delay(results: Results, *, plane: str) -> Finding:
@@ -30,15 +52,47 @@ def hopf_only_by_delay(results: Results, *, plane: str) -> Finding:
     point = points[0]
     epsilon, xi, square = point["epsilon"], point["xi"], point["gamma"] ** 2
     expected = square * xi / (xi + square)
-    cubic = [1 + square / xi, square + (square - (1 + epsilon) * square) / xi, square]
-    hurwitz = cubic[0] * cubic[1] - cubic[2]
+    kind = "supercritical" if point["l1_1"] < 0 else "subcritical"
     return decided(
         False,
-        f"At tau = 0, xi = {short(xi)}, gamma = {short(point['gamma'])} a pair of roots is"
-        f" imaginary at epsilon = {short(epsilon, 9)}. The Routh-Hurwitz criterion gives"
-        f" gamma^2 xi/(xi + gamma^2) = {short(expected, 9)}. At this point a2 a1 - a0 ="
-        f" {short(hurwitz)} and the first Lyapunov coefficient is {short(point['l1_1'])}.",
+        f"At tau = 0, xi = {short(xi)} and gamma = {short(point['gamma'])} there is a Hopf point at"
+        f" epsilon = {short(epsilon, 9)}. The Routh-Hurwitz criterion gives the same value,"
+        f" gamma^2 xi/(xi + gamma^2) = {short(expected, 9)}. The bifurcation is {kind}: the first"
+        f" Lyapunov coefficient is {short(point['l1_1'])}.",
     )
+
+
+def hopf_depends_on(
+    results: Results, *, at_fixed_xi: str, at_fixed_tau: str, limit: float
+) -> Finding:
+    """Whether epsilon and xi alone, at constant gamma, decide where stability is lost."""
+    with_tau, with_xi = (boundary(results.curves[plane]) for plane in (at_fixed_xi, at_fixed_tau))
+    if not (with_tau and with_xi):
+        return decided(False, "One of the planes has no point where stability changes.")
+    wide = [
+        max(spread["epsilon"]) - min(spread["epsilon"]) > limit for spread in (with_tau, with_xi)
+    ]
+    parts = [
+        f"At gamma = {short(results.curves[plane].attrs['gamma'])} and {fixed} ="
+        f" {short(spread[fixed][0])} the critical epsilon varies between"
+        f" {short(min(spread['epsilon']))} and {short(max(spread['epsilon']))} for {varied} from"
+        f" {short(min(spread[varied]))} to {short(max(spread[varied]))}."
+        for plane, spread, fixed, varied in (
+            (at_fixed_xi, with_tau, "xi", "tau"),
+            (at_fixed_tau, with_xi, "tau", "xi"),
+        )
+    ]
+    verdict = (CORRECTED if wide[0] else REPRODUCED) if wide[1] else NOT_REPRODUCED
+    end = " So it also depends on tau." if wide[0] and wide[1] else ""
+    return Finding(verdict, " ".join(parts) + end)
+
+
+def boundary(curves) -> dict[str, list[float]]:
+    """Parameters of the points where stability changes; nothing where there are none."""
+    at_boundary = curves.unstable_pairs.values == 0
+    if not at_boundary.any():
+        return {}
+    return {key: list(curves[key].values[at_boundary]) for key in ("epsilon", "tau", "xi")}
 
 
 def kinds_of_hopf(results: Results, *, planes: list[str], expected: list[str]) -> Finding:
@@ -106,28 +160,29 @@ def amplitude_death(results: Results, *, scenes: list[str]) -> Finding:
     )
 
 
-def unstable_pairs(results: Results, *, scene: str, least: int) -> Finding:
-    """Whether a scene's steady sliding has at least so many unstable pairs of roots."""
-    row = results.stability_of(scene)
-    later = [place for place, _, after in changes(row["epsilon_of_changes"]) if after >= least]
-    where = f"from epsilon = {short(later[0])}" if later else "at no epsilon in the range searched"
+def roots_decide(results: Results, *, least_motion: float) -> Finding:
+    """Whether no motion comes to rest where (5) has an unstable root, in the atlas and scenes."""
+    rows = [row for row in results.atlas + results.attractors if row["class"] != "undecided"]
+    stable, unstable = [], []
+    for row in rows:
+        pairs = unstable_pairs_of_5(**{key: row[key] for key in ("epsilon", "tau", "xi", "gamma")})
+        (unstable if pairs else stable).append(row)
+    at_rest = [row["class"] == "fixed point" for row in stable]
+    rests = [
+        row
+        for row in unstable
+        if row["class"] == "fixed point" or row["largest_maximum"] - 1 < least_motion
+    ]
+    least = min((row["largest_maximum"] - 1 for row in unstable), default=np.nan)
+    undecided = len(results.atlas) + len(results.attractors) - len(rows)
     return decided(
-        row["unstable_pairs"] >= least,
-        f"Unstable pairs of roots in scene {scene} (tau = {short(row['tau'])}, epsilon ="
-        f" {short(row['epsilon'])}): {row['unstable_pairs']:.0f}. At least {least} are unstable"
-        f" {where}.",
+        bool(unstable) and any(at_rest) and not rests,
+        f"{len(rows)} motions of the atlas and of the scenes have a class. {len(stable)} of them"
+        f" are at parameters where all roots have negative real parts: {sum(at_rest)} come to rest,"
+        f" {len(stable) - sum(at_rest)} move on another attractor. {len(unstable)} are at"
+        f" parameters with unstable roots: {len(rests)} come to rest, and in the others the largest"
+        f" v is at least 1 + {short(least, 2)}. {undecided} more motions are undecided.",
     )
-
-
-def roots_decide(results: Results, *, scenes: list[str]) -> Finding:
-    """Whether runs come to rest exactly where no root has a positive real part."""
-    parts, holds = [], True
-    for scene in scenes:
-        pairs = results.stability_of(scene)["unstable_pairs"]
-        met = results.attractors_of(scene)[0]["class"]
-        parts.append(f"{scene}: {pairs:.0f}, {met}")
-        holds = holds and (pairs == 0) == (met == "fixed point") and met != "undecided"
-    return decided(holds, f"Unstable pairs and attractor of each scene: {'; '.join(parts)}.")
 
 
 def independent_of_spring(results: Results, *, plane: str, limit: float) -> Finding:
@@ -148,12 +203,13 @@ def independent_of_spring(results: Results, *, plane: str, limit: float) -> Find
 
 
 TESTS = {
+    "hopf_by_delay": hopf_by_delay,
     "hopf_only_by_delay": hopf_only_by_delay,
+    "hopf_depends_on": hopf_depends_on,
     "kinds_of_hopf": kinds_of_hopf,
     "delay_destabilises": delay_destabilises,
     "pairs_gained_and_lost": pairs_gained_and_lost,
     "amplitude_death": amplitude_death,
-    "unstable_pairs": unstable_pairs,
     "roots_decide": roots_decide,
     "independent_of_spring": independent_of_spring,
 }

@@ -1,6 +1,5 @@
 """What verdicts rest on: files in results/, and how a finding is put in words."""
 
-import math
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -34,54 +33,75 @@ class Results:
     linear_stability: list[dict]
     stability: list[dict]
     attractors: list[dict]
-    route: list[dict]
+    atlas: list[dict]
+    routes: list[dict]
+    spectra: dict[str, xr.Dataset]
+    slip_events: dict[str, xr.Dataset]
 
     def stability_of(self, scene: str) -> dict:
         """The scene's row of linear stability."""
         (row,) = rows_about(self.linear_stability, "linear-stability.tsv", scene)
         return row
 
+    def spectrum_of(self, scene: str) -> xr.Dataset:
+        """The spectrum of the scene's v."""
+        return data_about(self.spectra, "results/spectra", scene)
+
+    def events_of(self, scene: str) -> xr.Dataset:
+        """The scene's slip events."""
+        return data_about(self.slip_events, "results/slip_events", scene)
+
     def attractors_of(self, scene: str) -> list[dict]:
         """The scene's attractors, that of its own history first."""
         rows = rows_about(self.attractors, "attractors.tsv", scene)
         return sorted(rows, key=lambda row: row["history"])
 
+    def route(self, name: str) -> list[dict]:
+        """Points of a route, of all runs; to have none is an error."""
+        return rows_about(self.routes, f"routes/{name}.tsv", name, "route")
 
-def read_results(curves: list[str], friction: str, tables: dict[str, str]) -> Results:
-    """Read the files; `tables` by the names of `Results`."""
+
+def read_results(
+    friction: str, data: dict[str, list[str]], tables: dict[str, str | list[str]]
+) -> Results:
+    """Read the files; `data` and `tables`, one or several, by the names of `Results`."""
     return Results(
-        curves={Path(path).stem: xr.load_dataset(path) for path in curves},
         friction=xr.load_dataset(friction),
-        **{name: read_table(path) for name, path in tables.items()},
+        **{
+            name: {Path(path).stem: xr.load_dataset(path) for path in paths}
+            for name, paths in data.items()
+        },
+        **{name: rows_in(paths) for name, paths in tables.items()},
     )
 
 
-def rows_about(rows: list[dict], table: str, scene: str) -> list[dict]:
-    """Rows of a scene; to have none is an error."""
-    found = [row for row in rows if row["scene"] == scene]
+def rows_in(paths: str | list[str]) -> list[dict]:
+    """Rows of one table, or of several one after the other."""
+    if isinstance(paths, str):
+        return read_table(paths)
+    return [row for path in paths for row in read_table(path)]
+
+
+def rows_about(rows: list[dict], table: str, name: str, kind: str = "scene") -> list[dict]:
+    """Rows of a scene or a route; to have none is an error."""
+    found = [row for row in rows if row[kind] == name]
     if not found:
-        known = sorted({row["scene"] for row in rows})
-        raise ValueError(f"{table}: no row of scene '{scene}'; there are: {', '.join(known)}")
+        known = sorted({row[kind] for row in rows})
+        raise ValueError(f"{table}: no row of {kind} '{name}'; there are: {', '.join(known)}")
     return found
+
+
+def data_about(data: dict[str, xr.Dataset], folder: str, scene: str) -> xr.Dataset:
+    """The file of a scene; to have none is an error."""
+    if scene not in data:
+        raise ValueError(f"{folder}: no file of scene '{scene}'; there are: {', '.join(data)}")
+    return data[scene]
 
 
 def changes(cell: str | float) -> list[tuple[float, int, int]]:
     """Places at which a pair crosses the axis, with the unstable pairs before and after."""
     found = re.findall(r"(\S+) \((\d+) -> (\d+)\)", cell if isinstance(cell, str) else "")
     return [(float(place), int(before), int(after)) for place, before, after in found]
-
-
-def stable_delays(row: dict) -> list[tuple[float, float]]:
-    """Intervals of the delay up to the scene's own in which its steady sliding is stable."""
-    found = changes(row["tau_of_changes"])
-    begins = [0.0, *(place for place, _, _ in found)]
-    ends = [*begins[1:], math.inf]
-    pairs = [found[0][1], *(after for _, _, after in found)] if found else [row["unstable_pairs"]]
-    return [
-        (begin, min(end, row["tau"]))
-        for begin, end, unstable in zip(begins, ends, pairs, strict=True)
-        if unstable == 0 and begin < row["tau"]
-    ]
 
 
 def short(value: float, digits: int = 4) -> str:

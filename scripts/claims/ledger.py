@@ -6,8 +6,12 @@ from pathlib import Path
 from scripts.claims import (
     claims_of_attractors,
     claims_of_bifurcations,
+    claims_of_events,
     claims_of_formulas,
+    claims_of_friction,
+    claims_of_routes,
     claims_of_runs,
+    claims_of_spectra,
 )
 from scripts.claims.claims_config import named_test
 from scripts.claims.claims_results import NOT_TESTABLE, Finding, Results, read_results
@@ -18,7 +22,11 @@ TESTS = {
     **claims_of_formulas.TESTS,
     **claims_of_bifurcations.TESTS,
     **claims_of_attractors.TESTS,
+    **claims_of_routes.TESTS,
+    **claims_of_spectra.TESTS,
+    **claims_of_events.TESTS,
     **claims_of_runs.TESTS,
+    **claims_of_friction.TESTS,
 }
 """Each test by its name in config/claims.yaml."""
 
@@ -66,9 +74,10 @@ def write_json(path: str | Path, rows: list[dict]) -> None:
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         given = snakemake.input
-        names = ("hopf_points", "linear_stability", "stability", "attractors", "route")
+        names = ("hopf_points", "linear_stability", "stability", "attractors", "atlas", "routes")
         tables = {name: given[name] for name in names}
-        found = read_results(given.curves, given.friction, tables)
+        data = {name: given[name] for name in ("curves", "spectra", "slip_events")}
+        found = read_results(given.friction, data, tables)
         table = rows_of(snakemake.params.claims, found)
         write_table(snakemake.output.tsv, table)
         write_json(snakemake.output.json, table)

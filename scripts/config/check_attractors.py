@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator
 
 from scripts.config.ranges import range_of
+from scripts.namelists.study_cases import PARAMETERS
 
 LEAST_LN_V, LARGEST_LN_V = -700.0, 700.0
 """Between these exp(ln v) is a positive finite number."""
@@ -16,21 +17,17 @@ FEWEST_SAMPLES = 16
 
 
 def contradictions(config: dict) -> Iterator[str]:
-    """Problems that involve more than one key, of scenes' attractors, the atlas and the route."""
+    """Problems of more than one key: of scenes' attractors, the atlas, routes and basins."""
     yield from _of_scenes(config)
     yield from _of_atlas(config["atlas"], config["spectra"])
-    yield from _of_route(config["route"], config["spectra"])
+    yield from _of_routes(config["routes"], config["spectra"])
+    yield from _of_basins(config["basins"], config["spectra"])
 
 
 def _of_scenes(config: dict) -> Iterator[str]:
     """Attractors of scenes from several histories."""
     place = "config attractors"
-    ranges = config["attractors"]["histories"]
-    for key in ("theta", "u"):
-        yield from window(f"{place} histories", key, ranges[key])
-    yield from window(
-        f"{place} histories", "ln_v", ranges["ln_v"], least=LEAST_LN_V, most=LARGEST_LN_V
-    )
+    yield from _of_histories(f"{place} histories", config["attractors"]["histories"])
     observation = config["attractors"]["observation"]
     yield from _of_observation(f"{place} observation", observation, config["spectra"])
     if "t_transient" in observation:
@@ -46,6 +43,13 @@ def _of_scenes(config: dict) -> Iterator[str]:
             )
 
 
+def _of_histories(place: str, ranges: dict) -> Iterator[str]:
+    """Ranges of random histories."""
+    for key in ("theta", "u"):
+        yield from window(place, key, ranges[key])
+    yield from window(place, "ln_v", ranges["ln_v"], least=LEAST_LN_V, most=LARGEST_LN_V)
+
+
 def _of_atlas(atlas: dict, spectra: dict) -> Iterator[str]:
     """The plane of epsilon and tau, cut into rows."""
     place = "config atlas"
@@ -58,13 +62,29 @@ def _of_atlas(atlas: dict, spectra: dict) -> Iterator[str]:
         yield from _of_observation(f"{inside} observation", grid["observation"], spectra)
 
 
-def _of_route(route: dict, spectra: dict) -> Iterator[str]:
-    """A line of growing epsilon, cut into pieces."""
-    place = "config route"
-    yield from window(place, "epsilon_window", route["epsilon_window"], **range_of("epsilon"))
-    yield from _of_parts(place, route, "epsilon_count", 1)
-    yield from _of_approach(f"{place} observation", route["observation"])
-    yield from _of_observation(f"{place} observation", route["observation"], spectra)
+def _of_routes(routes: dict, spectra: dict) -> Iterator[str]:
+    """Lines along one parameter, the other three fixed; a run is named by its history or sweep."""
+    place = "config routes"
+    for name in set(routes["histories"]) & {"up", "down"}:
+        yield f"{place} histories: name {name!r}; expected another, this is the name of a sweep"
+    yield from _of_approach(f"{place} observation", routes["observation"])
+    yield from _of_observation(f"{place} observation", routes["observation"], spectra)
+    for name, line in routes["lines"].items():
+        inside, along = f"{place} lines {name}", line["along"]
+        yield from window(inside, "window", line["window"], **range_of(along))
+        if along in line:
+            yield f"{inside}: {along} = {line[along]}; expected no value, it is along {along}"
+        missing = [key for key in PARAMETERS if key not in line and key != along]
+        if missing:
+            yield f"{inside}: key {missing} is missing"
+
+
+def _of_basins(basins: dict, spectra: dict) -> Iterator[str]:
+    """Random histories at several places."""
+    place = "config basins"
+    yield from _of_histories(f"{place} histories", basins["histories"])
+    yield from _of_approach(f"{place} observation", basins["observation"])
+    yield from _of_observation(f"{place} observation", basins["observation"], spectra)
 
 
 def window(
@@ -101,7 +121,7 @@ def _of_parts(place: str, grid: dict, key: str, width: int) -> Iterator[str]:
 
 
 def _of_approach(place: str, observation: dict) -> Iterator[str]:
-    """An atlas and a route have no scene to say how long the approach takes."""
+    """Without a scene the observation says how long the approach takes."""
     if "t_transient" not in observation:
         yield f"{place}: key ['t_transient'] is missing"
 

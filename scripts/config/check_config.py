@@ -84,6 +84,9 @@ def _names_that_are_no_text(config: dict):
         ["work_precision", "scenes"],
         ["work_precision", "cases"],
         ["atlas", "planes"],
+        ["routes", "histories"],
+        ["routes", "lines"],
+        ["basins", "places"],
     ):
         named = config
         for key in path:
@@ -204,7 +207,7 @@ def _contradictions_of_sections(config: dict):
                 f"config figures true_torus rows {row}: scene = {shown['scene']!r}; expected a"
                 " scene with the key attractors"
             )
-    for survey in ("attractors", "route"):
+    for survey in ("attractors", "routes"):
         if config[survey]["observation"]["kept"] == 0:
             yield f"config {survey} observation: kept = 0; expected a whole number >= 1"
 

@@ -12,6 +12,8 @@ from matplotlib.patches import Patch, Rectangle
 from scripts.drawing.style import INK
 from scripts.tables.motion_rows import COLOURS, UNDECIDED, has_problem, kind_of
 
+KINDS = list(COLOURS)
+"""Their numbers in a map are their places here."""
 HATCH = "//////"
 HATCH_GREY = "0.45"
 NO_RESULT = {"ls": "", "marker": "x", "color": INK, "ms": 3, "mew": 0.7}
@@ -37,18 +39,34 @@ def table_of(rows: list[dict], ordinate: str, value) -> tuple[np.ndarray, np.nda
 
 def draw_classes(axes: Axes, rows: list[dict], ordinate: str) -> None:
     """A cell for each row, hatched where undecided, a cross on it where the run failed."""
-    kinds = list(COLOURS)
-    x, y, numbers = table_of(rows, ordinate, lambda row: kinds.index(kind_of(row)))
+    x, y, numbers = table_of(rows, ordinate, lambda row: KINDS.index(kind_of(row)))
+    draw_cells(axes, x, y, numbers)
+    mark_failures(axes, rows, ordinate)
+
+
+def draw_strips(axes: Axes, runs: dict[str, list[dict]], along: str) -> None:
+    """Classes along a parameter, a strip for each run, the first on top."""
+    for line, rows in enumerate(runs.values()):
+        ordered = sorted(rows, key=lambda row: row[along])
+        x = edges_of([row[along] for row in ordered])
+        numbers = np.array([[KINDS.index(kind_of(row)) for row in ordered]])
+        draw_cells(axes, x, np.array([line - 0.45, line + 0.45]), numbers)
+        for row in filter(has_problem, ordered):
+            axes.plot(row[along], line, clip_on=False, **NO_RESULT)
+    axes.set(ylim=(len(runs) - 0.5, -0.5), yticks=range(len(runs)), yticklabels=list(runs))
+
+
+def draw_cells(axes: Axes, x: np.ndarray, y: np.ndarray, numbers: np.ndarray) -> None:
+    """Cells between these edges, coloured by their kinds, hatched where undecided."""
     colours = ListedColormap(list(COLOURS.values()))
-    axes.pcolormesh(x, y, numbers, cmap=colours, vmin=-0.5, vmax=len(kinds) - 0.5, zorder=0)
-    unsure = np.argwhere(numbers == kinds.index(UNDECIDED))
+    axes.pcolormesh(x, y, numbers, cmap=colours, vmin=-0.5, vmax=len(KINDS) - 0.5, zorder=0)
+    unsure = np.argwhere(numbers == KINDS.index(UNDECIDED))
     boxes = [Rectangle((x[i], y[k]), x[i + 1] - x[i], y[k + 1] - y[k]) for k, i in unsure]
     with mpl.rc_context({"hatch.linewidth": 0.4}):
         hatched = PatchCollection(
             boxes, facecolor="none", edgecolor=HATCH_GREY, lw=0, hatch=HATCH, zorder=0.5
         )
         axes.add_collection(hatched, autolim=False)
-    mark_failures(axes, rows, ordinate)
     axes.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
 
 

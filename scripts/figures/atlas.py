@@ -24,7 +24,7 @@ NEAR = 0.25
 
 def draw(rows: list[dict], curves: list[xr.Dataset], scenes: dict[str, dict]) -> Figure:
     """One plane a column: classes above, the largest exponent below, Hopf curves over both."""
-    planes = sorted({row["xi"] for row in rows})
+    planes = sorted({(row["gamma"], row["xi"]) for row in rows})
     figure, grid = plt.subplots(
         2,
         len(planes),
@@ -33,17 +33,19 @@ def draw(rows: list[dict], curves: list[xr.Dataset], scenes: dict[str, dict]) ->
         sharey=True,
         squeeze=False,
     )
-    for letters, xi, (above, below) in zip(["ac", "bd", "eg"], planes, grid.T, strict=False):
-        shown = [row for row in rows if row["xi"] == xi]
-        inside = {name: scene for name, scene in scenes.items() if scene["xi"] == xi}
+    for letters, at, (above, below) in zip(["ac", "bd", "eg"], planes, grid.T, strict=False):
+        shown = [row for row in rows if (row["gamma"], row["xi"]) == at]
+        inside = {
+            name: scene for name, scene in scenes.items() if (scene["gamma"], scene["xi"]) == at
+        }
         draw_classes(above, shown, "tau")
         mesh = draw_exponents(below, shown)
         for axes in (above, below):
             for plane in curves:
-                if plane.attrs["xi"] == xi:
+                if (plane.attrs["gamma"], plane.attrs["xi"]) == at:
                     draw_curves(axes, plane)
             mark_scenes(axes, inside, named=axes is above)
-        symbols = rf"$\xi$ = {xi:g}, $\gamma$ = {shown[0]['gamma']:g}"
+        symbols = rf"$\xi$ = {at[1]:g}, $\gamma$ = {at[0]:g}"
         above.set_title(f"$\\bf{{{letters[0]}}}$  {symbols}: {count_in_words(shown)}")
         below.set_title(f"$\\bf{{{letters[1]}}}$  the same: largest Lyapunov exponent")
         below.set_xlabel(r"sensitivity of the velocity relaxation $\varepsilon$")

@@ -9,12 +9,13 @@ from dataclasses import dataclass, field
 from scripts.workflow.result_files import (
     curves_of_atlas,
     exponents_of_scenes,
-    parts_of_route,
     paths_of_scenes,
     places_in_atlas,
     places_of_scenes,
+    runs_of_routes,
     scenes_of,
     tables_of_others,
+    tables_of_routes,
 )
 
 FOLDER = "scripts/figures"
@@ -61,6 +62,7 @@ ENTRIES = {
         category="Supplement",
         inputs={"runs": exponents_of_scenes, "table": "results/tables/exponents.tsv"},
     ),
+    "events": Entry(category="Supplement", rows=("slip_events",)),
     "stability": Entry(category="Solver", inputs={"table": "results/tables/stability.tsv"}),
     "work_precision": Entry(
         category="Solver",
@@ -84,9 +86,10 @@ ENTRIES = {
         rows=("trajectories", "attractors/scenes", "spectra"),
         variables=("v",),
     ),
-    "route_to_chaos": Entry(
+    "routes": Entry(
         category="Atlas",
-        inputs={"table": "results/tables/route-to-chaos.tsv", "runs": parts_of_route},
+        inputs={"tables": tables_of_routes, "runs": runs_of_routes},
+        params={"scenes": places_in_atlas},
     ),
 }
 """In the order of the page."""

@@ -1,22 +1,23 @@
-"""Where attractors are looked for: namelists of scenes, of the atlas and of the route to chaos."""
+"""Where attractors are looked for: namelists of scenes, of the atlas, of routes and of basins."""
 
 import math
 
 import numpy as np
 
+from scripts.namelists.study_cases import PARAMETERS
 
-def drawn_histories(own: dict, count: int, ranges: dict) -> list[dict]:
-    """The scene's own history first, then others drawn evenly from the ranges, always the same."""
+
+def drawn_histories(count: int, ranges: dict) -> list[dict]:
+    """Histories drawn evenly from the ranges, the same for the same seed."""
     draw = np.random.default_rng(ranges["seed"]).uniform
-    others = [
+    return [
         {
             "theta": float(draw(*ranges["theta"])),
             "u": float(draw(*ranges["u"])),
             "v": math.exp(draw(*ranges["ln_v"])),
         }
-        for _ in range(count - 1)
+        for _ in range(count)
     ]
-    return [own, *others]
 
 
 def observation_group(observation: dict, spectra: dict) -> dict:
@@ -25,27 +26,22 @@ def observation_group(observation: dict, spectra: dict) -> dict:
 
 
 def points_group(
-    name: str,
-    *,
-    parameters: dict,
-    epsilon: dict,
-    tau: dict,
-    histories: list[dict],
-    kept: int,
+    name: str, *, place: dict, histories: list[dict], kept: int, sweep: str = "none"
 ) -> dict:
-    """The namelist group of points; `epsilon` and `tau` hold window, count and part."""
+    """The namelist group of points; each parameter of the place is a value or an axis."""
     axes = {
-        f"{axis}_{key}": value
-        for axis, values in (("epsilon", epsilon), ("tau", tau))
-        for key, value in values.items()
+        f"{parameter}_{key}": value
+        for parameter in PARAMETERS
+        for key, value in axis_of(place[parameter]).items()
     }
     columns = {key: [history[key] for history in histories] for key in ("theta", "u", "v")}
-    return {"name": name, **parameters, **axes, **columns, "kept": kept}
+    return {"name": name, **axes, **columns, "sweep": sweep, "kept": kept}
 
 
-def single(value: float) -> dict:
-    """An axis of one value."""
-    return {"window": [value, value], "count": 1, "part": [1, 1]}
+def axis_of(given: float | dict) -> dict:
+    """Window, count and part: as given, all of its values, or those of one value."""
+    axis = given if isinstance(given, dict) else {"window": [given, given], "count": 1}
+    return {"part": [1, axis["count"]], **axis}
 
 
 def part_of(count: int, parts: int, part: int) -> list[int]:
@@ -56,16 +52,12 @@ def part_of(count: int, parts: int, part: int) -> list[int]:
 def scene_groups(config: dict, scene: str) -> dict:
     """Namelist of a scene: its own history and others."""
     settings, study = config["scenes"][scene], config["attractors"]
-    histories = drawn_histories(
-        settings["history"], settings["attractors"]["histories"], study["histories"]
-    )
+    others = drawn_histories(settings["attractors"]["histories"] - 1, study["histories"])
     observation = {**study["observation"], "t_transient": settings["t_transient"]}
     points = points_group(
         scene,
-        parameters={key: settings[key] for key in ("xi", "gamma")},
-        epsilon=single(settings["epsilon"]),
-        tau=single(settings["tau"]),
-        histories=histories,
+        place=settings,
+        histories=[settings["history"], *others],
         kept=observation["kept"],
     )
     return {"observation": observation_group(observation, config["spectra"]), "points": points}
@@ -74,13 +66,15 @@ def scene_groups(config: dict, scene: str) -> dict:
 def atlas_groups(config: dict, plane: str, grid: str, part: int) -> dict:
     """Namelist of a part of the atlas: some rows of the grid."""
     atlas = config["atlas"]
-    settings, count = atlas["grids"][grid], atlas["grids"][grid]["epsilon_count"]
+    settings = atlas["grids"][grid]
     rows = part_of(settings["tau_count"], settings["parts"], part)
     points = points_group(
         f"{plane} part {part} of {settings['parts']}",
-        parameters={"xi": atlas["planes"][plane]["xi"], "gamma": atlas["gamma"]},
-        epsilon={"window": atlas["epsilon_window"], "count": count, "part": [1, count]},
-        tau={"window": atlas["tau_window"], "count": settings["tau_count"], "part": rows},
+        place={
+            **atlas["planes"][plane],
+            "epsilon": {"window": atlas["epsilon_window"], "count": settings["epsilon_count"]},
+            "tau": {"window": atlas["tau_window"], "count": settings["tau_count"], "part": rows},
+        },
         histories=[atlas["history"]],
         kept=settings["observation"]["kept"],
     )
@@ -88,21 +82,31 @@ def atlas_groups(config: dict, plane: str, grid: str, part: int) -> dict:
     return {"observation": observation, "points": points}
 
 
-def route_groups(config: dict, part: int) -> dict:
-    """Namelist of a part of the route."""
-    route = config["route"]
-    count = route["epsilon_count"]
+def route_groups(config: dict, line: str, run: str) -> dict:
+    """Namelist of a run of a route: from one history, or a sweep."""
+    routes = config["routes"]
+    settings = routes["lines"][line]
+    axis = {"window": settings["window"], "count": settings["count"]}
+    first = next(iter(routes["histories"]))
     points = points_group(
-        f"route part {part} of {route['parts']}",
-        parameters={key: route[key] for key in ("xi", "gamma")},
-        epsilon={
-            "window": route["epsilon_window"],
-            "count": count,
-            "part": part_of(count, route["parts"], part),
-        },
-        tau=single(route["tau"]),
-        histories=[route["history"]],
-        kept=route["observation"]["kept"],
+        f"{line} {run}",
+        place={**settings, settings["along"]: axis},
+        histories=[routes["histories"].get(run, routes["histories"][first])],
+        kept=routes["observation"]["kept"],
+        sweep=run if run in routes["sweeps"] else "none",
     )
-    observation = observation_group(route["observation"], config["spectra"])
+    observation = observation_group(routes["observation"], config["spectra"])
+    return {"observation": observation, "points": points}
+
+
+def basin_groups(config: dict, place: str) -> dict:
+    """Namelist of a place where motions coexist: random histories."""
+    basins = config["basins"]
+    points = points_group(
+        place,
+        place=basins["places"][place],
+        histories=drawn_histories(basins["count"], basins["histories"]),
+        kept=basins["observation"]["kept"],
+    )
+    observation = observation_group(basins["observation"], config["spectra"])
     return {"observation": observation, "points": points}

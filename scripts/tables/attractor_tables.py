@@ -1,4 +1,4 @@
-"""Tables of attractors, one row a run: scenes with their histories, the atlas, the route."""
+"""Tables of attractors, one row a point: scenes with their histories, the atlas, routes."""
 
 from pathlib import Path
 
@@ -23,8 +23,8 @@ def rows_of(run: xr.Dataset) -> list[dict]:
         {
             "epsilon": float(point.epsilon),
             "tau": float(point.tau),
-            "xi": float(run.attrs["xi"]),
-            "gamma": float(run.attrs["gamma"]),
+            "xi": float(point.xi),
+            "gamma": float(point.gamma),
             "theta": float(point.history_theta),
             "u": float(point.history_u),
             "v": float(point.history_v),
@@ -58,10 +58,18 @@ def positive(value: xr.DataArray) -> float:
 
 
 def scene_rows(scene: str, run: xr.Dataset) -> list[dict]:
-    """Rows of a scene, numbered by history and by attractor; a run that failed came to none."""
+    """Rows of a scene, numbered by history and by attractor; a run that failed came to none.
+
+    Histories are tame if v is at most as large in all of them as on the attractors: they cannot be
+    expected to find motions of larger slip events.
+    """
     found: list[dict] = []
     rows = []
-    for history, row in enumerate(rows_of(run), start=1):
+    of_runs = rows_of(run)
+    maxima = [row["largest_maximum"] for row in of_runs]
+    largest = max((value for value in maxima if not np.isnan(value)), default=0.0)
+    tame = "yes" if max(row["v"] for row in of_runs) <= largest else "no"
+    for history, row in enumerate(of_runs, start=1):
         number = next(
             (i for i, other in enumerate(found, start=1) if same_attractor(row, other)), None
         )
@@ -69,8 +77,15 @@ def scene_rows(scene: str, run: xr.Dataset) -> list[dict]:
             found.append(row)
             number = len(found)
         number = np.nan if number is None else number
-        rows.append({"scene": scene, "history": history, "attractor": number, **row})
+        rows.append(
+            {"scene": scene, "history": history, "attractor": number, **row, "tame_histories": tame}
+        )
     return rows
+
+
+def route_rows(path: Path, run: xr.Dataset) -> list[dict]:
+    """Rows of a run along a route, named by the file: its history or its sweep."""
+    return [{"route": path.parent.name, "run": path.stem, **row} for row in rows_of(run)]
 
 
 def same_attractor(one: dict, other: dict) -> bool:
@@ -90,8 +105,10 @@ def same_attractor(one: dict, other: dict) -> bool:
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         runs = [(Path(path), read(path)) for path in snakemake.input.runs]
-        if snakemake.params.by_scene:
-            table = [row for path, run in runs for row in scene_rows(path.stem, run)]
-        else:
-            table = [row for _, run in runs for row in rows_of(run)]
-        write_table(snakemake.output[0], table)
+        rows_by_kind = {
+            "scenes": lambda path, run: scene_rows(path.stem, run),
+            "route": route_rows,
+            "atlas": lambda _, run: rows_of(run),
+        }
+        rows = rows_by_kind[snakemake.params.of]
+        write_table(snakemake.output[0], [row for path, run in runs for row in rows(path, run)])

@@ -1,4 +1,6 @@
-"""What rows of attractors, of the atlas and of the route say."""
+"""What rows of attractors, of the atlas and of routes say."""
+
+from scripts.namelists.study_cases import PARAMETERS
 
 UNDECIDED = "undecided"
 COLOURS = {
@@ -24,13 +26,10 @@ def kind_of(row: dict) -> str:
     return "cycle of period > 1" if several else row["class"]
 
 
-def first_met(rows: list[dict]) -> dict[str, float]:
-    """Classes other than undecided, each with the epsilon from which on it is met, in order."""
-    first: dict[str, float] = {}
-    for row in sorted(rows, key=lambda row: row["epsilon"]):
-        if row["class"] != UNDECIDED:
-            first.setdefault(row["class"], row["epsilon"])
-    return first
+def parameter_of(rows: list[dict]) -> str:
+    """The parameter that varies along a route; tau where none does."""
+    varying = [key for key in PARAMETERS if len({row[key] for row in rows}) > 1]
+    return varying[0] if varying else PARAMETERS[0]
 
 
 def count_in_words(rows: list[dict]) -> str:

@@ -28,9 +28,25 @@ def exponents_of_scenes(config: dict) -> list[str]:
     return paths_of_scenes("exponents", scenes_with(config, "exponents"))
 
 
-def parts_of_route(config: dict) -> list[str]:
-    """Parts of the route to chaos."""
-    return [f"results/attractors/route/{part}.nc" for part in numbered(config["route"]["parts"])]
+def runs_of_route(config: dict, line: str) -> list[str]:
+    """Runs along a route: from each history, and sweeps."""
+    runs = [*config["routes"]["histories"], *config["routes"]["sweeps"]]
+    return [f"results/attractors/routes/{line}/{run}.nc" for run in runs]
+
+
+def runs_of_routes(config: dict) -> list[str]:
+    """Runs along all routes."""
+    return [path for line in config["routes"]["lines"] for path in runs_of_route(config, line)]
+
+
+def tables_of_routes(config: dict) -> list[str]:
+    """Tables of all routes."""
+    return [f"results/tables/routes/{line}.tsv" for line in config["routes"]["lines"]]
+
+
+def runs_of_basins(config: dict) -> list[str]:
+    """Runs at the places where motions coexist."""
+    return [f"results/attractors/basins/{place}.nc" for place in config["basins"]["places"]]
 
 
 def parts_of_atlas(config: dict, grid: str) -> list[str]:
@@ -43,13 +59,11 @@ def parts_of_atlas(config: dict, grid: str) -> list[str]:
 def curves_of_atlas(config: dict) -> list[str]:
     """Hopf curves that lie in planes of the atlas."""
     atlas = config["atlas"]
-    stiffnesses = [plane["xi"] for plane in atlas["planes"].values()]
+    planes = [(plane["xi"], plane["gamma"]) for plane in atlas["planes"].values()]
     return [
         f"results/hopf/{name}.nc"
         for name, plane in config["hopf_curves"].items()
-        if plane["ordinate"] == "tau"
-        and plane["gamma"] == atlas["gamma"]
-        and plane["fixed"] in stiffnesses
+        if plane["ordinate"] == "tau" and (plane["fixed"], plane["gamma"]) in planes
     ]
 
 
@@ -69,9 +83,8 @@ def places_of_scenes(config: dict) -> dict[str, dict[str, float]]:
 def places_in_atlas(config: dict) -> dict[str, dict[str, float]]:
     """Parameters of the scenes that the atlas marks: those whose attractors are looked for."""
     return {
-        scene: _parameters(config, scene, "tau", "epsilon", "xi")
+        scene: _parameters(config, scene, "tau", "epsilon", "xi", "gamma")
         for scene in scenes_with(config, "attractors")
-        if config["scenes"][scene]["gamma"] == config["atlas"]["gamma"]
     }
 
 

@@ -3,7 +3,8 @@ module test_dde_continuation
    use dde, only: continuation_type, dde_problem_type, event_met, event_table, integrate, &
                   integration_options, integration_result, methods, too_many_steps
    use dde_errors, only: failure_type => error_type, text
-   use expectations, only: expect, expect_between, expect_close, expect_success
+   use expectations, only: expect, expect_between, expect_close, expect_failure, &
+                           expect_success
    use files_of_continuations, only: through_file
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
@@ -31,6 +32,7 @@ contains
                    new_unittest("kinks are counted on", test_passages), &
                    new_unittest("another rate", test_rate), &
                    new_unittest("another delay", test_lag), &
+                   new_unittest("a longer delay", test_longer_lag), &
                    new_unittest("when steps run out", test_too_many_steps), &
                    new_unittest("from event to event", test_events), &
                    new_unittest("through a file", test_file), &
@@ -166,6 +168,40 @@ contains
       call expect_success(error, failure)
       call expect_close(error, outcome%y, [-13.0_wp/128], 1.0e-14_wp, "y(5/2)")
    end subroutine test_lag
+
+   !> y' = -y(t - 1/2), and -y(t - 1) from 3/2 on. y(2) = -1/6 by hand. The first run must keep a
+   !> past of 1.
+   subroutine test_longer_lag(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(continuation_type) :: continuation
+      type(failure_type), allocatable :: failure
+      type(integration_options) :: options
+      type(integration_result) :: outcome
+      type(linear) :: problem
+      real(wp) :: past_kept(2)
+      integer :: i
+
+      past_kept = [1.0_wp, 0.0_wp]
+      do i = 1, 2
+         options = at_tolerance(1.0_wp)
+         options%past_kept = past_kept(i)
+         problem = decay(past=1.0_wp)
+         problem%lag = [0.5_wp]
+         continuation = continuation_type()
+         call integrate(problem, 0.0_wp, 1.5_wp, options, outcome, failure, &
+                        continuation=continuation)
+         call expect_success(error, failure)
+         problem%lag = [1.0_wp]
+         call integrate(problem, 1.5_wp, 2.0_wp, options, outcome, failure, &
+                        continuation=continuation)
+         if (i == 1) then
+            call expect_success(error, failure)
+            call expect_close(error, outcome%y, [-1.0_wp/6], 1.0e-14_wp, "y(2)")
+         else
+            call expect_failure(error, failure, "reaches beyond the past that the continuation")
+         end if
+      end do
+   end subroutine test_longer_lag
 
    !> Three steps at a time to the end.
    subroutine test_too_many_steps(error)

@@ -30,6 +30,7 @@ contains
                    new_unittest("tolerances without a number", test_tolerances_not_finite), &
                    new_unittest("first step", test_first_step), &
                    new_unittest("longest step", test_longest_step), &
+                   new_unittest("past that is kept", test_past_kept), &
                    new_unittest("method", test_method)]
    end subroutine collect_dde_refusals
 
@@ -187,6 +188,16 @@ contains
       call expect_refusal(error, good(), 2.0_wp, integration_options(longest_step=not_a_number()), &
                           "longest_step = NaN")
    end subroutine test_longest_step
+
+   !> The past that is kept is finite and not negative.
+   subroutine test_past_kept(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call expect_refusal(error, good(), 2.0_wp, integration_options(past_kept=-0.5_wp), &
+                          "past_kept = -0.5")
+      call expect_refusal(error, good(), 2.0_wp, integration_options(past_kept=infinity()), &
+                          "past_kept = Inf")
+   end subroutine test_past_kept
 
    !> The method is one of those there are.
    subroutine test_method(error)

@@ -1,5 +1,5 @@
-!> Points at which attractors are looked for: a rectangle of a grid in (epsilon, tau) and a list of
-!> histories, from the namelist group &points.
+!> Points at which attractors are looked for, from the namelist group &points: a grid in the four
+!> parameters of the block and a list of histories, or a sweep along one parameter.
 module points_input
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use attractor_points, only: point_type
@@ -14,12 +14,20 @@ module points_input
 
    !> Most histories.
    integer, parameter :: most_histories = 1000
-   !> Most points along a side of the grid, and most in all.
+   !> Most values of a parameter, and most points in all.
    integer, parameter :: most_places = 100000, most_points = 1000000
    !> Most maxima and points of the section kept of each.
    integer, parameter :: most_kept = 100000
    !> Longest name.
    integer, parameter :: longest_name = 128
+   !> Directions of a sweep.
+   character(len=*), parameter :: directions(3) = ["none", "up  ", "down"]
+
+   !> Names of the axes in the order of the grid, the first runs fastest, and their numbers.
+   character(len=*), parameter :: names(4) = ["epsilon", "tau    ", "xi     ", "gamma  "]
+   enum, bind(c)
+      enumerator :: of_epsilon = 1, of_tau, of_xi, of_gamma
+   end enum
 
    !> Evenly spaced values of one parameter, and which of them are wanted.
    type :: axis_type
@@ -35,8 +43,11 @@ module points_input
    type :: points_settings_type
       !> Name of what the points belong to
       character(len=word_length) :: name = ""
-      !> The points, of which epsilon runs fastest, histories slowest
+      !> The points, of which epsilon runs fastest, then tau, xi, gamma, and histories slowest; of a
+      !> sweep in its order
       type(point_type), allocatable :: points(:)
+      !> Whether each point starts where the one before ended: "none", "up" or "down"
+      character(len=word_length) :: sweep = "none"
       !> Most maxima and points of the section kept of each
       integer :: kept = 0
    end type points_settings_type
@@ -51,21 +62,16 @@ contains
       type(points_settings_type), intent(out) :: settings
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
-      type(axis_type) :: epsilon_axis, tau_axis
-      real(wp) :: gamma, theta(most_histories), u(most_histories), v(most_histories), xi
-      integer :: histories, i, j, k
+      type(axis_type) :: axes(size(names))
+      real(wp) :: theta(most_histories), u(most_histories), v(most_histories)
+      integer :: histories, i
 
-      call read_group(path, settings, xi, gamma, epsilon_axis, tau_axis, theta, u, v, error)
+      call read_group(path, settings, axes, theta, u, v, error)
       call check_count(error, path, "letters of name", len_trim(settings%name), at_least=1, &
                        at_most=longest_name)
-      call check_quantity(error, path, "xi", xi)
-      call check_quantity(error, path, "gamma", gamma)
       call check_count(error, path, "kept", settings%kept, at_least=0, at_most=most_kept)
-      call check_axis(error, path, "epsilon", epsilon_axis)
-      call check_axis(error, path, "tau", tau_axis)
-      do i = 1, 2
-         call check_quantity(error, path, "epsilon", epsilon_axis%window(i), "epsilon_window")
-         call check_quantity(error, path, "tau", tau_axis%window(i), "tau_window")
+      do i = 1, size(axes)
+         call check_axis(error, path, trim(names(i)), axes(i))
       end do
       histories = maxval([(i, i=1, most_histories)], &
                          mask=.not. (ieee_is_nan(theta) .and. ieee_is_nan(u) .and. ieee_is_nan(v)))
@@ -76,19 +82,47 @@ contains
          call check_quantity(error, path, "v", v(i), "v("//text(i)//")")
       end do
       if (allocated(error)) return
-      associate (columns => epsilon_axis%wanted, rows => tau_axis%wanted)
-         call check_number(error, path, "number of points", &
-                           real(histories, wp)*(columns(2) - columns(1) + 1) &
-                           *(rows(2) - rows(1) + 1), at_most=real(most_points, wp))
-         if (allocated(error)) return
-         settings%points = [(((point_type( &
-                               block_parameters_type(tau=value_at(tau_axis, j), xi=xi, &
-                                                     epsilon=value_at(epsilon_axis, i), &
-                                                     gamma=gamma), &
-                               block_history_type(theta=theta(k), u=u(k), v=v(k))), &
-                               i=columns(1), columns(2)), j=rows(1), rows(2)), k=1, histories)]
-      end associate
+      call check_number(error, path, "number of points", &
+                        product([real(histories, wp), real(wanted(axes), wp)]), &
+                        at_most=real(most_points, wp))
+      call check_sweep(error, path, settings%sweep, axes, histories)
+      if (allocated(error)) return
+      settings%points = grid_of(axes, [(block_history_type(theta=theta(i), u=u(i), v=v(i)), &
+                                        i=1, histories)])
+      if (settings%sweep == "down") then
+         settings%points = settings%points(size(settings%points):1:-1)
+      end if
    end subroutine read_points
+
+   !> All points of a grid.
+   pure function grid_of(axes, histories) result(points)
+      !> The axes
+      type(axis_type), intent(in) :: axes(:)
+      !> The histories
+      type(block_history_type), intent(in) :: histories(:)
+      type(point_type), allocatable :: points(:)
+      integer :: from(size(axes)), g, i, j, k, to(size(axes)), x
+
+      from = [(axes(i)%wanted(1), i=1, size(axes))]
+      to = [(axes(i)%wanted(2), i=1, size(axes))]
+      points = [(((((point_type( &
+                     block_parameters_type(epsilon=value_at(axes(of_epsilon), i), &
+                                           tau=value_at(axes(of_tau), j), &
+                                           xi=value_at(axes(of_xi), x), &
+                                           gamma=value_at(axes(of_gamma), g)), &
+                     histories(k)), &
+                     i=from(of_epsilon), to(of_epsilon)), j=from(of_tau), to(of_tau)), &
+                  x=from(of_xi), to(of_xi)), g=from(of_gamma), to(of_gamma)), &
+                 k=1, size(histories))]
+   end function grid_of
+
+   !> How many values of an axis are wanted.
+   elemental integer function wanted(axis) result(values)
+      !> The axis
+      type(axis_type), intent(in) :: axis
+
+      values = axis%wanted(2) - axis%wanted(1) + 1
+   end function wanted
 
    !> A value on an axis.
    pure real(wp) function value_at(axis, i) result(value)
@@ -102,7 +136,7 @@ contains
       end associate
    end function value_at
 
-   !> Refuse a part of the grid that is not in it.
+   !> Refuse values out of range, and a part of the axis that is not in it.
    pure subroutine check_axis(error, path, name, axis)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
@@ -112,7 +146,11 @@ contains
       character(len=*), intent(in) :: name
       !> The axis
       type(axis_type), intent(in) :: axis
+      integer :: i
 
+      do i = 1, 2
+         call check_quantity(error, path, name, axis%window(i), name//"_window")
+      end do
       call check_count(error, path, name//"_count", axis%places, at_least=1, at_most=most_places)
       if (allocated(error)) return
       if (1 <= axis%wanted(1) .and. axis%wanted(1) <= axis%wanted(2) &
@@ -122,49 +160,81 @@ contains
                  //text(axis%places))
    end subroutine check_axis
 
-   !> Read the group &points.
-   subroutine read_group(path, settings, xi, gamma, epsilon_axis, tau_axis, theta, u, v, error)
+   !> Refuse an unknown direction, and a sweep along two parameters or from two histories.
+   pure subroutine check_sweep(error, path, sweep, axes, histories)
+      !> First error met
+      type(error_type), allocatable, intent(inout) :: error
       !> Path of the namelist file
       character(len=*), intent(in) :: path
-      !> Name and what is kept
+      !> The direction
+      character(len=*), intent(in) :: sweep
+      !> The axes
+      type(axis_type), intent(in) :: axes(:)
+      !> Number of histories
+      integer, intent(in) :: histories
+
+      if (allocated(error)) return
+      if (all(sweep /= directions)) then
+         call raise(error, path//": sweep = '"//trim(sweep) &
+                    //"'; expected one of 'none' 'up' 'down'")
+      else if (sweep /= "none" .and. count(wanted(axes) > 1) > 1) then
+         call raise(error, path//": sweep = '"//trim(sweep)//"' along " &
+                    //text(count(wanted(axes) > 1))//" parameters; expected at most one")
+      else if (sweep /= "none" .and. histories > 1) then
+         call raise(error, path//": sweep = '"//trim(sweep)//"' from "//text(histories) &
+                    //" histories; expected one")
+      end if
+   end subroutine check_sweep
+
+   !> Read the group &points.
+   subroutine read_group(path, settings, axes, theta, u, v, error)
+      !> Path of the namelist file
+      character(len=*), intent(in) :: path
+      !> Name, sweep and what is kept
       type(points_settings_type), intent(out) :: settings
-      !> Spring constant
-      real(wp), intent(out) :: xi
-      !> Frequency
-      real(wp), intent(out) :: gamma
-      !> Values of epsilon and tau
-      type(axis_type), intent(out) :: epsilon_axis, tau_axis
+      !> Values of the parameters, in the order of `names`
+      type(axis_type), intent(out) :: axes(:)
       !> Histories, NaN beyond the last
       real(wp), intent(out) :: theta(:), u(:), v(:)
       !> They cannot be read
       type(error_type), allocatable, intent(out) :: error
-      character(len=len(settings%name)) :: name
-      real(wp) :: epsilon_window(2), tau_window(2)
-      integer :: epsilon_count, epsilon_part(2), kept, status, tau_count, tau_part(2), unit
+      character(len=len(settings%name)) :: name, sweep
+      real(wp), dimension(2) :: epsilon_window, gamma_window, tau_window, xi_window
+      integer, dimension(2) :: epsilon_part, gamma_part, tau_part, xi_part
+      integer :: epsilon_count, gamma_count, kept, status, tau_count, unit, xi_count
       character(len=256) :: reason
-      namelist /points/ name, xi, gamma, epsilon_window, epsilon_count, epsilon_part, tau_window, &
-         tau_count, tau_part, theta, u, v, kept
+      namelist /points/ name, epsilon_window, epsilon_count, epsilon_part, tau_window, tau_count, &
+         tau_part, xi_window, xi_count, xi_part, gamma_window, gamma_count, gamma_part, theta, u, &
+         v, sweep, kept
 
       name = ""
-      xi = not_given()
-      gamma = xi
-      epsilon_window = xi
-      tau_window = xi
-      theta = xi
-      u = xi
-      v = xi
+      sweep = ""
+      theta = not_given()
+      u = theta
+      v = theta
+      epsilon_window = not_given()
+      tau_window = epsilon_window
+      xi_window = epsilon_window
+      gamma_window = epsilon_window
       epsilon_count = 0
       tau_count = 0
+      xi_count = 0
+      gamma_count = 0
       epsilon_part = 0
       tau_part = 0
+      xi_part = 0
+      gamma_part = 0
       kept = -1
       call open_namelist(path, unit, error)
       if (allocated(error)) return
       read (unit, nml=points, iostat=status, iomsg=reason)
       call close_namelist(path, "points", unit, status, reason, error)
       settings%name = name
+      settings%sweep = sweep
       settings%kept = kept
-      epsilon_axis = axis_type(epsilon_window, epsilon_count, epsilon_part)
-      tau_axis = axis_type(tau_window, tau_count, tau_part)
+      axes = [axis_type(epsilon_window, epsilon_count, epsilon_part), &
+              axis_type(tau_window, tau_count, tau_part), &
+              axis_type(xi_window, xi_count, xi_part), &
+              axis_type(gamma_window, gamma_count, gamma_part)]
    end subroutine read_group
 end module points_input

@@ -85,7 +85,7 @@ module attractors
 contains
 
    !> Find the attractor of the block's own history, or the one that an earlier motion comes to.
-   subroutine find_attractor(block_model, settings, options, attractor, error, start)
+   subroutine find_attractor(block_model, settings, options, attractor, error, start, arrived)
       !> The block and its history
       type(spring_block_type), intent(in) :: block_model
       !> How
@@ -96,13 +96,14 @@ contains
       type(attractor_type), intent(out) :: attractor
       !> The run ended before its time, or exponents cannot be measured
       type(error_type), allocatable, intent(out) :: error
-      !> Where an earlier motion ended
+      !> Where an earlier motion ended; empty: the block's own history
       type(continuation_type), intent(in), optional :: start
+      !> Where the motion was left; empty on an error
+      type(continuation_type), intent(out), optional :: arrived
       type(integration_result) :: outcome
 
-      if (present(start)) then
-         attractor%motion%continuation = start
-      else
+      if (present(start)) attractor%motion%continuation = start
+      if (.not. allocated(attractor%motion%continuation%y)) then
          call integrate(block_model, 0.0_wp, 0.0_wp, options, outcome, error, &
                         continuation=attractor%motion%continuation)
          if (allocated(error)) return
@@ -113,8 +114,11 @@ contains
          if (allocated(error)) return
          if (attractor%class == undecided) call judge_motion(block_model, settings, options, &
                                                              attractor, error)
+         if (allocated(error)) return
          attractor%time = now(1) - attractor%time
       end associate
+      if (present(arrived)) arrived = attractor%motion%continuation
+      call attractor%motion%forget_path()
    end subroutine find_attractor
 
    !> Wait until the block is at rest or on a cycle, but not longer than the approach may take.

@@ -30,6 +30,8 @@ module observed_motion
    contains
       !> Forget what was seen
       procedure :: clear
+      !> Forget the samples and where the motion is
+      procedure :: forget_path
       !> Observe on
       procedure :: observe
       !> Standard deviations of theta and u
@@ -49,6 +51,15 @@ contains
       self%section_time = nothing
       self%maxima = nothing
    end subroutine clear
+
+   !> Forget the samples and where the motion is: of many motions they would fill the memory.
+   pure subroutine forget_path(self)
+      !> The motion
+      class(observed_motion_type), intent(inout) :: self
+
+      deallocate (self%samples)
+      self%continuation = continuation_type()
+   end subroutine forget_path
 
    !> Observe on for a time.
    subroutine observe(self, block_model, time, interval, options, error)

@@ -37,6 +37,9 @@ module dde_request
       real(wp) :: longest_step = huge(1.0_wp)
       !> Most steps, accepted and rejected
       integer(int64) :: most_steps = 100000000_int64
+      !> Time that a continuation reaches back, if longer than the longest delay: so that the next
+      !> run may have a longer one
+      real(wp) :: past_kept = 0.0_wp
       !> Times at which the right-hand side jumps (before the first instant: the history), in any
       !> order. Steps end there.
       real(wp), allocatable :: break_at(:)
@@ -192,6 +195,9 @@ contains
       else if (.not. above_zero(options%longest_step)) then
          call raise(error, "integrate: longest_step = "//text(options%longest_step) &
                     //"; > 0 expected")
+      else if (.not. (positive(options%past_kept) .or. is_zero(options%past_kept))) then
+         call raise(error, "integrate: past_kept = "//text(options%past_kept) &
+                    //"; finite and >= 0 expected")
       else if (all(options%method /= methods)) then
          names = trim(methods(1))
          do i = 2, size(methods)

@@ -48,6 +48,8 @@ module dde_run
       type(breaking_points) :: points
       !> Tolerance of each component
       type(tolerance_type) :: tolerance
+      !> Time that the past reaches back
+      real(wp) :: reach = 0.0_wp
       !> Whether the right-hand side may jump somewhere, and now
       logical, private :: may_jump = .false., at_cause = .false.
       !> Time derivative of the state at the start of the run, as event functions see it, shape (n)
@@ -89,6 +91,7 @@ contains
       continued = .false.
       if (present(continuation)) continued = allocated(continuation%y)
       self%tolerance = tolerance_of(problem, options)
+      self%reach = maxval([problem%lag, options%past_kept])
       self%cursor = cursor_type(problem)
       self%work = work_type(problem%n)
       if (continued) then

@@ -48,7 +48,7 @@ contains
       if (delayed .and. share > 0.0_wp) then
          ! no polynomial is valid beyond the next kink
          call remember(run%past, run%step, run%now, run%points%time_to_next(run%now), share)
-         call run%past%forget(later(step_end, -maxval(problem%lag)))
+         call run%past%forget(later(step_end, -run%reach))
       end if
    end subroutine deliver
 

@@ -1,0 +1,50 @@
+!> Files of slip events.
+module slip_events_output
+   use block_attributes, only: put_history, put_parameters
+   use dde_errors, only: error_type
+   use netcdf_output, only: output_file_type
+   use scene_input, only: scene_type
+   use slip_events, only: slip_events_type
+   implicit none (type, external)
+   private
+   public :: write_slip_events
+
+contains
+
+   !> Write the events of a scene.
+   subroutine write_slip_events(path, scene, events, error)
+      !> Path of the file
+      character(len=*), intent(in) :: path
+      !> The scene
+      type(scene_type), intent(in) :: scene
+      !> Its events
+      type(slip_events_type), intent(in) :: events
+      !> It could not be written
+      type(error_type), allocatable, intent(out) :: error
+      type(output_file_type) :: file
+      integer :: duration, least, onset, peak, recurrence, rows, slip
+
+      call file%create(path, "Slip events of the spring block: times in which v > 1")
+      rows = file%dimension("event", size(events%onset))
+      onset = file%real_variable("onset", rows, "time at which v rises through 1", "1")
+      recurrence = file%real_variable("recurrence_time", rows, "time to the next onset", "1")
+      duration = file%real_variable("duration", rows, "time in which v > 1", "1")
+      slip = file%real_variable("slip", rows, "integral of v over the duration", "1")
+      peak = file%real_variable("peak_velocity", rows, "largest v of the event", "1")
+      least = file%real_variable("least_velocity", rows, "least v up to the next onset", "1")
+      call file%attribute("scene", trim(scene%name))
+      call put_parameters(file, scene%parameters)
+      call put_history(file, scene%history)
+      call file%attribute("t_transient", scene%t_transient)
+      call file%attribute("t_end", scene%t_end)
+      call file%attribute("tolerance", scene%tolerance)
+      call file%attribute("method", trim(scene%method))
+      call file%put(onset, events%onset)
+      call file%put(recurrence, events%recurrence_time)
+      call file%put(duration, events%duration)
+      call file%put(slip, events%slip)
+      call file%put(peak, events%peak_velocity)
+      call file%put(least, events%least_velocity)
+      call file%finish(error)
+   end subroutine write_slip_events
+end module slip_events_output

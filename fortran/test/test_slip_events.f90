@@ -1,0 +1,171 @@
+!> Slip events of prescribed velocities, ln v = a sin t + b sin 3t, by integrals in closed form.
+module test_slip_events
+   use block_builder, only: build_block
+   use block_state, only: index_of_ln_v, index_of_theta, index_of_u
+   use dde, only: dde_problem_type
+   use dde_errors, only: failure_type => error_type
+   use dde_kinds, only: wp
+   use expectations, only: expect, expect_close, expect_failure, expect_success
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use slip_events, only: find_slip_events, slip_events_type
+   use solving, only: at_tolerance
+   use spring_block, only: spring_block_type
+   implicit none (type, external)
+   private
+   public :: collect_slip_events
+
+   real(wp), parameter :: pi = acos(-1.0_wp), tolerance = 1.0e-12_wp, bound = 1.0e-9_wp
+
+   !> u' = v - 1 with ln v = a sin t + b sin 3t.
+   type, extends(dde_problem_type) :: prescribed_type
+      !> Amplitudes
+      real(wp) :: a = 1.0_wp, b = 0.0_wp
+   contains
+      procedure :: initial, history, rhs
+   end type prescribed_type
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_slip_events(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("known slip", test_known), &
+                   new_unittest("two maxima in an event", test_two_maxima), &
+                   new_unittest("transient and unfinished events", test_ends), &
+                   new_unittest("no event", test_none), &
+                   new_unittest("bad tolerance", test_bad_tolerance)]
+   end subroutine collect_slip_events
+
+   !> At t = 0.
+   pure subroutine initial(self, y)
+      !> The problem
+      class(prescribed_type), intent(in) :: self
+      !> State
+      real(wp), intent(out) :: y(self%n)
+
+      y = 0.0_wp
+   end subroutine initial
+
+   !> Before, without influence.
+   pure real(wp) function history(self, t, component) result(value)
+      !> The problem
+      class(prescribed_type), intent(in) :: self
+      !> Time
+      real(wp), intent(in) :: t
+      !> Index into the state
+      integer, intent(in) :: component
+
+      value = 0.0_wp
+   end function history
+
+   !> Time derivatives.
+   pure subroutine rhs(self, t, y, z, dydt)
+      !> The problem
+      class(prescribed_type), intent(in) :: self
+      !> Time
+      real(wp), intent(in) :: t
+      !> State
+      real(wp), intent(in) :: y(self%n)
+      !> Nothing
+      real(wp), intent(in) :: z(size(self%lag))
+      !> Derivatives
+      real(wp), intent(out) :: dydt(self%n)
+
+      dydt(index_of_theta) = 0.0_wp
+      dydt(index_of_u) = exp(y(index_of_ln_v)) - 1.0_wp
+      dydt(index_of_ln_v) = self%a*cos(t) + 3.0_wp*self%b*cos(3.0_wp*t)
+   end subroutine rhs
+
+   !> Events of the problem up to a time.
+   subroutine events_of(a, b, t_transient, t_end, events, error)
+      !> Amplitudes
+      real(wp), intent(in) :: a, b
+      !> Ends
+      real(wp), intent(in) :: t_transient, t_end
+      !> The events
+      type(slip_events_type), intent(out) :: events
+      !> The first failure of the test
+      type(error_type), allocatable, intent(inout) :: error
+      type(failure_type), allocatable :: failure
+      type(prescribed_type) :: problem
+
+      problem = prescribed_type(n=3, a=a, b=b)
+      allocate (problem%lag(0), problem%component(0))
+      call find_slip_events(problem, t_transient, t_end, at_tolerance(tolerance), events, failure)
+      call expect_success(error, failure)
+   end subroutine events_of
+
+   !> The integral of exp(sin t) over half a period is pi (I0(1) + L0(1)), by the modified functions
+   !> of Bessel and Struve.
+   subroutine test_known(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: i0 = 1.266065877752008336_wp, l0 = 0.710243185937890861_wp
+      type(slip_events_type) :: events
+      integer :: i
+
+      call events_of(1.0_wp, 0.0_wp, 0.0_wp, 40.0_wp, events, error)
+      if (allocated(error)) return
+      call expect(error, size(events%onset) == 5, "onsets at 2 pi to 10 pi; the last has no next")
+      if (allocated(error)) return
+      call expect_close(error, events%onset, [(2.0_wp*pi*i, i=1, 5)], bound, "onset")
+      call expect_close(error, events%recurrence_time, [(2.0_wp*pi, i=1, 5)], bound, "recurrence")
+      call expect_close(error, events%duration, [(pi, i=1, 5)], bound, "duration")
+      call expect_close(error, events%slip, [(pi*(i0 + l0), i=1, 5)], bound, "slip")
+      call expect_close(error, events%peak_velocity, [(exp(1.0_wp), i=1, 5)], bound, "peak")
+      call expect_close(error, events%least_velocity, [(exp(-1.0_wp), i=1, 5)], bound, "least")
+   end subroutine test_known
+
+   !> 2 sin t + sin 3t has maxima of (10/3) sqrt(5/12) before and after its minimum at pi/2.
+   subroutine test_two_maxima(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: highest = 10.0_wp/3.0_wp*sqrt(5.0_wp/12.0_wp)
+      type(slip_events_type) :: events
+
+      call events_of(2.0_wp, 1.0_wp, 0.0_wp, 20.0_wp, events, error)
+      if (allocated(error)) return
+      call expect(error, size(events%onset) == 2, "onsets at 2 pi and 4 pi")
+      if (allocated(error)) return
+      call expect_close(error, events%duration, [pi, pi], bound, "one event, not two")
+      call expect_close(error, log(events%peak_velocity), [highest, highest], bound, "peak")
+      call expect_close(error, log(events%least_velocity), -[highest, highest], bound, "least")
+   end subroutine test_two_maxima
+
+   !> Only events that begin after the transient count, and only with the loading after them.
+   subroutine test_ends(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(slip_events_type) :: events
+
+      call events_of(1.0_wp, 0.0_wp, 2.1_wp*pi, 7.9_wp*pi, events, error)
+      if (allocated(error)) return
+      call expect(error, size(events%onset) == 1, "the event from 4 pi to 5 pi")
+      if (allocated(error)) return
+      call expect_close(error, events%onset, [4.0_wp*pi], bound, "onset")
+   end subroutine test_ends
+
+   !> A block that slides steadily.
+   pure type(spring_block_type) function steady() result(block)
+      block = build_block(tau=1.0_wp, epsilon=0.1_wp, xi=0.5_wp, gamma=0.8_wp)
+   end function steady
+
+   !> Without motion there is no event.
+   subroutine test_none(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(slip_events_type) :: events
+
+      call find_slip_events(steady(), 0.0_wp, 50.0_wp, at_tolerance(tolerance), events, failure)
+      call expect_success(error, failure)
+      call expect(error, size(events%onset) == 0, "none")
+   end subroutine test_none
+
+   !> The solver's refusal is passed on.
+   subroutine test_bad_tolerance(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(slip_events_type) :: events
+
+      call find_slip_events(steady(), 0.0_wp, 50.0_wp, at_tolerance(-1.0_wp), events, failure)
+      call expect_failure(error, failure, "relative")
+   end subroutine test_bad_tolerance
+end module test_slip_events

@@ -1,0 +1,18 @@
+# Slip events of a scene, by its trajectory's namelist.
+
+
+rule slip_events:
+    input:
+        program="build/release/bin/slip_events",
+        namelist="results/namelists/trajectories/{scene}.nml",
+    output:
+        "results/slip_events/{scene}.nc",
+    log:
+        "results/logs/slip_events/{scene}.log",
+    benchmark:
+        "results/benchmarks/slip_events/{scene}.tsv"
+    params:
+        values=scene_values,
+        sources=digest_of("slip_events"),
+    shell:
+        "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"

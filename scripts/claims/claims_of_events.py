@@ -1,0 +1,127 @@
+"""Claims about slip events, the times in which the block is faster than the plate."""
+
+from itertools import pairwise
+
+import numpy as np
+
+from scripts.claims.claims_results import (
+    NOT_REPRODUCED,
+    Finding,
+    Results,
+    decided,
+    listed,
+    short,
+)
+
+FEWEST = 100
+"""Events that a statement about their distribution needs."""
+LONGEST_REPEAT = 100
+"""Largest number of events after which a repetition is looked for."""
+PERIODIC = 1e-3
+"""Recurrence times repeat if they return to within this share of their mean."""
+NOTHING = 1e-5
+"""Shares below this are not given as numbers: they are errors of the solver."""
+RANKS = (0.95, 0.5, 0.25, 0.05)
+"""Shares of events at least as large as the ends of the three ranges in which a power is fitted."""
+
+
+def aperiodic_events(results: Results, *, scene: str, periodic: str) -> Finding:
+    """Whether recurrence times of events vary without repeating, unlike those of another scene."""
+    parts, repeats = [], {}
+    for name in (scene, periodic):
+        events = results.events_of(name)
+        times, slip = (events[key].values for key in ("recurrence_time", "slip"))
+        if times.size < FEWEST:
+            return few(name, times.size)
+        after, repeats[name] = best_repeat(times)
+        parts.append(
+            f"Scene {name} has {times.size} events. The mean recurrence time is"
+            f" {short(times.mean())} L/v0, with a coefficient of variation of"
+            f" {percent(variation(times))}. The mean slip is {short(slip.mean())} L, with a"
+            f" coefficient of variation of {percent(variation(slip))}. The sequence of recurrence"
+            f" times repeats best after {after} event{'' if after == 1 else 's'}, with differences"
+            f" of {percent(repeats[name])} of the mean."
+        )
+    return decided(
+        repeats[scene] > PERIODIC >= repeats[periodic],
+        " ".join(parts),
+    )
+
+
+def power_law_of_sizes(results: Results, *, scene: str, spread: float) -> Finding:
+    """Whether the number of events with at least a slip is a power of the slip."""
+    slip = np.sort(results.events_of(scene).slip.values)
+    if slip.size < FEWEST:
+        return few(scene, slip.size)
+    ends = np.quantile(slip, 1 - np.array(RANKS))
+    if np.any(np.diff(ends) <= 0):
+        return decided(False, f"All slips of {scene} between these quantiles are equal.")
+    powers = -np.diff(np.log(RANKS)) / np.diff(np.log(ends))
+    ranges = [f"{short(a, 3)} to {short(b, 3)}" for a, b in pairwise(ends)]
+    fits = [f"{short(power, 3)} (slip {here})" for power, here in zip(powers, ranges, strict=True)]
+    return decided(
+        powers.max() <= spread * powers.min(),
+        f"The block of scene {scene} makes {slip.size} events with slips from {short(slip[0])} to"
+        f" {short(slip[-1])} L. By the law the number of events with at least a slip s is"
+        f" proportional to 1/s^b with one b. Here b is {listed(fits)}. The law is known from models"
+        " of many blocks; this model has one.",
+    )
+
+
+def relaxation(results: Results, *, scenes: list[str], ratio: float, stick: float) -> Finding:
+    """Whether in some scene v spans this ratio in every event, and the block mostly sticks."""
+    parts, holds = [], False
+    for scene in scenes:
+        events = results.events_of(scene)
+        if events.sizes["event"] == 0:
+            parts.append(f"Scene {scene} has no complete event.")
+            continue
+        spans = events.peak_velocity.values / events.least_velocity.values
+        slower = 1 - float(events.duration.sum() / events.recurrence_time.sum())
+        holds = holds or bool(spans.min() >= ratio and slower >= stick)
+        parts.append(
+            f"Scene {scene} (tau = {short(events.attrs['tau'])}, gamma ="
+            f" {short(events.attrs['gamma'])}) has {spans.size} events. In each of them v spans a"
+            f" factor of at least {short(spans.min(), 2)}. The block is slower than the plate for"
+            f" {percent(slower)} of the time."
+        )
+    return decided(
+        holds,
+        f"{' '.join(parts)} The test asks for a factor of {ratio:g} in every event, and for"
+        f" {percent(stick)} of the time.",
+    )
+
+
+def variation(values: np.ndarray) -> float:
+    """Coefficient of variation: standard deviation over mean."""
+    return float(values.std() / values.mean())
+
+
+def best_repeat(times: np.ndarray) -> tuple[int, float]:
+    """After how many events times repeat best, and the rms of the differences over the mean."""
+    after = range(1, min(LONGEST_REPEAT, times.size // 2) + 1)
+    left = [np.sqrt(np.mean((times[m:] - times[:-m]) ** 2)) / times.mean() for m in after]
+    # the first of those that are equal but for rounding and tolerance
+    best = next(m for m, size in zip(after, left, strict=True) if size <= max(min(left), PERIODIC))
+    return best, float(left[best - 1])
+
+
+def percent(share: float) -> str:
+    """A share in per cent."""
+    if 0 < share < NOTHING:
+        return f"less than {100 * NOTHING:g} %"
+    return f"{100 * share:.3g} %"
+
+
+def few(scene: str, events: int) -> Finding:
+    """The scene has too few events."""
+    return Finding(
+        NOT_REPRODUCED, f"Scene {scene} has {events} complete events. The test needs {FEWEST}."
+    )
+
+
+TESTS = {
+    "aperiodic_events": aperiodic_events,
+    "power_law_of_sizes": power_law_of_sizes,
+    "relaxation": relaxation,
+}

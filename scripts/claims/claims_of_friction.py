@@ -1,0 +1,81 @@
+"""Claims about the friction law (1.1) and (1.2), by the velocity step of Figure 8."""
+
+import numpy as np
+
+from scripts.claims.claims_results import Finding, Results, decided, short
+
+
+def mu0_is_steady_friction(results: Results, *, limit: float) -> Finding:
+    """Whether steady friction at v0 is mu0."""
+    friction = results.friction
+    a, b, mu0, v0, dc, unit = (
+        friction.attrs[key] for key in ("a", "b", "mu0", "v0", "dc", "b_state")
+    )
+    # the block slides steadily at v0 before the step
+    off = float(friction.mu[0]) - mu0
+    of_v, of_theta = -a * np.log(2), b * np.log(dc / (v0 * unit) + 1)
+    # rounded: theta at v0 may be b but for the last digit
+    without = round(b * np.log(dc / (v0 * unit)), 12) + 0.0
+    return decided(
+        abs(off) <= limit,
+        f"By (1.1) steady friction at v0 = {short(v0)} m/s is {short(float(friction.mu[0]), 6)} and"
+        f" mu0 is {short(mu0)}. The difference is {short(off)} = -A ln 2 + B ln(theta/b + 1) with"
+        f" -A ln 2 = {short(of_v)} and B ln(theta/b + 1) = {short(of_theta)}. Without the 1 in both"
+        f" logarithms it is B ln(theta/b) = {short(without)}.",
+    )
+
+
+def same_state_law(results: Results, *, limit: float) -> Finding:
+    """Whether the state law of (2) is (1.2), with theta of (2) as B ln(theta v0/Dc) of (1.2)."""
+    friction = results.friction
+    x = friction.velocity.values * friction.theta.values / friction.attrs["dc"]
+    ageing, slip = 1 - x, -x * np.log(x)
+    off = np.abs(ageing - slip)
+    largest = int(off.argmax())
+    return decided(
+        off[largest] <= limit,
+        "(1.2) is the ageing form of the state law: d theta/dt = 1 - x with x = v theta/Dc. (2) is"
+        " the slip form: with B ln(theta v0/Dc) in the place of its theta it gives d theta/dt ="
+        f" -x ln x. At {x.size} samples of the velocity step x ranges from {short(x.min())} to"
+        f" {short(x.max())}. The forms differ most at x = {short(x[largest])}: d theta/dt ="
+        f" {short(ageing[largest])} by (1.2) and {short(slip[largest])} by (2). Near steady sliding"
+        " (x = 1) they agree in first order.",
+    )
+
+
+def velocity_step(results: Results) -> Finding:
+    """Whether friction rises with a sudden velocity and then falls to below its first value."""
+    friction = results.friction
+    direct, evolution = (friction.attrs[f"{name}_effect"] for name in ("direct", "evolution"))
+    last = float(friction.mu[-1] - friction.mu[0])
+    return decided(
+        direct > 0 > direct + evolution and abs(last) < abs(direct + evolution),
+        f"v rises from {short(friction.attrs['v0'])} m/s by {short(friction.attrs['delta_v'])} m/s."
+        f" Friction jumps by {short(direct)}, then changes by {short(evolution)}. After the step"
+        f" back it ends {short(last)} from its first value.",
+    )
+
+
+def friction_falls_with_epsilon(results: Results) -> Finding:
+    """Whether friction (1.1) in a given state is smaller where epsilon is larger, by B or by A."""
+    friction = results.friction
+    by_b = np.log(friction.theta.values / friction.attrs["b_state"] + 1)
+    by_a = np.log(friction.attrs["v0"] / friction.velocity.values + 1)
+    change = friction.attrs["evolution_effect"] / friction.attrs["b"]
+    return decided(
+        bool((by_b < 0).all() and (by_a < 0).all()),
+        "epsilon = (B - A)/A grows with a larger B or a smaller A. In the"
+        f" {by_b.size} states of the velocity step friction by (1.1) changes by {short(by_b.min())}"
+        f" to {short(by_b.max())} per unit of B, and by {short(by_a.min())} to {short(by_a.max())}"
+        " per unit by which A becomes smaller. A positive number is more friction. The change of"
+        f" friction over the slip after the step up is another quantity: {short(change)} per unit"
+        " of B.",
+    )
+
+
+TESTS = {
+    "mu0_is_steady_friction": mu0_is_steady_friction,
+    "same_state_law": same_state_law,
+    "velocity_step": velocity_step,
+    "friction_falls_with_epsilon": friction_falls_with_epsilon,
+}

@@ -1,0 +1,164 @@
+"""Claims about what changes along a parameter, by the tables of the routes.
+
+One point may not decide: a class counts where two neighbouring points of a run have it, or two runs
+at one point.
+"""
+
+from collections import Counter
+from dataclasses import dataclass
+from itertools import pairwise
+
+from scripts.claims.claims_of_attractors import in_words
+from scripts.claims.claims_results import (
+    CORRECTED,
+    NOT_REPRODUCED,
+    REPRODUCED,
+    Finding,
+    Results,
+    decided,
+    short,
+)
+from scripts.namelists.study_cases import PARAMETERS
+from scripts.tables.motion_rows import UNDECIDED, parameter_of
+
+
+@dataclass
+class Stretch:
+    """Points of one class that follow each other; undecided ones between them are left out."""
+
+    motion: str
+    first: float
+    last: float
+
+    def __str__(self) -> str:
+        end = f" to {short(self.last)}" if self.last > self.first else ""
+        return f"{self.motion} {short(self.first)}{end}"
+
+
+Turns = dict[str, list[list[Stretch]]]
+"""Stretches that belong together, by run."""
+
+
+def route(results: Results, *, routes: list[str], expected: list[str]) -> Finding:
+    """Whether these classes follow each other along at least one of the routes."""
+    lines = [results.route(name) for name in routes]
+    found = [sequences(rows, expected) for rows in lines]
+    told = [in_a_sentence(rows, met) for rows, met in zip(lines, found, strict=True)]
+    return decided(any(any(met.values()) for met in found), " ".join(told))
+
+
+def leads_to(results: Results, *, routes: list[str], before: list[str], after: str) -> Finding:
+    """Whether a class is met beyond others along all of the routes, or along some of them."""
+    lines = [results.route(name) for name in routes]
+    found = [changes(rows, before, after) for rows in lines]
+    evidence = " ".join(in_a_sentence(rows, met) for rows, met in zip(lines, found, strict=True))
+    holds = [any(met.values()) for met in found]
+    if all(holds):
+        return Finding(REPRODUCED, evidence)
+    return Finding(CORRECTED if any(holds) else NOT_REPRODUCED, evidence)
+
+
+def delays_in_turn(
+    results: Results, *, scenes: list[str], expected: list[str], route: str
+) -> Finding:
+    """Whether scenes with longer and longer delays are of these classes in turn, or a route is."""
+    own = [results.attractors_of(scene)[0] for scene in scenes]
+    delays = [results.stability_of(scene)["tau"] for scene in scenes]
+    grow = all(before < after for before, after in pairwise(delays))
+    met = [f"{in_words(row)} at {short(tau)}" for row, tau in zip(own, delays, strict=True)]
+    rows = results.route(route)
+    found = sequences(rows, expected)
+    evidence = (
+        f"The paper's delays in its order, with other parameters changed, too: {', '.join(met)}."
+        f" These delays {'grow' if grow else 'do not grow'} from one to the next."
+        f" {in_a_sentence(rows, found)}"
+    )
+    if grow and [row["class"] for row in own] == expected:
+        return Finding(REPRODUCED, evidence)
+    return Finding(CORRECTED if any(found.values()) else NOT_REPRODUCED, evidence)
+
+
+def second_zero(results: Results, *, scene: str, route: str) -> Finding:
+    """Whether a scene has two zero exponents, or only points of a route beyond it have."""
+    own, rows = results.attractors_of(scene)[0], results.route(route)
+    place = results.stability_of(scene)[parameter_of(rows)]
+    beyond = {
+        run: [turn for turn in turns if turn[0].first <= place < turn[1].first]
+        for run, turns in sequences(rows, ["cycle", "torus"]).items()
+    }
+    evidence = (
+        "A second Hopf bifurcation of a cycle gives a second zero exponent. Class of scene"
+        f" {scene} ({parameter_of(rows)} = {short(place)}) by its exponents:"
+        f" {own['by_exponents']}. {in_a_sentence(rows, beyond)}"
+    )
+    if own["by_exponents"] == "torus":
+        return Finding(REPRODUCED, evidence)
+    return Finding(CORRECTED if any(beyond.values()) else NOT_REPRODUCED, evidence)
+
+
+def sequences(rows: list[dict], expected: list[str]) -> Turns:
+    """Where these classes follow each other."""
+    size = len(expected)
+    return {
+        run: [
+            stretches[i : i + size]
+            for i in range(len(stretches) - size + 1)
+            if [stretch.motion for stretch in stretches[i : i + size]] == expected
+        ]
+        for run, stretches in stretches_of(rows).items()
+    }
+
+
+def changes(rows: list[dict], before: list[str], after: str) -> Turns:
+    """Stretches of some classes, and the first of another class beyond them."""
+    found: Turns = {}
+    for run, stretches in stretches_of(rows).items():
+        motions = [stretch.motion for stretch in stretches]
+        first = next((i for i, motion in enumerate(motions) if motion in before), len(motions))
+        end = motions.index(after, first) if after in motions[first:] else 0
+        earlier = [stretch for stretch in stretches[first:end] if stretch.motion in before]
+        found[run] = [[*earlier, stretches[end]]] if earlier else []
+    return found
+
+
+def stretches_of(rows: list[dict]) -> dict[str, list[Stretch]]:
+    """Stretches along a route by run. A cycle of several points behind a torus is locked there."""
+    along = parameter_of(rows)
+    times = Counter((row[along], row["class"]) for row in rows)
+    found = {}
+    for run in dict.fromkeys(row["run"] for row in rows):
+        ordered = sorted((row for row in rows if row["run"] == run), key=lambda row: row[along])
+        beside = [UNDECIDED, *(row["class"] for row in ordered), UNDECIDED]
+        stretches: list[Stretch] = []
+        for i, row in enumerate(ordered):
+            confirmed = times[row[along], row["class"]] > 1
+            confirmed |= row["class"] in (beside[i], beside[i + 2])
+            last = stretches[-1].motion if stretches else ""
+            locked = last == "torus" and row["class"] == "cycle" and row["period"] > 1
+            if row["class"] == UNDECIDED or locked or not confirmed:
+                continue
+            if last == row["class"]:
+                stretches[-1].last = row[along]
+            else:
+                stretches.append(Stretch(row["class"], row[along], row[along]))
+        found[run] = stretches
+    return found
+
+
+def in_a_sentence(rows: list[dict], found: Turns) -> str:
+    """What the first run with anything to show has, and how many runs show this."""
+    along = parameter_of(rows)
+    fixed = ", ".join(f"{key} = {short(rows[0][key])}" for key in PARAMETERS if key != along)
+    shown = [turns for turns in found.values() if turns]
+    if not shown:
+        return f"Along {along} ({fixed}): in none of {len(found)} runs."
+    turns = "; ".join(", ".join(map(str, turn)) for turn in shown[0])
+    return f"Along {along} ({fixed}): {turns}; in {len(shown)} of {len(found)} runs."
+
+
+TESTS = {
+    "route": route,
+    "leads_to": leads_to,
+    "delays_in_turn": delays_in_turn,
+    "second_zero": second_zero,
+}

@@ -1,0 +1,51 @@
+"""Claims about spectra of v, by the files that figures 6 and 7 show."""
+
+import xarray as xr
+
+from scripts.claims.claims_results import (
+    CORRECTED,
+    NOT_REPRODUCED,
+    REPRODUCED,
+    Finding,
+    Results,
+    decided,
+    short,
+)
+
+
+def single_peak(results: Results, *, scene: str) -> Finding:
+    """Whether the spectrum has one base frequency, and no harmonic beside it."""
+    spectrum = results.spectrum_of(scene)
+    periodic = spectrum.attrs["spectrum_kind"] == "one base"
+    alone = spectrum.sizes["peak"] == 1
+    verdict = (REPRODUCED if alone else CORRECTED) if periodic else NOT_REPRODUCED
+    return Finding(verdict, in_words(scene, spectrum))
+
+
+def spectrum_class(results: Results, *, scene: str, expected: str) -> Finding:
+    """Whether the spectrum is of this kind."""
+    spectrum = results.spectrum_of(scene)
+    return decided(spectrum.attrs["spectrum_kind"] == expected, in_words(scene, spectrum))
+
+
+def in_words(scene: str, spectrum: xr.Dataset) -> str:
+    """Kind of the spectrum; its two highest peaks, or the power beside all lines."""
+    kind = spectrum.attrs["spectrum_kind"]
+    words = f"Kind of the spectrum of scene {scene}: {kind}."
+    if kind == "continuum":
+        share = spectrum.attrs["continuum_share"]
+        return f"{words} {short(100 * share, 2)} % of the power is not in lines."
+    peaks = spectrum.isel(peak=(-spectrum.peak_power.values).argsort())
+    if peaks.sizes["peak"] > 0:
+        words += f" The highest peak is at the frequency {short(peaks.peak_frequency[0])}."
+    if peaks.sizes["peak"] > 1:
+        multiple = f" (= {int(peaks.peak_multiple[1])} f1)" if kind == "one base" else ""
+        ratio = float(peaks.peak_power[1] / peaks.peak_power[0])
+        words += (
+            f" The second highest is at {short(peaks.peak_frequency[1])}{multiple}. It has"
+            f" {short(100 * ratio, 2)} % of the height of the first."
+        )
+    return words
+
+
+TESTS = {"single_peak": single_peak, "spectrum_class": spectrum_class}

@@ -1,0 +1,96 @@
+"""Verdicts on slip events, on made-up ones."""
+
+import numpy as np
+import pytest
+from made_up_results import results, slip_events
+
+from scripts.claims.claims_of_events import FEWEST, TESTS
+from scripts.claims.claims_results import NOT_REPRODUCED, REPRODUCED
+
+RANDOM = np.random.default_rng(1).uniform(4.0, 12.0, 1000)
+CYCLE = np.full(1000, 8.0)
+PERIOD_3 = np.tile([4.0, 8.0, 12.0], 300)
+TORUS = 8 + np.sin(2 * np.pi * 0.25 * np.arange(1000) + 1e-9 * np.arange(1000))
+
+
+def aperiodic(times, of_cycle=CYCLE):
+    """The finding on these recurrence times beside those of a cycle."""
+    made = {"mine": slip_events(recurrence_time=times)}
+    made["cycle"] = slip_events(recurrence_time=of_cycle)
+    return TESTS["aperiodic_events"](results(slip_events=made), scene="mine", periodic="cycle")
+
+
+@pytest.mark.parametrize(
+    ("times", "of_cycle", "verdict"),
+    [
+        (RANDOM, CYCLE, REPRODUCED),
+        (RANDOM, PERIOD_3, REPRODUCED),
+        (CYCLE, CYCLE, NOT_REPRODUCED),
+        (PERIOD_3, CYCLE, NOT_REPRODUCED),
+        (TORUS, CYCLE, NOT_REPRODUCED),
+        (RANDOM, RANDOM, NOT_REPRODUCED),
+        (RANDOM[: FEWEST - 1], CYCLE, NOT_REPRODUCED),
+    ],
+)
+def test_aperiodic_events(times, of_cycle, verdict):
+    """Times that vary and repeat are periodic; a few times are no evidence."""
+    assert aperiodic(times, of_cycle).verdict == verdict
+
+
+def test_variation_in_words():
+    """Uniform between 4 and 12: a standard deviation of 8/sqrt(12), over a mean of 8."""
+    even = np.linspace(4.0, 12.0, 10001)
+    words = aperiodic(np.random.default_rng(2).permutation(even), PERIOD_3).evidence
+    assert "has 10001 events. The mean recurrence time is 8 L/v0, with a coefficient" in words
+    assert (
+        "variation of 28.9 %. The mean slip is 6 L, with a coefficient of variation of 0 %" in words
+    )
+    assert "repeats best after 3 events, with differences of 0 % of the mean." in words
+
+
+def power_law(slip):
+    """The finding on these slips."""
+    made = results(slip_events={"mine": slip_events(slip=slip)})
+    return TESTS["power_law_of_sizes"](made, scene="mine", spread=1.5)
+
+
+@pytest.mark.parametrize(
+    ("slip", "verdict"),
+    [
+        (np.random.default_rng(3).pareto(1.0, 2000) + 1, REPRODUCED),
+        (np.random.default_rng(3).pareto(3.0, 2000) + 1, REPRODUCED),
+        (np.random.default_rng(3).exponential(1.0, 2000), NOT_REPRODUCED),
+        (np.random.default_rng(3).normal(10.0, 1.0, 2000), NOT_REPRODUCED),
+        (CYCLE, NOT_REPRODUCED),
+        ([5.0, 6.0], NOT_REPRODUCED),
+    ],
+)
+def test_power_law_of_sizes(slip, verdict):
+    """One power over the whole range, whichever."""
+    assert power_law(slip).verdict == verdict
+
+
+def test_power_in_words():
+    """Exact quantiles of N(>= s) = 1/s^2."""
+    words = power_law(np.linspace(1, 0, 100000, endpoint=False) ** -0.5).evidence
+    assert "Here b is 2 (slip 1.03 to 1.41), 2 (slip 1.41 to 2), 2 (slip 2 to 4.47)." in words
+
+
+@pytest.mark.parametrize(
+    ("given", "verdict"),
+    [
+        ({"peak_velocity": 1e3, "duration": 0.4}, REPRODUCED),
+        ({"peak_velocity": 1e2, "duration": 0.4}, NOT_REPRODUCED),
+        ({"peak_velocity": 1e3, "duration": 2.0}, NOT_REPRODUCED),
+        ({"peak_velocity": np.array([1e3, 1e3, 2.0]), "duration": 0.4}, NOT_REPRODUCED),
+        ({"peak_velocity": np.array([])}, NOT_REPRODUCED),
+    ],
+)
+def test_relaxation(given, verdict):
+    """Every event must be large and short, in one scene at least."""
+    made = results(slip_events={"small": slip_events(), "mine": slip_events(**given)})
+    test = TESTS["relaxation"]
+    found = test(made, scenes=["small", "mine"], ratio=1e3, stick=0.9)
+    assert found.verdict == verdict
+    assert "Scene small (tau = 7, gamma = 0.8) has 200 events." in found.evidence
+    assert "nan" not in found.evidence

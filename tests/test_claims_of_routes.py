@@ -1,0 +1,137 @@
+"""Verdicts on what changes along a parameter, on made-up tables of routes."""
+
+import pytest
+from made_up_results import attractor_row, results, route_rows, stability_row
+
+from scripts.claims.claims_of_routes import TESTS
+from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED
+from scripts.tables.motion_rows import UNDECIDED
+
+
+def twice(*classes: str) -> list[str]:
+    """Each class at two neighbouring points."""
+    return [name for name in classes for _ in range(2)]
+
+
+def of_route(*classes: str):
+    """Results of a route with one run."""
+    return results(routes=route_rows(*classes))
+
+
+@pytest.mark.parametrize(
+    ("classes", "verdict"),
+    [
+        (twice("fixed point", "cycle", "torus", "chaos"), REPRODUCED),
+        (twice("cycle", UNDECIDED, "torus", UNDECIDED, "chaos", "cycle"), REPRODUCED),
+        (twice("cycle", "chaos", "cycle", "torus", "chaos"), REPRODUCED),
+        (twice("cycle", "torus", "cycle/7", "chaos"), REPRODUCED),
+        (twice("cycle", "torus", "cycle/1", "chaos"), NOT_REPRODUCED),
+        (twice("cycle", "chaos", "torus"), NOT_REPRODUCED),
+        (twice("cycle/1", "cycle/2", "cycle/4", "chaos"), NOT_REPRODUCED),
+        (twice("torus", "chaos"), NOT_REPRODUCED),
+        (twice(UNDECIDED), NOT_REPRODUCED),
+    ],
+)
+def test_route(classes, verdict):
+    """Classes follow each other; a cycle of several points behind a torus is locked there."""
+    expected = {"expected": ["cycle", "torus", "chaos"]}
+    assert TESTS["route"](of_route(*classes), routes=["mine"], **expected).verdict == verdict
+
+
+def test_one_point_decides_nothing():
+    """Unless another run has the same class there."""
+    classes = ["cycle", "cycle", "torus", "chaos", "chaos"]
+    test, rows = TESTS["route"], route_rows(*classes)
+    claim = {"routes": ["mine"], "expected": ["cycle", "torus"]}
+    assert test(results(routes=rows), **claim).verdict == NOT_REPRODUCED
+    found = test(results(routes=rows + route_rows(*classes, run="up")), **claim)
+    assert found.verdict == REPRODUCED
+    assert "cycle 0.1 to 0.2, torus 0.3; in 2 of 2 runs." in found.evidence
+
+
+def test_evidence_of_a_route():
+    """What varies, the values of the others, where, and in how many runs."""
+    rows = route_rows(*twice("cycle", "torus"), along="xi")
+    rows += route_rows(*twice("cycle", "chaos"), along="xi", run="up")
+    claim = {"routes": ["mine"], "expected": ["cycle", "torus"]}
+    assert TESTS["route"](results(routes=rows), **claim).evidence == (
+        "Along xi (tau = 10, epsilon = 0.5, gamma = 0.8): cycle 0.1 to 0.2, torus 0.3 to 0.4;"
+        " in 1 of 2 runs."
+    )
+
+
+def test_one_route_of_several_is_enough():
+    """For a sequence that the paper reports."""
+    rows = route_rows(*twice("cycle", "torus")) + route_rows(*twice("cycle", "chaos"), name="other")
+    claim = {"routes": ["other", "mine"], "expected": ["cycle", "torus"]}
+    found = TESTS["route"](results(routes=rows), **claim)
+    assert found.verdict == REPRODUCED
+    assert "in none of 1 runs. Along tau" in found.evidence
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "verdict"),
+    [
+        (("cycle", "chaos"), ("torus", "fixed point", "chaos"), REPRODUCED),
+        (("cycle", "chaos"), ("chaos", "cycle"), CORRECTED),
+        (("chaos",), ("chaos", "cycle"), NOT_REPRODUCED),
+    ],
+)
+def test_leads_to(first, second, verdict):
+    """Along all routes, along some, along none."""
+    rows = route_rows(*twice(*first)) + route_rows(*twice(*second), name="other", along="xi")
+    claim = {"routes": ["mine", "other"], "before": ["cycle", "fixed point"], "after": "chaos"}
+    found = TESTS["leads_to"](results(routes=rows), **claim)
+    assert found.verdict == verdict
+    assert ("cycle 0.1 to 0.2, chaos 0.3 to 0.4" in found.evidence) == (first == ("cycle", "chaos"))
+
+
+@pytest.mark.parametrize(
+    ("met", "delays", "along", "verdict"),
+    [
+        (["cycle", "torus"], [0.1, 7.0], ["chaos"], REPRODUCED),
+        (["cycle", "torus"], [7.0, 7.0], ["cycle", "torus"], CORRECTED),
+        (["cycle", "cycle"], [0.1, 7.0], ["cycle", "torus"], CORRECTED),
+        (["cycle", "cycle"], [0.1, 7.0], ["cycle"], NOT_REPRODUCED),
+    ],
+)
+def test_delays_in_turn(met, delays, along, verdict):
+    """By the scenes and their delays, or by a route at fixed parameters."""
+    made = results(
+        attractors=[attractor_row(name, scene) for name, scene in zip(met, "ab", strict=True)],
+        linear_stability=[
+            stability_row(scene, tau=tau) for scene, tau in zip("ab", delays, strict=True)
+        ],
+        routes=route_rows(*twice(*along)),
+    )
+    claim = {"scenes": ["a", "b"], "expected": ["cycle", "torus"], "route": "mine"}
+    found = TESTS["delays_in_turn"](made, **claim)
+    assert found.verdict == verdict
+    assert ("These delays grow" in found.evidence) == (delays[0] < delays[1])
+
+
+@pytest.mark.parametrize(
+    ("met", "tau", "verdict"),
+    [
+        ("torus", 0.2, REPRODUCED),
+        ("cycle", 0.2, CORRECTED),
+        ("cycle", 0.4, NOT_REPRODUCED),
+    ],
+)
+def test_second_zero(met, tau, verdict):
+    """At the scene, or beyond it on the route."""
+    made = results(
+        attractors=[attractor_row(met)],
+        linear_stability=[stability_row(tau=tau)],
+        routes=route_rows(*twice("cycle", "torus")),
+    )
+    found = TESTS["second_zero"](made, scene="mine", route="mine")
+    assert found.verdict == verdict
+    assert f"by its exponents: {met}." in found.evidence
+
+
+def test_route_without_rows_is_an_error():
+    """It names table and route."""
+    made = of_route("cycle", "cycle")
+    with pytest.raises(ValueError, match=r"routes/other.tsv: no row of route 'other'.*: mine"):
+        TESTS["route"](made, routes=["other"], expected=["cycle"])

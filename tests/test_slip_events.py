@@ -1,0 +1,76 @@
+"""Slip events: the program against a trajectory, and the figure."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from figure_contents import title_of, words_in
+from made_up_results import slip_events
+
+from scripts.figures import events
+
+ENDS = {"t_end": 300.0, "t_transient": 100.0}
+FINE = 0.005
+
+
+def named(scene: str, **values) -> xr.Dataset:
+    """Made-up events with the attributes of a file."""
+    attributes = {"scene": scene, "tau": 7.0, "epsilon": 0.7, "xi": 0.5, "gamma": 0.8}
+    return slip_events(**values).assign_attrs(attributes)
+
+
+def test_events_are_those_of_the_trajectory(programs, good_inputs, smoke_config):
+    """Of chaos: v - 1 changes its sign at both ends, and slip is the integral of v between."""
+    scene = {**good_inputs["slip_events"], **ENDS, "sample_interval": FINE, "tolerance": 1e-9}
+    of_chaos = smoke_config["scenes"]["chaos"]
+    scene |= {key: of_chaos[key] for key in ("tau", "epsilon", "xi", "gamma", "history")}
+    found = programs.made_by("slip_events", scene)
+    run = programs.made_by("trajectory", scene)
+    time, v = run.time.values, run.v.values
+    rises = time[1:][(v[:-1] < 1) & (v[1:] >= 1) & (time[:-1] >= ENDS["t_transient"])]
+    assert found.sizes["event"] == rises.size - 1 > 15
+    np.testing.assert_allclose(found.onset, rises[:-1], rtol=0, atol=FINE)
+    np.testing.assert_allclose(found.recurrence_time, np.diff(rises), rtol=0, atol=2 * FINE)
+    for i in range(found.sizes["event"]):
+        event = found.isel(event=i)
+        first, last = float(event.onset), float(event.onset + event.duration)
+        within = (time >= first) & (time <= last)
+        assert (v[within] >= 1).all()
+        slip = np.trapezoid(np.interp(np.linspace(first, last, 20001), time, v)) / 20000
+        assert slip * (last - first) == pytest.approx(float(event.slip), abs=1e-3)
+        assert v[within].max() == pytest.approx(float(event.peak_velocity), rel=1e-3)
+        loading = (time >= last) & (time <= first + float(event.recurrence_time))
+        assert v[loading].min() == pytest.approx(float(event.least_velocity), rel=1e-3)
+
+
+def test_figure_shows_each_scene():
+    """A row each, with its number of events; slips on one scale for all."""
+    rows = {
+        "a": named("oscillation"),
+        "b": named(
+            "chaos", slip=np.linspace(0.2, 30.0, 500), recurrence_time=np.arange(1.0, 501.0)
+        ),
+    }
+    figure = events.draw(rows)
+    grid = np.reshape(figure.axes, (2, 3))
+    assert "scene oscillation" in title_of(grid[0, 0])
+    assert "500 events" in title_of(grid[1, 0])
+    assert grid[0, 2].get_xlim() == grid[1, 2].get_xlim()
+    ((times,), (bars,)) = ([*grid[1, 0].lines], [*grid[1, 1].containers])
+    assert times.get_ydata()[:3].tolist() == [1.0, 2.0, 3.0]
+    assert sum(bar.get_height() for bar in bars) == pytest.approx(1.0)
+    assert "recurrence time" in words_in(figure)
+
+
+def test_share_of_larger_events_is_drawn():
+    """All events have at least the smallest slip, one in four at least the largest of four."""
+    figure = events.draw({"a": named("chaos", slip=np.array([4.0, 1.0, 2.0, 8.0]))})
+    (line,) = figure.axes[2].lines
+    drawn = dict(zip(line.get_xdata()[1:], line.get_ydata()[1:], strict=True))
+    assert drawn == {1.0: 1.0, 2.0: 0.75, 4.0: 0.5, 8.0: 0.25}
+
+
+def test_scene_without_events_is_said():
+    """A row with its title and no data."""
+    figure = events.draw({"a": named("fixed_point", slip=np.array([]))})
+    assert "0 events" in title_of(figure.axes[0])
+    assert not any(axes.lines for axes in figure.axes)
