@@ -60,6 +60,15 @@ def test_evidence_of_a_route():
     )
 
 
+def test_evidence_is_of_the_run_with_the_longest_stretches():
+    """Of two that show the same."""
+    rows = route_rows(*twice("cycle", UNDECIDED, "torus"))
+    rows += route_rows(*twice("cycle"), *["torus"] * 4, run="up")
+    claim = {"routes": ["mine"], "expected": ["cycle", "torus"]}
+    evidence = TESTS["route"](results(routes=rows), **claim).evidence
+    assert evidence.endswith("cycle 0.1 to 0.2, torus 0.3 to 0.6; in 2 of 2 runs.")
+
+
 def test_one_route_of_several_is_enough():
     """For a sequence that the paper reports."""
     rows = route_rows(*twice("cycle", "torus")) + route_rows(*twice("cycle", "chaos"), name="other")

@@ -22,6 +22,7 @@ POSITIVE = ("> 0", [0.0, -1.0])
 NOT_NEGATIVE = (">= 0", [-1e-300, -1.0])
 COUNT = ("a whole number >= 1", [0, 2.5, -1])
 GRID_COUNT = ("a whole number >= 1 and <= 100000", [0, 1.5, 100001, "5", True])
+LINE_COUNT = ("a whole number >= 2 and <= 100000", [1, 2.5, 100001, "5", True])
 HISTORY_V = ("> 0", [0.0, -1.1])
 
 
@@ -182,7 +183,7 @@ RANGES = {
     **below("atlas", "planes", "xi_05", xi=POSITIVE, gamma=POSITIVE),
     **below(*COARSE, epsilon_count=GRID_COUNT, tau_count=GRID_COUNT, parts=COUNT),
     **below("routes", "histories", "slip", v=HISTORY_V),
-    **below(*LINE, xi=POSITIVE, gamma=POSITIVE, tau=NOT_NEGATIVE, count=GRID_COUNT),
+    **below(*LINE, xi=POSITIVE, gamma=POSITIVE, tau=NOT_NEGATIVE, count=LINE_COUNT),
     **below(*LINE, along=("one of: tau, epsilon, xi, gamma", ["v", None])),
     **below("routes", sweeps=("up, down", [["up", "up"], "up", None])),
     **block(*PLACE),

@@ -146,13 +146,16 @@ def stretches_of(rows: list[dict]) -> dict[str, list[Stretch]]:
 
 
 def in_a_sentence(rows: list[dict], found: Turns) -> str:
-    """What the first run with anything to show has, and how many runs show this."""
+    """The stretches of the run in which they are longest, and how many runs show such."""
     along = parameter_of(rows)
     fixed = ", ".join(f"{key} = {short(rows[0][key])}" for key in PARAMETERS if key != along)
     shown = [turns for turns in found.values() if turns]
     if not shown:
         return f"Along {along} ({fixed}): in none of {len(found)} runs."
-    turns = "; ".join(", ".join(map(str, turn)) for turn in shown[0])
+    longest = max(
+        shown, key=lambda turns: sum(one.last - one.first for turn in turns for one in turn)
+    )
+    turns = "; ".join(", ".join(map(str, turn)) for turn in longest)
     return f"Along {along} ({fixed}): {turns}; in {len(shown)} of {len(found)} runs."
 
 

@@ -27,9 +27,8 @@ def kind_of(row: dict) -> str:
 
 
 def parameter_of(rows: list[dict]) -> str:
-    """The parameter that varies along a route; tau where none does."""
-    varying = [key for key in PARAMETERS if len({row[key] for row in rows}) > 1]
-    return varying[0] if varying else PARAMETERS[0]
+    """The parameter that varies along a route."""
+    return next(key for key in PARAMETERS if len({row[key] for row in rows}) > 1)
 
 
 def count_in_words(rows: list[dict]) -> str:
