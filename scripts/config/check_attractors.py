@@ -30,17 +30,6 @@ def _of_scenes(config: dict) -> Iterator[str]:
     yield from _of_histories(f"{place} histories", config["attractors"]["histories"])
     observation = config["attractors"]["observation"]
     yield from _of_observation(f"{place} observation", observation, config["spectra"])
-    if "t_transient" in observation:
-        yield (
-            f"{place} observation: t_transient = {observation['t_transient']}; expected none:"
-            " that of the scene is used"
-        )
-    for name, scene in config["scenes"].items():
-        if "attractors" in scene and scene["t_transient"] == 0:
-            yield (
-                f"scene '{name}': t_transient = {scene['t_transient']}; expected a finite number"
-                " > 0 where attractors are looked for"
-            )
 
 
 def _of_histories(place: str, ranges: dict) -> Iterator[str]:
@@ -58,7 +47,6 @@ def _of_atlas(atlas: dict, spectra: dict) -> Iterator[str]:
     for name, grid in atlas["grids"].items():
         inside = f"{place} grids {name}"
         yield from _of_parts(inside, grid, "tau_count", grid["epsilon_count"])
-        yield from _of_approach(f"{inside} observation", grid["observation"])
         yield from _of_observation(f"{inside} observation", grid["observation"], spectra)
 
 
@@ -67,7 +55,6 @@ def _of_routes(routes: dict, spectra: dict) -> Iterator[str]:
     place = "config routes"
     for name in set(routes["histories"]) & {"up", "down"}:
         yield f"{place} histories: name {name!r}; expected another, this is the name of a sweep"
-    yield from _of_approach(f"{place} observation", routes["observation"])
     yield from _of_observation(f"{place} observation", routes["observation"], spectra)
     for name, line in routes["lines"].items():
         inside, along = f"{place} lines {name}", line["along"]
@@ -83,7 +70,6 @@ def _of_basins(basins: dict, spectra: dict) -> Iterator[str]:
     """Random histories at several places."""
     place = "config basins"
     yield from _of_histories(f"{place} histories", basins["histories"])
-    yield from _of_approach(f"{place} observation", basins["observation"])
     yield from _of_observation(f"{place} observation", basins["observation"], spectra)
 
 
@@ -118,12 +104,6 @@ def _of_parts(place: str, grid: dict, key: str, width: int) -> Iterator[str]:
         )
     elif (points := math.ceil(count / parts) * width) > MOST_POINTS:
         yield f"{place}: parts = {parts} of {points} points; expected at most {MOST_POINTS} in each"
-
-
-def _of_approach(place: str, observation: dict) -> Iterator[str]:
-    """Without a scene the observation says how long the approach takes."""
-    if "t_transient" not in observation:
-        yield f"{place}: key ['t_transient'] is missing"
 
 
 def _of_observation(place: str, observation: dict, spectra: dict) -> Iterator[str]:

@@ -53,7 +53,7 @@ def scene_groups(config: dict, scene: str) -> dict:
     """Namelist of a scene: its own history and others."""
     settings, study = config["scenes"][scene], config["attractors"]
     others = drawn_histories(settings["attractors"]["histories"] - 1, study["histories"])
-    observation = {**study["observation"], "t_transient": settings["t_transient"]}
+    observation = study["observation"]
     points = points_group(
         scene,
         place=settings,
