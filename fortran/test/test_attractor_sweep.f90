@@ -154,7 +154,8 @@ contains
                           at_tolerance(1.0e-7_wp, "auto"), alone, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
-      call expect_close(error, findings(1)%attractor%motion%maxima, alone%motion%maxima, 0.0_wp, "maxima")
+      call expect_close(error, findings(1)%attractor%motion%maxima, alone%motion%maxima, 0.0_wp, &
+                        "maxima")
    end subroutine test_one_point
 
    !> An attractor found from where a run ended has the maxima of one longer run, and ends where

@@ -126,8 +126,10 @@ contains
             do by_section = undecided, chaos
                do by_spectrum = undecided, chaos
                   known = by_exponents
-                  if (all([by_section, by_spectrum] == undecided) .and. sharp == 0) &
+                  if (sharp == 0 .and. by_section == undecided &
+                      .and. by_spectrum == undecided) then
                      known = undecided
+                  end if
                   if (by_section /= undecided .and. by_section /= by_exponents) known = undecided
                   if (by_spectrum /= undecided .and. by_spectrum /= by_exponents) known = undecided
                   call agree(exponents, by_exponents, by_section, by_spectrum, found, reason)

@@ -111,7 +111,8 @@ contains
          call expect(error, verdict%period == periods(i), "its period")
       end do
       verdict = judged(cycle(129, n), turns(n), none)
-      call expect(error, verdict%class /= cycle_motion .and. verdict%period == 0, "129 are too many")
+      call expect(error, verdict%class /= cycle_motion .and. verdict%period == 0, &
+                  "129 are too many")
    end subroutine test_cycles
 
    !> Even scatter up to a in x and b in y makes the root mean square distance of two points of the

@@ -69,7 +69,7 @@ contains
    end subroutine test_variational_equations
 
    !> The first start vector of y' = -y(t - 1) has cos(1) as state and all of its past: with the
-   !> weight 0.1 of the state its norm is cos(1) sqrt(1.01), its orthonormal successors keep being so.
+   !> weight 0.1 of the state its norm is cos(1) sqrt(1.01). Its orthonormal successors stay so.
    subroutine test_norm(error)
       type(error_type), allocatable, intent(out) :: error
       type(continuation_type) :: continuation, undisturbed

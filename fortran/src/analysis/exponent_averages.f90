@@ -38,7 +38,7 @@ contains
    !>
    !> The variance of such a mean is the spectral density of the growth at frequency 0, seen through
    !> the weights (Heidelberger and Welch 1981, Communications of the ACM 24, 233). It is estimated
-   !> by the lowest frequencies above 0: what varies slowly makes it large, fast swings do not count.
+   !> by the lowest frequencies above 0: slow variations make it large, fast ones do not count.
    !> Student's distribution enlarges the error, so that three of it cover as much as three standard
    !> errors that are known.
    pure function average_growth(growth, length, blocks, flow) result(exponents)

@@ -20,7 +20,7 @@ module tangent_vectors
 
    !> Weight of the state beside the past. With a small one the norm hardly swings with the phase of
    !> a cycle: the standard deviation of its logarithm is 0.011 instead of 0.110 (weight 1) on the
-   !> paper's oscillation, 0.045 instead of 0.178 on its torus, and 0.46 instead of 0.52 on its chaos.
+   !> paper's oscillation, 0.045 instead of 0.178 on its torus, 0.46 instead of 0.52 on its chaos.
    real(wp), parameter :: state_weight = 0.1_wp
 
    real(wp), parameter :: pi = acos(-1.0_wp)

@@ -50,9 +50,12 @@ contains
          call put_flags("class", found%class, class_names, "class of the motion")
          call put_flags("reason", found%reason, reason_names, "why the class is undecided")
          call put("time", found%time, "time until the class was certain, or the limit")
-         call put_flags("by_exponents", found%by_exponents, class_names, "class by Lyapunov exponents")
-         call put_flags("by_section", found%by_section, class_names, "class by the section v = 1, v rising")
-         call put_flags("by_spectrum", found%by_spectrum, class_names, "class by the spectrum of v")
+         call put_flags("by_exponents", found%by_exponents, class_names, &
+                        "class by Lyapunov exponents")
+         call put_flags("by_section", found%by_section, class_names, &
+                        "class by the section v = 1, v rising")
+         call put_flags("by_spectrum", found%by_spectrum, class_names, &
+                        "class by the spectrum of v")
          call put_exponents()
          call put_integers("period", found%period, "points of a cycle in the section, 0: none")
          call put("roughness", found%roughness, &

@@ -86,8 +86,8 @@ contains
 
    !> A better series of disturbances of the slow solution: the derivative of
    !> w = -theta - xi u - (xi/gamma^2) v' with v as it was, and of (4).
-   pure subroutine slow_tangent_series_of_block(p, unit, degree, delays, z, before, y, vectors, dz, &
-                                                dy)
+   pure subroutine slow_tangent_series_of_block(p, unit, degree, delays, z, before, y, vectors, &
+                                                dz, dy)
       !> Parameters of the block
       type(block_parameters_type), intent(in) :: p
       !> Unit of time of the powers
