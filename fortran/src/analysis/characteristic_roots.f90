@@ -58,7 +58,8 @@ contains
             if (size(roots) == expected) return
          else if (maxval(system%lag) <= 0.0_wp) then
             return
-         else if (allocated(before)) then
+         end if
+         if (allocated(before)) then
             if (size(before) == size(roots)) then
                if (all(abs(roots - before) <= same_root*(1.0_wp + abs(roots)))) return
             end if
