@@ -3,6 +3,7 @@
 OBSERVATION = {
     "t_transient": 100.0,
     "t_observed": 200.0,
+    "t_lasting": 50.0,
     "t_turning": 20.0,
     "interval": 5.0,
     "blocks": 2,

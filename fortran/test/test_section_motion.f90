@@ -6,7 +6,7 @@ module test_section_motion
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use motion_classes, only: cycle_motion, torus, undecided
    use pseudo_random, only: uniform
-   use section_motion, only: judge_section, period_of_tail, section_verdict_type
+   use section_motion, only: drifts, judge_section, period_of_tail, section_verdict_type
    implicit none (type, external)
    private
    public :: collect_section_motion
@@ -36,7 +36,8 @@ contains
                    new_unittest("noise on a torus", test_noise_on_torus), &
                    new_unittest("logistic map", test_logistic), &
                    new_unittest("few points and many", test_number_of_points), &
-                   new_unittest("the last points of a cycle", test_tail)]
+                   new_unittest("the last points of a cycle", test_tail), &
+                   new_unittest("drift of maxima", test_drift)]
    end subroutine collect_section_motion
 
    !> A section judged.
@@ -310,23 +311,43 @@ contains
 
       points = cycle(period, n)
       points(:, :100) = noise(6, 1.0_wp, 100)
-      call expect(error, period_of_tail(points, reach) == period, "after noise")
-      call expect(error, period_of_tail(points(:, :127), reach) == 0, "too few repetitions")
-      call expect(error, period_of_tail(points(:, :128), reach) == period, "just enough")
+      call expect(error, period_of_tail(points, reach, .false.) == period, "after noise")
+      call expect(error, period_of_tail(points(:, :127), reach, .false.) == 0, "too few repetitions")
+      call expect(error, period_of_tail(points(:, :128), reach, .false.) == period, "just enough")
       do i = 1, n
          points(1, i) = points(1, i) + exp(-0.05_wp*i)
       end do
-      call expect(error, period_of_tail(points(:, :150), reach) == 0, "on the way")
-      call expect(error, period_of_tail(points, reach) == period, "approached")
+      call expect(error, period_of_tail(points(:, :150), reach, .false.) == 0, "on the way")
+      call expect(error, period_of_tail(points(:, :250), reach, .true.) == period, "near")
+      call expect(error, period_of_tail(points, reach, .false.) == period, "approached")
       points = cycle(period, n)
       do i = 1, n
-         points(1, i) = points(1, i) + 1.0e-8_wp*exp(0.02_wp*i)
+         points(1, i) = points(1, i) + 4.0e-8_wp*exp(0.02_wp*i)
       end do
-      call expect(error, period_of_tail(points, reach) == 0, "moving away")
+      call expect(error, period_of_tail(points, reach, .false.) == 0, "moving away")
       points = cycle(period, n)
       do i = 1, n
          points(1, i) = points(1, i) + 1.0e-5_wp*i
       end do
-      call expect(error, period_of_tail(points, reach) == 0, "drift")
+      call expect(error, period_of_tail(points, reach, .false.) == 0, "drift")
    end subroutine test_tail
+
+   !> Maxima that grow drift, however slowly; noise, a cycle, a beat and a change below 1e-3 do not.
+   subroutine test_drift(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: n = 240
+      real(wp) :: ramp(n)
+      integer :: drifting, i
+
+      ramp = [(real(i, wp)/n, i=1, n)]
+      call expect(error, drifts(1.0_wp + 0.01_wp*ramp), "a ramp")
+      call expect(error, drifts(exp(-3.0_wp*ramp)), "a decay")
+      call expect(error, drifts(1.0_wp + 0.5_wp*ramp + uniform(1, n, -0.2_wp, 0.2_wp)), &
+                  "a ramp with noise")
+      call expect(error, .not. drifts(1.0_wp + 1.0e-4_wp*ramp), "a small change")
+      call expect(error, .not. drifts(1.0_wp + 0.5_wp*sin(20.0_wp*turn*ramp)), "a beat")
+      call expect(error, .not. drifts(ramp(:11)), "too few")
+      drifting = count([(drifts(uniform(i, n, 0.0_wp, 1.0_wp)), i=1, 500)])
+      call expect(error, drifting <= 2, "noise")
+   end subroutine test_drift
 end module test_section_motion

@@ -6,7 +6,8 @@ module motion_classes
    private
    public :: agree, chaos, class_by_exponents, class_names, clear, cycle_motion, fixed_point, torus
    public :: undecided
-   public :: contradicted, no_class_by_exponents, none, not_confirmed, reason_names, unstable_rest
+   public :: contradicted, no_class_by_exponents, none, not_confirmed, not_stationary, reason_names
+   public :: unstable_rest
 
    !> Classes of motion.
    enum, bind(c)
@@ -19,15 +20,17 @@ module motion_classes
 
    !> Why a class is undecided.
    enum, bind(c)
-      enumerator :: none, no_class_by_exponents, contradicted, not_confirmed, unstable_rest
+      enumerator :: none, no_class_by_exponents, contradicted, not_confirmed, unstable_rest, &
+                    not_stationary
    end enum
 
    !> These reasons in words, from `none` on.
-   character(len=21), parameter :: reason_names(0:4) = ["none                 ", &
+   character(len=21), parameter :: reason_names(0:5) = ["none                 ", &
                                                         "no class by exponents", &
                                                         "contradicted         ", &
                                                         "not confirmed        ", &
-                                                        "unstable rest        "]
+                                                        "unstable rest        ", &
+                                                        "not stationary       "]
 
    !> An exponent so many standard errors from zero is far from it.
    real(wp), parameter :: far = 6.0_wp

@@ -7,7 +7,7 @@ module section_motion
    use motion_classes, only: cycle_motion, torus, undecided
    implicit none (type, external)
    private
-   public :: judge_section, period_of_tail, section_verdict_type
+   public :: drifts, judge_section, period_of_tail, section_verdict_type
 
    !> Fewest points for a class, fewest repetitions of a cycle, and most points used.
    integer, parameter :: fewest_points = 40, fewest_turns = 4, most_points = 1000
@@ -15,10 +15,15 @@ module section_motion
    integer, parameter :: longest_period = 128
    !> Points of a cycle repeat within this share of the scale.
    real(wp), parameter :: same_point = 1.0e-3_wp
-   !> The last points of a settled cycle repeat within this share of the scale, so many times and
-   !> in so many points at least. The distance may not grow, unless it is below the second share.
-   real(wp), parameter :: settled = 1.0e-5_wp, negligible = 1.0e-7_wp
+   !> The last points of a cycle that is reached repeat within the first share of the scale, so many
+   !> times and in so many points at least. The distance may not grow by more than this factor,
+   !> unless it is below the second share.
+   real(wp), parameter :: reached = 1.0e-5_wp, negligible = 1.0e-6_wp, most_growth = 1.1_wp
    integer, parameter :: last_turns = 3, last_points = 12
+   !> Maxima drift if the means of so many blocks of them have a slope of so many standard errors,
+   !> and change by this share at least.
+   integer, parameter :: drift_blocks = 12
+   real(wp), parameter :: drift_errors = 5.0_wp, least_drift = 1.0e-3_wp
    !> Largest roughness of a torus.
    real(wp), parameter :: torus_roughness = 0.05_wp
 
@@ -68,11 +73,13 @@ contains
    end subroutine judge_section
 
    !> Points after which the last ones repeat so closely that the cycle is reached, 0 if it is not.
-   pure integer function period_of_tail(points, scale) result(period)
+   pure integer function period_of_tail(points, scale, on_the_way) result(period)
       !> Points in order of time, shape (coordinates, points)
       real(wp), intent(in) :: points(:, :)
       !> Scale of the motion in each coordinate, > 0
       real(wp), intent(in) :: scale(:)
+      !> Whether it is enough that the cycle is near
+      logical, intent(in) :: on_the_way
       real(wp) :: distance(size(points, 2))
       integer :: i, repeats
 
@@ -82,17 +89,38 @@ contains
             if (repeats + period > n) exit
             do i = n - repeats + 1, n
                distance(i) = norm2((points(:, i) - points(:, i - period))/scale)
-               if (distance(i) > settled) exit
+               if (distance(i) > merge(same_point, reached, on_the_way)) exit
             end do
             if (i <= n) cycle
             associate (first => maxval(distance(n - repeats + 1:n - repeats + period)), &
                        last => maxval(distance(n - period + 1:n)))
-               if (last <= max(first, negligible)) return
+               if (last <= max(most_growth*first, negligible)) return
             end associate
          end do
       end associate
       period = 0
    end function period_of_tail
+
+   !> Whether maxima grow or shrink all the time: then the attractor is not reached.
+   pure logical function drifts(maxima) result(value)
+      !> Maxima in order of time
+      real(wp), intent(in) :: maxima(:)
+      real(wp) :: mean(drift_blocks), slope, x(drift_blocks)
+      integer :: i, length
+
+      value = .false.
+      length = size(maxima)/drift_blocks
+      if (length == 0) return
+      associate (n => drift_blocks)
+         mean = [(sum(maxima((i - 1)*length + 1:i*length))/length, i=1, n)]
+         x = [(i - 0.5_wp*(n + 1), i=1, n)]
+         slope = sum(x*mean)/sum(x**2)
+         associate (left => mean - sum(mean)/n - slope*x)
+            value = abs(slope)*n > least_drift*abs(sum(mean)/n) &
+                    .and. abs(slope) > drift_errors*sqrt(sum(left**2)/((n - 2)*sum(x**2)))
+         end associate
+      end associate
+   end function drifts
 
    !> Points after which all come again, 0 when they do not.
    pure integer function period_of(points) result(period)

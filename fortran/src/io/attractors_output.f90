@@ -7,7 +7,7 @@ module attractors_output
    use dde_errors, only: error_type
    use exponent_averages, only: sign_bound
    use dde_kinds, only: int64, wp
-   use motion_classes, only: class_names, reason_names
+   use motion_classes, only: class_names, cycle_motion, reason_names
    use netcdf_output, only: output_file_type
    use points_input, only: points_settings_type
    implicit none (type, external)
@@ -171,6 +171,7 @@ contains
       call file%attribute("tolerance", options%relative)
       call file%attribute("t_transient", settings%t_transient)
       call file%attribute("t_observed", settings%t_observed)
+      call file%attribute("t_lasting", settings%t_lasting)
       call file%attribute("t_turning", settings%t_turning)
       call file%attribute("interval", settings%interval)
       call file%attribute("blocks", int(settings%blocks, int64))
@@ -179,7 +180,8 @@ contains
       call file%attribute("sample_interval", settings%sample_interval)
    end subroutine put_settings
 
-   !> Smallest and largest maximum of v; NaN where there is none.
+   !> Smallest and largest maximum of v, of a cycle the last quarter: the others may belong to the
+   !> approach; NaN where there is none.
    pure subroutine reach(finding, least, most)
       !> What was found
       type(finding_type), intent(in) :: finding
@@ -187,14 +189,17 @@ contains
       real(wp), intent(out) :: least
       !> Largest
       real(wp), intent(out) :: most
+      integer :: first
 
       least = ieee_value(1.0_wp, ieee_quiet_nan)
       most = least
       if (.not. allocated(finding%attractor%motion%maxima)) return
       associate (maxima => finding%attractor%motion%maxima)
          if (size(maxima) == 0) return
-         least = minval(maxima)
-         most = maxval(maxima)
+         first = 1
+         if (finding%attractor%class == cycle_motion) first = size(maxima) - size(maxima)/4
+         least = minval(maxima(first:))
+         most = maxval(maxima(first:))
       end associate
    end subroutine reach
 

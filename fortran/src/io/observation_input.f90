@@ -35,6 +35,7 @@ contains
       call read_group(path, settings, options, method, window, error)
       call check_number(error, path, "t_transient", settings%t_transient, above=0.0_wp)
       call check_number(error, path, "t_observed", settings%t_observed, above=0.0_wp)
+      call check_number(error, path, "t_lasting", settings%t_lasting, at_least=0.0_wp)
       call check_growth(error, path, "exponents", settings%exponents, settings%blocks, &
                         settings%t_turning, settings%interval, settings%zero_level)
       call check_number(error, path, "longest_bar", settings%longest_bar, above=0.0_wp)
@@ -73,16 +74,17 @@ contains
       !> They cannot be read
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: interval, longest_bar, overlap, peak_floor, peak_prominence, sample_interval
-      real(wp) :: t_observed, t_transient, t_turning, tolerance, zero_level
+      real(wp) :: t_lasting, t_observed, t_transient, t_turning, tolerance, zero_level
       character(len=256) :: reason
       integer :: blocks, doublings, exponents, segments, status, unit
       integer(int64) :: most_steps
-      namelist /observation/ t_transient, t_observed, t_turning, interval, blocks, exponents, &
+      namelist /observation/ t_transient, t_observed, t_lasting, t_turning, interval, blocks, exponents, &
          zero_level, longest_bar, doublings, sample_interval, window, segments, overlap, &
          peak_floor, peak_prominence, tolerance, method, most_steps
 
       t_transient = not_given()
       t_observed = t_transient
+      t_lasting = t_transient
       t_turning = t_transient
       interval = t_transient
       zero_level = t_transient
@@ -104,8 +106,8 @@ contains
       read (unit, nml=observation, iostat=status, iomsg=reason)
       call close_namelist(path, "observation", unit, status, reason, error)
       settings = attractor_settings_type( &
-                 t_transient=t_transient, t_observed=t_observed, t_turning=t_turning, &
-                 interval=interval, blocks=blocks, exponents=exponents, zero_level=zero_level, &
+                 t_transient=t_transient, t_observed=t_observed, t_lasting=t_lasting, &
+                 t_turning=t_turning, interval=interval, blocks=blocks, exponents=exponents, zero_level=zero_level, &
                  longest_bar=longest_bar, doublings=doublings, sample_interval=sample_interval, &
                  segments=segments, overlap=overlap, peak_floor=peak_floor, &
                  peak_prominence=peak_prominence)

@@ -12,11 +12,11 @@ module attractors
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, measure_growth
    use motion_classes, only: agree, chaos, class_by_exponents, clear, cycle_motion, fixed_point, &
-                             no_class_by_exponents, none, torus, undecided, &
+                             no_class_by_exponents, none, not_stationary, torus, undecided, &
                              unstable_rest
    use observed_motion, only: observed_motion_type
    use steady_sliding, only: settles, sliding_exponents
-   use section_motion, only: judge_section, period_of_tail, section_verdict_type
+   use section_motion, only: drifts, judge_section, period_of_tail, section_verdict_type
    use spectral_peaks, only: find_peaks, peak_type
    use spectrum, only: power_spectrum
    use spectrum_verdict, only: continuum, line_share, one_base, spectrum_kind, two_bases
@@ -34,6 +34,8 @@ module attractors
       real(wp) :: t_transient = 0.0_wp
       !> Time in which it is first observed, and exponents are measured
       real(wp) :: t_observed = 0.0_wp
+      !> Time for which chaos must last after it is certain
+      real(wp) :: t_lasting = 0.0_wp
       !> Time in which tangent vectors turn before
       real(wp) :: t_turning = 0.0_wp
       !> Longest time between orthonormalisations
@@ -175,7 +177,7 @@ contains
       !> The motion
       type(observed_motion_type), intent(in) :: motion
 
-      value = period_of_tail(motion%section, motion%scale()) > 0
+      value = period_of_tail(motion%section, motion%scale(), .false.) > 0
    end function on_cycle
 
    !> Number of exponents: without delay there are no more than equations.
@@ -202,50 +204,98 @@ contains
       !> Exponents cannot be measured
       type(error_type), allocatable, intent(out) :: error
       type(growth_type) :: measured
-      logical :: restarted
-      integer :: doubled
-      real(wp) :: time
+      logical :: last, reached, surviving
+      real(wp) :: spent, time
 
       if (settles(attractor%motion%samples(3, :))) then
          attractor%reason = unstable_rest
          return
       end if
-      restarted = on_cycle(attractor%motion)
-      if (.not. restarted) call attractor%motion%clear()
-      call begin_growth(block_model, settings, options, attractor, measured, error)
+      reached = on_cycle(attractor%motion)
+      surviving = .false.
+      spent = 0.0_wp
       time = settings%t_observed
-      doubled = 0
+      if (.not. reached) call attractor%motion%clear()
+      call begin_growth(block_model, settings, options, time, attractor, measured, error)
       do
          if (allocated(error)) return
          call attractor%motion%observe(block_model, time, settings%sample_interval, options, error)
          if (allocated(error)) return
+         spent = spent + time
+         last = spent >= settings%t_observed*2**settings%doublings
          call judge_rest(block_model, settings, attractor, error)
          if (allocated(error) .or. attractor%class == fixed_point) return
-         if (.not. restarted .and. on_cycle(attractor%motion)) then
+         if (.not. reached .and. on_cycle(attractor%motion)) then
             ! what came before was the approach
-            call begin_growth(block_model, settings, options, attractor, measured, error)
-            if (allocated(error)) return
-            restarted = .true.
-            doubled = 0
+            reached = .true.
+            spent = 0.0_wp
+            time = settings%t_observed
+            call begin_growth(block_model, settings, options, time, attractor, measured, error)
+            cycle
          end if
-         call judge(settings, measured, doubled == settings%doublings, attractor, error)
-         if (allocated(error) .or. attractor%class /= undecided &
-             .or. doubled == settings%doublings) return
-         doubled = doubled + 1
-         time = sum(measured%length)
+         call judge(settings, measured, last, attractor, error)
+         if (allocated(error)) return
+         if (any(attractor%by_exponents == [torus, chaos]) &
+             .and. drifts(attractor%motion%maxima)) then
+            attractor%class = undecided
+            attractor%reason = not_stationary
+            if (last) return
+            call attractor%motion%clear()
+            time = spent
+            call begin_growth(block_model, settings, options, time, attractor, measured, error)
+            cycle
+         end if
+         if (attractor%class == chaos .and. .not. surviving) then
+            surviving = .true.
+            call outlive(block_model, settings, options, attractor, error)
+            if (allocated(error)) return
+            if (on_cycle(attractor%motion)) then
+               attractor%class = undecided
+               time = settings%t_observed
+               cycle
+            end if
+         end if
+         if (attractor%class /= undecided .or. last) return
+         time = spent
          call extend_growth(block_model, growth_settings(block_model, settings, 0.0_wp), options, &
                             measured, error)
       end do
    end subroutine judge_motion
 
-   !> Begin to measure exponents where the motion is.
-   subroutine begin_growth(block_model, settings, options, attractor, measured, error)
+   !> Chaos may be transient: see what the block does after some more time.
+   subroutine outlive(block_model, settings, options, attractor, error)
       !> The block
       type(spring_block_type), intent(in) :: block_model
       !> How
       type(attractor_settings_type), intent(in) :: settings
       !> Method and tolerances
       type(integration_options), intent(in) :: options
+      !> The attractor
+      type(attractor_type), intent(inout) :: attractor
+      !> The run ended before its time
+      type(error_type), allocatable, intent(out) :: error
+      type(integration_result) :: outcome
+
+      associate (now => attractor%motion%continuation)
+         call integrate(block_model, now%time(1), now%time(1) + settings%t_lasting, options, &
+                        outcome, error, continuation=now)
+      end associate
+      if (allocated(error)) return
+      call attractor%motion%clear()
+      call attractor%motion%observe(block_model, settings%t_observed, settings%sample_interval, &
+                                    options, error)
+   end subroutine outlive
+
+   !> Begin to measure exponents where the motion is.
+   subroutine begin_growth(block_model, settings, options, time, attractor, measured, error)
+      !> The block
+      type(spring_block_type), intent(in) :: block_model
+      !> How
+      type(attractor_settings_type), intent(in) :: settings
+      !> Method and tolerances
+      type(integration_options), intent(in) :: options
+      !> How long
+      real(wp), intent(in) :: time
       !> The attractor
       type(attractor_type), intent(in) :: attractor
       !> The growth
@@ -256,8 +306,7 @@ contains
       associate (now => attractor%motion%continuation)
          call measure_growth(block_model, &
                              growth_settings(block_model, settings, &
-                                             now%time(1) + settings%t_turning &
-                                             + settings%t_observed), &
+                                             now%time(1) + settings%t_turning + time), &
                              options, measured, error, now)
       end associate
    end subroutine begin_growth
@@ -301,7 +350,8 @@ contains
       attractor%reason = no_class_by_exponents
       if (attractor%by_exponents == undecided .and. .not. last) return
       associate (motion => attractor%motion)
-         attractor%period = period_of_tail(motion%section, motion%scale())
+         attractor%period = period_of_tail(motion%section, motion%scale(), &
+                                           on_the_way=attractor%by_exponents == cycle_motion)
          if (attractor%period > 0) then
             attractor%by_section = cycle_motion
             associate (time => motion%section_time, n => size(motion%section_time))
