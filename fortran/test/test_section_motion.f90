@@ -312,7 +312,8 @@ contains
       points = cycle(period, n)
       points(:, :100) = noise(6, 1.0_wp, 100)
       call expect(error, period_of_tail(points, reach, .false.) == period, "after noise")
-      call expect(error, period_of_tail(points(:, :127), reach, .false.) == 0, "too few repetitions")
+      call expect(error, period_of_tail(points(:, :127), reach, .false.) == 0, &
+                  "too few repetitions")
       call expect(error, period_of_tail(points(:, :128), reach, .false.) == period, "just enough")
       do i = 1, n
          points(1, i) = points(1, i) + exp(-0.05_wp*i)

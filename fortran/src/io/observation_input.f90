@@ -78,8 +78,8 @@ contains
       character(len=256) :: reason
       integer :: blocks, doublings, exponents, segments, status, unit
       integer(int64) :: most_steps
-      namelist /observation/ t_transient, t_observed, t_lasting, t_turning, interval, blocks, exponents, &
-         zero_level, longest_bar, doublings, sample_interval, window, segments, overlap, &
+      namelist /observation/ t_transient, t_observed, t_lasting, t_turning, interval, blocks, &
+         exponents, zero_level, longest_bar, doublings, sample_interval, window, segments, overlap, &
          peak_floor, peak_prominence, tolerance, method, most_steps
 
       t_transient = not_given()
@@ -107,8 +107,9 @@ contains
       call close_namelist(path, "observation", unit, status, reason, error)
       settings = attractor_settings_type( &
                  t_transient=t_transient, t_observed=t_observed, t_lasting=t_lasting, &
-                 t_turning=t_turning, interval=interval, blocks=blocks, exponents=exponents, zero_level=zero_level, &
-                 longest_bar=longest_bar, doublings=doublings, sample_interval=sample_interval, &
+                 t_turning=t_turning, interval=interval, blocks=blocks, exponents=exponents, &
+                 zero_level=zero_level, longest_bar=longest_bar, doublings=doublings, &
+                 sample_interval=sample_interval, &
                  segments=segments, overlap=overlap, peak_floor=peak_floor, &
                  peak_prominence=peak_prominence)
       options = integration_options(relative=tolerance, absolute=tolerance, most_steps=most_steps)
