@@ -11,13 +11,18 @@ module dde_dense_state
    !> Relative rounding error of a state. Over a step length it is the error of the slope.
    real(wp), parameter :: rounding = 16.0_wp*epsilon(1.0_wp)
 
+   !> Terms of the slope below this share of the largest one do not change its shape.
+   real(wp), parameter :: shapeless = 1.0e-4_wp
+   !> Degree that is taken for granted, for functions of time.
+   integer, parameter :: least_degree = 7
+
    !> A place of a step.
    type :: dense_state
       !> When
       type(instant) :: t
       !> State and its time derivative there, shape (n)
       real(wp), allocatable :: y(:), slope(:)
-      !> Degree of dense output
+      !> Degree of dense output up to which its terms matter for the shape
       integer :: degree = 0
       !> Start and end of the step
       type(instant), private :: start, finish
@@ -71,20 +76,30 @@ contains
       type(instant), intent(in) :: start
       !> Its end
       type(instant), intent(in) :: finish
-      integer :: i
+      real(wp) :: largest
+      integer :: i, k
 
       self%start = start
       self%finish = finish
       self%h = step%h
       self%y_end = step%y_new
       self%nodes = step%nodes
-      self%degree = size(step%nodes)
-      if (ubound(self%coefficients, 2) /= self%degree) then
+      if (ubound(self%coefficients, 2) /= size(step%nodes)) then
          deallocate (self%coefficients)
-         allocate (self%coefficients(size(step%y), 0:self%degree))
+         allocate (self%coefficients(size(step%y), 0:size(step%nodes)))
       end if
+      self%degree = min(size(step%nodes), least_degree)
       do i = 1, size(step%y)
          call step%interpolant(i, self%coefficients(i, :))
+         largest = 0.0_wp
+         do k = 1, size(step%nodes)
+            largest = max(largest, k*abs(self%coefficients(i, k)))
+         end do
+         do k = size(step%nodes), self%degree + 1, -1
+            if (k*abs(self%coefficients(i, k)) <= shapeless*largest) cycle
+            self%degree = k
+            exit
+         end do
       end do
       call newton_state(self%nodes, self%coefficients, 0.0_wp, self%y, self%ends(:, 1))
       call newton_state(self%nodes, self%coefficients, 1.0_wp, self%y, self%ends(:, 2))
