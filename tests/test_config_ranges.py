@@ -46,6 +46,7 @@ OBSERVATIONS = [
 OBSERVED = {
     "t_transient": POSITIVE,
     "t_observed": POSITIVE,
+    "t_lasting": (">= 0", [-1.0]),
     "t_turning": (">= 0", [-1.0]),
     "interval": ("> 0", [0.0]),
     "blocks": ("a whole number >= 2", [1, 2.5, 1001]),
@@ -86,7 +87,7 @@ RANGES = {
     **below("scenes", "torus", "history", v=HISTORY_V),
     **below(
         *("scenes", "torus", "exponents"),
-        count=("a whole number >= 1", [0, 65, 2.5]),
+        count=("a whole number >= 2", [1, 65, 2.5]),
         t_end=("> t_transient", [0.0, -1.0]),
     ),
     **below("scenes", "torus", "attractors", histories=("a whole number >= 1", [0, 1.5, 1001])),
