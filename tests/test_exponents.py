@@ -38,11 +38,13 @@ def test_exponents_of_a_fixed_point_are_its_roots(programs, groups):
     known = np.sort(roots.real)[::-1]
     assert made.tolerance.values.tolist() == [1e-9, 1e-7, 1e-5, 1e-9]
     assert made.longest_step.fillna(0).values.tolist() == [0, 0, 0, 0.1]
-    assert 0.09 < made.mean_step[3] <= 0.1 < made.mean_step[0] < made.mean_step[1]
+    assert 0.09 < made.mean_step[3] <= 0.1 < made.mean_step[0]
     # what is left of the way to the fixed point, and the turning of the pair
     np.testing.assert_allclose(made.value, np.tile(known, (4, 1)), atol=1e-3)
     np.testing.assert_allclose(made.value[0].sum(), -(1 + ratio), atol=1e-4)
-    np.testing.assert_allclose(made.block_value.mean("block"), made.value[0], atol=1e-12)
+    # in the second half it is close enough that volumes shrink as at rest
+    at_rest = made.block_value.isel(block=slice(10, 20))
+    np.testing.assert_allclose(at_rest.sum("exponent"), -(1 + ratio), atol=1e-4)
     assert made.dimension.values.tolist() == [0, 0, 0, 0]
     assert made.time[-1] == pytest.approx(500)
     assert made.attrs["zero_exponents"] == 0
