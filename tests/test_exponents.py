@@ -83,12 +83,14 @@ def test_more_exponents_than_equations_are_refused_without_delay(config):
     assert "<= 3 without delay" in line
 
 
-def test_exponents_by_taylor_series_are_refused(config):
-    """The equations of their vectors have no series; without exponents the method is allowed."""
-    config["scenes"]["torus"]["method"] = "taylor"
-    assert "exponents, whose equations" in line_about(refusal(config), "method")
-    del config["scenes"]["torus"]["exponents"]
-    assert checked(config)["scenes"]["torus"]["method"] == "taylor"
+@pytest.mark.parametrize("method", ["taylor", "radau13"])
+def test_exponents_by_other_methods_are_the_same(programs, groups, method):
+    """As far as the tolerance lets them be."""
+    groups["exponents"] |= {"check_tolerances": [1.0e-7], "check_steps": []}
+    known = programs.made_of("exponents", groups).value[0]
+    groups["scene"]["method"] = method
+    found = programs.made_of("exponents", groups).value[0]
+    np.testing.assert_allclose(found, known, rtol=1e-5)
 
 
 def test_table_holds_all_exponents_of_all_scenes(smoke):
