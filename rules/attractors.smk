@@ -81,12 +81,12 @@ rule basins_table:
 
 rule atlas_table:
     input:
-        runs=parts_of_atlas,
+        runs=result_files.parts_of_atlas(config),
         code=code_of("tables/attractor_tables.py"),
     output:
-        "results/tables/atlas-{grid}.tsv",
+        "results/tables/atlas.tsv",
     log:
-        "results/logs/tables/atlas-{grid}.log",
+        "results/logs/tables/atlas.log",
     params:
         of="atlas",
     script:

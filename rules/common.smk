@@ -52,7 +52,7 @@ LEDGER_TABLES = {
     "linear_stability": "results/tables/linear-stability.tsv",
     "stability": "results/tables/stability.tsv",
     "attractors": "results/tables/attractors.tsv",
-    "atlas": "results/tables/atlas-coarse.tsv",
+    "atlas": "results/tables/atlas.tsv",
     "routes": result_files.tables_of_routes(config),
 }
 
@@ -63,10 +63,9 @@ wildcard_constraints:
     family="|".join([*FAMILIES, *WORK_SCENES]),
     work_scene="|".join(WORK_SCENES),
     study="stability|trust",
-    survey=f"scenes|basins|routes/({LINES})|atlas/(coarse|fine)/({'|'.join(config['atlas']['planes'])})",
+    survey=f"scenes|basins|routes/({LINES})|atlas/({'|'.join(config['atlas']['planes'])})",
     line=LINES,
     part=r"\w+",
-    grid="coarse|fine",
 
 
 def code_of(script):
@@ -138,21 +137,14 @@ def survey_groups(wildcards):
         line = wildcards.survey.removeprefix("routes/")
         groups = attractor_surveys.route_groups(config, line, wildcards.part)
     else:
-        _, grid, plane = wildcards.survey.split("/")
-        groups = attractor_surveys.atlas_groups(
-            config, plane, grid, int(wildcards.part)
-        )
+        plane = wildcards.survey.removeprefix("atlas/")
+        groups = attractor_surveys.atlas_groups(config, plane, int(wildcards.part))
     return {"runs": groups}
 
 
 def runs_of_route(wildcards):
     """Files of all runs along a route."""
     return result_files.runs_of_route(config, wildcards.line)
-
-
-def parts_of_atlas(wildcards):
-    """Files of all planes of the atlas on one grid."""
-    return result_files.parts_of_atlas(config, wildcards.grid)
 
 
 def linear_stability_values(wildcards):

@@ -1,14 +1,14 @@
 # The figures, a rule of its name for each entry of scripts/figures/entries.py.
 
 
-for figure in entries.ENTRIES:
+for figure in FIGURES:
 
     rule:
         name:
             figure
         input:
             **entries.inputs_of(figure, config),
-            code=code_of(f"figures/{entries.script_of(figure)}.py"),
+            code=code_of(f"figures/{figure}.py"),
         output:
             pdf=f"results/figures/{figure}.pdf",
             png=report(
@@ -21,6 +21,6 @@ for figure in entries.ENTRIES:
             f"results/logs/figures/{figure}.log",
         params:
             **entries.params_of(figure, config),
-            script=entries.script_of(figure),
+            script=figure,
         script:
             "../scripts/figures/{params.script}.py"

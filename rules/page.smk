@@ -7,7 +7,7 @@ rule page:
         claims="results/tables/claims.json",
         attractors=LEDGER_TABLES["attractors"],
         trajectories=trajectories_on_page(),
-        atlas="results/tables/atlas-coarse.tsv",
+        atlas=LEDGER_TABLES["atlas"],
         captions=[figure["caption"] for figure in on_page()],
         readme="README.md",
         template="page/index.html.jinja",

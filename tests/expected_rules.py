@@ -3,7 +3,7 @@
 from conftest import ROOT
 
 from scripts.config.read_config import read
-from scripts.figures.entries import ENTRIES, files_of
+from scripts.figures.entries import files_of
 
 
 def settings(*path: str) -> dict:
@@ -15,8 +15,6 @@ def settings(*path: str) -> dict:
 
 
 CONFIG = settings()
-OPTIONAL = {"docs", *(name for name, entry in ENTRIES.items() if entry.optional)}
-"""Rules that are no part of everything."""
 FAMILIES = settings("stability", "families")
 WORK_SCENES = [*settings("work_precision", "scenes"), *settings("work_precision", "cases")]
 PLANES = settings("atlas", "planes")
@@ -52,7 +50,7 @@ RULES_FOR = {
         "work_precision_runs",
         "work_precision_table",
     },
-    "atlas-coarse.tsv": {*ATTRACTORS, "atlas_table"},
+    "atlas.tsv": {*ATTRACTORS, "atlas_table"},
     "attractors.tsv": {*ATTRACTORS, "attractors_table"},
     **{f"{line}.tsv": {*ATTRACTORS, "route_table"} for line in LINES},
     "benchmarks.tsv": set(),
@@ -71,7 +69,7 @@ PROGRAMS_FOR = {
     "exponents.tsv": ["exponents"],
     "stability.tsv": ["measure", "reference"],
     "work-precision.tsv": ["measure", "reference"],
-    "atlas-coarse.tsv": ["attractors"],
+    "atlas.tsv": ["attractors"],
     "attractors.tsv": ["attractors"],
     **{f"{line}.tsv": ["attractors"] for line in LINES},
     "benchmarks.tsv": [],
@@ -83,7 +81,7 @@ DATA_OF_TABLES = {
     "work-precision.tsv": {
         f"{study}/{name}.nc" for study in ("trust", "work_precision") for name in WORK_SCENES
     },
-    "atlas-coarse.tsv": {f"{plane}/{part:04}.nc" for plane in PLANES for part in range(1, 5)},
+    "atlas.tsv": {f"{plane}/{part:04}.nc" for plane in PLANES for part in range(1, 18)},
     "attractors.tsv": {f"scenes/{scene}.nc" for scene in ["fixed_point", *SCENES]},
     **{f"{line}.tsv": {f"{line}/{run}.nc" for run in RUNS} for line in LINES},
     "benchmarks.tsv": set(),

@@ -34,7 +34,7 @@ def attractor(epsilon: float, tau: float, **given) -> dict:
     row = {"epsilon": epsilon, "tau": tau, "xi": 0.5, "gamma": 0.8, "class": "cycle"}
     row |= {f"exponent_{i}": -0.01 * i for i in (1, 2, 3)}
     row |= {f"error_{i}": 0.001 for i in (1, 2, 3)}
-    return {**row, "period": 1.0, "problem": np.nan, **given}
+    return {**row, "period": 1.0, "reason": np.nan, "problem": np.nan, **given}
 
 
 def run(count: int = 30001, interval: float = 0.05) -> xr.Dataset:
@@ -48,7 +48,7 @@ def run(count: int = 30001, interval: float = 0.05) -> xr.Dataset:
 
 def content(**given) -> dict:
     """What the template needs, some of it given."""
-    figures = [figure("figure_1"), figure("atlas_coarse", "Atlas", "results/tables/a.tsv")]
+    figures = [figure("figure_1"), figure("atlas", "Atlas", "results/tables/a.tsv")]
     claims = [claim(f"claim {i}", verdict) for i, verdict in enumerate(VERDICTS)]
     claims.append(claim("beside", look_at="results/figures/figure_1.png"))
     cells = [attractor(0.1 * i, float(j)) for j in range(3) for i in range(4)]
@@ -79,7 +79,7 @@ def written_to(folder: Path, assets: Path) -> Path:
     index.write_text(write_page.rendered(TEMPLATE, **content()))
     shutil.copytree(assets, folder / "page")
     (folder / "figures").mkdir()
-    for name in ("figure_1", "atlas_coarse"):
+    for name in ("figure_1", "atlas"):
         for ending in ("svg", "pdf", "png"):
             (folder / "figures" / f"{name}.{ending}").write_text(PICTURE)
     (folder / "tables").mkdir()

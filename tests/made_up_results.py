@@ -75,6 +75,7 @@ def attractor_row(met: str, scene: str = "mine", history: int = 1, **given) -> d
         "xi": 0.8,
         "gamma": 0.8,
         "class": met,
+        "reason": "not confirmed" if met == "undecided" else math.nan,
         "period": 1.0 if met == "cycle" else math.nan,
         "by_exponents": met,
         "by_section": met,

@@ -83,14 +83,21 @@ def test_atlas_is_on_its_page(drawn):
     assert_on_page(drawn)
 
 
-def test_atlas_has_a_column_for_each_plane(drawn):
-    """Smaller xi first, with counts; below each its exponents."""
+def test_atlas_has_a_row_for_each_plane(drawn):
+    """Smaller xi first, with counts; beside each its exponents."""
     titles = [title_of(axes) for axes in drawn.axes[:4]]
-    assert all(r"$\xi$ = 0.5" in titles[i] for i in (0,))
-    assert r"$\xi$ = 0.8" in titles[1]
+    assert r"$\xi$ = 0.5" in titles[0]
+    assert r"$\xi$ = 0.8" in titles[2]
     assert "12 points, 1 undecided, 1 failed" in titles[0]
-    assert all("largest Lyapunov exponent" in title for title in titles[2:])
+    assert all("largest Lyapunov exponent" in title for title in titles[1::2])
     assert r"\lambda_1" in words_in(drawn)
+
+
+def test_planes_may_have_delays_of_their_own():
+    """Each map ends where its points end."""
+    later = [row | {"gamma": 1e8, "tau": row["tau"] + 1} for row in grid_of(0.5)]
+    figure = atlas.draw(grid_of(0.5) + later, [], {})
+    assert [axes.get_ylim() for axes in figure.axes[:4]] == [(0, 20)] * 2 + [(1, 21)] * 2
 
 
 def test_cells_have_the_colours_of_their_classes(drawn):
@@ -109,7 +116,7 @@ def test_undecided_cells_are_hatched_and_failures_crossed(drawn):
     (hatched,) = [item for item in axes.collections if isinstance(item, PatchCollection)]
     corners = {tuple(path.vertices[0]) for path in hatched.get_paths()}
     assert corners == {(0.25, 5.0), (1.25, 15.0)}
-    for panel in (axes, drawn.axes[2]):
+    for panel in (axes, drawn.axes[1]):
         crosses = [line for line in panel.lines if line.get_marker() == "x"]
         assert [(line.get_xdata()[0], line.get_ydata()[0]) for line in crosses] == [(1.5, 20.0)]
     words = words_in(drawn)
@@ -125,7 +132,7 @@ def test_legend_names_only_what_is_there():
 
 def test_exponents_have_one_colour_scale(drawn):
     """White at zero, symmetric, blank where there is none."""
-    meshes = [drawn.axes[i].collections[0] for i in (2, 3)]
+    meshes = [drawn.axes[i].collections[0] for i in (1, 3)]
     for mesh in meshes:
         assert (mesh.norm.vmin, mesh.norm.vmax) == (-atlas.LARGEST, atlas.LARGEST)
         middle = mesh.cmap(mesh.norm(0.0))
@@ -138,17 +145,17 @@ def test_exponents_have_one_colour_scale(drawn):
 def test_scenes_stand_in_their_own_plane(drawn):
     """With a name in the map of classes only; curves are dashed where subcritical."""
     there = [{(x, y) for x, y, _ in points_in(axes)} for axes in drawn.axes[:4]]
-    assert there[0] == there[2] == {(0.7, 7.0)}
-    assert there[1] == there[3] == {(0.35, 10.0), (0.3, 0.0), (0.5, 10.0)}
+    assert there[0] == there[1] == {(0.7, 7.0)}
+    assert there[2] == there[3] == {(0.35, 10.0), (0.3, 0.0), (0.5, 10.0)}
     names = [{text.get_text() for text in axes.texts} for axes in drawn.axes[:4]]
-    assert names == [{"elsewhere"}, {"first", "at zero", "first neighbour"}, set(), set()]
-    styles = {line.get_linestyle() for line in drawn.axes[1].lines if line.get_marker() == "None"}
+    assert names == [{"elsewhere"}, set(), {"first", "at zero", "first neighbour"}, set()]
+    styles = {line.get_linestyle() for line in drawn.axes[2].lines if line.get_marker() == "None"}
     assert styles == {"-", "--"}
 
 
 def test_names_of_scenes_keep_clear_of_each_other(drawn):
     """The one with a neighbour at its right stands above its dot."""
-    texts = {text.get_text(): text for text in drawn.axes[1].texts}
+    texts = {text.get_text(): text for text in drawn.axes[2].texts}
     boxes = [texts[name].get_window_extent() for name in ("first", "first neighbour", "at zero")]
     assert not any(one.overlaps(other) for one in boxes for other in boxes if one is not other)
 

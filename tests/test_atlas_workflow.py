@@ -20,42 +20,42 @@ def parts_in(log: str) -> list[str]:
     return re.findall(rf"^ +output: {PARTS}/(\S+\.nc)$", log, flags=re.MULTILINE)
 
 
-def test_fine_atlas_resumes(scratch):
+def test_atlas_resumes(scratch):
     """Where it ended before its last part only that part is computed, to the same bytes."""
     run = scratch.snakemake("atlas", *SMOKE)
     assert run.returncode == 0, run.stdout
     before = scratch.outputs()
-    assert {"figures/atlas.pdf", "figures/atlas.png", "tables/atlas-fine.tsv"} <= set(before)
-    last = [f"{PARTS}/fine/xi_08/0002.nc", "results/tables/atlas-fine.tsv"]
+    assert {"figures/atlas.pdf", "figures/atlas.png", "tables/atlas.tsv"} <= set(before)
+    last = [f"{PARTS}/xi_08/0002.nc", "results/tables/atlas.tsv"]
     for name in (*last, "results/figures/atlas.pdf", "results/figures/atlas.png"):
         (scratch.folder / name).unlink()
     run = scratch.snakemake("atlas", *SMOKE)
     assert run.returncode == 0, run.stdout
-    assert parts_in(run.stdout) == ["fine/xi_08/0002.nc"]
+    assert parts_in(run.stdout) == ["xi_08/0002.nc"]
     assert rules_in(run.stdout) == {"attractors_runs", "atlas_table", "atlas"}
     assert scratch.outputs() == before
 
 
-def test_coarse_table_holds_the_grid_of_each_plane(smoke, smoke_config):
+def test_table_holds_all_points_of_each_plane(smoke, smoke_config):
     """Every point once, the ends of both windows among them."""
-    rows = read_table(smoke.folder / "results/tables/atlas-coarse.tsv")
+    rows = read_table(smoke.folder / "results/tables/atlas.tsv")
     atlas = smoke_config["atlas"]
-    grid = atlas["grids"]["coarse"]
-    assert {row["xi"] for row in rows} == {0.5, 0.8}
-    for xi in (0.5, 0.8):
-        places = [(row["epsilon"], row["tau"]) for row in rows if row["xi"] == xi]
-        assert len(places) == len(set(places)) == grid["epsilon_count"] * grid["tau_count"]
-        for axis, window in enumerate((atlas["epsilon_window"], atlas["tau_window"])):
+    assert len({(row["xi"], row["gamma"]) for row in rows}) == len(atlas["planes"])
+    for plane in atlas["planes"].values():
+        at = plane["xi"], plane["gamma"]
+        places = [(row["epsilon"], row["tau"]) for row in rows if (row["xi"], row["gamma"]) == at]
+        assert len(places) == len(set(places)) == atlas["epsilon_count"] * atlas["tau_count"]
+        for axis, window in enumerate((atlas["epsilon_window"], plane["tau_window"])):
             values = [place[axis] for place in places]
             assert [min(values), max(values)] == window
 
 
 def made_parts(programs: Programs, config: dict, parts: int) -> list[Path]:
-    """The coarse grid of a plane, cut into so many parts."""
-    config["atlas"]["grids"]["coarse"]["parts"] = parts
+    """A plane of the atlas, divided into so many parts."""
+    config["atlas"]["parts"] = parts
     paths = []
     for part in range(1, parts + 1):
-        write_groups(programs.folder / "input.nml", atlas_groups(config, "xi_05", "coarse", part))
+        write_groups(programs.folder / "input.nml", atlas_groups(config, "xi_05", part))
         paths.append(programs.folder / f"{parts}_{part}.nc")
         run = programs.run("attractors", "input.nml", paths[-1].name)
         assert run.returncode == 0, run.stderr
@@ -65,18 +65,17 @@ def made_parts(programs: Programs, config: dict, parts: int) -> list[Path]:
 @pytest.fixture
 def tiny(smoke_config) -> dict:
     """The smoke config, to change its atlas."""
-    grids = {name: {**grid} for name, grid in smoke_config["atlas"]["grids"].items()}
-    return {**smoke_config, "atlas": {**smoke_config["atlas"], "grids": grids}}
+    return {**smoke_config, "atlas": {**smoke_config["atlas"]}}
 
 
 def test_number_of_parts_does_not_matter(programs, tiny):
-    """The tables of two cuts are the same."""
+    """The tables of a plane in one part and in three are the same."""
     tables = []
     for parts in (1, 3):
         runs = [xr.load_dataset(path) for path in made_parts(programs, tiny, parts)]
         tables.append(programs.folder / f"{parts}.tsv")
         write_table(tables[-1], [row for run in runs for row in attractor_tables.rows_of(run)])
-    assert len(read_table(tables[0])) == 12
+    assert len(read_table(tables[0])) == 16
     assert tables[0].read_bytes() == tables[1].read_bytes()
 
 

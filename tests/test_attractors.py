@@ -34,19 +34,19 @@ def test_parts_hold_every_row_once(count, parts):
     assert max(sizes) - min(sizes) <= 1
 
 
-@pytest.mark.parametrize("grid", ["coarse", "fine"])
-def test_parts_of_the_atlas_cut_its_delays(full, grid):
-    """All of epsilon in each part, both windows as a whole, at the xi of the plane."""
-    settings = full["atlas"]["grids"][grid]
-    rows = []
+def test_parts_of_the_atlas_divide_its_delays(full):
+    """All of epsilon in each part, both windows as a whole, at xi and gamma of the plane."""
+    settings = full["atlas"]
+    delays = []
     for part in range(1, settings["parts"] + 1):
-        points = attractor_surveys.atlas_groups(full, "xi_08", grid, part)["points"]
+        points = attractor_surveys.atlas_groups(full, "fault", part)["points"]
         assert points["epsilon_part"] == [1, settings["epsilon_count"]]
-        assert points["epsilon_window"] == full["atlas"]["epsilon_window"]
-        assert points["tau_window"] == full["atlas"]["tau_window"]
-        assert points["xi_window"] == points["gamma_window"] == [0.8, 0.8]
-        rows += range(points["tau_part"][0], points["tau_part"][1] + 1)
-    assert rows == list(range(1, settings["tau_count"] + 1))
+        assert points["epsilon_window"] == settings["epsilon_window"]
+        assert points["tau_window"] == settings["planes"]["fault"]["tau_window"]
+        assert points["xi_window"] == [0.5, 0.5]
+        assert points["gamma_window"] == [1e8, 1e8]
+        delays += range(points["tau_part"][0], points["tau_part"][1] + 1)
+    assert delays == list(range(1, settings["tau_count"] + 1))
 
 
 @pytest.mark.parametrize(("run", "sweep"), [("near", "none"), ("slip", "none"), ("up", "up")])
@@ -102,13 +102,12 @@ def test_histories_fill_their_ranges(full):
 
 
 def test_scene_asks_for_its_own_parameters_and_histories(full):
-    """And for its own time of the approach."""
+    """Its own history is the first."""
     groups = attractor_surveys.scene_groups(full, "true_torus")
     points, scene = groups["points"], full["scenes"]["true_torus"]
     assert (points["epsilon_window"], points["tau_window"]) == ([0.5, 0.5], [12.5, 12.5])
     assert len(points["theta"]) == len(points["u"]) == len(points["v"]) == 6
     assert points["v"][0] == scene["history"]["v"]
-    assert groups["observation"]["t_transient"] == scene["t_transient"]
 
 
 def a_run(classes: list[str], **given) -> xr.Dataset:
@@ -119,7 +118,7 @@ def a_run(classes: list[str], **given) -> xr.Dataset:
     points = {
         **dict.fromkeys(("tau", "epsilon", "xi", "gamma"), 1.0),
         **dict.fromkeys(("history_theta", "history_u", "history_v"), 1.0),
-        **{"period": 1, "base_1": 0.1, "base_2": 0.0, "roughness": 0.5},
+        **{"period": 1, "base_1": 0.1, "base_2": 0.0, "roughness": 0.5, "time": 900.0},
         **{"smallest_maximum": 1.0, "largest_maximum": 2.0},
         **given,
     }
@@ -128,6 +127,8 @@ def a_run(classes: list[str], **given) -> xr.Dataset:
     data = {key: ("point", np.broadcast_to(value, size)) for key, value in points.items()}
     for key in ("class", "by_exponents", "by_section", "by_spectrum"):
         data[key] = ("point", numbers, {"flag_meanings": meanings})
+    reasons = [int(name == "undecided") for name in classes]
+    data["reason"] = ("point", reasons, {"flag_meanings": "none not_confirmed"})
     for key, value in exponents.items():
         first = np.broadcast_to(value, size)
         data[key] = (("point", "exponent"), np.stack([first, first - 1], axis=1))
@@ -147,6 +148,8 @@ def test_rows_say_what_the_file_holds():
     assert (first["class"], first["period"], first["f1"]) == ("cycle", 3.0, 0.1)
     assert (first["exponent_1"], first["exponent_2"]) == (0.0, -1.0)
     assert math.isnan(first["f2"])
+    assert (first["reason"], second["reason"]) == ("", "not confirmed")
+    assert first["time"] == 900.0
     assert math.isnan(second["period"])
     assert (first["problem"], second["problem"]) == ("", "it stopped")
 

@@ -6,17 +6,14 @@ from config_refusals import line_about, place_of, put, refusal
 from scripts.config.check_attractors import FEWEST_SAMPLES
 from scripts.config.check_config import checked
 
-OF_SCENES = ("attractors", "observation")
-COARSE = ("atlas", "grids", "coarse")
-OF_OTHERS = [(section, "observation") for section in ("routes", "basins")]
-OBSERVATIONS = [OF_SCENES, (*COARSE, "observation"), *OF_OTHERS]
+SURVEYS = ("attractors", "atlas", "routes", "basins")
 LINE = ("routes", "lines", "chaos_in_tau")
 
 
 @pytest.mark.parametrize("name", ["Xi", "a b", "", 5])
 def test_plane_whose_name_makes_no_file_name_is_refused(config, name):
     """As of a scene."""
-    config["atlas"]["planes"][name] = {"xi": 1.0, "gamma": 1.0}
+    config["atlas"]["planes"][name] = {"xi": 1.0, "gamma": 1.0, "tau_window": [0.0, 1.0]}
     assert f"config atlas planes: name {name!r}; expected " in refusal(config)
 
 
@@ -97,63 +94,41 @@ def test_atlas_without_planes_is_refused(config):
     assert "planes = {}; expected " in refusal(config)
 
 
-def test_more_parts_than_places_are_refused(config):
-    """Of the side that is cut; as many are fine."""
-    put(config, (*COARSE, "tau_count"), 3)
-    put(config, (*COARSE, "parts"), 3)
+def test_more_parts_than_delays_are_refused(config):
+    """Each part has a delay at least."""
+    config["atlas"] |= {"tau_count": 3, "parts": 3}
     checked(config)
-    put(config, (*COARSE, "parts"), 4)
+    config["atlas"]["parts"] = 4
     line = line_about(refusal(config), "parts")
-    assert line.startswith(
-        f"{place_of(COARSE)}: parts = 4; expected a whole number >= 1 and <= tau_count = 3"
-    )
+    assert line == "config atlas: parts = 4; expected a whole number >= 1 and <= tau_count = 3"
 
 
 def test_part_of_too_many_points_is_refused(config):
     """Ten rows of 100000 in a part are as many as may be."""
-    put(config, (*COARSE, "epsilon_count"), 100000)
-    put(config, (*COARSE, "tau_count"), 80)
-    put(config, (*COARSE, "parts"), 8)
+    config["atlas"] |= {"epsilon_count": 100000, "tau_count": 80, "parts": 8}
     checked(config)
-    put(config, (*COARSE, "parts"), 7)
-    assert "coarse: parts = 7 of 1200000 points; expected at most 1000000" in refusal(config)
+    config["atlas"]["parts"] = 7
+    assert "config atlas: parts = 7 of 1200000 points; expected at most 1000000" in refusal(config)
 
 
-@pytest.mark.parametrize("path", OBSERVATIONS)
-def test_samples_farther_apart_than_the_observation_is_long_are_refused(config, path):
+@pytest.mark.parametrize("section", SURVEYS)
+def test_samples_farther_apart_than_the_observation_is_long_are_refused(config, section):
     """The range names t_observed."""
-    put(config, (*path, "t_observed"), 100.0)
-    put(config, (*path, "sample_interval"), 100.1)
+    given = {"kept": 10, "t_observed": 100.0, "sample_interval": 100.1}
+    config[section]["observation"] = given
     line = line_about(refusal(config), "sample_interval")
-    assert line.startswith(f"{place_of(path)}: sample_interval = 100.1; expected ")
+    assert line.startswith(f"config {section} observation: sample_interval = 100.1; expected ")
     assert line.endswith("<= t_observed = 100.0")
 
 
-@pytest.mark.parametrize("path", OBSERVATIONS)
-def test_too_few_and_too_many_samples_are_refused(config, path):
+@pytest.mark.parametrize("section", SURVEYS)
+def test_too_few_and_too_many_samples_are_refused(config, section):
     """Eight segments that overlap by half are as long as four and a half."""
-    put(config, (*path, "t_observed"), 100.0)
-    put(config, (*path, "sample_interval"), 100.0 / (4.5 * FEWEST_SAMPLES))
+    given = {"kept": 10, "t_observed": 100.0, "sample_interval": 100.0 / (4.5 * FEWEST_SAMPLES)}
+    config[section]["observation"] = given
     checked(config)
-    put(config, (*path, "sample_interval"), 100.0 / (4.5 * FEWEST_SAMPLES - 2))
+    given["sample_interval"] = 100.0 / (4.5 * FEWEST_SAMPLES - 2)
     assert f"at least {FEWEST_SAMPLES} samples" in line_about(refusal(config), "sample_interval")
-    put(config, (*path, "sample_interval"), 1e-7)
-    assert "at most 100000000 samples" in line_about(refusal(config), "sample_interval")
-    put(config, (*path, "sample_interval"), 1e-310)
-    assert "at most 100000000 samples" in line_about(refusal(config), "sample_interval")
-
-
-def test_approach_of_scenes_beside_their_own_is_refused(config):
-    """There would be two of them."""
-    config["attractors"]["observation"]["t_transient"] = 100.0
-    line = line_about(refusal(config), "t_transient")
-    assert line.startswith("config attractors observation: t_transient = 100.0; expected none")
-
-
-def test_scene_without_approach_has_no_attractors(config):
-    """Without the key it may do without."""
-    config["scenes"]["chaos"]["t_transient"] = 0.0
-    line = line_about(refusal(config), "t_transient")
-    assert line.startswith("scene 'chaos': t_transient = 0.0; expected a finite number > 0")
-    del config["scenes"]["chaos"]["attractors"]
-    checked(config)
+    for shortest in (1e-7, 1e-310):
+        given["sample_interval"] = shortest
+        assert "at most 100000000 samples" in line_about(refusal(config), "sample_interval")

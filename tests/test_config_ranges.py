@@ -21,7 +21,7 @@ TOLERANCE = ("[1e-13, 1e-2]", [0.0, 9.9e-14, 1.01e-2, -1e-9])
 POSITIVE = ("> 0", [0.0, -1.0])
 NOT_NEGATIVE = (">= 0", [-1e-300, -1.0])
 COUNT = ("a whole number >= 1", [0, 2.5, -1])
-GRID_COUNT = ("a whole number >= 1 and <= 100000", [0, 1.5, 100001, "5", True])
+ATLAS_COUNT = ("a whole number >= 1 and <= 100000", [0, 1.5, 100001, "5", True])
 LINE_COUNT = ("a whole number >= 2 and <= 100000", [1, 2.5, 100001, "5", True])
 HISTORY_V = ("> 0", [0.0, -1.1])
 
@@ -37,20 +37,20 @@ def block(*path: str) -> dict[tuple, tuple]:
     return below(*path, tau=NOT_NEGATIVE, epsilon=epsilon, xi=POSITIVE, gamma=POSITIVE)
 
 
-COARSE = ("atlas", "grids", "coarse")
 OBSERVATIONS = [
     ("attractors", "observation"),
-    (*COARSE, "observation"),
-    ("atlas", "grids", "fine", "observation"),
+    ("atlas", "observation"),
     ("routes", "observation"),
     ("basins", "observation"),
 ]
 OBSERVED = {
+    "t_transient": POSITIVE,
     "t_observed": POSITIVE,
+    "t_lasting": (">= 0", [-1.0]),
     "t_turning": (">= 0", [-1.0]),
     "interval": ("> 0", [0.0]),
     "blocks": ("a whole number >= 2", [1, 2.5, 1001]),
-    "exponents": ("a whole number >= 1", [0, 1.5, 65]),
+    "exponents": ("a whole number >= 2", [1, 2.5, 65]),
     "zero_level": (">= 0", [-1e-9]),
     "longest_bar": ("> 0", [0.0]),
     "doublings": ("a whole number >= 0", [-1, 0.5, 11]),
@@ -87,7 +87,7 @@ RANGES = {
     **below("scenes", "torus", "history", v=HISTORY_V),
     **below(
         *("scenes", "torus", "exponents"),
-        count=("a whole number >= 1", [0, 65, 2.5]),
+        count=("a whole number >= 2", [1, 65, 2.5]),
         t_end=("> t_transient", [0.0, -1.0]),
     ),
     **below("scenes", "torus", "attractors", histories=("a whole number >= 1", [0, 1.5, 1001])),
@@ -177,11 +177,10 @@ RANGES = {
     **below(*MEASURED, "history", v=HISTORY_V),
     **below(*MEASURED_SCENE, t_end=POSITIVE, sample_interval=POSITIVE),
     **{(*place, key): rule for place in OBSERVATIONS for key, rule in OBSERVED.items()},
-    **{(*place, "t_transient"): POSITIVE for place in OBSERVATIONS[1:]},
     **below("attractors", "histories", seed=("a whole number >= 0", [-1, 0.5, None])),
     **below("atlas", "history", v=HISTORY_V),
     **below("atlas", "planes", "xi_05", xi=POSITIVE, gamma=POSITIVE),
-    **below(*COARSE, epsilon_count=GRID_COUNT, tau_count=GRID_COUNT, parts=COUNT),
+    **below("atlas", epsilon_count=ATLAS_COUNT, tau_count=ATLAS_COUNT, parts=COUNT),
     **below("routes", "histories", "slip", v=HISTORY_V),
     **below(*LINE, xi=POSITIVE, gamma=POSITIVE, tau=NOT_NEGATIVE, count=LINE_COUNT),
     **below(*LINE, along=("one of: tau, epsilon, xi, gamma", ["v", None])),
@@ -223,7 +222,8 @@ WINDOWS = {
         for section in ("attractors", "basins")
         for key in ("theta", "u", "ln_v")
     },
-    **{("atlas", f"{axis}_window"): [0.6, 0.5] for axis in ("epsilon", "tau")},
+    ("atlas", "epsilon_window"): [0.6, 0.5],
+    ("atlas", "planes", "xi_05", "tau_window"): [0.6, 0.5],
     (*LINE, "window"): [0.6, 0.5],
 }
 """Windows, each with numbers that do not ascend."""
@@ -235,7 +235,7 @@ BEYOND = {
     ("attractors", "histories", "theta"): ("two ascending numbers", [[1e308, -1e308]]),
     ("attractors", "histories", "ln_v"): (">= -700.0 and <= 700.0", [[-701.0, 0.0], [0.0, 701.0]]),
     ("atlas", "epsilon_window"): ("> -1.0", [[-1.0, 0.5]]),
-    ("atlas", "tau_window"): (">= 0.0", [[-0.1, 5.0]]),
+    ("atlas", "planes", "xi_05", "tau_window"): (">= 0.0", [[-0.1, 5.0]]),
     (*LINE, "window"): ("> -1.0", [[-1.0, 0.5]]),
 }
 """For each window: words of its bounds, and windows beyond them."""
@@ -252,17 +252,15 @@ MISSING = [
     ("work_precision", "scenes"),
     *((*place, key) for place in (FAMILY, MEASURED) for key in ("tau", "xi", "t_end")),
     (*MEASURED_SCENE, "t_end"),
-    *(("attractors", key) for key in ("histories", "observation")),
+    ("attractors", "histories"),
     *(("attractors", "histories", key) for key in ("seed", "theta", "u", "ln_v")),
-    *(("atlas", key) for key in ("epsilon_window", "tau_window", "planes", "grids")),
-    *(("atlas", "planes", "xi_05", key) for key in ("xi", "gamma")),
-    *(("atlas", "grids", key) for key in ("coarse", "fine")),
-    *((*COARSE, key) for key in ("epsilon_count", "tau_count", "parts", "observation")),
-    *(("routes", key) for key in ("histories", "sweeps", "observation", "lines")),
+    *(("atlas", key) for key in ("epsilon_window", "epsilon_count", "tau_count", "parts")),
+    ("atlas", "planes"),
+    *(("atlas", "planes", "xi_05", key) for key in ("xi", "gamma", "tau_window")),
+    *(("routes", key) for key in ("histories", "sweeps", "lines")),
     *((*LINE, key) for key in ("along", "window", "count")),
-    *(("basins", key) for key in ("count", "histories", "observation", "places")),
+    *(("basins", key) for key in ("count", "histories", "places")),
     *((*PLACE, key) for key in ("tau", "epsilon", "xi", "gamma")),
-    *((*place, key) for place in OBSERVATIONS for key in ("t_observed", "t_turning")),
 ]
 """Keys without a default."""
 NAMED = {("atlas", "planes"), ("stability", "families"), ("routes", "histories")}
@@ -322,8 +320,7 @@ def test_windows_beyond_their_bounds_are_refused(whole):
 
 def test_missing_keys_are_refused(whole):
     """The line names section and key; nothing else is said."""
-    approaches = [(*place, "t_transient") for place in OBSERVATIONS[1:]]
-    for paths in [*apart(MISSING), approaches]:
+    for paths in apart(MISSING):
         config = copy.deepcopy(whole)
         for path in paths:
             take_out(config, path)

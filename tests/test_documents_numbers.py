@@ -160,12 +160,20 @@ def basin_histories() -> list[str]:
 
 
 def shares(kind: str) -> list[float]:
-    """Per cent of the points of the coarse atlas in a class, at xi = 0.5 and 0.8."""
+    """Per cent of the points of the atlas in a class, by plane."""
     found = []
-    for xi in ("0.5", "0.8"):
-        classes = Counter(row["class"] for row in table("atlas-coarse.tsv") if row["xi"] == xi)
+    for plane in settings("atlas", "planes").values():
+        at = f"{plane['xi']:g}", f"{plane['gamma']:g}"
+        classes = Counter(
+            row["class"] for row in table("atlas.tsv") if (row["xi"], row["gamma"]) == at
+        )
         found.append(100 * classes[kind] / classes.total())
     return found
+
+
+def points_of_a_plane() -> int:
+    """Points of each plane of the atlas."""
+    return settings("atlas")["epsilon_count"] * settings("atlas")["tau_count"]
 
 
 def cases(method: str) -> list[dict]:
@@ -386,14 +394,14 @@ SAID = [
         lambda: basin("rest_and_cycle", 1),
     ),
     Said("docs/findings.md", "share of {} random histories", lambda: basin_histories()),
-    Said(
-        "docs/findings.md", "{:.0f} and {:.0f} % of its points are fixed points",
-        lambda: shares("fixed point"),
+    Said("docs/findings.md", "the {} points of each plane", lambda: [points_of_a_plane()]),
+    *(
+        Said(
+            "docs/findings.md", f"| {kind} | {{:.0f}} | {{:.0f}} | {{:.0f}} |",
+            lambda kind=kind: shares(kind),
+        )
+        for kind in ("fixed point", "cycle", "torus", "chaos", "undecided")
     ),
-    Said("docs/findings.md", "{:.0f} and {:.0f} % cycles", lambda: shares("cycle")),
-    Said("docs/findings.md", "{:.0f} and {:.0f} % tori", lambda: shares("torus")),
-    Said("docs/findings.md", "{:.0f} and {:.0f} % chaotic", lambda: shares("chaos")),
-    Said("docs/findings.md", "{:.0f} and {:.0f} % undecided", lambda: shares("undecided")),
     Said(
         "docs/findings.md", "double Hopf point ({:.3f}, {:.2f}) and contains `true_torus`",
         lambda: double_hopf_near("tau_of_epsilon_xi_08", 0.464),

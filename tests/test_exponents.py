@@ -38,11 +38,13 @@ def test_exponents_of_a_fixed_point_are_its_roots(programs, groups):
     known = np.sort(roots.real)[::-1]
     assert made.tolerance.values.tolist() == [1e-9, 1e-7, 1e-5, 1e-9]
     assert made.longest_step.fillna(0).values.tolist() == [0, 0, 0, 0.1]
-    assert 0.09 < made.mean_step[3] <= 0.1 < made.mean_step[0] < made.mean_step[1]
+    assert 0.09 < made.mean_step[3] <= 0.1 < made.mean_step[0]
     # what is left of the way to the fixed point, and the turning of the pair
     np.testing.assert_allclose(made.value, np.tile(known, (4, 1)), atol=1e-3)
     np.testing.assert_allclose(made.value[0].sum(), -(1 + ratio), atol=1e-4)
-    np.testing.assert_allclose(made.block_value.mean("block"), made.value[0], atol=1e-12)
+    # in the second half it is close enough that volumes shrink as at rest
+    at_rest = made.block_value.isel(block=slice(10, 20))
+    np.testing.assert_allclose(at_rest.sum("exponent"), -(1 + ratio), atol=1e-4)
     assert made.dimension.values.tolist() == [0, 0, 0, 0]
     assert made.time[-1] == pytest.approx(500)
     assert made.attrs["zero_exponents"] == 0
@@ -81,12 +83,14 @@ def test_more_exponents_than_equations_are_refused_without_delay(config):
     assert "<= 3 without delay" in line
 
 
-def test_exponents_by_taylor_series_are_refused(config):
-    """The equations of their vectors have no series; without exponents the method is allowed."""
-    config["scenes"]["torus"]["method"] = "taylor"
-    assert "exponents, whose equations" in line_about(refusal(config), "method")
-    del config["scenes"]["torus"]["exponents"]
-    assert checked(config)["scenes"]["torus"]["method"] == "taylor"
+@pytest.mark.parametrize("method", ["taylor", "radau13"])
+def test_exponents_by_other_methods_are_the_same(programs, groups, method):
+    """As far as the tolerance lets them be."""
+    groups["exponents"] |= {"check_tolerances": [1.0e-7], "check_steps": []}
+    known = programs.made_of("exponents", groups).value[0]
+    groups["scene"]["method"] = method
+    found = programs.made_of("exponents", groups).value[0]
+    np.testing.assert_allclose(found, known, rtol=1e-5)
 
 
 def test_table_holds_all_exponents_of_all_scenes(smoke):

@@ -143,14 +143,19 @@ def test_scene_whose_attractor_is_unknown_says_so():
     assert words.endswith("γ = 0.8: its attractor was not computed")
 
 
-def test_atlas_has_a_map_for_each_stiffness():
+def test_atlas_has_a_map_for_each_plane():
     """Epsilon to the right, tau upwards."""
     rows = [attractor(e, t) for t in (0.0, 5.0) for e in (0.1, 0.2, 0.3)]
     rows[4] |= {"class": "chaos", "exponent_3": np.nan}
     rows.append(attractor(0.1, 0.0, xi=0.8, period=4.0))
     rows.append(attractor(0.2, 0.0, xi=0.8, **{"class": "undecided", "problem": "too stiff"}))
-    first, second = page_views.atlas(rows)
-    assert (first["xi"], first["columns"], first["lines"]) == ("0.5", [0.1, 0.2, 0.3], [0.0, 5.0])
+    unsure = {"class": "undecided", "reason": "not confirmed", "gamma": 1e8}
+    rows.insert(0, attractor(0.1, 0.0, **unsure))
+    first, second, third = page_views.atlas(rows)
+    planes = [one["plane"] for one in (first, second, third)]
+    assert planes == ["ξ = 0.5, γ = 0.8", "ξ = 0.8, γ = 0.8", "ξ = 0.5, γ = 1e+08"]
+    assert (first["columns"], first["lines"]) == ([0.1, 0.2, 0.3], [0.0, 5.0])
+    assert "γ = 1e+08: undecided (not confirmed); exponents" in third["cells"][0]["words"]
     (chaos,) = [cell for cell in first["cells"] if cell["kind"] == "chaos"]
     assert (chaos["x"], chaos["y"]) == (1, 0)
     assert chaos["words"].endswith("chaos; exponents -0.01 ± 0.001, -0.02 ± 0.001")

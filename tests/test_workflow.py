@@ -10,7 +10,6 @@ from dry_runs import Job, data_of_jobs, jobs_in, needed_for, rules_of
 from expected_rules import (
     FAMILIES,
     OF_OTHERS,
-    OPTIONAL,
     RULES_OF_ATTRACTORS,
     SCENES,
     WORK_SCENES,
@@ -27,7 +26,7 @@ def test_every_rule_ran(smoke_run):
     project, log = smoke_run
     listed = re.findall(r"^\w+$", project.snakemake("--list-rules").stdout, flags=re.MULTILINE)
     assert len(listed) > 10
-    assert rules_in(log) == set(listed) - OPTIONAL
+    assert rules_in(log) == set(listed) - {"docs"}
 
 
 def test_every_figure_is_there_three_times(smoke):
@@ -47,7 +46,7 @@ def test_every_job_has_a_log_and_every_computation_a_benchmark(smoke):
     results = smoke.folder / "results"
     computed = {path.relative_to(results) for path in results.rglob("*.nc")}
     computed |= {path.relative_to(results) for path in (results / "references").rglob("*.tsv")}
-    assert len(computed) == 54 + 2 * len(FAMILIES) - 2 + 3 * len(WORK_SCENES)
+    assert len(computed) == 60 + 2 * len(FAMILIES) - 2 + 3 * len(WORK_SCENES)
     for path in computed:
         assert (results / "logs" / path).with_suffix(".log").is_file()
         assert (results / "benchmarks" / path).with_suffix(".tsv").is_file()
@@ -187,21 +186,3 @@ def test_everything_from_one_command(planned):
     tables |= {"linear_stability_table", "claims", "page", *RULES_OF_ATTRACTORS}
     everything = set.union({"all", *tables, *FIGURES}, *map(expected_rules_of, FIGURES))
     assert rules_of(planned) == everything
-    assert not any("/fine/" in path for job in planned for path in job.made)
-
-
-def test_fine_atlas_is_a_target_of_its_own(fresh, default_config):
-    """All its parts in both planes."""
-    run = fresh.snakemake("--dry-run", "atlas")
-    assert run.returncode == 0, run.stdout
-    jobs = jobs_in(run.stdout)
-    computed = {"build", "attractors_namelist", "attractors_runs", "atlas_table"}
-    assert rules_of(jobs) == {*computed, "hopf_namelist", "hopf_curves", "atlas"}
-    atlas = default_config["atlas"]
-    parts = range(1, atlas["grids"]["fine"]["parts"] + 1)
-    expected = {
-        frozenset({f"results/attractors/atlas/fine/{plane}/{part:04}.nc"})
-        for plane in atlas["planes"]
-        for part in parts
-    }
-    assert {job.made for job in jobs if job.rule == "attractors_runs"} == expected

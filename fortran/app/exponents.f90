@@ -9,6 +9,7 @@ program exponents
    use progress, only: progress_type
    use scene_input, only: read_scene, scene_type
    use spring_block, only: spring_block_type
+   use steady_sliding, only: comes_to_rest
    implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
    type(error_type), allocatable :: error
@@ -20,6 +21,7 @@ program exponents
    type(scene_type) :: scene
    type(spring_block_type) :: block_model
    integer :: i
+   logical :: rest
 
    call get_paths(namelist_path, output_path, error)
    call stop_on(error)
@@ -38,6 +40,9 @@ program exponents
       options(2 + size(tolerances):)%longest_step = steps
    end associate
    allocate (measured(size(options)))
+   ! at rest no exponent is that of the flow
+   call comes_to_rest(block_model, scene%t_transient, settings%t_end, own, rest, error)
+   call stop_on(error)
    report = progress_type("exponents of "//trim(scene%name), parts=size(options))
    do i = 1, size(options)
       call report%begin_part(i)
@@ -46,7 +51,7 @@ program exponents
                                                t_begin=scene%t_transient, t_end=settings%t_end, &
                                                t_turning=settings%t_turning, &
                                                interval=settings%interval, &
-                                               blocks=settings%blocks, across_flow=.true.), &
+                                               blocks=settings%blocks, across_flow=.not. rest), &
                           options(i), measured(i), error, progress=report)
       if (allocated(error)) exit
    end do

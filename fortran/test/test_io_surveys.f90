@@ -52,7 +52,7 @@ contains
          spoiled("interval", "0.0", "interval = 0.0"//above_0), &
          spoiled("blocks", "1", "blocks = 1"//from_2), &
          spoiled("blocks", "1001", "blocks = 1001; expected a whole number <= 1000"), &
-         spoiled("exponents", "0", "exponents = 0"//from_1), &
+         spoiled("exponents", "1", "exponents = 1"//from_2), &
          spoiled("exponents", "65", "exponents = 65; expected a whole number <= 64"), &
          spoiled("zero_level", "-1.0", "zero_level = -1.0"//from_0), &
          spoiled("longest_bar", "0.0", "longest_bar = 0.0"//above_0), &
@@ -138,7 +138,7 @@ contains
       call expect_refusals(error, exponents_reader, "exponents", [character(len=line_length) :: &
          "count = 3", "t_end = 500.0", "t_turning = 100.0", "interval = 0.5", "blocks = 10", &
          "zero_level = 1.0e-5"], [ &
-         spoiled("count", "0", "count = 0"//from_1), &
+         spoiled("count", "1", "count = 1"//from_2), &
          spoiled("count", "65", "count = 65; expected a whole number <= 64"), &
          spoiled("t_end", "200.0", "t_end = 200.0; expected a finite number > 200.0"), &
          spoiled("t_turning", "-1.0", "t_turning = -1.0"//from_0), &

@@ -40,14 +40,14 @@ def _of_histories(place: str, ranges: dict) -> Iterator[str]:
 
 
 def _of_atlas(atlas: dict, spectra: dict) -> Iterator[str]:
-    """The plane of epsilon and tau, cut into rows."""
+    """Planes of epsilon and tau, each divided by its delays."""
     place = "config atlas"
     yield from window(place, "epsilon_window", atlas["epsilon_window"], **range_of("epsilon"))
-    yield from window(place, "tau_window", atlas["tau_window"], **range_of("tau"))
-    for name, grid in atlas["grids"].items():
-        inside = f"{place} grids {name}"
-        yield from _of_parts(inside, grid, "tau_count", grid["epsilon_count"])
-        yield from _of_observation(f"{inside} observation", grid["observation"], spectra)
+    for name, plane in atlas["planes"].items():
+        inside = f"{place} planes {name}"
+        yield from window(inside, "tau_window", plane["tau_window"], **range_of("tau"))
+    yield from _of_parts(place, atlas)
+    yield from _of_observation(f"{place} observation", atlas["observation"], spectra)
 
 
 def _of_routes(routes: dict, spectra: dict) -> Iterator[str]:
@@ -94,15 +94,14 @@ def window(
     yield f"{place}: {key} = {values}; expected two ascending numbers{' and'.join(bounds)}"
 
 
-def _of_parts(place: str, grid: dict, key: str, width: int) -> Iterator[str]:
-    """Parts of a grid along the side that is cut, each a run; the other side is `width` long."""
-    count, parts = grid[key], grid["parts"]
-    if parts > count:
+def _of_parts(place: str, atlas: dict) -> Iterator[str]:
+    """Parts of a plane, each a run over some of its delays."""
+    delays, parts = atlas["tau_count"], atlas["parts"]
+    if parts > delays:
         yield (
-            f"{place}: parts = {parts}; expected a whole number >= 1 and <= {key} = {count}, the"
-            " side that is cut"
+            f"{place}: parts = {parts}; expected a whole number >= 1 and <= tau_count = {delays}"
         )
-    elif (points := math.ceil(count / parts) * width) > MOST_POINTS:
+    elif (points := math.ceil(delays / parts) * atlas["epsilon_count"]) > MOST_POINTS:
         yield f"{place}: parts = {parts} of {points} points; expected at most {MOST_POINTS} in each"
 
 

@@ -217,18 +217,13 @@ def _contradictions_of_exponents(place: str, scene: dict):
     wanted = scene.get("exponents")
     if wanted and scene["tau"] == 0 and wanted["count"] > EQUATIONS:
         yield (
-            f"{place} exponents: count = {wanted['count']}; expected a whole number >= 1 and"
+            f"{place} exponents: count = {wanted['count']}; expected a whole number >= 2 and"
             f" <= {EQUATIONS} without delay"
         )
     if wanted and wanted["t_end"] <= max(scene["t_transient"], scene["tau"]):
         yield (
             f"{place} exponents: t_end = {wanted['t_end']}; expected a finite number >"
             f" t_transient = {scene['t_transient']} and > tau = {scene['tau']}"
-        )
-    if wanted and scene["method"] == "taylor":
-        yield (
-            f"{place} method = 'taylor'; expected another one with exponents, whose equations"
-            " have no Taylor series"
         )
 
 

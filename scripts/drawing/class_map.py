@@ -14,8 +14,10 @@ from scripts.tables.motion_rows import COLOURS, UNDECIDED, has_problem, kind_of
 
 KINDS = list(COLOURS)
 """Their numbers in a map are their places here."""
-HATCH = "//////"
-HATCH_GREY = "0.45"
+HATCH = "////"
+HATCH_GREY = "0.6"
+CELLS = {"antialiased": False, "rasterized": True, "zorder": 0}
+"""Cells of a map touch each other without seams, and vector files stay small."""
 NO_RESULT = {"ls": "", "marker": "x", "color": INK, "ms": 3, "mew": 0.7}
 """How a point whose run failed is marked."""
 
@@ -59,10 +61,10 @@ def draw_strips(axes: Axes, runs: dict[str, list[dict]], along: str) -> None:
 def draw_cells(axes: Axes, x: np.ndarray, y: np.ndarray, numbers: np.ndarray) -> None:
     """Cells between these edges, coloured by their kinds, hatched where undecided."""
     colours = ListedColormap(list(COLOURS.values()))
-    axes.pcolormesh(x, y, numbers, cmap=colours, vmin=-0.5, vmax=len(KINDS) - 0.5, zorder=0)
+    axes.pcolormesh(x, y, numbers, cmap=colours, vmin=-0.5, vmax=len(KINDS) - 0.5, **CELLS)
     unsure = np.argwhere(numbers == KINDS.index(UNDECIDED))
     boxes = [Rectangle((x[i], y[k]), x[i + 1] - x[i], y[k + 1] - y[k]) for k, i in unsure]
-    with mpl.rc_context({"hatch.linewidth": 0.4}):
+    with mpl.rc_context({"hatch.linewidth": 0.3}):
         hatched = PatchCollection(
             boxes, facecolor="none", edgecolor=HATCH_GREY, lw=0, hatch=HATCH, zorder=0.5
         )

@@ -1,5 +1,7 @@
 """Figure of the atlas: classes of motion and the largest exponent over epsilon and tau."""
 
+from string import ascii_lowercase
+
 import numpy as np
 import xarray as xr
 from matplotlib import pyplot as plt
@@ -9,12 +11,12 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
-from scripts.drawing.class_map import draw_classes, legend_of, mark_failures, table_of
+from scripts.drawing.class_map import CELLS, draw_classes, legend_of, mark_failures, table_of
 from scripts.drawing.hopf_plane import SUBCRITICAL, draw_piece
 from scripts.drawing.style import INK, logged, save
 from scripts.files.inputs import read
 from scripts.files.tsv import read_table
-from scripts.tables.motion_rows import count_in_words
+from scripts.tables.motion_rows import count_in_words, planes_of
 
 LINEAR, LARGEST = 1e-3, 0.1
 """Exponents closer to zero are coloured on a linear scale, larger ones all alike."""
@@ -23,41 +25,42 @@ NEAR = 0.25
 
 
 def draw(rows: list[dict], curves: list[xr.Dataset], scenes: dict[str, dict]) -> Figure:
-    """One plane a column: classes above, the largest exponent below, Hopf curves over both."""
-    planes = sorted({(row["gamma"], row["xi"]) for row in rows})
-    figure, grid = plt.subplots(
-        2,
+    """One plane a row: classes, and the largest exponent beside them; Hopf curves over both."""
+    planes = planes_of(rows)
+    figure, panels = plt.subplots(
         len(planes),
-        figsize=(6.7, 6.6),
+        2,
+        figsize=(6.7, 1.1 + 2.3 * len(planes)),
         sharex=True,
-        sharey=True,
+        sharey="row",
         squeeze=False,
     )
-    for letters, at, (above, below) in zip(["ac", "bd", "eg"], planes, grid.T, strict=False):
-        shown = [row for row in rows if (row["gamma"], row["xi"]) == at]
+    letters = iter(ascii_lowercase)
+    for (at, shown), (left, right) in zip(planes.items(), panels, strict=True):
         inside = {
             name: scene for name, scene in scenes.items() if (scene["gamma"], scene["xi"]) == at
         }
-        draw_classes(above, shown, "tau")
-        mesh = draw_exponents(below, shown)
-        for axes in (above, below):
+        draw_classes(left, shown, "tau")
+        mesh = draw_exponents(right, shown)
+        for axes in (left, right):
             for plane in curves:
                 if (plane.attrs["gamma"], plane.attrs["xi"]) == at:
                     draw_curves(axes, plane)
-            mark_scenes(axes, inside, named=axes is above)
+            mark_scenes(axes, inside, named=axes is left)
         symbols = rf"$\xi$ = {at[1]:g}, $\gamma$ = {at[0]:g}"
-        above.set_title(f"$\\bf{{{letters[0]}}}$  {symbols}: {count_in_words(shown)}")
-        below.set_title(f"$\\bf{{{letters[1]}}}$  the same: largest Lyapunov exponent")
-        below.set_xlabel(r"sensitivity of the velocity relaxation $\varepsilon$")
-    for axes in grid[:, 0]:
-        axes.set_ylabel(r"delay $\tau$")
+        left.set_title(f"$\\bf{{{next(letters)}}}$  {symbols}: {count_in_words(shown)}")
+        right.set_title(f"$\\bf{{{next(letters)}}}$  the same: largest Lyapunov exponent")
+        left.set_ylabel(r"delay $\tau$ (units of $L/v_0$)")
+    for axes in panels[-1]:
+        axes.set_xlabel(r"sensitivity of the velocity relaxation $\varepsilon$")
     ticks = [-LARGEST, -0.01, -LINEAR, 0, LINEAR, 0.01, LARGEST]
     figure.colorbar(
         mesh,
-        ax=list(grid[1]),
-        label=r"$\lambda_1$",
+        ax=list(panels[:, 1]),
+        label=r"largest Lyapunov exponent $\lambda_1$ (units of $v_0/L$)",
         extend="both",
         pad=0.02,
+        aspect=40,
         ticks=ticks,
         format=lambda value, _: f"{value:g}",
     )
@@ -75,7 +78,7 @@ def draw_exponents(axes: Axes, rows: list[dict]):
     """The largest exponent of each row, white at zero."""
     x, y, values = table_of(rows, "tau", lambda row: row["exponent_1"])
     norm = SymLogNorm(LINEAR, vmin=-LARGEST, vmax=LARGEST)
-    mesh = axes.pcolormesh(x, y, values, cmap="PuOr_r", norm=norm, zorder=0)
+    mesh = axes.pcolormesh(x, y, values, cmap="PuOr_r", norm=norm, **CELLS)
     mark_failures(axes, rows, "tau")
     return mesh
 

@@ -27,8 +27,6 @@ class Entry:
 
     category: str
     """Where it stands on the page and in the report."""
-    script: str | None = None
-    """Name of its script and caption where this is not its own."""
     inputs: dict[str, str | Callable[[dict], list[str]]] = field(default_factory=dict)
     """Results by their names in the script: a path, or paths by the configuration."""
     rows: tuple[str, ...] = ()
@@ -37,8 +35,6 @@ class Entry:
     """Variables that it draws of the trajectories among its inputs."""
     params: dict[str, Callable[[dict], dict]] = field(default_factory=dict)
     """What else its script is given, by the configuration."""
-    optional: bool = False
-    """Whether it is made only on request."""
 
 
 ENTRIES = {
@@ -68,17 +64,10 @@ ENTRIES = {
         category="Solver",
         inputs={"table": "results/tables/work-precision.tsv", "others": tables_of_others},
     ),
-    "atlas_coarse": Entry(
-        category="Atlas",
-        script="atlas",
-        inputs={"table": "results/tables/atlas-coarse.tsv", "curves": curves_of_atlas},
-        params={"scenes": places_in_atlas},
-    ),
     "atlas": Entry(
         category="Atlas",
-        inputs={"table": "results/tables/atlas-fine.tsv", "curves": curves_of_atlas},
+        inputs={"table": "results/tables/atlas.tsv", "curves": curves_of_atlas},
         params={"scenes": places_in_atlas},
-        optional=True,
     ),
     "true_torus": Entry(
         category="Atlas",
@@ -93,18 +82,12 @@ ENTRIES = {
     ),
 }
 """In the order of the page."""
-FIGURES = [name for name, entry in ENTRIES.items() if not entry.optional]
-"""Those that are made without being asked for."""
-
-
-def script_of(figure: str) -> str:
-    """Name of its script, and of its caption."""
-    return ENTRIES[figure].script or figure
+FIGURES = list(ENTRIES)
 
 
 def caption_of(figure: str) -> str:
     """Its caption, in the project's folder."""
-    return f"{FOLDER}/{script_of(figure)}.rst"
+    return f"{FOLDER}/{figure}.rst"
 
 
 def inputs_of(figure: str, config: dict) -> dict[str, str | list[str]]:

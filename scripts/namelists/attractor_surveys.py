@@ -63,22 +63,22 @@ def scene_groups(config: dict, scene: str) -> dict:
     return {"observation": observation_group(observation, config["spectra"]), "points": points}
 
 
-def atlas_groups(config: dict, plane: str, grid: str, part: int) -> dict:
-    """Namelist of a part of the atlas: some rows of the grid."""
+def atlas_groups(config: dict, plane: str, part: int) -> dict:
+    """Namelist of a part of the atlas: some delays of a plane."""
     atlas = config["atlas"]
-    settings = atlas["grids"][grid]
-    rows = part_of(settings["tau_count"], settings["parts"], part)
+    settings = atlas["planes"][plane]
+    delays = part_of(atlas["tau_count"], atlas["parts"], part)
     points = points_group(
-        f"{plane} part {part} of {settings['parts']}",
+        f"{plane} part {part} of {atlas['parts']}",
         place={
-            **atlas["planes"][plane],
-            "epsilon": {"window": atlas["epsilon_window"], "count": settings["epsilon_count"]},
-            "tau": {"window": atlas["tau_window"], "count": settings["tau_count"], "part": rows},
+            **settings,
+            "epsilon": {"window": atlas["epsilon_window"], "count": atlas["epsilon_count"]},
+            "tau": {"window": settings["tau_window"], "count": atlas["tau_count"], "part": delays},
         },
         histories=[atlas["history"]],
-        kept=settings["observation"]["kept"],
+        kept=atlas["observation"]["kept"],
     )
-    observation = observation_group(settings["observation"], config["spectra"])
+    observation = observation_group(atlas["observation"], config["spectra"])
     return {"observation": observation, "points": points}
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from scripts.files.tsv import as_text
-from scripts.tables.motion_rows import has_problem, kind_of
+from scripts.tables.motion_rows import UNDECIDED, has_problem, kind_of, planes_of
 
 SHOWN = 1000.0
 """Time up to the end of a run that can be zoomed into."""
@@ -29,7 +29,9 @@ def verdict(row: dict) -> str:
     if has_problem(row):
         return f"no result: {row['problem']}"
     met = kind_of(row)
-    if met != row["class"]:
+    if met == UNDECIDED:
+        met = f"undecided ({row['reason']})"
+    elif met != row["class"]:
         met = f"cycle of period {row['period']:g} in its section"
     exponents = [
         f"{row[f'exponent_{i}']:.3g} ± {row[f'error_{i}']:.1g}"
@@ -73,10 +75,9 @@ def as_base64(values: np.ndarray) -> str:
 
 
 def atlas(rows: list[dict]) -> list[dict]:
-    """Maps of the atlas, one for each stiffness, with cells from the lowest tau upwards."""
+    """Maps of the atlas, one for each plane, with cells from the lowest tau upwards."""
     maps = []
-    for xi in sorted({row["xi"] for row in rows}):
-        inside = [row for row in rows if row["xi"] == xi]
+    for (gamma, xi), inside in planes_of(rows).items():
         columns = sorted({row["epsilon"] for row in inside})
         lines = sorted({row["tau"] for row in inside})
         cells = [
@@ -88,5 +89,6 @@ def atlas(rows: list[dict]) -> list[dict]:
             }
             for row in inside
         ]
-        maps.append({"xi": as_text(xi), "columns": columns, "lines": lines, "cells": cells})
+        plane = f"ξ = {as_text(xi)}, γ = {as_text(gamma)}"
+        maps.append({"plane": plane, "columns": columns, "lines": lines, "cells": cells})
     return maps

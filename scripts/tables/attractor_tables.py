@@ -17,7 +17,6 @@ ERROR_BARS = 3.0
 
 def rows_of(run: xr.Dataset) -> list[dict]:
     """Rows of a file; base frequencies, periods and maxima that are not there are NaN."""
-    names = run["class"].attrs["flag_meanings"].split()
     count = run.sizes["exponent"]
     return [
         {
@@ -28,10 +27,10 @@ def rows_of(run: xr.Dataset) -> list[dict]:
             "theta": float(point.history_theta),
             "u": float(point.history_u),
             "v": float(point.history_v),
-            **{
-                key: names[int(point[key])].replace("_", " ")
-                for key in ("class", "by_exponents", "by_section", "by_spectrum")
-            },
+            "class": in_words(point["class"]),
+            "reason": in_words(point.reason) if point.reason > 0 else "",
+            "time": float(point.time),
+            **{key: in_words(point[key]) for key in ("by_exponents", "by_section", "by_spectrum")},
             "period": positive(point.period),
             **{
                 f"{key}_{i + 1}": float(point[variable][i])
@@ -50,6 +49,11 @@ def rows_of(run: xr.Dataset) -> list[dict]:
         }
         for point in (run.isel(point=i) for i in range(run.sizes["point"]))
     ]
+
+
+def in_words(flag: xr.DataArray) -> str:
+    """The meaning of a flag."""
+    return flag.attrs["flag_meanings"].split()[int(flag)].replace("_", " ")
 
 
 def positive(value: xr.DataArray) -> float:

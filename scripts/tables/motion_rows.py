@@ -26,6 +26,12 @@ def kind_of(row: dict) -> str:
     return "cycle of period > 1" if several else row["class"]
 
 
+def planes_of(rows: list[dict]) -> dict[tuple[float, float], list[dict]]:
+    """Rows of the atlas by their plane, its gamma and xi, in ascending order."""
+    planes = sorted({(row["gamma"], row["xi"]) for row in rows})
+    return {at: [row for row in rows if (row["gamma"], row["xi"]) == at] for at in planes}
+
+
 def parameter_of(rows: list[dict]) -> str:
     """The parameter that varies along a route."""
     return next(key for key in PARAMETERS if len({row[key] for row in rows}) > 1)

@@ -49,11 +49,14 @@ def runs_of_basins(config: dict) -> list[str]:
     return [f"results/attractors/basins/{place}.nc" for place in config["basins"]["places"]]
 
 
-def parts_of_atlas(config: dict, grid: str) -> list[str]:
-    """Parts of all planes of the atlas on one grid."""
-    parts = numbered(config["atlas"]["grids"][grid]["parts"])
-    folder = f"results/attractors/atlas/{grid}"
-    return [f"{folder}/{plane}/{part}.nc" for plane in config["atlas"]["planes"] for part in parts]
+def parts_of_atlas(config: dict) -> list[str]:
+    """Parts of all planes of the atlas."""
+    atlas = config["atlas"]
+    return [
+        f"results/attractors/atlas/{plane}/{part}.nc"
+        for plane in atlas["planes"]
+        for part in numbered(atlas["parts"])
+    ]
 
 
 def curves_of_atlas(config: dict) -> list[str]:

@@ -59,7 +59,7 @@ def report(runs: list[Run], cpu_seconds: float, memory: float) -> list[str]:
     return [
         "workers  points  parts  seconds  s a point  points/s  ratio  ratio at the same speed",
         *(row(run, first) for run in runs),
-        f"a point of the fine atlas: {cpu_seconds:.3f} s of CPU time ({first.points} points)",
+        f"a point of the atlas: {cpu_seconds:.3f} s of CPU time ({first.points} points)",
         f"a part, beside its program: {extra:.1f} s with one worker",
         f"memory of a job: {memory:.0f} MB at most",
         f"{SIDE} x {SIDE}: {points} x {cpu_seconds:.3f} s / 3600 = "

@@ -18,7 +18,7 @@ module exponents_input
 
    !> What is measured.
    type :: exponents_settings_type
-      !> Number of exponents
+      !> Number of exponents, that of the flow among them
       integer :: exponents = 0
       !> Time at which measuring ends
       real(wp) :: t_end = 0.0_wp
@@ -74,7 +74,7 @@ contains
       character(len=*), intent(in) :: path
       !> Key of the number of exponents
       character(len=*), intent(in) :: key
-      !> Number of exponents
+      !> Number of exponents, that of the flow among them
       integer, intent(in) :: exponents
       !> Number of blocks
       integer, intent(in) :: blocks
@@ -85,7 +85,7 @@ contains
       !> An exponent this close to zero has no sign
       real(wp), intent(in) :: zero_level
 
-      call check_count(error, path, key, exponents, at_least=1, at_most=most_exponents)
+      call check_count(error, path, key, exponents, at_least=2, at_most=most_exponents)
       call check_count(error, path, "blocks", blocks, at_least=2, at_most=most_blocks)
       call check_number(error, path, "t_turning", t_turning, at_least=0.0_wp)
       call check_number(error, path, "interval", interval, above=0.0_wp)

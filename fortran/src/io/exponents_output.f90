@@ -40,11 +40,12 @@ contains
       real(wp), dimension(size(options)) :: dimension, dimension_error
       real(wp), allocatable :: averages(:, :), blocks(:, :), time(:)
       integer :: i, id, ids(4)
+      logical :: flow
 
       allocate (blocks(settings%exponents, settings%blocks))
+      flow = size(measured(1)%growth, 1) < settings%exponents
       do i = size(options), 1, -1
-         exponents = average_growth(measured(i)%growth, measured(i)%length, settings%blocks, &
-                                    flow=.true.)
+         exponents = average_growth(measured(i)%growth, measured(i)%length, settings%blocks, flow)
          values(:, i) = exponents%value
          bars(:, i) = exponents%error
          bounds(:, i) = sign_bound(exponents, settings%zero_level)
@@ -54,7 +55,8 @@ contains
          blocks(i, :) = exponents(i)%blocks
       end do
       associate (first => measured(1))
-         call running_averages(with_flow(first%growth), first%length, most_times, time, averages)
+         call running_averages(with_flow(first%growth, flow), first%length, most_times, time, &
+                               averages)
          call file%create(path, "Lyapunov exponents of the spring block with delayed friction")
          ids = [file%dimension("exponent", settings%exponents), &
                 file%dimension("run", size(options)), &
@@ -97,13 +99,19 @@ contains
       call file%finish(error)
    end subroutine write_exponents
 
-   !> The growth of the vectors and, after those that grow, that of the flow: none.
-   pure function with_flow(growth) result(whole)
+   !> The growth of the vectors and, if wanted, after those that grow that of the flow: none.
+   pure function with_flow(growth, flow) result(whole)
       !> Growth of the vectors, shape (vectors, intervals)
       real(wp), intent(in) :: growth(:, :)
-      real(wp) :: whole(size(growth, 1) + 1, size(growth, 2))
+      !> Whether it is wanted
+      logical, intent(in) :: flow
+      real(wp) :: whole(size(growth, 1) + merge(1, 0, flow), size(growth, 2))
       integer :: growing
 
+      if (.not. flow) then
+         whole = growth
+         return
+      end if
       growing = count(sum(growth, dim=2) > 0.0_wp)
       whole(:growing, :) = growth(:growing, :)
       whole(growing + 1, :) = 0.0_wp

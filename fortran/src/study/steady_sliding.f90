@@ -3,14 +3,15 @@
 module steady_sliding
    use block_parameters, only: block_parameters_type
    use block_roots, only: roots_of_block
+   use dde, only: integrate, integration_options, integration_result, table_sampler
    use dde_errors, only: error_type
    use exponent_averages, only: exponent_type
    use dde_kinds, only: wp
    use root_counts, only: roots_right_of
-   use spring_block, only: spring_block_type
+   use spring_block, only: index_of_ln_v, spring_block_type
    implicit none (type, external)
    private
-   public :: settles, sliding_exponents
+   public :: comes_to_rest, settles, sliding_exponents
 
    !> A block approaches steady sliding if, in the second half of the observation, |ln v| is at most
    !> `small`, or at most `near` and at most `shrunk` times its maximum in the first half.
@@ -19,8 +20,39 @@ module steady_sliding
    real(wp), parameter :: first_bound = -1.0_wp/64.0_wp, last_bound = -8.0_wp
    !> Halvings of the interval between a bound with too few roots and one with many.
    integer, parameter :: most_halvings = 20
+   !> Samples of a motion that may come to rest.
+   integer, parameter :: samples_of_rest = 10000
 
 contains
+
+   !> Whether the block of its own history comes to rest: ln v settles between two times, and steady
+   !> sliding is stable.
+   subroutine comes_to_rest(block_model, t_begin, t_end, options, rest, error)
+      !> The block and its history
+      type(spring_block_type), intent(in) :: block_model
+      !> Time from which it is looked at, and time up to which
+      real(wp), intent(in) :: t_begin, t_end
+      !> Method and tolerances
+      type(integration_options), intent(in) :: options
+      !> Whether it does
+      logical, intent(out) :: rest
+      !> The run ended before its time, or the roots of (5) cannot be found
+      type(error_type), allocatable, intent(out) :: error
+      type(exponent_type), allocatable :: exponents(:)
+      type(integration_result) :: outcome
+      type(table_sampler) :: samples
+      integer :: i
+
+      rest = .false.
+      samples = table_sampler([index_of_ln_v], [(t_begin + (t_end - t_begin)*i/samples_of_rest, &
+                                                 i=1, samples_of_rest - 1)])
+      call integrate(block_model, 0.0_wp, t_end, options, outcome, error, sampler=samples)
+      if (allocated(error)) return
+      if (.not. settles(samples%values(1, :))) return
+      call sliding_exponents(block_model, 1, exponents, error)
+      if (allocated(error)) return
+      rest = all(exponents%value < 0.0_wp)
+   end subroutine comes_to_rest
 
    !> Whether ln v stays close to 0 or decays towards it; steady sliding is the attractor if it is
    !> stable, too.
