@@ -1,7 +1,7 @@
 !> Lyapunov exponents of one block over a long run that is cut into pieces (exponents.py). Standard
 !> input: tau, epsilon, xi, gamma, theta, u, w of the constant past; tolerance, transient, time
 !> measured, interval; number of exponents, whether they are across the flow, number of lists of
-!> pieces, and how many pieces each list has. Prints CPU seconds of the time measured, and this time;
+!> pieces, and how many pieces each list has. Prints CPU seconds of the time measured and this time;
 !> then pieces in the list, piece, vector, exponent and standard error.
 program exponents_worker
    use block_parameters, only: block_history_type, block_parameters_type
