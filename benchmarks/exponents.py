@@ -5,6 +5,7 @@ import json
 import os
 import subprocess
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -18,8 +19,6 @@ from scripts.config.read_config import read
 
 PAST = (0.0, 0.0, float(np.log(1.1)))
 GAMMA = 0.8
-INTERVAL = 20.0
-"""Time between two orthonormalisations where costs are compared; JiTCDDE's hardly depends on it."""
 ERROR_BARS = 3.0
 """Standard errors within which the true value is expected."""
 TOLERANCE = 1e-8
@@ -54,6 +53,12 @@ EXPONENTS = 4
 COVERAGE_COLUMNS = ("motion", "length", "runs", "exponent", "value", "rms", "error", "within")
 
 
+@cache
+def interval_in_use() -> float:
+    """Time between two orthonormalisations, from the project's configuration."""
+    return checked(read(ROOT / "config" / "config.yaml"))["exponents"]["interval"]
+
+
 def ours(
     motion: Motion,
     tolerance: float,
@@ -61,13 +66,12 @@ def ours(
     vectors: int,
     lists: list[int],
     flow: bool,
-    interval: float = INTERVAL,
 ) -> tuple[float, float, dict[int, np.ndarray]]:
     """CPU seconds, the time that they are for, and for each number of pieces an array
     (piece, vector, value and standard error)."""
     words = (
         motion.tau, motion.epsilon, motion.xi, GAMMA, *PAST, tolerance, motion.t_transient,
-        t_measured, interval, vectors + flow, "T" if flow else "F", len(lists), *lists,
+        t_measured, interval_in_use(), vectors + flow, "T" if flow else "F", len(lists), *lists,
     )  # fmt: skip
     line = " ".join(map(str, words))
     run = subprocess.run([BUILD / "exponents_worker"], input=line, capture_output=True, text=True)
@@ -82,17 +86,10 @@ def ours(
     return seconds, passed, pieces
 
 
-def own_interval() -> float:
-    """Time between two orthonormalisations in the project's configuration."""
-    return checked(read(ROOT / "config" / "config.yaml"))["exponents"]["interval"]
-
-
 def coverage(motion: Motion) -> list[dict]:
     """How often the true exponents lie within the error bars of shorter runs."""
     doubled = [2 * count for count in RUNS]
-    _, passed, pieces = ours(
-        motion, TOLERANCE, 2 * T_COVERED, EXPONENTS - 1, [2, *doubled], True, own_interval()
-    )
+    _, passed, pieces = ours(motion, TOLERANCE, 2 * T_COVERED, EXPONENTS - 1, [2, *doubled], True)
     true = pieces[2][1, :, 0]
     rows = []
     for count in RUNS:
@@ -129,7 +126,7 @@ def jitcdde(motion: Motion, tolerance: float, t_measured: float, vectors: int) -
         "past": PAST,
         "vectors": vectors,
         "tolerance": tolerance,
-        "interval": INTERVAL,
+        "interval": interval_in_use(),
         "t_transient": motion.t_transient,
         "t_measured": t_measured,
     }
@@ -152,18 +149,17 @@ def means(found: dict, count: int, smooth: bool) -> np.ndarray:
     weights, or with this project's smooth ends."""
     growth, length = np.array(found["growth"]), np.array(found["length"])
     long = len(length) // count
-    weight = smooth_ends(long) if smooth else np.ones(long)
     growth = growth[: count * long].reshape(count, long, -1)
     length = length[: count * long].reshape(count, long)
-    return np.einsum("j,ijk->ik", weight, growth) / (length @ weight)[:, None]
+    weight = np.array([smooth_ends(row) for row in length]) if smooth else np.ones_like(length)
+    return np.einsum("ij,ijk->ik", weight, growth) / np.sum(weight * length, axis=1)[:, None]
 
 
-def smooth_ends(count: int) -> np.ndarray:
-    """Weights that rise over the first tenth like exp(-1/x) and fall over the last."""
-    place = np.arange(count) + 0.5
-    x = np.minimum(1.0, np.minimum(place, count - place) / (0.1 * count))
-    inner = np.clip(x, 1e-9, 1 - 1e-9)
-    return np.where(x < 1, 1 / (1 + np.exp(np.clip(1 / inner - 1 / (1 - inner), -700, 700))), 1.0)
+def smooth_ends(length: np.ndarray) -> np.ndarray:
+    """Weights that rise like exp(-1/x) over the first quarter of the time and fall at its end."""
+    middle = (np.cumsum(length) - length / 2) / np.sum(length)
+    x = np.clip(4 * np.minimum(middle, 1 - middle), 1e-9, 1 - 1e-9)
+    return (1 - np.tanh((1 / x - 1 / (1 - x)) / 2)) / 2
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -255,10 +251,16 @@ def main() -> None:
     parser.add_argument("--output", type=Path, default=ROOT / "results" / "tables")
     options = parser.parse_args()
     header = machine()[:2]
+    meaning = "within: share of runs whose value is at most three of their errors from `value`"
     rows = [row for motion in MOTIONS for row in coverage(motion)]
-    write_table(options.output / "exponent-coverage.tsv", list(COVERAGE_COLUMNS), rows, header)
+    write_table(
+        options.output / "exponent-coverage.tsv", list(COVERAGE_COLUMNS), rows, [*header, meaning]
+    )
+    meaning = "jitcdde: its CPU time over ours at equal error; empty where not reached"
     rows = [row for each in COMPARISONS for t in TOLERANCES for row in compared(each, t)]
-    write_table(options.output / "exponent-ratios.tsv", list(RATIO_COLUMNS), rows, header)
+    write_table(
+        options.output / "exponent-ratios.tsv", list(RATIO_COLUMNS), rows, [*header, meaning]
+    )
 
 
 if __name__ == "__main__":

@@ -309,11 +309,11 @@ def test_constant_growth_is_its_own_mean():
 
 
 def test_smooth_ends_take_out_a_swing():
-    """To a tenth of what level weights leave of it."""
+    """To a hundredth of what level weights leave of it."""
     swings = growth_of(lambda t: np.sin(0.1 * t))
     level, smooth = (exponents.rms(exponents.means(swings, 4, each)) for each in (False, True))
     assert 1e-5 < level < 1e-2
-    assert smooth < level / 10
+    assert smooth < level / 100
 
 
 def test_answer_of_the_worker_is_read(monkeypatch, tmp_path):

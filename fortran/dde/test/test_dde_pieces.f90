@@ -6,13 +6,10 @@ module test_dde_pieces
    use expectations, only: expect, expect_close, expect_failure, expect_success
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use published_problems, only: mackey_glass
+   use solving, only: at_tolerance
    implicit none (type, external)
    private
    public :: collect_dde_pieces
-
-   !> Of all runs here.
-   type(integration_options), parameter :: options = &
-      integration_options(method="taylor", relative=1.0e-10_wp, absolute=1.0e-10_wp)
 
 contains
 
@@ -34,12 +31,12 @@ contains
       integer(int64) :: steps
       integer :: i
 
-      call integrate(problem(), 0.0_wp, 600.0_wp, options, whole, failure)
+      call integrate(problem(), 0.0_wp, 600.0_wp, options(), whole, failure)
       call expect_success(error, failure)
       steps = 0
       do i = 1, pieces
          call integrate(problem(), (i - 1)*600.0_wp/pieces, i*600.0_wp/pieces, &
-                        options, outcome, failure, continuation=continuation)
+                        options(), outcome, failure, continuation=continuation)
          call expect_success(error, failure)
          if (allocated(error)) return
          steps = steps + outcome%accepted
@@ -58,15 +55,15 @@ contains
       real(wp), parameter :: late(2) = [spacing(100.0_wp), 1.0e-9_wp]
       integer :: i
 
-      call integrate(problem(), 0.0_wp, 110.0_wp, options, known, failure)
+      call integrate(problem(), 0.0_wp, 110.0_wp, options(), known, failure)
       call expect_success(error, failure)
       do i = 1, size(late)
          continuation = continuation_type()
          ! the end of the first run is the start of the oldest step kept by the second
-         call integrate(problem(), 0.0_wp, 83.0_wp, options, outcome, failure, &
+         call integrate(problem(), 0.0_wp, 83.0_wp, options(), outcome, failure, &
                         continuation=continuation)
          call expect_success(error, failure)
-         call integrate(problem(), 83.0_wp, 100.0_wp, options, outcome, failure, &
+         call integrate(problem(), 83.0_wp, 100.0_wp, options(), outcome, failure, &
                         continuation=continuation)
          call expect_success(error, failure)
          if (allocated(error)) return
@@ -74,7 +71,7 @@ contains
             call expect_close(error, start, [83.0_wp, 0.0_wp], 0.0_wp, "the oldest step")
             start(1) = start(1) + late(i)
          end associate
-         call integrate(problem(), 100.0_wp, 110.0_wp, options, outcome, failure, &
+         call integrate(problem(), 100.0_wp, 110.0_wp, options(), outcome, failure, &
                         continuation=continuation)
          if (i == 1) then
             call expect_success(error, failure)
@@ -85,6 +82,11 @@ contains
          end if
       end do
    end subroutine test_rounding
+
+   !> Of all runs here.
+   type(integration_options) function options()
+      options = at_tolerance(1.0e-10_wp, "taylor")
+   end function options
 
    !> Mackey and Glass's equation.
    type(mackey_glass) function problem() result(equation)
