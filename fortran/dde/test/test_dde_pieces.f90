@@ -84,8 +84,8 @@ contains
    end subroutine test_rounding
 
    !> Of all runs here.
-   type(integration_options) function options()
-      options = at_tolerance(1.0e-10_wp, "taylor")
+   type(integration_options) function options() result(taylor)
+      taylor = at_tolerance(1.0e-10_wp, "taylor")
    end function options
 
    !> Mackey and Glass's equation.
