@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 import compare
+import exponents
 import long_runs
 import numpy as np
 import pytest
@@ -292,3 +293,39 @@ def test_run_says_how_it_is_used(option, tmp_path):
     assert run.returncode == 0
     options = compare.arguments([], NAMES)
     assert all(f"--{name.replace('_', '-')} " in run.stdout for name in vars(options))
+
+
+def growth_of(logarithm) -> dict:
+    """Growth of one vector over intervals of uneven length, by the logarithm of its norm."""
+    edges = 5.0 * np.arange(1001.0) + 0.2 * np.sin(np.arange(1001.0) ** 2)
+    return {"growth": np.diff(logarithm(edges))[:, None], "length": np.diff(edges)}
+
+
+def test_constant_growth_is_its_own_mean():
+    """In each piece, with either weights."""
+    for smooth in (False, True):
+        values = exponents.means(growth_of(lambda t: 0.25 * t), 4, smooth)
+        assert values == pytest.approx(np.full((4, 1), 0.25))
+
+
+def test_smooth_ends_take_out_a_swing():
+    """To a hundredth of what level weights leave of it."""
+    swings = growth_of(lambda t: np.sin(0.1 * t))
+    level, smooth = (exponents.rms(exponents.means(swings, 4, each)) for each in (False, True))
+    assert 1e-5 < level < 1e-2
+    assert smooth < level / 100
+
+
+def test_answer_of_the_worker_is_read(monkeypatch, tmp_path):
+    """Seconds, time, and a table of values and errors for each number of pieces."""
+    script = tmp_path / "exponents_worker"
+    script.write_text(
+        "#!/bin/sh\nread request\necho 2.0 100.0\necho 1 1 1 0.5 0.1\necho 1 1 2 -0.5 0.2\n"
+        "for piece in 1 2; do echo 2 $piece 1 0.4 0.3; echo 2 $piece 2 -0.4 0.4; done\n"
+    )
+    script.chmod(0o755)
+    monkeypatch.setattr(exponents, "BUILD", tmp_path)
+    seconds, passed, pieces = exponents.ours(exponents.CHAOS, 1e-8, 100.0, 2, [1, 2], True)
+    assert (seconds, passed) == (2.0, 100.0)
+    assert pieces[1].tolist() == [[[0.5, 0.1], [-0.5, 0.2]]]
+    assert pieces[2][1].tolist() == [[0.4, 0.3], [-0.4, 0.4]]

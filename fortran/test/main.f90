@@ -35,6 +35,8 @@ program tester
    use test_spring_block, only: collect_spring_block
    use test_stability_changes, only: collect_stability_changes
    use test_steady_sliding, only: collect_steady_sliding
+   use test_tangent_runs, only: collect_tangent_runs
+   use test_tangent_series, only: collect_tangent_series
    use test_tangents, only: collect_tangents
    use test_velocity_step, only: collect_velocity_step
    implicit none (type, external)
@@ -75,6 +77,8 @@ program tester
                              new_testsuite("spring_block", collect_spring_block), &
                              new_testsuite("stability_changes", collect_stability_changes), &
                              new_testsuite("steady_sliding", collect_steady_sliding), &
+                             new_testsuite("tangent_runs", collect_tangent_runs), &
+                             new_testsuite("tangent_series", collect_tangent_series), &
                              new_testsuite("tangents", collect_tangents), &
                              new_testsuite("velocity_step", collect_velocity_step)])
    wanted = ""

@@ -13,6 +13,7 @@ program dde_tester
    use test_dde_large, only: collect_dde_large
    use test_dde_order, only: collect_dde_order
    use test_dde_past_series, only: collect_dde_past_series
+   use test_dde_pieces, only: collect_dde_pieces
    use test_dde_receivers, only: collect_dde_receivers
    use test_dde_refusals, only: collect_dde_refusals
    use test_dde_sizes, only: collect_dde_sizes
@@ -36,6 +37,7 @@ program dde_tester
                              new_testsuite("dde_large", collect_dde_large), &
                              new_testsuite("dde_order", collect_dde_order), &
                              new_testsuite("dde_past_series", collect_dde_past_series), &
+                             new_testsuite("dde_pieces", collect_dde_pieces), &
                              new_testsuite("dde_receivers", collect_dde_receivers), &
                              new_testsuite("dde_refusals", collect_dde_refusals), &
                              new_testsuite("dde_sizes", collect_dde_sizes), &

@@ -33,6 +33,7 @@ module published_problems
    contains
       procedure :: rhs => mackey_glass_rhs
       procedure :: series => mackey_glass_series
+      procedure :: tangent_series => mackey_glass_tangent_series
    end type mackey_glass
 
    interface mackey_glass
@@ -65,6 +66,7 @@ contains
 
       call fill(problem, n, past, first, lag, component)
       problem%analytic = .true.
+      problem%analytic_tangents = .true.
    end function new_mackey_glass
 
    !> z = (y2(t-1), y2(t-10)).
@@ -118,7 +120,7 @@ contains
       dydt = 0.2_wp*z/(1.0_wp + z**10) - 0.1_wp*y
    end subroutine mackey_glass_rhs
 
-   !> power = z^10 by z power' = 10 power z', gain = z/(1 + power) by gain (1 + power) = z.
+   !> From the gain z/(1 + z^10).
    pure subroutine mackey_glass_series(self, t, unit, degree, z, y)
       class(mackey_glass), intent(in) :: self
       real(wp), intent(in) :: t, unit
@@ -126,16 +128,51 @@ contains
       real(wp), intent(in) :: z(0:degree, size(self%lag))
       real(wp), intent(inout) :: y(0:degree, self%n)
       real(wp), dimension(0:degree) :: gain, power
-      integer :: j
       integer :: k
 
-      power(0) = z(0, 1)**10
-      do k = 1, degree
-         power(k) = sum([((11*j - k)*z(j, 1)*power(k - j), j=1, k)])/(k*z(0, 1))
-      end do
+      call power_and_gain(degree, z, power, gain)
       do k = 0, degree - 1
-         gain(k) = (z(k, 1) - sum(power(1:k)*gain(k - 1:0:-1)))/(1.0_wp + power(0))
          y(k + 1, 1) = unit/(k + 1)*(0.2_wp*gain(k) - 0.1_wp*y(k, 1))
       end do
    end subroutine mackey_glass_series
+
+   !> d power by z d power = 10 power dz, d gain by d gain (1 + power) + gain d power = dz.
+   pure subroutine mackey_glass_tangent_series(self, t, unit, degree, z, y, vectors, dz, dy)
+      class(mackey_glass), intent(in) :: self
+      real(wp), intent(in) :: t, unit
+      integer, intent(in) :: degree
+      real(wp), intent(in) :: z(0:degree, size(self%lag))
+      real(wp), intent(in) :: y(0:degree, self%n)
+      integer, intent(in) :: vectors
+      real(wp), intent(in) :: dz(0:degree, size(self%lag), vectors)
+      real(wp), intent(inout) :: dy(0:degree, self%n, vectors)
+      real(wp), dimension(0:degree) :: d_gain, d_power, gain, power
+      integer :: i, k
+
+      call power_and_gain(degree, z, power, gain)
+      do i = 1, vectors
+         do k = 0, degree - 1
+            d_power(k) = (10.0_wp*sum(power(0:k)*dz(k:0:-1, 1, i)) &
+                          - sum(z(1:k, 1)*d_power(k - 1:0:-1)))/z(0, 1)
+            d_gain(k) = (dz(k, 1, i) - sum(power(1:k)*d_gain(k - 1:0:-1)) &
+                         - sum(gain(0:k)*d_power(k:0:-1)))/(1.0_wp + power(0))
+            dy(k + 1, 1, i) = unit/(k + 1)*(0.2_wp*d_gain(k) - 0.1_wp*dy(k, 1, i))
+         end do
+      end do
+   end subroutine mackey_glass_tangent_series
+
+   !> power = z^10 by z power' = 10 power z', gain = z/(1 + power) by gain (1 + power) = z.
+   pure subroutine power_and_gain(degree, z, power, gain)
+      integer, intent(in) :: degree
+      real(wp), intent(in) :: z(0:degree)
+      real(wp), intent(out) :: power(0:degree), gain(0:degree)
+      integer :: j, k
+
+      power(0) = z(0)**10
+      gain(0) = z(0)/(1.0_wp + power(0))
+      do k = 1, degree
+         power(k) = sum([((11*j - k)*z(j)*power(k - j), j=1, k)])/(k*z(0))
+         gain(k) = (z(k) - sum(power(1:k)*gain(k - 1:0:-1)))/(1.0_wp + power(0))
+      end do
+   end subroutine power_and_gain
 end module published_problems
