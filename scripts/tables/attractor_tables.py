@@ -17,48 +17,43 @@ ERROR_BARS = 3.0
 
 def rows_of(run: xr.Dataset) -> list[dict]:
     """Rows of a file; base frequencies, periods and maxima that are not there are NaN."""
-    count = run.sizes["exponent"]
+    columns = {
+        **{key: numbers(run[key]) for key in ("epsilon", "tau", "xi", "gamma")},
+        **{key: numbers(run[f"history_{key}"]) for key in ("theta", "u", "v")},
+        "class": words(run["class"]),
+        "reason": ["" if word == "none" else word for word in words(run.reason)],
+        "time": numbers(run.time),
+        **{key: words(run[key]) for key in ("by_exponents", "by_section", "by_spectrum")},
+        "period": positive(run.period),
+        **{
+            f"{key}_{i + 1}": numbers(run[variable].isel(exponent=i))
+            for i in range(run.sizes["exponent"])
+            for key, variable in (("exponent", "lyapunov_exponent"), ("error", "lyapunov_error"))
+        },
+        "f1": positive(run.base_1),
+        "f2": positive(run.base_2),
+        **{key: numbers(run[key]) for key in ("smallest_maximum", "largest_maximum", "roughness")},
+        "problem": [str(problem).strip() for problem in run.problem.values],
+    }
     return [
-        {
-            "epsilon": float(point.epsilon),
-            "tau": float(point.tau),
-            "xi": float(point.xi),
-            "gamma": float(point.gamma),
-            "theta": float(point.history_theta),
-            "u": float(point.history_u),
-            "v": float(point.history_v),
-            "class": in_words(point["class"]),
-            "reason": in_words(point.reason) if point.reason > 0 else "",
-            "time": float(point.time),
-            **{key: in_words(point[key]) for key in ("by_exponents", "by_section", "by_spectrum")},
-            "period": positive(point.period),
-            **{
-                f"{key}_{i + 1}": float(point[variable][i])
-                for i in range(count)
-                for key, variable in (
-                    ("exponent", "lyapunov_exponent"),
-                    ("error", "lyapunov_error"),
-                )
-            },
-            "f1": positive(point.base_1),
-            "f2": positive(point.base_2),
-            "smallest_maximum": float(point.smallest_maximum),
-            "largest_maximum": float(point.largest_maximum),
-            "roughness": float(point.roughness),
-            "problem": str(point.problem.item()).strip(),
-        }
-        for point in (run.isel(point=i) for i in range(run.sizes["point"]))
+        dict(zip(columns, values, strict=True)) for values in zip(*columns.values(), strict=True)
     ]
 
 
-def in_words(flag: xr.DataArray) -> str:
-    """The meaning of a flag."""
-    return flag.attrs["flag_meanings"].split()[int(flag)].replace("_", " ")
+def numbers(values: xr.DataArray) -> list[float]:
+    """A column of numbers."""
+    return values.values.astype(float).tolist()
 
 
-def positive(value: xr.DataArray) -> float:
-    """A number, or NaN where 0 says that there is none."""
-    return float(value) if value > 0 else np.nan
+def positive(values: xr.DataArray) -> list[float]:
+    """The same, NaN where 0 says that there is none."""
+    return numbers(values.where(values > 0))
+
+
+def words(flags: xr.DataArray) -> list[str]:
+    """A column of flags by their meanings."""
+    meanings = [word.replace("_", " ") for word in flags.attrs["flag_meanings"].split()]
+    return [meanings[flag] for flag in flags.values]
 
 
 def scene_rows(scene: str, run: xr.Dataset) -> list[dict]:
