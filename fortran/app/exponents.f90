@@ -29,7 +29,6 @@ program exponents
    call stop_on(error)
    call read_exponents(namelist_path, scene, settings, error)
    call stop_on(error)
-
    block_model = spring_block_type(scene%parameters, scene%history)
    own = integration_options(method=trim(scene%method), relative=scene%tolerance, &
                              absolute=scene%tolerance)
@@ -48,8 +47,9 @@ program exponents
       call measure_growth(block_model, &
                           growth_settings_type( &
                           exponents=settings%exponents, t_begin=scene%t_transient, &
-                          t_end=settings%t_end, t_turning=settings%t_turning, blocks=settings%blocks, &
-                          interval=settings%interval, across_flow=.not. rest), &
+                          t_end=settings%t_end, t_turning=settings%t_turning, &
+                          interval=settings%interval, blocks=settings%blocks, &
+                          across_flow=.not. rest), &
                           options(i), measured(i), error, progress=report)
       if (allocated(error)) exit
    end do
