@@ -79,8 +79,8 @@ contains
       integer :: blocks, doublings, exponents, segments, status, unit
       integer(int64) :: most_steps
       namelist /observation/ t_transient, t_observed, t_lasting, t_turning, interval, blocks, &
-         exponents, zero_level, longest_bar, doublings, sample_interval, window, segments, overlap, &
-         peak_floor, peak_prominence, tolerance, method, most_steps
+         exponents, zero_level, longest_bar, doublings, sample_interval, window, segments, &
+         overlap, peak_floor, peak_prominence, tolerance, method, most_steps
 
       t_transient = not_given()
       t_observed = t_transient
