@@ -81,7 +81,11 @@ DATA_OF_TABLES = {
     "work-precision.tsv": {
         f"{study}/{name}.nc" for study in ("trust", "work_precision") for name in WORK_SCENES
     },
-    "atlas.tsv": {f"{plane}/{part:04}.nc" for plane in PLANES for part in range(1, 18)},
+    "atlas.tsv": {
+        f"{plane}/{part:04}.nc"
+        for plane in PLANES
+        for part in range(1, settings("atlas", "parts") + 1)
+    },
     "attractors.tsv": {f"scenes/{scene}.nc" for scene in ["fixed_point", *SCENES]},
     **{f"{line}.tsv": {f"{line}/{run}.nc" for run in RUNS} for line in LINES},
     "benchmarks.tsv": set(),

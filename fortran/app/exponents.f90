@@ -21,7 +21,7 @@ program exponents
    type(scene_type) :: scene
    type(spring_block_type) :: block_model
    integer :: i
-   logical :: rest
+   logical :: rest ! where no exponent is that of the flow
 
    call get_paths(namelist_path, output_path, error)
    call stop_on(error)
@@ -29,7 +29,6 @@ program exponents
    call stop_on(error)
    call read_exponents(namelist_path, scene, settings, error)
    call stop_on(error)
-
    block_model = spring_block_type(scene%parameters, scene%history)
    own = integration_options(method=trim(scene%method), relative=scene%tolerance, &
                              absolute=scene%tolerance)
@@ -40,18 +39,17 @@ program exponents
       options(2 + size(tolerances):)%longest_step = steps
    end associate
    allocate (measured(size(options)))
-   ! at rest no exponent is that of the flow
    call comes_to_rest(block_model, scene%t_transient, settings%t_end, own, rest, error)
    call stop_on(error)
    report = progress_type("exponents of "//trim(scene%name), parts=size(options))
    do i = 1, size(options)
       call report%begin_part(i)
       call measure_growth(block_model, &
-                          growth_settings_type(exponents=settings%exponents, &
-                                               t_begin=scene%t_transient, t_end=settings%t_end, &
-                                               t_turning=settings%t_turning, &
-                                               interval=settings%interval, &
-                                               blocks=settings%blocks, across_flow=.not. rest), &
+                          growth_settings_type( &
+                          exponents=settings%exponents, t_begin=scene%t_transient, &
+                          t_end=settings%t_end, t_turning=settings%t_turning, &
+                          interval=settings%interval, blocks=settings%blocks, &
+                          across_flow=.not. rest), &
                           options(i), measured(i), error, progress=report)
       if (allocated(error)) exit
    end do

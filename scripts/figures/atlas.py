@@ -30,7 +30,7 @@ def draw(rows: list[dict], curves: list[xr.Dataset], scenes: dict[str, dict]) ->
     figure, panels = plt.subplots(
         len(planes),
         2,
-        figsize=(6.7, 1.1 + 2.3 * len(planes)),
+        figsize=(6.7, 1.1 + 2.4 * len(planes)),
         sharex=True,
         sharey="row",
         squeeze=False,
@@ -48,7 +48,7 @@ def draw(rows: list[dict], curves: list[xr.Dataset], scenes: dict[str, dict]) ->
                     draw_curves(axes, plane)
             mark_scenes(axes, inside, named=axes is left)
         symbols = rf"$\xi$ = {at[1]:g}, $\gamma$ = {at[0]:g}"
-        left.set_title(f"$\\bf{{{next(letters)}}}$  {symbols}: {count_in_words(shown)}")
+        left.set_title(f"$\\bf{{{next(letters)}}}$  {symbols}\n{count_in_words(shown)}")
         right.set_title(f"$\\bf{{{next(letters)}}}$  the same: largest Lyapunov exponent")
         left.set_ylabel(r"delay $\tau$ (units of $L/v_0$)")
     for axes in panels[-1]:
