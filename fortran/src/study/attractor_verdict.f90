@@ -1,0 +1,161 @@
+!> The class of an attractor by what was seen of it: by Lyapunov exponents, confirmed by a Poincare
+!> section and by the spectrum of v.
+module attractor_verdict
+   use base_frequencies, only: bases_type, label_peaks
+   use dde_errors, only: error_type
+   use exponent_averages, only: average_growth, exponent_type
+   use dde_kinds, only: wp
+   use lyapunov_spectrum, only: growth_type
+   use motion_classes, only: agree, chaos, class_by_exponents, clear, cycle_motion, &
+                             no_class_by_exponents, none, torus, undecided
+   use observed_motion, only: observed_motion_type
+   use section_motion, only: judge_section, period_of_tail, section_verdict_type
+   use spectral_peaks, only: find_peaks, peak_type
+   use spectrum, only: power_spectrum
+   use spectrum_verdict, only: continuum, line_share, one_base, spectrum_kind, two_bases
+   implicit none (type, external)
+   private
+   public :: attractor_settings_type, attractor_type, judge, on_cycle
+
+   !> How an attractor is found and judged.
+   type :: attractor_settings_type
+      !> Longest time of the approach, left out
+      real(wp) :: t_transient = 0.0_wp
+      !> Time in which it is first observed, and exponents are measured
+      real(wp) :: t_observed = 0.0_wp
+      !> Time for which chaos must last after it is certain
+      real(wp) :: t_lasting = 0.0_wp
+      !> Time in which tangent vectors turn before
+      real(wp) :: t_turning = 0.0_wp
+      !> Longest time between orthonormalisations
+      real(wp) :: interval = 0.0_wp
+      !> Number of blocks of exponents
+      integer :: blocks = 0
+      !> Number of exponents; without delay no more are measured than equations
+      integer :: exponents = 0
+      !> An exponent this close to zero has no sign
+      real(wp) :: zero_level = 0.0_wp
+      !> Longest error bar of a zero exponent
+      real(wp) :: longest_bar = 0.0_wp
+      !> How often that time is doubled while the class is undecided
+      integer :: doublings = 0
+      !> Time between the samples of the spectrum
+      real(wp) :: sample_interval = 0.0_wp
+      !> Window of the spectrum, of `window_of`
+      character(len=8) :: window = "hann"
+      !> Number of its segments, and the share of one that the next repeats
+      integer :: segments = 1
+      real(wp) :: overlap = 0.0_wp
+      !> Least height of its peaks over the highest, and over the valleys beside them
+      real(wp) :: peak_floor = 0.0_wp, peak_prominence = 1.0_wp
+   end type attractor_settings_type
+
+   !> What was found.
+   type :: attractor_type
+      !> Classes, of `motion_classes`
+      integer :: class = undecided, by_exponents = undecided, by_section = undecided
+      integer :: by_spectrum = undecided
+      !> Why the class is undecided, of `motion_classes`
+      integer :: reason = none
+      !> Time after which the class was certain, or the limit
+      real(wp) :: time = 0.0_wp
+      !> Leading exponents, descending
+      type(exponent_type), allocatable :: exponents(:)
+      !> Points after which a cycle repeats in the section, 0 where none
+      integer :: period = 0
+      !> Roughness of the section as a function of two phases, see `section_verdict_type`
+      real(wp) :: roughness = 1.0_wp
+      !> Base frequencies of v, 0 where none
+      real(wp) :: bases(2) = 0.0_wp
+      !> Share of the power of v in the lines of these
+      real(wp) :: line_share = 0.0_wp
+      !> What was seen of it
+      type(observed_motion_type) :: motion
+   end type attractor_type
+
+contains
+
+   !> The class by what was seen so far. The spectrum is computed where it matters.
+   subroutine judge(settings, measured, last, attractor, error)
+      !> How
+      type(attractor_settings_type), intent(in) :: settings
+      !> Growth of the vectors
+      type(growth_type), intent(in) :: measured
+      !> Whether this is the last judgement
+      logical, intent(in) :: last
+      !> The attractor
+      type(attractor_type), intent(inout) :: attractor
+      !> Too few samples
+      type(error_type), allocatable, intent(out) :: error
+      type(section_verdict_type) :: in_section
+
+      attractor%exponents = average_growth(measured%growth, measured%length, settings%blocks, &
+                                           flow=.true.)
+      attractor%by_exponents = class_by_exponents(attractor%exponents, settings%zero_level, &
+                                                  settings%longest_bar)
+      attractor%by_section = undecided
+      attractor%by_spectrum = undecided
+      attractor%reason = no_class_by_exponents
+      if (attractor%by_exponents == undecided .and. .not. last) return
+      associate (motion => attractor%motion)
+         attractor%period = period_of_tail(motion%section, motion%scale(), &
+                                           on_the_way=attractor%by_exponents == cycle_motion)
+         if (attractor%period > 0) then
+            attractor%by_section = cycle_motion
+            associate (time => motion%section_time, n => size(motion%section_time))
+               attractor%bases = [1.0_wp/(time(n) - time(n - attractor%period)), 0.0_wp]
+            end associate
+         else if (.not. clear(attractor%exponents)) then
+            call judge_spectrum(exp(motion%samples(3, :)), settings, attractor, error)
+            if (allocated(error)) return
+            call judge_section(motion%section, motion%section_time, motion%scale(), &
+                               attractor%bases, in_section)
+            attractor%by_section = in_section%class
+            attractor%period = in_section%period
+            attractor%roughness = in_section%roughness
+         end if
+      end associate
+      call agree(attractor%exponents, attractor%by_exponents, attractor%by_section, &
+                 attractor%by_spectrum, attractor%class, attractor%reason)
+   end subroutine judge
+
+   !> The class by the lines in the spectrum of v.
+   subroutine judge_spectrum(v, settings, attractor, error)
+      !> Samples of v
+      real(wp), intent(in) :: v(:)
+      !> How
+      type(attractor_settings_type), intent(in) :: settings
+      !> The attractor
+      type(attractor_type), intent(inout) :: attractor
+      !> Too few samples
+      type(error_type), allocatable, intent(out) :: error
+      type(bases_type) :: bases
+      type(peak_type), allocatable :: peaks(:)
+      real(wp), allocatable :: frequency(:), power(:)
+
+      call power_spectrum(v, settings%sample_interval, trim(settings%window), settings%segments, &
+                          settings%overlap, frequency, power, error)
+      if (allocated(error)) return
+      peaks = find_peaks(frequency, power, settings%peak_floor, settings%peak_prominence)
+      call label_peaks(peaks, frequency(2), bases)
+      attractor%bases = bases%frequency
+      attractor%line_share = line_share(power, peaks)
+      select case (spectrum_kind(power, peaks, bases))
+      case (one_base)
+         attractor%by_spectrum = cycle_motion
+      case (two_bases)
+         attractor%by_spectrum = torus
+      case (continuum)
+         attractor%by_spectrum = chaos
+      case default
+         attractor%by_spectrum = undecided
+      end select
+   end subroutine judge_spectrum
+   !> Whether the last points of the section are those of a cycle.
+   pure logical function on_cycle(motion) result(value)
+      !> The motion
+      type(observed_motion_type), intent(in) :: motion
+
+      value = period_of_tail(motion%section, motion%scale(), .false.) > 0
+   end function on_cycle
+end module attractor_verdict
