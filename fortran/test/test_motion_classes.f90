@@ -142,6 +142,9 @@ contains
             end do
          end do
       end do
+      call expect(error, .not. clear([exponent_type(2.0e-3_wp, 1.0e-5_wp), &
+                                      exponent_type(1.99e-3_wp, 1.0e-5_wp), &
+                                      exponent_type(0.0_wp, 0.0_wp)]), "an unstable cycle")
       call agree(exponents, undecided, torus, torus, found, reason)
       call expect(error, reason == no_class_by_exponents, "no class by exponents")
       call agree(exponents, cycle_motion, torus, undecided, found, reason)

@@ -345,6 +345,8 @@ contains
       call expect(error, drifts(exp(-3.0_wp*ramp)), "a decay")
       call expect(error, drifts(1.0_wp + 0.5_wp*ramp + uniform(1, n, -0.2_wp, 0.2_wp)), &
                   "a ramp with noise")
+      call expect(error, drifts(2.0_wp + 0.1_wp*exp(2.0_wp*ramp)*sin(20.0_wp*turn*ramp)), &
+                  "growing swings")
       call expect(error, .not. drifts(1.0_wp + 1.0e-4_wp*ramp), "a small change")
       call expect(error, .not. drifts(1.0_wp + 0.5_wp*sin(20.0_wp*turn*ramp)), "a beat")
       call expect(error, .not. drifts(ramp(:11)), "too few")

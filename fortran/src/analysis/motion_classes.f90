@@ -104,11 +104,17 @@ contains
    end subroutine agree
 
    !> Whether one exponent is the flow's and all others are far from zero: then they need no
-   !> confirmation. If all of them are negative, the attractor is a cycle.
+   !> confirmation. If all of them are negative, the attractor is a cycle. Two equal ones that are
+   !> positive may be those of an unstable cycle that the motion has not left yet.
    pure logical function clear(exponents) result(value)
       !> Exponents, descending
       type(exponent_type), intent(in) :: exponents(:)
 
       value = count(abs(exponents%value) <= far*exponents%error) == 1
+      if (.not. value .or. size(exponents) < 2) return
+      associate (first => exponents(1), second => exponents(2))
+         value = first%value <= 0.0_wp &
+                 .or. first%value - second%value > far*max(first%error, second%error)
+      end associate
    end function clear
 end module motion_classes

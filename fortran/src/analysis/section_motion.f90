@@ -20,10 +20,10 @@ module section_motion
    !> unless it is below the second share.
    real(wp), parameter :: reached = 1.0e-5_wp, negligible = 1.0e-6_wp, most_growth = 1.1_wp
    integer, parameter :: last_turns = 3, last_points = 12
-   !> Maxima drift if the means of so many blocks of them have a slope of so many standard errors,
-   !> and change by this share at least.
-   integer, parameter :: drift_blocks = 12
-   real(wp), parameter :: drift_errors = 5.0_wp, least_drift = 1.0e-3_wp
+   !> Maxima drift if of the 66 pairs of the means of so many blocks of them so many more are in one
+   !> order than in the other (by chance: 1 in 1000), and if the means differ by this share at least.
+   integer, parameter :: drift_blocks = 12, least_score = 48
+   real(wp), parameter :: least_drift = 1.0e-3_wp
    !> Largest roughness of a torus.
    real(wp), parameter :: torus_roughness = 0.05_wp
 
@@ -101,26 +101,36 @@ contains
       period = 0
    end function period_of_tail
 
-   !> Whether maxima grow or shrink all the time: then the attractor is not reached.
+   !> Whether maxima, or their distances from their mean, grow or shrink all the time: then the
+   !> attractor is not reached. The distances grow near an unstable cycle.
    pure logical function drifts(maxima) result(value)
       !> Maxima in order of time
       real(wp), intent(in) :: maxima(:)
-      real(wp) :: mean(drift_blocks), slope, x(drift_blocks)
-      integer :: i, length
+
+      value = has_trend(maxima)
+      if (.not. value .and. size(maxima) > 0) then
+         value = has_trend(abs(maxima - sum(maxima)/size(maxima)))
+      end if
+   end function drifts
+
+   !> Whether values have a trend, by Kendall's rank correlation of the means of blocks with time.
+   pure logical function has_trend(values) result(value)
+      !> Values in order of time
+      real(wp), intent(in) :: values(:)
+      real(wp) :: mean(drift_blocks)
+      integer :: i, j, length, score
 
       value = .false.
-      length = size(maxima)/drift_blocks
+      length = size(values)/drift_blocks
       if (length == 0) return
-      associate (n => drift_blocks)
-         mean = [(sum(maxima((i - 1)*length + 1:i*length))/length, i=1, n)]
-         x = [(i - 0.5_wp*(n + 1), i=1, n)]
-         slope = sum(x*mean)/sum(x**2)
-         associate (left => mean - sum(mean)/n - slope*x)
-            value = abs(slope)*n > least_drift*abs(sum(mean)/n) &
-                    .and. abs(slope) > drift_errors*sqrt(sum(left**2)/((n - 2)*sum(x**2)))
-         end associate
-      end associate
-   end function drifts
+      mean = [(sum(values((i - 1)*length + 1:i*length))/length, i=1, drift_blocks)]
+      score = 0
+      do j = 2, drift_blocks
+         score = score + count(mean(:j - 1) < mean(j)) - count(mean(:j - 1) > mean(j))
+      end do
+      value = abs(score) >= least_score .and. &
+              maxval(mean) - minval(mean) > least_drift*abs(sum(mean)/drift_blocks)
+   end function has_trend
 
    !> Points after which all come again, 0 when they do not.
    pure integer function period_of(points) result(period)

@@ -133,7 +133,7 @@ contains
       !> Exponents cannot be measured
       type(error_type), allocatable, intent(out) :: error
       type(growth_type) :: measured
-      logical :: last, reached, surviving
+      logical :: last, reached, surviving, turned
       real(wp) :: spent, time
 
       if (settles(attractor%motion%samples(3, :))) then
@@ -142,6 +142,7 @@ contains
       end if
       reached = on_cycle(attractor%motion)
       surviving = .false.
+      turned = .false.
       spent = 0.0_wp
       time = settings%t_observed
       if (.not. reached) call attractor%motion%clear()
@@ -154,10 +155,16 @@ contains
          last = spent >= settings%t_observed*2**settings%doublings
          call judge_rest(block_model, settings, attractor, error)
          if (allocated(error) .or. attractor%class == fixed_point) return
-         if (.not. reached .and. on_cycle(attractor%motion)) then
-            ! what came before was the approach
-            reached = .true.
-            spent = 0.0_wp
+         if (reached .neqv. on_cycle(attractor%motion)) then
+            ! what came before was the approach to a cycle, or the stay near an unstable one
+            if (last .and. turned) then
+               attractor%reason = not_stationary
+               return
+            end if
+            if (reached) call attractor%motion%clear()
+            if (.not. turned) spent = 0.0_wp
+            turned = .true.
+            reached = .not. reached
             time = settings%t_observed
             call begin_growth(block_model, settings, options, time, attractor, measured, error)
             cycle
