@@ -20,8 +20,8 @@ module section_motion
    !> unless it is below the second share.
    real(wp), parameter :: reached = 1.0e-5_wp, negligible = 1.0e-6_wp, most_growth = 1.1_wp
    integer, parameter :: last_turns = 3, last_points = 12
-   !> Maxima drift if of the 66 pairs of the means of so many blocks of them so many more are in one
-   !> order than in the other (by chance: 1 in 1000), and if the means differ by this share at least.
+   !> Maxima drift if, of the 66 pairs of the means of so many blocks of them, so many more are in
+   !> one order than in the other (by chance: 1 in 1000), and if the means differ by this share.
    integer, parameter :: drift_blocks = 12, least_score = 48
    real(wp), parameter :: least_drift = 1.0e-3_wp
    !> Largest roughness of a torus.
