@@ -132,10 +132,17 @@ def begins(line: str, *motions: tuple[str, int]) -> list[str]:
 
 
 def jump_of_maxima() -> list[float]:
-    """Largest maximum of v before and after the largest jump among cycles on the way up."""
-    plain = [row for row in route("chaos_in_epsilon") if row["run"] == "up" and row["period"] == 1]
-    values = [row["largest_maximum"] for row in sorted(plain, key=lambda row: row["epsilon"])]
+    """Largest maximum of v before and after its largest jump on the way up, before the chaos."""
+    rows = [row for row in route("chaos_in_epsilon") if row["run"] == "up"]
+    first_chaos = min(row["epsilon"] for row in rows if row["class"] == "chaos")
+    before = sorted((row for row in rows if row["epsilon"] < first_chaos), key=by_epsilon)
+    values = [row["largest_maximum"] for row in before]
     return list(max(pairwise(values), key=lambda pair: pair[1] - pair[0]))
+
+
+def by_epsilon(row: dict) -> float:
+    """Where a row lies on the route."""
+    return row["epsilon"]
 
 
 def last_small_cycle() -> list[float]:
