@@ -124,12 +124,13 @@ contains
       !> The signal less its mean
       real(wp), intent(in) :: deviation(:)
       real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
-      real(wp) :: squares
+      real(wp) :: squares, x(size(length))
       integer :: k
 
+      x = middles(length)
       squares = 0.0_wp
       do k = 1, lowest
-         associate (phase => turn*k*middles(length))
+         associate (phase => turn*k*x)
             squares = squares + sum(weight*deviation*cos(phase))**2 &
                       + sum(weight*deviation*sin(phase))**2
          end associate

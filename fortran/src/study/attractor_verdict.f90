@@ -151,6 +151,7 @@ contains
          attractor%by_spectrum = undecided
       end select
    end subroutine judge_spectrum
+
    !> Whether the last points of the section are those of a cycle.
    pure logical function on_cycle(motion) result(value)
       !> The motion

@@ -185,6 +185,8 @@ contains
             surviving = .true.
             call outlive(block_model, settings, options, attractor, error)
             if (allocated(error)) return
+            call judge_rest(block_model, settings, attractor, error)
+            if (allocated(error) .or. attractor%class == fixed_point) return
             if (on_cycle(attractor%motion)) then
                attractor%class = undecided
                time = settings%t_observed
