@@ -72,8 +72,9 @@ contains
       end if
    end function class_by_exponents
 
-   !> The class by exponents, if none of the others contradicts it, and if one confirms it or it is
-   !> clear by the exponents alone.
+   !> The class by exponents, if the section confirms it, or the spectrum where the section shows
+   !> nothing, or if it is clear by the exponents alone. A section that is smooth or repeats outweighs
+   !> a spectrum: lines too close to each other look like a continuum.
    pure subroutine agree(exponents, by_exponents, by_section, by_spectrum, found, reason)
       !> Exponents, descending
       type(exponent_type), intent(in) :: exponents(:)
@@ -88,13 +89,13 @@ contains
       !> Why it is undecided, of `reason_names`
       integer, intent(out) :: reason
 
-      associate (others => [by_section, by_spectrum])
+      associate (witness => merge(by_spectrum, by_section, by_section == undecided))
          found = undecided
          if (by_exponents == undecided) then
             reason = no_class_by_exponents
-         else if (any(others /= undecided .and. others /= by_exponents)) then
+         else if (witness /= undecided .and. witness /= by_exponents) then
             reason = contradicted
-         else if (all(others == undecided) .and. .not. clear(exponents)) then
+         else if (witness == undecided .and. .not. clear(exponents)) then
             reason = not_confirmed
          else
             found = by_exponents
