@@ -17,6 +17,8 @@ module dde_dense_state
       type(instant) :: t
       !> State and its time derivative there, shape (n)
       real(wp), allocatable :: y(:), slope(:)
+      !> Bounds of each component over the step, and of its time derivative, shape (n)
+      real(wp), allocatable, dimension(:) :: least, most, least_slope, most_slope
       !> Start and end of the step
       type(instant), private :: start, finish
       !> Its length
@@ -34,14 +36,14 @@ module dde_dense_state
    contains
       !> The state at the first instant
       procedure :: begin
-      !> Take up a step
+      !> Take up a step, at its end
       procedure :: take_up
       !> Go to a place of it
       procedure :: go_to
       !> Degree of its dense output
       procedure :: degree
-      !> Bounds of the state and the slope over the step
-      procedure :: bounds
+      !> Find the bounds
+      procedure :: find_bounds
    end type dense_state
 
 contains
@@ -61,9 +63,11 @@ contains
       self%y = y
       self%slope = slope
       allocate (self%ends(size(y), 2), self%coefficients(size(y), 0:0))
+      allocate (self%least(size(y)), self%most(size(y)))
+      allocate (self%least_slope(size(y)), self%most_slope(size(y)))
    end subroutine begin
 
-   !> Take up an accepted and extended step.
+   !> Take up an accepted and extended step. The place is its end.
    pure subroutine take_up(self, step, start, finish)
       !> The state
       class(dense_state), intent(inout) :: self
@@ -90,9 +94,11 @@ contains
       call newton_state(self%nodes, self%coefficients, 0.0_wp, self%y, self%ends(:, 1))
       call newton_state(self%nodes, self%coefficients, 1.0_wp, self%y, self%ends(:, 2))
       self%straight = abs(self%ends(:, 2) - self%ends(:, 1)) <= rounding*abs(step%y)
+      self%slope = self%ends(:, 2)/self%h
+      call stop_at_end(self)
    end subroutine take_up
 
-   !> Go to a place of the step. At its end the state is exactly that of the next start.
+   !> Go to a place of the step.
    pure subroutine go_to(self, place)
       !> The state
       class(dense_state), intent(inout) :: self
@@ -105,10 +111,17 @@ contains
          self%slope = (1.0_wp - place)*self%ends(:, 1) + place*self%ends(:, 2)
       end where
       self%slope = self%slope/self%h
-      if (place < 1.0_wp) return
+      if (.not. place < 1.0_wp) call stop_at_end(self)
+   end subroutine go_to
+
+   !> At the end of the step the state is that of the next start, without rounding.
+   pure subroutine stop_at_end(self)
+      !> The state
+      class(dense_state), intent(inout) :: self
+
       self%t = self%finish
       self%y = self%y_end
-   end subroutine go_to
+   end subroutine stop_at_end
 
    !> Degree of dense output.
    pure integer function degree(self)
@@ -118,29 +131,26 @@ contains
       degree = size(self%nodes)
    end function degree
 
-   !> Bounds of the state and the slope over the step: places and nodes lie in 0..1, so that a
-   !> factor (s - x) of a term is at most 1, and term k has the sum of k products as its derivative.
-   pure subroutine bounds(self, least, most, least_slope, most_slope)
+   !> Bounds over the step: places and nodes lie in 0..1, so that a factor (s - x) of a term is at
+   !> most 1, and term k has the sum of k products as its derivative.
+   pure subroutine find_bounds(self)
       !> The state, in a step
-      class(dense_state), intent(in) :: self
-      !> Bounds of each component, shape (n)
-      real(wp), intent(out) :: least(:), most(:)
-      !> Bounds of its time derivative, shape (n)
-      real(wp), intent(out) :: least_slope(:), most_slope(:)
-      real(wp) :: change(size(least)), change_of_slope(size(least))
-      integer :: k
+      class(dense_state), intent(inout) :: self
+      real(wp) :: bend, change, term
+      integer :: i, k
 
-      change = 0.0_wp
-      change_of_slope = 0.0_wp
-      do k = 2, size(self%nodes)
-         change = change + abs(self%coefficients(:, k))
-         change_of_slope = change_of_slope + k*abs(self%coefficients(:, k))
+      do i = 1, size(self%least)
+         change = abs(self%coefficients(i, 1))
+         bend = 0.0_wp
+         do k = 2, size(self%nodes)
+            term = abs(self%coefficients(i, k))
+            change = change + term
+            bend = bend + k*term
+         end do
+         self%least(i) = self%coefficients(i, 0) - change
+         self%most(i) = self%coefficients(i, 0) + change
+         self%least_slope(i) = (self%coefficients(i, 1) - bend)/self%h
+         self%most_slope(i) = (self%coefficients(i, 1) + bend)/self%h
       end do
-      associate (first => self%coefficients(:, 0), slope => self%coefficients(:, 1))
-         least = first - abs(slope) - change
-         most = first + abs(slope) + change
-         least_slope = (slope - change_of_slope)/self%h
-         most_slope = (slope + change_of_slope)/self%h
-      end associate
-   end subroutine bounds
+   end subroutine find_bounds
 end module dde_dense_state

@@ -84,7 +84,7 @@ contains
       call self%here%take_up(step, start, step_end)
       ended = .false.
       share = 1.0_wp
-      call self%go_to(watcher, share)
+      call watcher%values(self%here%t%hi, self%here%y, self%here%slope, self%g)
       if (self%stays(watcher)) return
       call self%choose_places(watcher, places, g)
       share = 0.0_wp
@@ -103,17 +103,18 @@ contains
    end subroutine search_step
 
    !> Whether no function leaves its side in the step, by the functions at its end and by bounds.
-   pure logical function stays(self, watcher)
+   logical function stays(self, watcher)
       !> The search, at the end of the step
-      class(event_search), intent(in) :: self
+      class(event_search), intent(inout) :: self
       !> The watcher
       class(event_watcher_type), intent(in) :: watcher
-      real(wp), dimension(size(self%here%y)) :: least, least_slope, most, most_slope
 
-      stays = all(sign_of(self%g, self%side) == self%side)
+      stays = .not. any(sign_of(self%g, self%side) /= self%side)
       if (.not. stays) return
-      call self%here%bounds(least, most, least_slope, most_slope)
-      stays = watcher%never_zero(least, most, least_slope, most_slope)
+      call self%here%find_bounds()
+      associate (here => self%here)
+         stays = watcher%never_zero(here%least, here%most, here%least_slope, here%most_slope)
+      end associate
    end function stays
 
    !> Places at which functions are evaluated, ascending up to 1: an even grid, and places between
