@@ -33,7 +33,7 @@ def test_points_are_the_rectangle_for_each_history(programs, groups):
         assert set(found[key].values) <= set(range(5))
     assert found.xi.values.tolist() == found.gamma.values.tolist() == [0.8] * 8
     settings = {"name": "a part", "sweep": "none", "method": "auto", "tolerance": 1e-6}
-    recorded = ("t_transient", "t_observed", "t_turning", "interval", "blocks", "zero_level")
+    recorded = ("t_transient", "t_observed", "t_turning", "interval", "zero_level")
     assert found.attrs.items() >= (settings | {key: OBSERVATION[key] for key in recorded}).items()
     assert found.problem.str.strip().values.tolist() == [""] * 8
 

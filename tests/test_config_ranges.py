@@ -49,7 +49,6 @@ OBSERVED = {
     "t_lasting": (">= 0", [-1.0]),
     "t_turning": (">= 0", [-1.0]),
     "interval": ("> 0", [0.0]),
-    "blocks": ("a whole number >= 2", [1, 2.5, 1001]),
     "exponents": ("a whole number >= 2", [1, 2.5, 65]),
     "zero_level": (">= 0", [-1e-9]),
     "longest_bar": ("> 0", [0.0]),

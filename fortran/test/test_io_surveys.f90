@@ -40,7 +40,7 @@ contains
 
       call expect_refusals(error, observation_reader, "observation", [ &
          character(len=line_length) :: "t_transient = 100.0", "t_observed = 200.0", &
-         "t_lasting = 50.0", "t_turning = 20.0", "interval = 5.0", "blocks = 2", "exponents = 4", &
+         "t_lasting = 50.0", "t_turning = 20.0", "interval = 5.0", "exponents = 4", &
          "zero_level = 1.0e-4", "longest_bar = 1.0e-3", "doublings = 0", &
          "sample_interval = 0.1", "window = 'hann'", "segments = 2", "overlap = 0.5", &
          "peak_floor = 1.0e-6", "peak_prominence = 10.0", "tolerance = 1.0e-6", &
@@ -50,8 +50,6 @@ contains
          spoiled("t_lasting", "-1.0", "t_lasting = -1.0"//from_0), &
          spoiled("t_turning", "-1.0", "t_turning = -1.0"//from_0), &
          spoiled("interval", "0.0", "interval = 0.0"//above_0), &
-         spoiled("blocks", "1", "blocks = 1"//from_2), &
-         spoiled("blocks", "1001", "blocks = 1001; expected a whole number <= 1000"), &
          spoiled("exponents", "1", "exponents = 1"//from_2), &
          spoiled("exponents", "65", "exponents = 65; expected a whole number <= 64"), &
          spoiled("zero_level", "-1.0", "zero_level = -1.0"//from_0), &

@@ -174,7 +174,6 @@ contains
       call file%attribute("t_lasting", settings%t_lasting)
       call file%attribute("t_turning", settings%t_turning)
       call file%attribute("interval", settings%interval)
-      call file%attribute("blocks", int(settings%blocks, int64))
       call file%attribute("zero_level", settings%zero_level)
       call file%attribute("longest_bar", settings%longest_bar)
       call file%attribute("sample_interval", settings%sample_interval)

@@ -271,7 +271,6 @@ contains
 
       wanted = growth_settings_type(exponents=exponents_of(block_model, settings), &
                                     t_turning=settings%t_turning, t_end=t_end, &
-                                    interval=settings%interval, blocks=settings%blocks, &
-                                    bounds=.true., across_flow=.true.)
+                                    interval=settings%interval, bounds=.true., across_flow=.true.)
    end function growth_settings
 end module attractors
