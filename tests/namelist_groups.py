@@ -38,6 +38,7 @@ POINTS = {
     "u": [0.0, -0.5],
     "v": [1.1, 1.5],
     "sweep": "none",
+    "refinements": 0,
     "kept": 100,
 }
 CASES = {

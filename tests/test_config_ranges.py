@@ -180,6 +180,7 @@ RANGES = {
     **below("atlas", "history", v=HISTORY_V),
     **below("atlas", "planes", "xi_05", xi=POSITIVE, gamma=POSITIVE),
     **below("atlas", epsilon_count=ATLAS_COUNT, tau_count=ATLAS_COUNT, parts=COUNT),
+    **below("atlas", refinements=("a whole number >= 0 and <= 4", [-1, 0.5, 5, True, None])),
     **below("routes", "histories", "slip", v=HISTORY_V),
     **below(*LINE, xi=POSITIVE, gamma=POSITIVE, tau=NOT_NEGATIVE, count=LINE_COUNT),
     **below(*LINE, along=("one of: tau, epsilon, xi, gamma", ["v", None])),

@@ -27,6 +27,7 @@ program tester
    use test_measured_run, only: collect_measured_run
    use test_motion_classes, only: collect_motion_classes
    use test_progress, only: collect_progress
+   use test_refined_grid, only: collect_refined_grid
    use test_section_motion, only: collect_section_motion
    use test_slip_events, only: collect_slip_events
    use test_spectral_peaks, only: collect_spectral_peaks
@@ -69,6 +70,7 @@ program tester
                              new_testsuite("measured_run", collect_measured_run), &
                              new_testsuite("motion_classes", collect_motion_classes), &
                              new_testsuite("progress", collect_progress), &
+                             new_testsuite("refined_grid", collect_refined_grid), &
                              new_testsuite("section_motion", collect_section_motion), &
                              new_testsuite("slip_events", collect_slip_events), &
                              new_testsuite("spectral_peaks", collect_spectral_peaks), &

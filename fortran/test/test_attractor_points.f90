@@ -34,6 +34,7 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("in threads", test_threads), &
+                   new_unittest("on a grid", test_grid), &
                    new_unittest("a point that cannot be run", test_problem), &
                    new_unittest("no run can be finished", test_all_problems)]
    end subroutine collect_attractor_points
@@ -95,6 +96,54 @@ contains
          end do
       end do
    end subroutine test_threads
+
+   !> On a grid across the Hopf curve of the block without delay,
+   !> epsilon = xi gamma**2/(xi + gamma**2): the points that are computed are the same as without
+   !> refinements, the others have the class of their neighbours.
+   subroutine test_grid(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: columns = 5, lines = 5
+      type(finding_type), allocatable :: all_computed(:), findings(:)
+      type(integration_options) :: options
+      type(memory_type) :: memory
+      type(point_type) :: points(columns, lines)
+      integer :: i, j, threads
+
+      threads = omp_get_max_threads()
+      do j = 1, lines
+         do i = 1, columns
+            points(i, j) = point_type( &
+                           block_parameters_type(tau=0.0_wp, xi=0.5_wp + 0.02_wp*j, &
+                                                 epsilon=0.1_wp*i, gamma=0.8_wp), &
+                           block_history_type(v=1.1_wp))
+         end do
+      end do
+      options = at_tolerance(1.0e-6_wp, "auto")
+      associate (list => reshape(points, [size(points)]))
+         call find_attractors(list, quickly(), options, all_computed)
+         do i = 1, 2
+            memory = memory_type(done=[integer ::], total=[integer ::])
+            call omp_set_num_threads(i)
+            call find_attractors(list, quickly(), options, findings, memory, columns, 1)
+            call omp_set_num_threads(threads)
+            call expect(error, all(all_computed%computed) .and. .not. all(findings%computed), &
+                        "some points are not computed")
+            call expect(error, all(findings%attractor%class == all_computed%attractor%class), &
+                        "the same classes")
+            do j = 1, size(list)
+               if (.not. findings(j)%computed) cycle
+               call expect_success(error, findings(j)%problem)
+               if (allocated(error)) return
+               call expect(error, same_bits(all_of(findings(j)), all_of(all_computed(j))), &
+                           "the same at point "//text(j))
+            end do
+            associate (done => memory%done, n => size(memory%done))
+               call expect(error, all(done(2:) >= done(:n - 1)) .and. done(n) == size(list) &
+                           .and. all(done(:n - 1) < size(list)), "progress to the end")
+            end associate
+         end do
+      end associate
+   end subroutine test_grid
 
    !> All numbers of a finding.
    pure function all_of(finding) result(numbers)

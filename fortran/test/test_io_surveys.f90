@@ -86,7 +86,7 @@ contains
          "epsilon_part = 2, 3", "tau_window = 0.0, 10.0", "tau_count = 3", "tau_part = 1, 1", &
          "xi_window = 0.8, 0.8", "xi_count = 1", "xi_part = 1, 1", "gamma_window = 0.8, 1.0e8", &
          "gamma_count = 1", "gamma_part = 1, 1", "theta = 0.0", "u = 0.0", "v = 1.1", &
-         "sweep = 'up'", "kept = 100"], [ &
+         "sweep = 'up'", "refinements = 0", "kept = 100"], [ &
          spoiled("name", "'"//repeat("a", 129)//"'", "letters of name = 129; expected"), &
          spoiled("xi_window", "0.0, 0.8", "xi_window = 0.0"//above_0), &
          spoiled("xi_part", "1, 2", "xi_part = 1, 2; expected first and last"), &
@@ -113,6 +113,9 @@ contains
          spoiled("sweep", "'left'", "sweep = 'left'; expected one of 'none' 'up' 'down'"), &
          spoiled("tau_part", "1, 2", "sweep = 'up' along 2 parameters; expected at most one"), &
          spoiled("v", "1.1, 1.5, u = 0.0, 0.0, theta = 0.0, 0.0", "'up' from 2 histories;"), &
+         spoiled("refinements", "-1", "refinements = -1"//from_0_count), &
+         spoiled("refinements", "5", "refinements = 5; expected a whole number <= 4"), &
+         spoiled("refinements", "1", "refinements = 1 in a sweep; expected 0"), &
          spoiled("kept", "-1", "kept = -1"//from_0_count), &
          spoiled("kept", "100001", "kept = 100001; expected a whole number <= 100000")])
    end subroutine test_points
