@@ -193,7 +193,7 @@ contains
       call expect(error, same_bits(all_of(findings(3)), all_of(alone(1))), "the same alone")
    end subroutine test_problem
 
-   !> Too few steps are allowed for any.
+   !> Too few steps are allowed for any. So none has the class of its neighbours.
    subroutine test_all_problems(error)
       type(error_type), allocatable, intent(out) :: error
       type(finding_type), allocatable :: findings(:)
@@ -202,7 +202,8 @@ contains
 
       options = at_tolerance(1.0e-6_wp, "auto")
       options%most_steps = 5
-      call find_attractors(some_points(), quickly(), options, findings)
+      call find_attractors(some_points(), quickly(), options, findings, columns=4, refinements=1)
+      call expect(error, all(findings%computed), "all are computed")
       do i = 1, size(findings)
          call expect_failure(error, findings(i)%problem, "5 steps (most_steps) were used up")
          call expect(error, findings(i)%attractor%class == undecided, "undecided")

@@ -45,12 +45,13 @@ contains
       type(finding_type), allocatable, intent(out) :: findings(:)
       !> Receiver of the number of points whose class is known
       class(progress_receiver_type), intent(inout), optional :: progress
-      !> Points in a line of a grid
+      !> Points in a line of a grid; with `refinements` or not at all
       integer, intent(in), optional :: columns
-      !> Every 2**refinements-th line of the grid is computed in full; only with `columns`
+      !> Every 2**refinements-th line of the grid is computed in full
       integer, intent(in), optional :: refinements
       integer, allocatable :: wanted(:)
       type(refined_grid_type) :: grid
+      integer :: k
 
       allocate (findings(size(points)))
       grid = refined_grid_type(size(points), 1, refinements=0)
@@ -59,7 +60,7 @@ contains
          call grid%next(wanted)
          if (size(wanted) == 0) exit
          call find_wanted(points, wanted, settings, options, grid, findings, progress)
-         call grid%put(wanted, kind_of(findings(wanted)))
+         call grid%put(wanted, [(kind_of(findings(wanted(k))), k=1, size(wanted))])
       end do
       call take_over(grid, findings)
       if (present(progress)) call progress%advance(size(points), size(points))
@@ -101,7 +102,7 @@ contains
    end subroutine find_wanted
 
    !> Motions of one kind have the same class, cycles also the same number of points in the section.
-   elemental integer function kind_of(finding) result(number)
+   pure integer function kind_of(finding) result(number)
       !> What was found
       type(finding_type), intent(in) :: finding
 
