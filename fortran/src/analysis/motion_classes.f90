@@ -70,8 +70,8 @@ contains
    end function class_by_exponents
 
    !> The class by exponents, if the section confirms it, or the spectrum where the section shows
-   !> nothing, or if it is clear by the exponents alone. A section that is smooth or repeats outweighs
-   !> a spectrum: lines too close to each other look like a continuum.
+   !> nothing, or if it is clear by the exponents alone. A section that is smooth or repeats
+   !> outweighs a spectrum: lines too close to each other look like a continuum.
    pure subroutine agree(exponents, by_exponents, by_section, by_spectrum, found, reason)
       !> Exponents, descending
       type(exponent_type), intent(in) :: exponents(:)

@@ -92,11 +92,11 @@ contains
    end subroutine approach
 
    !> Longest time of an observation.
-   pure real(wp) function longest_time(settings)
+   pure real(wp) function longest_time(settings) result(time)
       !> How
       type(attractor_settings_type), intent(in) :: settings
 
-      longest_time = settings%t_observed*2**settings%doublings
+      time = settings%t_observed*2**settings%doublings
    end function longest_time
 
    !> Whether the block has come to rest: it stays close to steady sliding or approaches it, and

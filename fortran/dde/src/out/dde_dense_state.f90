@@ -124,11 +124,11 @@ contains
    end subroutine stop_at_end
 
    !> Degree of dense output.
-   pure integer function degree(self)
+   pure integer function degree(self) result(value)
       !> The state, in a step
       class(dense_state), intent(in) :: self
 
-      degree = size(self%nodes)
+      value = size(self%nodes)
    end function degree
 
    !> Bounds over the step: places and nodes lie in 0..1, so that a factor (s - x) of a term is at

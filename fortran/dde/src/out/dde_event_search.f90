@@ -103,17 +103,17 @@ contains
    end subroutine search_step
 
    !> Whether no function leaves its side in the step, by the functions at its end and by bounds.
-   logical function stays(self, watcher)
+   logical function stays(self, watcher) result(value)
       !> The search, at the end of the step
       class(event_search), intent(inout) :: self
       !> The watcher
       class(event_watcher_type), intent(in) :: watcher
 
-      stays = .not. any(sign_of(self%g, self%side) /= self%side)
-      if (.not. stays) return
+      value = .not. any(sign_of(self%g, self%side) /= self%side)
+      if (.not. value) return
       call self%here%find_bounds()
       associate (here => self%here)
-         stays = watcher%never_zero(here%least, here%most, here%least_slope, here%most_slope)
+         value = watcher%never_zero(here%least, here%most, here%least_slope, here%most_slope)
       end associate
    end function stays
 
