@@ -20,7 +20,7 @@ from scripts.namelists.attractor_surveys import atlas_groups
 from scripts.namelists.write_namelist import write_groups
 
 PLANE = "xi_05"
-POINTS = {"epsilon_count": 18, "tau_count": 16, "parts": 1}
+POINTS = {"epsilon_count": 18, "tau_count": 16, "parts": 1, "refinements": 0}
 TOLERANCES = (1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
 """The last one is what the others are compared with."""
 LEAST_MAXIMUM = 0.01
