@@ -7,10 +7,14 @@ import numpy as np
 import pytest
 import xarray as xr
 from conftest import SMOKE, Programs, rules_in
+from figure_contents import title_of
+from matplotlib import pyplot as plt
 
+from scripts.figures import atlas
 from scripts.files.tsv import read_table, write_table
 from scripts.namelists.attractor_surveys import atlas_groups
 from scripts.namelists.write_namelist import write_groups
+from scripts.page import page_views
 from scripts.tables import attractor_tables
 
 PARTS = "results/attractors/atlas"
@@ -126,3 +130,24 @@ def test_refined_plane_computes_only_where_neighbours_differ(programs, tiny):
             inside = [at for at in around if 0 <= at[0] < shape[0] and 0 <= at[1] < shape[1]]
             assert {kinds[at] for at in inside} == {kinds[j, i]}
             assert kinds[j, i] > 0
+
+
+def test_points_not_computed_reach_table_figure_and_page(programs, tiny):
+    """All of them, with class and without exponents; the figure and the page count them."""
+    (path,) = made_parts(programs, tiny, 1, refinements=2, epsilon_count=11, tau_count=9)
+    table = programs.folder / "atlas.tsv"
+    write_table(table, attractor_tables.atlas_rows(xr.load_dataset(path)))
+    rows = read_table(table)
+    taken = [row for row in rows if row["computed"] == "no"]
+    assert 0 < len(taken) < len(rows) == 99
+    assert all(row["class"] in ("fixed point", "cycle", "torus", "chaos") for row in taken)
+    assert all(np.isnan(row[key]) for row in taken for key in ("exponent_1", "time", "reason"))
+    figure = atlas.draw(rows, [], {})
+    assert f"99 points, {99 - len(taken)} computed, " in title_of(figure.axes[0])
+    known = np.array([row["class"] != "undecided" for row in rows])
+    exponents = figure.axes[1].collections[0].get_array().filled(np.nan).ravel()
+    assert np.isfinite(exponents[known]).all()
+    plt.close(figure)
+    (map_,) = page_views.atlas(rows)
+    said = [cell["words"].endswith("; not computed") for cell in map_["cells"]]
+    assert said == [row["computed"] == "no" for row in rows]
