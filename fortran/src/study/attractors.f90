@@ -194,7 +194,10 @@ contains
          if (attractor%class == chaos .and. .not. surviving) then
             surviving = .true.
             call outlive(block_model, settings, options, attractor, error)
-            if (allocated(error)) return
+            if (allocated(error)) then
+               attractor%class = undecided
+               return
+            end if
             call judge_rest(block_model, settings, attractor, error)
             if (allocated(error) .or. attractor%class == fixed_point) return
             if (on_cycle(attractor%motion)) then
