@@ -2,12 +2,13 @@
 module test_attractors
    use block_builder, only: build_block
    use attractors, only: attractor_settings_type, attractor_type, find_attractor
-   use dde, only: integration_options
+   use dde, only: integrate, integration_options, integration_result
    use dde_errors, only: failure_type => error_type
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use motion_classes, only: chaos, class_names, cycle_motion, fixed_point, torus, undecided
+   use observed_motion, only: observed_motion_type
    use solving, only: at_tolerance
    use spring_block, only: spring_block_type
    implicit none (type, external)
@@ -30,7 +31,8 @@ contains
                    new_unittest("unstable steady sliding", test_unstable), &
                    new_unittest("approach shorter than the delay", test_short_approach), &
                    new_unittest("a run that ends early", test_failed_run), &
-                   new_unittest("too few samples", test_few_samples)]
+                   new_unittest("too few samples", test_few_samples), &
+                   new_unittest("maxima of a stuck block", test_stuck)]
    end subroutine collect_attractors
 
    !> Settings as in the configuration, with times of a scene's own.
@@ -286,4 +288,32 @@ contains
       call expect_failure(error, failure, "samples")
       call expect(error, found%class == undecided, "undecided")
    end subroutine test_few_samples
+
+   !> A loose tolerance makes no maxima where the block is stuck: v at least as large as that of a
+   !> tight one.
+   subroutine test_stuck(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(observed_motion_type) :: motion
+      real(wp) :: smallest(2)
+      integer :: i
+
+      associate (block => disturbed(18.7_wp, 1.3_wp, 0.5_wp), tolerance => [1.0e-6_wp, 1.0e-9_wp])
+         do i = 1, size(tolerance)
+            motion = observed_motion_type()
+            call integrate(block, 0.0_wp, 1000.0_wp, at_tolerance(tolerance(i), "auto"), outcome, &
+                           failure, continuation=motion%continuation)
+            call expect_success(error, failure)
+            if (allocated(error)) return
+            call motion%clear()
+            call motion%observe(block, 1000.0_wp, 0.1_wp, at_tolerance(tolerance(i), "auto"), &
+                                failure)
+            call expect_success(error, failure)
+            if (allocated(error)) return
+            smallest(i) = minval(motion%maxima)
+         end do
+      end associate
+      call expect_between(error, smallest(1), 0.5_wp*smallest(2), 1.0_wp, "smallest maximum")
+   end subroutine test_stuck
 end module test_attractors
