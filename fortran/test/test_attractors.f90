@@ -295,23 +295,22 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
-      type(observed_motion_type) :: motion
+      type(observed_motion_type) :: motion(2)
       real(wp) :: smallest(2)
       integer :: i
 
       associate (block => disturbed(18.7_wp, 1.3_wp, 0.5_wp), tolerance => [1.0e-6_wp, 1.0e-9_wp])
          do i = 1, size(tolerance)
-            motion = observed_motion_type()
             call integrate(block, 0.0_wp, 1000.0_wp, at_tolerance(tolerance(i), "auto"), outcome, &
-                           failure, continuation=motion%continuation)
+                           failure, continuation=motion(i)%continuation)
             call expect_success(error, failure)
             if (allocated(error)) return
-            call motion%clear()
-            call motion%observe(block, 1000.0_wp, 0.1_wp, at_tolerance(tolerance(i), "auto"), &
+            call motion(i)%clear()
+            call motion(i)%observe(block, 1000.0_wp, 0.1_wp, at_tolerance(tolerance(i), "auto"), &
                                 failure)
             call expect_success(error, failure)
             if (allocated(error)) return
-            smallest(i) = minval(motion%maxima)
+            smallest(i) = minval(motion(i)%maxima)
          end do
       end associate
       call expect_between(error, smallest(1), 0.5_wp*smallest(2), 1.0_wp, "smallest maximum")
