@@ -37,7 +37,7 @@ module double_hopf
       procedure :: torus_angle
       !> Kind of this bifurcation
       procedure :: criticality
-      !> Stability of the tori
+      !> Stability of the torus
       procedure :: torus_stability
    end type double_hopf_type
 
@@ -141,24 +141,21 @@ contains
       if (determinant(self)*real(self%g(pair, pair)) < 0.0_wp) word = "supercritical"
    end function criticality
 
-   !> 'stable', 'saddle' or 'unstable' on the centre manifold, or 'stable_or_unstable' where that
-   !> changes between the lines.
-   pure function torus_stability(self) result(word)
+   !> 'stable', 'saddle' or 'unstable': the torus near its start, on the centre manifold.
+   pure function torus_stability(self, pair) result(word)
       !> The coefficients
       class(double_hopf_type), intent(in) :: self
+      !> The pair of the cycle, 1 or 2
+      integer, intent(in) :: pair
       character(len=word_length) :: word
 
-      associate (p_11 => real(self%g(1, 1)), p_22 => real(self%g(2, 2)))
-         if (determinant(self) < 0.0_wp) then
-            word = "saddle"
-         else if (p_11 < 0.0_wp .and. p_22 < 0.0_wp) then
-            word = "stable"
-         else if (p_11 > 0.0_wp .and. p_22 > 0.0_wp) then
-            word = "unstable"
-         else
-            word = "stable_or_unstable"
-         end if
-      end associate
+      if (determinant(self) < 0.0_wp) then
+         word = "saddle"
+      else if (real(self%g(pair, pair)) < 0.0_wp) then
+         word = "stable"
+      else
+         word = "unstable"
+      end if
    end function torus_stability
 
    !> p_11 p_22 - p_12 p_21.
