@@ -10,7 +10,6 @@ from itertools import pairwise
 
 import netCDF4
 import numpy as np
-import numpy as np
 import pytest
 from conftest import ROOT
 from expected_rules import settings
@@ -498,4 +497,4 @@ def test_tori_lie_between_the_curves_that_start(tau, between):
     columns = [*keys, *(f"start_{key}_{number}" for number in (1, 2) for key in keys)]
     point = double_hopf_near("tau_of_epsilon_xi_08", 0.464, columns)
     shares = np.linalg.solve(np.array(point[2:]).reshape(2, 2).T, [0.5 - point[0], tau - point[1]])
-    assert (min(shares) > 0) is between
+    assert bool(min(shares) > 0) is between
