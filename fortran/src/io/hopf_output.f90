@@ -102,8 +102,8 @@ contains
       end do
    end subroutine put_special
 
-   !> Their normal forms, and the curves of folds and tori that start there; 0 or an empty word where
-   !> a point has none.
+   !> Their normal forms, and the curves of folds and tori that start there; 0 or an empty word
+   !> where a point has none.
    subroutine put_unfoldings(file, settings, rows, special)
       !> The file
       type(output_file_type), intent(inout) :: file
