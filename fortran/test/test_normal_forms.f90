@@ -28,7 +28,8 @@ contains
                    new_unittest("transformed normal form", test_transformed), &
                    new_unittest("published second coefficients", test_published_l2), &
                    new_unittest("published double Hopf points", test_published_double), &
-                   new_unittest("derivatives of the block", test_block)]
+                   new_unittest("derivatives of the block", test_block), &
+                   new_unittest("the block with large gamma", test_large_gamma)]
    end subroutine collect_normal_forms
 
    !> Of z^2 conj z, over omega, against the other program.
@@ -194,4 +195,28 @@ contains
                            "Re c2 at omega = "//text(omega))
       end do
    end subroutine test_block
+
+   !> The coefficients have a limit for large gamma, with a difference of order 1/gamma^2.
+   subroutine test_large_gamma(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      real(wp), parameter :: gamma(2) = [1.0e6_wp, 1.0e12_wp], xi = 0.5_wp
+      complex(wp) :: c2(2)
+      real(wp) :: omega
+      integer :: i, j
+
+      do i = 1, 10
+         omega = 0.15_wp*i
+         do j = 1, 2
+            call normal_form_coefficient(block_equation_type(block_parameters_type( &
+                                         tau=hopf_tau(omega, xi, gamma(j), 2), xi=xi, &
+                                         gamma=gamma(j), &
+                                         epsilon=hopf_epsilon(omega, xi, gamma(j)))), &
+                                         [omega], [3, 2], c2(j), failure)
+            call expect_success(error, failure)
+         end do
+         call expect_close(error, abs(c2(2)/c2(1) - 1.0_wp), 0.0_wp, 1.0e-8_wp, &
+                           "relative change of c2 at omega = "//text(omega))
+      end do
+   end subroutine test_large_gamma
 end module test_normal_forms
