@@ -1,5 +1,5 @@
 !> Special points of the Hopf curves of Figures 2 and 3, and runs of the block beside them.
-module special_points
+module hopf_point_runs
    use block_equation, only: block_equation_type
    use block_parameters, only: block_history_type, block_parameters_type
    use dde_errors, only: failure_type => error_type
@@ -165,4 +165,4 @@ contains
 
       value = 2.0_wp*sum(real(self%mode(component, :)*exp(cmplx(0.0_wp, self%omega*t, kind=wp))))
    end function oscillation
-end module special_points
+end module hopf_point_runs
