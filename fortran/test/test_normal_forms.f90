@@ -4,7 +4,7 @@ module test_normal_forms
    use block_parameters, only: block_parameters_type
    use centre_manifold, only: normal_form_coefficient
    use dde_errors, only: failure_type => error_type, text
-   use double_hopf, only: double_hopf_type, find_double_hopf
+   use double_hopf, only: double_hopf_type, find_double_hopf, word_length
    use expectations, only: expect, expect_close, expect_success
    use hopf_condition, only: hopf_epsilon, hopf_tau
    use known_equations, only: block_by_values, duffing_with_pair, new_block_by_values, new_layers, &
@@ -13,6 +13,7 @@ module test_normal_forms
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use normal_form, only: first_lyapunov_coefficient
+   use pseudo_random, only: uniform
    implicit none (type, external)
    private
    public :: collect_normal_forms
@@ -28,6 +29,8 @@ contains
                    new_unittest("transformed normal form", test_transformed), &
                    new_unittest("published second coefficients", test_published_l2), &
                    new_unittest("published double Hopf points", test_published_double), &
+                   new_unittest("cases of the unfolding", test_unfolding), &
+                   new_unittest("tori of the amplitude equations", test_amplitudes), &
                    new_unittest("derivatives of the block", test_block), &
                    new_unittest("the block with large gamma", test_large_gamma)]
    end subroutine collect_normal_forms
@@ -160,6 +163,70 @@ contains
       call expect_close(error, form%ratios(), [1.5255011842_wp, 1.6984697752_wp], 5.0e-9_wp, &
                         "theta, delta of the layers")
    end subroutine test_published_double
+
+   !> The twelve rows of Guckenheimer and Holmes, table 7.5.1, in r1' = r1 (mu1 + r1^2 + b r2^2) and
+   !> r2' = r2 (mu2 + c r1^2 + d r2^2), also with time reversed and with r1, r2 of other units.
+   subroutine test_unfolding(error)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=4), parameter :: known(12) = ["Ia  ", "Ib  ", "II  ", "III ", "IVa ", "IVb ", &
+                                                  "V   ", "VIa ", "VIb ", "VIIa", "VIIb", "VIII"]
+      real(wp), parameter :: d(12) = [spread(1.0_wp, 1, 6), spread(-1.0_wp, 1, 6)]
+      real(wp), parameter :: b(12) = [0.5_wp, 2.0_wp, 2.0_wp, -2.0_wp, -0.5_wp, -2.0_wp, &
+                                      2.0_wp, 2.0_wp, 0.5_wp, -2.0_wp, -0.5_wp, -2.0_wp]
+      real(wp), parameter :: c(12) = [1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp, -1.0_wp, -1.0_wp, &
+                                      1.0_wp, -1.0_wp, -1.0_wp, 1.0_wp, 1.0_wp, -1.0_wp]
+      type(double_hopf_type) :: form
+      integer :: direction, i
+
+      do i = 1, 12
+         do direction = -1, 1, 2
+            ! |z1|^2 in units of 1/3, |z2|^2 in units of 1/7
+            form%g = direction*reshape([3.0_wp, 3.0_wp*c(i), 7.0_wp*b(i), 7.0_wp*d(i)], [2, 2])
+            call expect(error, form%unfolding() == known(i), "case "//known(i)//", given " &
+                        //form%unfolding())
+         end do
+      end do
+   end subroutine test_unfolding
+
+   !> On both sides of the line of a cycle of r_j' = 2 r_j (mu_j + sum_k p_jk r_k): whether the fixed
+   !> point of both pairs exists where the other pair grows along the cycle, and its eigenvalues.
+   subroutine test_amplitudes(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(double_hopf_type) :: form
+      real(wp) :: determinant, growth, mu(2), p(2, 2), r(2), trace
+      character(len=word_length) :: known
+      integer :: i, j, k, other, side, seen(3)
+
+      seen = 0
+      do i = 1, 200
+         p = reshape(uniform(i, 4, -1.0_wp, 1.0_wp), [2, 2])
+         form%g = p
+         determinant = p(1, 1)*p(2, 2) - p(1, 2)*p(2, 1)
+         if (min(abs(determinant), minval(abs(p))) < 0.05_wp) cycle
+         do j = 1, 2
+            other = 3 - j
+            do side = -1, 1, 2
+               mu = form%torus_rates(j)
+               mu(other) = mu(other) + 1.0e-3_wp*side
+               growth = mu(other) - p(other, j)*mu(j)/p(j, j)
+               r = -[p(2, 2)*mu(1) - p(1, 2)*mu(2), p(1, 1)*mu(2) - p(2, 1)*mu(1)]/determinant
+               if (r(other) < 0.0_wp) cycle
+               known = merge("supercritical", "subcritical  ", growth > 0.0_wp)
+               call expect(error, form%criticality(j) == known, "kind of torus "//text(i))
+               trace = 2.0_wp*(p(1, 1)*r(1) + p(2, 2)*r(2))
+               if (determinant*product(r) < 0.0_wp) then
+                  known = "saddle"
+               else
+                  known = merge("stable  ", "unstable", trace < 0.0_wp)
+               end if
+               call expect(error, form%torus_stability(j) == known, "torus "//text(i))
+               k = findloc(["saddle  ", "stable  ", "unstable"], known(:8), dim=1)
+               seen(k) = seen(k) + 1
+            end do
+         end do
+      end do
+      call expect(error, all(seen > 20), "all kinds occur")
+   end subroutine test_amplitudes
 
    !> The derivatives of the block by formula and by values, and its second coefficient in ln v and
    !> in v, which are known to agree.
