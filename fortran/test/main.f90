@@ -22,10 +22,12 @@ program tester
    use test_hopf_condition, only: collect_hopf_condition
    use test_hopf_curves, only: collect_hopf_curves
    use test_hopf_points, only: collect_hopf_points
+   use test_hopf_unfoldings, only: collect_hopf_unfoldings
    use test_linear_stability, only: collect_linear_stability
    use test_lyapunov_spectrum, only: collect_lyapunov_spectrum
    use test_measured_run, only: collect_measured_run
    use test_motion_classes, only: collect_motion_classes
+   use test_normal_forms, only: collect_normal_forms
    use test_progress, only: collect_progress
    use test_refined_grid, only: collect_refined_grid
    use test_section_motion, only: collect_section_motion
@@ -65,10 +67,12 @@ program tester
                              new_testsuite("hopf_condition", collect_hopf_condition), &
                              new_testsuite("hopf_curves", collect_hopf_curves), &
                              new_testsuite("hopf_points", collect_hopf_points), &
+                             new_testsuite("hopf_unfoldings", collect_hopf_unfoldings), &
                              new_testsuite("linear_stability", collect_linear_stability), &
                              new_testsuite("lyapunov_spectrum", collect_lyapunov_spectrum), &
                              new_testsuite("measured_run", collect_measured_run), &
                              new_testsuite("motion_classes", collect_motion_classes), &
+                             new_testsuite("normal_forms", collect_normal_forms), &
                              new_testsuite("progress", collect_progress), &
                              new_testsuite("refined_grid", collect_refined_grid), &
                              new_testsuite("section_motion", collect_section_motion), &
