@@ -16,8 +16,6 @@ module floquet_multipliers
       !> All but the trivial one that were asked for, in descending order of modulus; of a pair the
       !> one with positive imaginary part first
       complex(wp), allocatable :: values(:)
-      !> Disturbances over the period at the nodes of the orbit, shape (n, nodes, size(values))
-      complex(wp), allocatable :: disturbances(:, :, :)
       !> Distance of the trivial multiplier from 1: the accuracy
       real(wp) :: trivial_error = 0.0_wp
    contains
@@ -41,7 +39,7 @@ module floquet_multipliers
 contains
 
    !> Multipliers of greatest modulus.
-   subroutine find_multipliers(family, orbit, wanted, found, error)
+   subroutine find_multipliers(family, orbit, wanted, found, error, disturbances)
       !> The problems
       class(problem_family_type), intent(in) :: family
       !> The orbit
@@ -52,6 +50,8 @@ contains
       type(multipliers_type), intent(out) :: found
       !> No convergence
       type(error_type), allocatable, intent(out) :: error
+      !> Disturbances over the period at the nodes of the orbit, shape (n, nodes, multipliers)
+      complex(wp), allocatable, intent(out), optional :: disturbances(:, :, :)
       complex(wp), allocatable :: pasts(:, :), values(:)
       type(orbit_scale_type) :: none
       type(period_map_type) :: map
@@ -71,14 +71,14 @@ contains
       trivial = minloc(abs(values - 1.0_wp), dim=1)
       found%trivial_error = abs(values(trivial) - 1.0_wp)
       found%values = pack(values, [(i /= trivial, i=1, size(values))])
-      allocate (found%disturbances(size(orbit%nodes, 1), size(orbit%nodes, 2), size(found%values)))
+      if (.not. present(disturbances)) return
+      allocate (disturbances(size(orbit%nodes, 1), size(orbit%nodes, 2), size(found%values)))
       kept = 0
       do i = 1, size(values)
          if (i == trivial) cycle
          kept = kept + 1
-         found%disturbances(:, :, kept) = cmplx(over_period(map, real(pasts(:, i)), orbit), &
-                                                over_period(map, aimag(pasts(:, i)), orbit), &
-                                                kind=wp)
+         disturbances(:, :, kept) = cmplx(over_period(map, real(pasts(:, i)), orbit), &
+                                          over_period(map, aimag(pasts(:, i)), orbit), kind=wp)
       end do
    end subroutine find_multipliers
 

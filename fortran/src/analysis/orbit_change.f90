@@ -78,10 +78,11 @@ contains
       !> Changes
       type(orbit_change_type), intent(in) :: a, b
 
-      associate (weights => weights_of(orbit, a))
-         inner_product = sum(weights%nodes*b%nodes) + a%period*b%period &
-                         + dot_product(a%parameters, b%parameters)
-      end associate
+      type(orbit_change_type) :: weights
+
+      weights = weights_of(orbit, a)
+      inner_product = sum(weights%nodes*b%nodes) + a%period*b%period &
+                      + dot_product(a%parameters, b%parameters)
    end function inner_product
 
    !> Change from one orbit to another on the same mesh.

@@ -218,16 +218,16 @@ contains
       type(periodic_orbit_type), intent(in) :: orbit
       !> What is left of them
       real(wp), intent(out) :: target(:)
+      type(orbit_change_type) :: made
       integer :: i
 
       target = [0.0_wp, distances]
-      associate (made => difference_of(orbit, reference, scale))
-         do i = 1, size(conditions)
-            associate (c => conditions(i))
-               target(i) = target(i) - sum(c%nodes*made%nodes) - c%period*made%period &
-                           - dot_product(c%parameters, made%parameters)
-            end associate
-         end do
-      end associate
+      made = difference_of(orbit, reference, scale)
+      do i = 1, size(conditions)
+         associate (c => conditions(i))
+            target(i) = target(i) - sum(c%nodes*made%nodes) - c%period*made%period &
+                        - dot_product(c%parameters, made%parameters)
+         end associate
+      end do
    end subroutine remaining
 end module orbit_equations

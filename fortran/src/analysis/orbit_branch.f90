@@ -1,0 +1,347 @@
+!> Branches of periodic orbits in one parameter by pseudo-arclength continuation, through folds. The
+!> step is controlled by the effort of Newton's method.
+module orbit_branch
+   use dde_errors, only: error_type
+   use dde_kinds, only: wp
+   use floquet_multipliers, only: find_multipliers, multipliers_type
+   use orbit_change, only: inner_product, orbit_change_type
+   use orbit_equations, only: correct_orbit, newton_type, solve_about
+   use orbit_linearisation, only: orbit_scale_type
+   use orbit_mesh, only: adapted_mesh
+   use periodic_orbit, only: periodic_orbit_type
+   use problem_family, only: problem_family_type
+   implicit none (type, external)
+   private
+   public :: branch_settings_type, branch_type, follow_branch, orbit_amplitude, tangent_to
+
+   !> How far a branch is followed, and how.
+   type :: branch_settings_type
+      !> The free parameter and its unit
+      type(orbit_scale_type) :: scale
+      !> Window on the parameter
+      real(wp) :: window(2) = [-huge(1.0_wp), huge(1.0_wp)]
+      !> First, least and longest step, in units of arclength
+      real(wp) :: first_step = 0.01_wp, least_step = 1.0e-6_wp, longest_step = 0.1_wp
+      !> Most orbits
+      integer :: most_orbits = 200
+      !> The branch ends where no component has a larger range.
+      real(wp) :: least_amplitude = 1.0e-3_wp
+      !> It ends where the period is longer.
+      real(wp) :: longest_period = huge(1.0_wp)
+      !> Number of multipliers
+      integer :: multipliers = 6
+   end type branch_settings_type
+
+   !> Orbits in the order of the branch.
+   type :: branch_type
+      !> The orbits
+      type(periodic_orbit_type), allocatable :: orbits(:)
+      !> Tangents, of norm 1, in the direction of the branch
+      type(orbit_change_type), allocatable :: tangents(:)
+      !> Multipliers
+      type(multipliers_type), allocatable :: multipliers(:)
+      !> Why it ends: 'window', 'amplitude', 'period', 'orbits', 'convergence'
+      character(len=:), allocatable :: ending
+      !> Iterations of Newton's method, also of steps that failed
+      integer :: iterations = 0
+   end type branch_type
+
+   !> Iterations with which a step is longer next time, and those with which it is shorter
+   integer, parameter :: easy = 3, hard = 6
+   !> Iterations after which a step has failed
+   integer, parameter :: most_iterations = 8
+   !> Factors of the step
+   real(wp), parameter :: longer = 1.5_wp, shorter = 0.5_wp
+   !> Least cosine of the angle between tangents of neighbours
+   real(wp), parameter :: least_cosine = 0.8_wp
+   !> Orbits between two adaptions of the mesh
+   integer, parameter :: adapt_every = 3
+
+contains
+
+   !> Follow a branch from an orbit.
+   subroutine follow_branch(family, settings, start, direction, branch, error, tangent)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> How far and how
+      type(branch_settings_type), intent(in) :: settings
+      !> Approximation of the first orbit
+      type(periodic_orbit_type), intent(in) :: start
+      !> 1 or -1: towards greater or smaller parameters, or along the tangent or against it
+      integer, intent(in) :: direction
+      !> The branch
+      type(branch_type), intent(out) :: branch
+      !> There is no first orbit
+      type(error_type), allocatable, intent(out) :: error
+      !> Tangent at the start, where the parameter does not determine the orbit
+      type(orbit_change_type), intent(in), optional :: tangent
+      type(error_type), allocatable :: failure
+      type(newton_type) :: newton
+      type(orbit_change_type) :: along(1)
+      type(periodic_orbit_type) :: orbit
+      real(wp) :: step
+      integer :: i
+
+      associate (scale => settings%scale)
+         along(1) = parameter_direction(start)
+         if (present(tangent)) along(1) = tangent
+         along(1) = scaled(along(1), real(direction, wp))
+         orbit = start
+         call correct_orbit(family, scale, start, along, [0.0_wp], orbit, newton, error)
+         if (allocated(error)) return
+         branch%iterations = newton%iterations
+         call find_tangent(family, scale, orbit, along(1), error)
+         if (allocated(error)) return
+         allocate (branch%orbits(settings%most_orbits), branch%tangents(settings%most_orbits), &
+                   branch%multipliers(settings%most_orbits))
+         branch%orbits(1) = orbit
+         branch%tangents(1) = along(1)
+         call find_multipliers(family, orbit, settings%multipliers, branch%multipliers(1), error)
+         if (allocated(error)) return
+         step = settings%first_step
+         i = 1
+         branch%ending = "orbits"
+         do while (i < settings%most_orbits)
+            call take_step(family, settings, branch, i, step, newton, failure)
+            branch%iterations = branch%iterations + newton%iterations
+            if (.not. allocated(failure)) then
+               call find_multipliers(family, branch%orbits(i + 1), settings%multipliers, &
+                                     branch%multipliers(i + 1), failure)
+            end if
+            if (allocated(failure)) then
+               step = shorter*step
+               if (step >= settings%least_step) cycle
+               branch%ending = "convergence"
+               exit
+            end if
+            i = i + 1
+            if (has_ended(settings, branch%orbits(i), branch%ending)) exit
+            if (newton%iterations <= easy) step = min(longer*step, settings%longest_step)
+            if (newton%iterations >= hard) step = shorter*step
+         end do
+      end associate
+      call cut(branch, i)
+      if (branch%ending == "window") call end_at_window(family, settings, branch)
+   end subroutine follow_branch
+
+   !> The next orbit of a branch.
+   subroutine take_step(family, settings, branch, i, step, newton, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> How far and how
+      type(branch_settings_type), intent(in) :: settings
+      !> The branch
+      type(branch_type), intent(inout) :: branch
+      !> Orbits so far
+      integer, intent(in) :: i
+      !> Length of the step
+      real(wp), intent(in) :: step
+      !> Effort
+      type(newton_type), intent(out) :: newton
+      !> The step is too long
+      type(error_type), allocatable, intent(out) :: error
+      type(newton_type) :: again
+      type(orbit_change_type) :: along(1), move
+      type(periodic_orbit_type) :: orbit, reference
+      logical :: turned
+
+      associate (before => branch%orbits(i), scale => settings%scale)
+         newton%most_iterations = most_iterations
+         reference = before
+         along(1) = branch%tangents(i)
+         if (mod(i, adapt_every) == 0) then
+            ! only a small residual of interpolation is new on the other mesh
+            reference = before%on_mesh(adapted_mesh(before, before%intervals()))
+            along(1) = on_mesh_of(along(1), before, reference)
+            orbit = reference
+            call correct_orbit(family, scale, reference, along, [0.0_wp], orbit, again, error)
+            if (allocated(error)) return
+            reference = orbit
+            along(1) = scaled(along(1), 1.0_wp/sqrt(inner_product(orbit, along(1), along(1))))
+         end if
+         orbit = reference
+         move = scaled(along(1), step)
+         call move%add_to(orbit, scale)
+         call correct_orbit(family, scale, reference, along, [step], orbit, newton, error)
+         if (allocated(error)) return
+         move = along(1)
+         call find_tangent(family, scale, orbit, along(1), error)
+         if (allocated(error)) return
+         turned = inner_product(orbit, along(1), move) < least_cosine
+         if (turned .and. step > settings%least_step/shorter) then
+            allocate (error)
+            error%message = "the branch turns"
+            return
+         end if
+         branch%orbits(i + 1) = orbit
+         branch%tangents(i + 1) = along(1)
+      end associate
+   end subroutine take_step
+
+   !> The tangent of norm 1 whose inner product with the last one is positive.
+   subroutine find_tangent(family, scale, orbit, along, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> Free parameters
+      type(orbit_scale_type), intent(in) :: scale
+      !> The orbit
+      type(periodic_orbit_type), intent(in) :: orbit
+      !> The last tangent, then this one
+      type(orbit_change_type), intent(inout) :: along
+      !> There is none
+      type(error_type), allocatable, intent(out) :: error
+      type(orbit_change_type) :: tangent
+
+      call tangent_to(family, scale, orbit, along, tangent, error)
+      if (allocated(error)) return
+      along = tangent
+   end subroutine find_tangent
+
+   !> The tangent of norm 1 whose inner product with a direction is positive.
+   subroutine tangent_to(family, scale, orbit, direction, tangent, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> Free parameters
+      type(orbit_scale_type), intent(in) :: scale
+      !> The orbit
+      type(periodic_orbit_type), intent(in) :: orbit
+      !> The direction
+      type(orbit_change_type), intent(in) :: direction
+      !> The tangent
+      type(orbit_change_type), intent(out) :: tangent
+      !> There is none
+      type(error_type), allocatable, intent(out) :: error
+      type(orbit_change_type) :: directions(1)
+
+      directions(1) = direction
+      call solve_about(family, scale, orbit, directions, [1.0_wp], tangent, error)
+      if (allocated(error)) return
+      tangent = scaled(tangent, 1.0_wp/sqrt(inner_product(orbit, tangent, tangent)))
+   end subroutine tangent_to
+
+   !> Replace the last orbit by that at the edge of the window.
+   subroutine end_at_window(family, settings, branch)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> The window
+      type(branch_settings_type), intent(in) :: settings
+      !> The branch
+      type(branch_type), intent(inout) :: branch
+      type(error_type), allocatable :: error
+      type(multipliers_type) :: multipliers
+      type(newton_type) :: newton
+      type(orbit_change_type) :: along(1)
+      type(periodic_orbit_type) :: orbit
+      real(wp) :: edge
+      integer :: last
+
+      last = size(branch%orbits)
+      associate (scale => settings%scale, p => settings%scale%free(1))
+         orbit = branch%orbits(last)
+         edge = min(max(orbit%parameters(p), settings%window(1)), settings%window(2))
+         orbit%parameters(p) = edge
+         along(1) = parameter_direction(orbit)
+         call correct_orbit(family, scale, orbit, along, [0.0_wp], orbit, newton, error)
+         if (allocated(error)) return
+         orbit%parameters(p) = edge
+         along(1) = branch%tangents(last)
+         call find_tangent(family, scale, orbit, along(1), error)
+         if (allocated(error)) return
+         call find_multipliers(family, orbit, settings%multipliers, multipliers, error)
+         if (allocated(error)) return
+         branch%orbits(last) = orbit
+         branch%tangents(last) = along(1)
+         branch%multipliers(last) = multipliers
+      end associate
+   end subroutine end_at_window
+
+   !> Whether a branch ends at an orbit, and why.
+   logical function has_ended(settings, orbit, reason)
+      !> Its limits
+      type(branch_settings_type), intent(in) :: settings
+      !> The orbit
+      type(periodic_orbit_type), intent(in) :: orbit
+      !> Why, where it ends
+      character(len=:), allocatable, intent(inout) :: reason
+
+      has_ended = .true.
+      associate (parameter_value => orbit%parameters(settings%scale%free(1)))
+         if (parameter_value < settings%window(1) .or. parameter_value > settings%window(2)) then
+            reason = "window"
+         else if (orbit_amplitude(orbit) < settings%least_amplitude) then
+            reason = "amplitude"
+         else if (orbit%period > settings%longest_period) then
+            reason = "period"
+         else
+            has_ended = .false.
+         end if
+      end associate
+   end function has_ended
+
+   !> The largest range of a component.
+   pure real(wp) function orbit_amplitude(orbit) result(amplitude)
+      !> The orbit
+      type(periodic_orbit_type), intent(in) :: orbit
+
+      amplitude = maxval(maxval(orbit%nodes, dim=2) - minval(orbit%nodes, dim=2))
+   end function orbit_amplitude
+
+   !> Keep the first orbits of a branch.
+   subroutine cut(branch, count)
+      !> The branch
+      type(branch_type), intent(inout) :: branch
+      !> Their number
+      integer, intent(in) :: count
+
+      type(branch_type) :: whole
+      integer :: i
+
+      call move_alloc(branch%orbits, whole%orbits)
+      call move_alloc(branch%tangents, whole%tangents)
+      call move_alloc(branch%multipliers, whole%multipliers)
+      allocate (branch%orbits(count), branch%tangents(count), branch%multipliers(count))
+      do i = 1, count
+         branch%orbits(i) = whole%orbits(i)
+         branch%tangents(i) = whole%tangents(i)
+         branch%multipliers(i) = whole%multipliers(i)
+      end do
+   end subroutine cut
+
+   !> The direction in which only the parameter changes.
+   pure type(orbit_change_type) function parameter_direction(orbit) result(direction)
+      !> An orbit
+      type(periodic_orbit_type), intent(in) :: orbit
+
+      allocate (direction%nodes(size(orbit%nodes, 1), size(orbit%nodes, 2)), source=0.0_wp)
+      direction%parameters = [1.0_wp]
+   end function parameter_direction
+
+   !> A multiple of a change.
+   pure type(orbit_change_type) function scaled(change, factor)
+      !> The change
+      type(orbit_change_type), intent(in) :: change
+      !> Factor
+      real(wp), intent(in) :: factor
+
+      scaled%nodes = factor*change%nodes
+      scaled%period = factor*change%period
+      scaled%parameters = factor*change%parameters
+   end function scaled
+
+   !> A change interpolated on the mesh of another orbit.
+   pure type(orbit_change_type) function on_mesh_of(change, orbit, other) result(moved)
+      !> The change
+      type(orbit_change_type), intent(in) :: change
+      !> The orbit it changes
+      type(periodic_orbit_type), intent(in) :: orbit
+      !> The other one
+      type(periodic_orbit_type), intent(in) :: other
+      type(periodic_orbit_type) :: carrier
+
+      carrier = orbit
+      carrier%nodes = change%nodes
+      carrier = carrier%on_mesh(other%mesh)
+      moved = change
+      moved%nodes = carrier%nodes
+   end function on_mesh_of
+end module orbit_branch
