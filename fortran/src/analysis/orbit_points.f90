@@ -1,0 +1,363 @@
+!> Special points on branches of periodic orbits: folds, period doublings, torus (Neimark-Sacker)
+!> points, and points at which another branch crosses. Each is a root of a test function on the
+!> segment between two orbits, and each is found on two meshes.
+module orbit_points
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: wp
+   use floquet_multipliers, only: find_multipliers, multipliers_type
+   use orbit_branch, only: branch_settings_type, branch_type, tangent_to
+   use orbit_change, only: difference_of, inner_product, orbit_change_type
+   use orbit_equations, only: correct_orbit, newton_type
+   use orbit_mesh, only: adapted_mesh
+   use periodic_orbit, only: periodic_orbit_type
+   use problem_family, only: problem_family_type
+   implicit none (type, external)
+   private
+   public :: branching, find_special_points, fold, nearest_resonance, period_doubling, &
+             special_point_type, test_value, torus_bifurcation
+
+   !> Kinds of special points.
+   character(len=*), parameter :: fold = "fold", period_doubling = "period_doubling", &
+                                  torus_bifurcation = "torus", branching = "branching"
+   !> Letters of a kind.
+   integer, parameter :: kind_length = 20
+
+   !> A special point.
+   type :: special_point_type
+      !> Its kind
+      character(len=kind_length) :: kind = ""
+      !> The orbit
+      type(periodic_orbit_type) :: orbit
+      !> The critical multiplier; of a pair the one with positive imaginary part
+      complex(wp) :: multiplier = (0.0_wp, 0.0_wp)
+      !> Distance of the trivial multiplier from 1
+      real(wp) :: trivial_error = 0.0_wp
+      !> Difference of the parameter between the two meshes
+      real(wp) :: mesh_error = 0.0_wp
+      !> Unstable multipliers before and behind it on the branch
+      integer :: unstable(2) = 0
+   contains
+      !> Share of a turn of the critical pair
+      procedure :: angle
+   end type special_point_type
+
+   !> The orbits between two of a branch, in the direction from the first to the second.
+   type :: segment_type
+      !> First and second orbit, on one mesh
+      type(periodic_orbit_type) :: ends(2)
+      !> Direction, of norm 1
+      type(orbit_change_type) :: along(1)
+      !> Distance of the two
+      real(wp) :: length = 0.0_wp
+   end type segment_type
+
+   !> Intervals of the second mesh over those of the first
+   real(wp), parameter :: refinement = 1.5_wp
+   !> Iterations of a root search, and the share of the segment to which it goes
+   integer, parameter :: most_iterations = 60
+   real(wp), parameter :: share = 1.0e-11_wp
+   !> A test function is 0 where it is this small; a jump is larger.
+   real(wp), parameter :: small = 1.0e-6_wp
+   !> Halvings of a segment with several special points
+   integer, parameter :: most_halvings = 8
+
+contains
+
+   !> Angle of the multiplier over a full turn.
+   pure real(wp) function angle(self)
+      !> The point
+      class(special_point_type), intent(in) :: self
+      real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
+
+      angle = atan2(aimag(self%multiplier), real(self%multiplier))/turn
+   end function angle
+
+   !> The fraction p/q with q up to 10 that is nearest to an angle in turns.
+   pure function nearest_resonance(angle) result(fraction)
+      !> The angle, 0 to 1/2
+      real(wp), intent(in) :: angle
+      integer :: fraction(2)
+      integer, parameter :: largest = 10
+      integer :: p, q
+
+      fraction = [nint(angle), 1]
+      do q = 2, largest
+         p = nint(angle*q)
+         if (abs(angle - real(p, wp)/q) < abs(angle - real(fraction(1), wp)/fraction(2))) then
+            fraction = [p, q]
+         end if
+      end do
+   end function nearest_resonance
+
+   !> All special points on a branch.
+   subroutine find_special_points(family, settings, branch, points, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> How the branch was followed
+      type(branch_settings_type), intent(in) :: settings
+      !> The branch
+      type(branch_type), intent(in) :: branch
+      !> The points, in the order of the branch
+      type(special_point_type), allocatable, intent(out) :: points(:)
+      !> A point was not found
+      type(error_type), allocatable, intent(out) :: error
+      integer :: i
+
+      allocate (points(0))
+      do i = 1, size(branch%orbits) - 1
+         call search(family, settings, branch%orbits(i), branch%orbits(i + 1), &
+                     [sign(1.0_wp, branch%tangents(i)%parameters(1)), &
+                      sign(1.0_wp, branch%tangents(i + 1)%parameters(1))], &
+                     branch%multipliers(i), branch%multipliers(i + 1), most_halvings, points, error)
+         if (allocated(error)) return
+      end do
+   end subroutine find_special_points
+
+   !> Special points between two orbits.
+   recursive subroutine search(family, settings, first, second, signs, before, behind, halvings, &
+                               points, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> How the branch was followed
+      type(branch_settings_type), intent(in) :: settings
+      !> The orbits
+      type(periodic_orbit_type), intent(in) :: first, second
+      !> Direction of the parameter there, 1 or -1
+      real(wp), intent(in) :: signs(2)
+      !> Their multipliers
+      type(multipliers_type), intent(in) :: before, behind
+      !> Halvings allowed
+      integer, intent(in) :: halvings
+      !> Points so far
+      type(special_point_type), allocatable, intent(inout) :: points(:)
+      !> A point was not found
+      type(error_type), allocatable, intent(out) :: error
+      type(multipliers_type) :: between
+      type(orbit_change_type) :: tangent
+      type(periodic_orbit_type) :: middle
+      type(segment_type) :: segment
+      type(special_point_type) :: point
+      integer :: change
+      logical :: folds
+      real(wp) :: sign_between
+
+      change = behind%unstable() - before%unstable()
+      folds = signs(1)*signs(2) < 0.0_wp
+      if (change == 0 .and. .not. folds) return
+      point%kind = ""
+      if (folds .and. abs(change) == 1) point%kind = fold
+      if (.not. folds .and. abs(change) == 2) point%kind = torus_bifurcation
+      if (.not. folds .and. abs(change) == 1) then
+         point%kind = branching
+         if (count(real(before%values) < -1.0_wp) /= count(real(behind%values) < -1.0_wp)) then
+            point%kind = period_doubling
+         end if
+      end if
+      segment = segment_between(first, second, settings)
+      if (point%kind /= "") then
+         point%unstable = [before%unstable(), behind%unstable()]
+         call locate_twice(family, settings, segment, point, error)
+         if (.not. allocated(error)) then
+            points = [points, point]
+            return
+         end if
+      end if
+      if (halvings == 0) then
+         if (.not. allocated(error)) call raise(error, "special points: "//text(change) &
+                                                //" multipliers cross within a step")
+         return
+      end if
+      if (allocated(error)) deallocate (error)
+      call orbit_on(family, settings, segment, 0.5_wp, middle, error)
+      if (allocated(error)) return
+      call find_multipliers(family, middle, settings%multipliers, between, error)
+      if (allocated(error)) return
+      call tangent_to(family, settings%scale, middle, segment%along(1), tangent, error)
+      if (allocated(error)) return
+      sign_between = sign(1.0_wp, tangent%parameters(1))
+      call search(family, settings, first, middle, [signs(1), sign_between], before, between, &
+                  halvings - 1, points, error)
+      if (allocated(error)) return
+      call search(family, settings, middle, second, [sign_between, signs(2)], between, behind, &
+                  halvings - 1, points, error)
+   end subroutine search
+
+   !> The segment between two orbits, on the mesh of the first.
+   type(segment_type) function segment_between(first, second, settings) result(segment)
+      !> The orbits
+      type(periodic_orbit_type), intent(in) :: first, second
+      !> Free parameters
+      type(branch_settings_type), intent(in) :: settings
+
+      segment%ends(1) = first
+      segment%ends(2) = second%on_mesh(first%mesh)
+      segment%along(1) = difference_of(segment%ends(2), first, settings%scale)
+      associate (d => segment%along(1))
+         segment%length = sqrt(inner_product(first, d, d))
+         d%nodes = d%nodes/segment%length
+         d%period = d%period/segment%length
+         d%parameters = d%parameters/segment%length
+      end associate
+   end function segment_between
+
+   !> Find a point on the mesh of the segment, then on a finer one.
+   subroutine locate_twice(family, settings, segment, point, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> How the branch was followed
+      type(branch_settings_type), intent(in) :: settings
+      !> The segment
+      type(segment_type), intent(in) :: segment
+      !> The point, of known kind
+      type(special_point_type), intent(inout) :: point
+      !> It was not found
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable :: finer(:)
+      real(wp) :: coarse
+      integer :: p
+      type(periodic_orbit_type) :: first
+
+      call locate(family, settings, segment, point, error)
+      if (allocated(error)) return
+      p = settings%scale%free(1)
+      coarse = point%orbit%parameters(p)
+      finer = adapted_mesh(point%orbit, nint(refinement*point%orbit%intervals()))
+      first = segment%ends(1)%on_mesh(finer)
+      call locate(family, settings, segment_between(first, segment%ends(2), settings), point, error)
+      if (allocated(error)) return
+      point%mesh_error = abs(point%orbit%parameters(p) - coarse)
+   end subroutine locate_twice
+
+   !> Find a point on a segment by the secant method with bisection (Illinois).
+   subroutine locate(family, settings, segment, point, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> How the branch was followed
+      type(branch_settings_type), intent(in) :: settings
+      !> The segment
+      type(segment_type), intent(in) :: segment
+      !> The point, of known kind
+      type(special_point_type), intent(inout) :: point
+      !> It was not found
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: a(2), at, g(2), g_here
+      integer :: i, last, side
+
+      a = [0.0_wp, 1.0_wp]
+      do i = 1, 2
+         call test_at(family, settings, segment, a(i), point, g(i), error)
+         if (allocated(error)) return
+      end do
+      if (g(1)*g(2) > 0.0_wp) then
+         call raise(error, "special point "//trim(point%kind)//": test function "//text(g(1)) &
+                    //" and "//text(g(2))//" at the ends of a step; different signs expected")
+         return
+      end if
+      last = 0
+      do i = 1, most_iterations
+         at = a(1) + (a(2) - a(1))*g(1)/(g(1) - g(2))
+         call test_at(family, settings, segment, at, point, g_here, error)
+         if (allocated(error)) return
+         side = merge(1, 2, g_here*g(1) > 0.0_wp)
+         if (abs(at - a(side)) <= share .or. abs(g_here) <= tiny(g_here)) exit
+         a(side) = at
+         g(side) = g_here
+         ! the other end would never move
+         if (side == last) g(3 - side) = 0.5_wp*g(3 - side)
+         last = side
+      end do
+      if (abs(g_here) > small) then
+         call raise(error, "special point "//trim(point%kind)//": test function "//text(g_here) &
+                    //" where it changes sign; at most "//text(small)//" expected")
+      end if
+   end subroutine locate
+
+   !> The orbit at a place on a segment, and the test function of the point there.
+   subroutine test_at(family, settings, segment, place, point, g, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> How the branch was followed
+      type(branch_settings_type), intent(in) :: settings
+      !> The segment
+      type(segment_type), intent(in) :: segment
+      !> Place, 0..1
+      real(wp), intent(in) :: place
+      !> The point, of known kind; its orbit is the one at the place
+      type(special_point_type), intent(inout) :: point
+      !> Test function
+      real(wp), intent(out) :: g
+      !> There is no orbit
+      type(error_type), allocatable, intent(out) :: error
+      type(multipliers_type) :: multipliers
+      type(orbit_change_type) :: tangent
+
+      g = 0.0_wp
+      call orbit_on(family, settings, segment, place, point%orbit, error)
+      if (allocated(error)) return
+      call find_multipliers(family, point%orbit, settings%multipliers, multipliers, error)
+      if (allocated(error)) return
+      call test_value(point%kind, multipliers, point%multiplier, g)
+      point%trivial_error = multipliers%trivial_error
+      if (point%kind /= fold) return
+      call tangent_to(family, settings%scale, point%orbit, segment%along(1), tangent, error)
+      g = tangent%parameters(1)
+   end subroutine test_at
+
+   !> Test function of a kind of point by multipliers: m + 1, m - 1 or |m| - 1 for the one nearest to
+   !> -1, to 1, or to the unit circle off the real axis.
+   pure subroutine test_value(kind, multipliers, critical, g)
+      !> Kind of the point
+      character(len=*), intent(in) :: kind
+      !> Multipliers
+      type(multipliers_type), intent(in) :: multipliers
+      !> The critical one
+      complex(wp), intent(out) :: critical
+      !> The test function
+      real(wp), intent(out) :: g
+      logical :: real_ones(size(multipliers%values))
+
+      associate (m => multipliers%values)
+         real_ones = abs(aimag(m)) <= 0.0_wp
+         critical = (0.0_wp, 0.0_wp)
+         select case (kind)
+         case (torus_bifurcation)
+            if (.not. all(real_ones)) then
+               critical = m(minloc(abs(abs(m) - 1.0_wp), dim=1, mask=aimag(m) > 0.0_wp))
+            end if
+            g = abs(critical) - 1.0_wp
+         case (period_doubling)
+            if (any(real_ones)) critical = m(minloc(abs(m + 1.0_wp), dim=1, mask=real_ones))
+            g = real(critical) + 1.0_wp
+         case default
+            if (any(real_ones)) critical = m(minloc(abs(m - 1.0_wp), dim=1, mask=real_ones))
+            g = real(critical) - 1.0_wp
+         end select
+      end associate
+   end subroutine test_value
+
+   !> The orbit at a place on a segment.
+   subroutine orbit_on(family, settings, segment, place, orbit, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> How the branch was followed
+      type(branch_settings_type), intent(in) :: settings
+      !> The segment
+      type(segment_type), intent(in) :: segment
+      !> Place, 0..1
+      real(wp), intent(in) :: place
+      !> The orbit
+      type(periodic_orbit_type), intent(out) :: orbit
+      !> There is none
+      type(error_type), allocatable, intent(out) :: error
+      type(newton_type) :: newton
+
+      associate (first => segment%ends(1), second => segment%ends(2))
+         orbit = first
+         orbit%nodes = (1.0_wp - place)*first%nodes + place*second%nodes
+         orbit%period = (1.0_wp - place)*first%period + place*second%period
+         orbit%parameters = (1.0_wp - place)*first%parameters + place*second%parameters
+         call correct_orbit(family, settings%scale, first, segment%along, [place*segment%length], &
+                            orbit, newton, error)
+      end associate
+   end subroutine orbit_on
+end module orbit_points
