@@ -4,7 +4,8 @@ module floquet_multipliers
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use linear_map, only: leading_eigenvalues, linear_map_type
-   use orbit_linearisation, only: orbit_linearisation_type, orbit_scale_type
+   use orbit_linearisation, only: linearise_orbit
+   use orbit_passes, only: orbit_passes_type, orbit_scale_type
    use periodic_orbit, only: periodic_orbit_type
    use problem_family, only: problem_family_type
    implicit none (type, external)
@@ -29,7 +30,7 @@ module floquet_multipliers
    !> The map of the past.
    type, extends(linear_map_type) :: period_map_type
       !> Linear equations about the orbit
-      type(orbit_linearisation_type) :: linear
+      type(orbit_passes_type) :: linear
       !> Nodes and delayed components of the last vector
       real(wp), allocatable :: nodes(:), delayed(:, :)
    contains
@@ -58,7 +59,7 @@ contains
       integer :: i, kept, trivial
 
       allocate (none%free(0), none%unit(0))
-      map%linear = orbit_linearisation_type(family, orbit, none, .true., error)
+      call linearise_orbit(family, orbit, none, .true., map%linear, error)
       if (allocated(error)) return
       associate (linear => map%linear)
          allocate (map%nodes(size(orbit%nodes)))

@@ -5,14 +5,14 @@ module orbit_branch
    use dde_kinds, only: wp
    use floquet_multipliers, only: find_multipliers, multipliers_type
    use orbit_change, only: inner_product, orbit_change_type
-   use orbit_equations, only: correct_orbit, newton_type, solve_about
-   use orbit_linearisation, only: orbit_scale_type
-   use orbit_mesh, only: adapted_mesh
+   use orbit_equations, only: correct_orbit, newton_type, turn_to_tangent
+   use orbit_passes, only: orbit_scale_type
+   use orbit_refinement, only: make_accurate, refinement_type
    use periodic_orbit, only: periodic_orbit_type
    use problem_family, only: problem_family_type
    implicit none (type, external)
    private
-   public :: branch_settings_type, branch_type, follow_branch, orbit_amplitude, tangent_to
+   public :: branch_settings_type, branch_type, follow_branch, orbit_amplitude, parameter_direction
 
    !> How far a branch is followed, and how.
    type :: branch_settings_type
@@ -28,8 +28,8 @@ module orbit_branch
       real(wp) :: least_amplitude = 1.0e-3_wp
       !> It ends where the period is longer.
       real(wp) :: longest_period = huge(1.0_wp)
-      !> Number of multipliers
-      integer :: multipliers = 6
+      !> Multipliers and their accuracy
+      type(refinement_type) :: refinement
    end type branch_settings_type
 
    !> Orbits in the order of the branch.
@@ -54,8 +54,8 @@ module orbit_branch
    real(wp), parameter :: longer = 1.5_wp, shorter = 0.5_wp
    !> Least cosine of the angle between tangents of neighbours
    real(wp), parameter :: least_cosine = 0.8_wp
-   !> Orbits between two adaptions of the mesh
-   integer, parameter :: adapt_every = 3
+   !> Orbits between two adaptions of an accurate mesh
+   integer, parameter :: adapt_every = 5
 
 contains
 
@@ -85,18 +85,19 @@ contains
       associate (scale => settings%scale)
          along(1) = parameter_direction(start)
          if (present(tangent)) along(1) = tangent
-         along(1) = scaled(along(1), real(direction, wp))
+         along(1) = along(1)%times(real(direction, wp))
          orbit = start
          call correct_orbit(family, scale, start, along, [0.0_wp], orbit, newton, error)
          if (allocated(error)) return
          branch%iterations = newton%iterations
-         call find_tangent(family, scale, orbit, along(1), error)
+         call turn_to_tangent(family, scale, orbit, along(1), error)
          if (allocated(error)) return
          allocate (branch%orbits(settings%most_orbits), branch%tangents(settings%most_orbits), &
                    branch%multipliers(settings%most_orbits))
          branch%orbits(1) = orbit
          branch%tangents(1) = along(1)
-         call find_multipliers(family, orbit, settings%multipliers, branch%multipliers(1), error)
+         call make_accurate(family, scale, settings%refinement, branch%orbits(1), branch%tangents(1), &
+                            branch%multipliers(1), .true., error)
          if (allocated(error)) return
          step = settings%first_step
          i = 1
@@ -105,8 +106,8 @@ contains
             call take_step(family, settings, branch, i, step, newton, failure)
             branch%iterations = branch%iterations + newton%iterations
             if (.not. allocated(failure)) then
-               call find_multipliers(family, branch%orbits(i + 1), settings%multipliers, &
-                                     branch%multipliers(i + 1), failure)
+               call make_accurate(family, scale, settings%refinement, branch%orbits(i + 1), branch%tangents(i + 1), &
+                                  branch%multipliers(i + 1), mod(i, adapt_every) == 0, failure)
             end if
             if (allocated(failure)) then
                step = shorter*step
@@ -140,32 +141,20 @@ contains
       type(newton_type), intent(out) :: newton
       !> The step is too long
       type(error_type), allocatable, intent(out) :: error
-      type(newton_type) :: again
       type(orbit_change_type) :: along(1), move
-      type(periodic_orbit_type) :: orbit, reference
+      type(periodic_orbit_type) :: orbit
       logical :: turned
 
       associate (before => branch%orbits(i), scale => settings%scale)
          newton%most_iterations = most_iterations
-         reference = before
          along(1) = branch%tangents(i)
-         if (mod(i, adapt_every) == 0) then
-            ! only a small residual of interpolation is new on the other mesh
-            reference = before%on_mesh(adapted_mesh(before, before%intervals()))
-            along(1) = on_mesh_of(along(1), before, reference)
-            orbit = reference
-            call correct_orbit(family, scale, reference, along, [0.0_wp], orbit, again, error)
-            if (allocated(error)) return
-            reference = orbit
-            along(1) = scaled(along(1), 1.0_wp/sqrt(inner_product(orbit, along(1), along(1))))
-         end if
-         orbit = reference
-         move = scaled(along(1), step)
+         orbit = before
+         move = along(1)%times(step)
          call move%add_to(orbit, scale)
-         call correct_orbit(family, scale, reference, along, [step], orbit, newton, error)
+         call correct_orbit(family, scale, before, along, [step], orbit, newton, error)
          if (allocated(error)) return
          move = along(1)
-         call find_tangent(family, scale, orbit, along(1), error)
+         call turn_to_tangent(family, scale, orbit, along(1), error)
          if (allocated(error)) return
          turned = inner_product(orbit, along(1), move) < least_cosine
          if (turned .and. step > settings%least_step/shorter) then
@@ -177,47 +166,6 @@ contains
          branch%tangents(i + 1) = along(1)
       end associate
    end subroutine take_step
-
-   !> The tangent of norm 1 whose inner product with the last one is positive.
-   subroutine find_tangent(family, scale, orbit, along, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> Free parameters
-      type(orbit_scale_type), intent(in) :: scale
-      !> The orbit
-      type(periodic_orbit_type), intent(in) :: orbit
-      !> The last tangent, then this one
-      type(orbit_change_type), intent(inout) :: along
-      !> There is none
-      type(error_type), allocatable, intent(out) :: error
-      type(orbit_change_type) :: tangent
-
-      call tangent_to(family, scale, orbit, along, tangent, error)
-      if (allocated(error)) return
-      along = tangent
-   end subroutine find_tangent
-
-   !> The tangent of norm 1 whose inner product with a direction is positive.
-   subroutine tangent_to(family, scale, orbit, direction, tangent, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> Free parameters
-      type(orbit_scale_type), intent(in) :: scale
-      !> The orbit
-      type(periodic_orbit_type), intent(in) :: orbit
-      !> The direction
-      type(orbit_change_type), intent(in) :: direction
-      !> The tangent
-      type(orbit_change_type), intent(out) :: tangent
-      !> There is none
-      type(error_type), allocatable, intent(out) :: error
-      type(orbit_change_type) :: directions(1)
-
-      directions(1) = direction
-      call solve_about(family, scale, orbit, directions, [1.0_wp], tangent, error)
-      if (allocated(error)) return
-      tangent = scaled(tangent, 1.0_wp/sqrt(inner_product(orbit, tangent, tangent)))
-   end subroutine tangent_to
 
    !> Replace the last orbit by that at the edge of the window.
    subroutine end_at_window(family, settings, branch)
@@ -245,9 +193,9 @@ contains
          if (allocated(error)) return
          orbit%parameters(p) = edge
          along(1) = branch%tangents(last)
-         call find_tangent(family, scale, orbit, along(1), error)
+         call turn_to_tangent(family, scale, orbit, along(1), error)
          if (allocated(error)) return
-         call find_multipliers(family, orbit, settings%multipliers, multipliers, error)
+         call find_multipliers(family, orbit, settings%refinement%multipliers, multipliers, error)
          if (allocated(error)) return
          branch%orbits(last) = orbit
          branch%tangents(last) = along(1)
@@ -315,33 +263,4 @@ contains
       allocate (direction%nodes(size(orbit%nodes, 1), size(orbit%nodes, 2)), source=0.0_wp)
       direction%parameters = [1.0_wp]
    end function parameter_direction
-
-   !> A multiple of a change.
-   pure type(orbit_change_type) function scaled(change, factor)
-      !> The change
-      type(orbit_change_type), intent(in) :: change
-      !> Factor
-      real(wp), intent(in) :: factor
-
-      scaled%nodes = factor*change%nodes
-      scaled%period = factor*change%period
-      scaled%parameters = factor*change%parameters
-   end function scaled
-
-   !> A change interpolated on the mesh of another orbit.
-   pure type(orbit_change_type) function on_mesh_of(change, orbit, other) result(moved)
-      !> The change
-      type(orbit_change_type), intent(in) :: change
-      !> The orbit it changes
-      type(periodic_orbit_type), intent(in) :: orbit
-      !> The other one
-      type(periodic_orbit_type), intent(in) :: other
-      type(periodic_orbit_type) :: carrier
-
-      carrier = orbit
-      carrier%nodes = change%nodes
-      carrier = carrier%on_mesh(other%mesh)
-      moved = change
-      moved%nodes = carrier%nodes
-   end function on_mesh_of
 end module orbit_branch

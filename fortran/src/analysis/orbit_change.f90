@@ -1,7 +1,7 @@
 !> Changes of periodic orbits as vectors, with an inner product.
 module orbit_change
    use dde_kinds, only: wp
-   use orbit_linearisation, only: orbit_scale_type
+   use orbit_passes, only: orbit_scale_type
    use periodic_orbit, only: periodic_orbit_type
    implicit none (type, external)
    private
@@ -20,6 +20,10 @@ module orbit_change
       procedure :: add_to
       !> Its size against an orbit
       procedure :: size_against
+      !> A multiple of it
+      procedure :: times
+      !> It interpolated on another mesh
+      procedure :: on_mesh
    end type orbit_change_type
 
 contains
@@ -129,4 +133,34 @@ contains
                            abs(self%period), abs(self%parameters)])
       end associate
    end function size_against
+
+   !> A multiple of a change.
+   pure type(orbit_change_type) function times(self, factor)
+      !> The change
+      class(orbit_change_type), intent(in) :: self
+      !> Factor
+      real(wp), intent(in) :: factor
+
+      times%nodes = factor*self%nodes
+      times%period = factor*self%period
+      times%parameters = factor*self%parameters
+   end function times
+
+   !> A change interpolated on another mesh.
+   pure type(orbit_change_type) function on_mesh(self, orbit, mesh)
+      !> The change
+      class(orbit_change_type), intent(in) :: self
+      !> The orbit it changes
+      type(periodic_orbit_type), intent(in) :: orbit
+      !> The other mesh
+      real(wp), intent(in) :: mesh(:)
+      type(periodic_orbit_type) :: carrier
+
+      carrier = orbit
+      carrier%nodes = self%nodes
+      carrier = carrier%on_mesh(mesh)
+      on_mesh%nodes = carrier%nodes
+      on_mesh%period = self%period
+      on_mesh%parameters = self%parameters
+   end function on_mesh
 end module orbit_change

@@ -4,13 +4,15 @@ module orbit_equations
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use linear_map, only: linear_map_type, solve_by_gmres
-   use orbit_change, only: difference_of, orbit_change_type, phase_condition, weights_of
-   use orbit_linearisation, only: orbit_linearisation_type, orbit_scale_type
+   use orbit_change, only: difference_of, inner_product, orbit_change_type, phase_condition, &
+                           weights_of
+   use orbit_linearisation, only: linearise_orbit
+   use orbit_passes, only: orbit_passes_type, orbit_scale_type
    use periodic_orbit, only: periodic_orbit_type
    use problem_family, only: problem_family_type
    implicit none (type, external)
    private
-   public :: correct_orbit, newton_type, solve_about
+   public :: correct_orbit, newton_type, solve_about, turn_to_tangent
 
    !> Newton's method.
    type :: newton_type
@@ -35,7 +37,7 @@ module orbit_equations
    !> of the free parameters.
    type, extends(linear_map_type) :: orbit_map_type
       !> Collocation equations
-      type(orbit_linearisation_type) :: linear
+      type(orbit_passes_type) :: linear
       !> Conditions: the phase condition, then one for each free parameter
       type(orbit_change_type), allocatable :: conditions(:)
       !> Nodes and delayed components of the last vector
@@ -123,6 +125,26 @@ contains
                             error)
    end subroutine solve_about
 
+   !> Turn a direction to the tangent of norm 1 whose inner product with it is positive.
+   subroutine turn_to_tangent(family, scale, orbit, direction, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> Free parameters
+      type(orbit_scale_type), intent(in) :: scale
+      !> The orbit
+      type(periodic_orbit_type), intent(in) :: orbit
+      !> The direction, then the tangent
+      type(orbit_change_type), intent(inout) :: direction
+      !> There is none
+      type(error_type), allocatable, intent(out) :: error
+      type(orbit_change_type) :: directions(1), tangent
+
+      directions(1) = direction
+      call solve_about(family, scale, orbit, directions, [1.0_wp], tangent, error)
+      if (allocated(error)) return
+      direction = tangent%times(1.0_wp/sqrt(inner_product(orbit, tangent, tangent)))
+   end subroutine turn_to_tangent
+
    !> Solve the linear equations about an orbit.
    subroutine solve_conditions(family, scale, orbit, conditions, residual, target, change, error)
       !> The problems
@@ -145,7 +167,7 @@ contains
       real(wp), allocatable :: right(:), solution(:)
       integer :: past, unknowns
 
-      map%linear = orbit_linearisation_type(family, orbit, scale, .false., error)
+      call linearise_orbit(family, orbit, scale, .false., map%linear, error)
       if (allocated(error)) return
       map%conditions = conditions
       past = map%linear%past_size()

@@ -1,59 +1,19 @@
 !> The collocation equations of a periodic orbit of x' = T f(x(s), z(s)), z = x_c(s - lag/T), made
-!> linear about an approximation. On one interval the nodes follow from the left end, the delayed
-!> values and the forcing. So all follow, interval by interval, from the past.
+!> linear about an approximation and solved on each interval.
 module orbit_linearisation
    use dde, only: dde_problem_type, find_jacobian
    use dde_errors, only: error_type, raise
    use dde_kinds, only: wp
    use lapack, only: solve
+   use orbit_passes, only: orbit_passes_type, orbit_scale_type
    use periodic_orbit, only: periodic_orbit_type
    use problem_family, only: problem_family_type
    implicit none (type, external)
    private
-   public :: orbit_linearisation_type, orbit_scale_type
+   public :: linearise_orbit
 
    !> Share of its scale by which a parameter is changed for a derivative.
    real(wp), parameter :: difference = 1.0e-5_wp
-
-   !> Parameters that may vary, and what is one unit of each.
-   type :: orbit_scale_type
-      !> Their numbers in the family
-      integer, allocatable :: free(:)
-      !> Units, > 0
-      real(wp), allocatable :: unit(:)
-   end type orbit_scale_type
-
-   !> Linear equations for changes of an orbit. The past has the state at s = 0 and the delayed
-   !> components at the nodes of the last `reach` intervals before.
-   type :: orbit_linearisation_type
-      !> Number of equations n, degree m, intervals, and intervals of the past
-      integer :: n = 0, degree = 0, intervals = 0, reach = 0
-      !> Components that are delayed
-      integer, allocatable :: delayed(:)
-      !> Which of them each delayed value is
-      integer, allocatable :: row(:)
-      !> First node from which a delayed value is interpolated, counted from the start of the past,
-      !> shape (delays, m, intervals)
-      integer, allocatable :: source(:, :, :)
-      !> Weights of it and the m following ones, shape (m + 1, delays, m, intervals); 0 where the
-      !> delay does not reach out of the interval
-      real(wp), allocatable :: weight(:, :, :, :)
-      !> Answer of an interval's nodes but the first, shape (n m, inputs, intervals). Inputs: state
-      !> at the left end (n), delayed values at the points (delays m), forcings: the residual, a
-      !> relative change of the period, changes of free parameters in their units.
-      real(wp), allocatable :: response(:, :, :)
-   contains
-      !> Numbers of a past
-      procedure :: past_size
-      !> Nodes that follow from a past
-      procedure :: pass
-      !> The past a period later
-      procedure :: later_past
-   end type orbit_linearisation_type
-
-   interface orbit_linearisation_type
-      module procedure :: new_linearisation
-   end interface orbit_linearisation_type
 
    !> A problem of the family.
    type :: member_type
@@ -72,7 +32,7 @@ module orbit_linearisation
 contains
 
    !> The equations about an orbit.
-   function new_linearisation(family, orbit, scale, whole_past, error) result(self)
+   subroutine linearise_orbit(family, orbit, scale, whole_past, self, error)
       !> The problems
       class(problem_family_type), intent(in) :: family
       !> The orbit
@@ -82,9 +42,10 @@ contains
       !> Whether delays reach back over periods, as is needed for multipliers; otherwise they are
       !> taken modulo the period
       logical, intent(in) :: whole_past
+      !> The equations
+      type(orbit_passes_type), intent(out) :: self
       !> The right-hand side is not finite somewhere
       type(error_type), allocatable, intent(out) :: error
-      type(orbit_linearisation_type) :: self
       class(dde_problem_type), allocatable :: problem
       type(member_type) :: beside(2, size(scale%free))
       real(wp), allocatable :: local(:, :), place(:, :, :), right(:, :)
@@ -112,7 +73,7 @@ contains
          call raise(error, "periodic orbit: a right-hand side or its derivative is not finite; " &
                     //"finite values expected")
       end if
-   end function new_linearisation
+   end subroutine linearise_orbit
 
    !> Parameters of which a free one is changed.
    pure function changed(parameters, scale, p, share) result(moved)
@@ -133,7 +94,7 @@ contains
    !> Where delayed values come from.
    subroutine find_sources(self, problem, orbit, whole_past, place)
       !> The equations
-      type(orbit_linearisation_type), intent(inout) :: self
+      type(orbit_passes_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> The orbit
@@ -181,7 +142,7 @@ contains
    !> local, those of the left end, are moved to the right.
    subroutine local_system(self, problem, beside, orbit, place, i, local, right)
       !> The equations
-      type(orbit_linearisation_type), intent(inout) :: self
+      type(orbit_passes_type), intent(inout) :: self
       !> The problem of the orbit
       class(dde_problem_type), intent(in) :: problem
       !> Problems with a free parameter above and below
@@ -248,7 +209,7 @@ contains
    !> Derivatives and forcings at a collocation point.
    subroutine evaluate(self, problem, beside, orbit, place, i, k, point)
       !> The equations
-      type(orbit_linearisation_type), intent(in) :: self
+      type(orbit_passes_type), intent(in) :: self
       !> The problem of the orbit
       class(dde_problem_type), intent(in) :: problem
       !> Problems with a free parameter above and below
@@ -297,77 +258,4 @@ contains
          end do
       end associate
    end subroutine evaluate
-
-   !> Numbers of a past.
-   pure integer function past_size(self)
-      !> The equations
-      class(orbit_linearisation_type), intent(in) :: self
-
-      past_size = self%n + size(self%delayed)*self%reach*self%degree
-   end function past_size
-
-   !> Nodes over a period that follow from a past and forcings.
-   pure subroutine pass(self, past, forcing, nodes, delayed)
-      !> The equations
-      class(orbit_linearisation_type), intent(in) :: self
-      !> State at s = 0, delayed components at nodes before, ascending
-      real(wp), intent(in) :: past(:)
-      !> Factors of the forcings
-      real(wp), intent(in) :: forcing(:)
-      !> State at the nodes, shape (n (intervals m + 1)): node by node
-      real(wp), intent(out) :: nodes(:)
-      !> Delayed components at all nodes, also of the past, shape (components, all nodes)
-      real(wp), intent(out) :: delayed(:, :)
-      real(wp) :: answer(self%n*self%degree), input(size(self%response, 2))
-      integer :: column, first, i, k, l, node
-
-      associate (n => self%n, m => self%degree, lags => size(self%row))
-         node = self%reach*m
-         delayed(:, :node) = reshape(past(n + 1:), [size(self%delayed), node])
-         delayed(:, node + 1) = past(self%delayed)
-         delayed(:, node + 2:) = 0.0_wp
-         nodes(:n) = past(:n)
-         input(n + m*lags + 1:) = forcing
-         do i = 1, self%intervals
-            first = (i - 1)*m*n
-            input(:n) = nodes(first + 1:first + n)
-            column = n
-            do k = 1, m
-               do l = 1, lags
-                  column = column + 1
-                  associate (from => self%source(l, k, i))
-                     input(column) = dot_product(self%weight(:, l, k, i), &
-                                                 delayed(self%row(l), from:from + m))
-                  end associate
-               end do
-            end do
-            answer = 0.0_wp
-            do column = 1, size(input)
-               answer = answer + input(column)*self%response(:, column, i)
-            end do
-            first = first + n
-            nodes(first + 1:first + n*m) = answer
-            do k = 1, m
-               node = (self%reach + i - 1)*m + k + 1
-               delayed(:, node) = answer((k - 1)*n + self%delayed)
-            end do
-         end do
-      end associate
-   end subroutine pass
-
-   !> The past a period later.
-   pure function later_past(self, nodes, delayed) result(past)
-      !> The equations
-      class(orbit_linearisation_type), intent(in) :: self
-      !> State at the nodes
-      real(wp), intent(in) :: nodes(:)
-      !> Delayed components at all nodes
-      real(wp), intent(in) :: delayed(:, :)
-      real(wp) :: past(self%past_size())
-
-      past(:self%n) = nodes(size(nodes) - self%n + 1:)
-      associate (first => self%intervals*self%degree, count => self%reach*self%degree)
-         past(self%n + 1:) = reshape(delayed(:, first + 1:first + count), [count*size(delayed, 1)])
-      end associate
-   end function later_past
 end module orbit_linearisation

@@ -5,10 +5,11 @@ module orbit_points
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use floquet_multipliers, only: find_multipliers, multipliers_type
-   use orbit_branch, only: branch_settings_type, branch_type, tangent_to
-   use orbit_change, only: difference_of, inner_product, orbit_change_type
-   use orbit_equations, only: correct_orbit, newton_type
+   use orbit_branch, only: branch_settings_type, branch_type
+   use orbit_change, only: orbit_change_type
+   use orbit_equations, only: turn_to_tangent
    use orbit_mesh, only: adapted_mesh
+   use orbit_segment, only: orbit_on, segment_between, segment_type
    use periodic_orbit, only: periodic_orbit_type
    use problem_family, only: problem_family_type
    implicit none (type, external)
@@ -40,16 +41,6 @@ module orbit_points
       !> Share of a turn of the critical pair
       procedure :: angle
    end type special_point_type
-
-   !> The orbits between two of a branch, in the direction from the first to the second.
-   type :: segment_type
-      !> First and second orbit, on one mesh
-      type(periodic_orbit_type) :: ends(2)
-      !> Direction, of norm 1
-      type(orbit_change_type) :: along(1)
-      !> Distance of the two
-      real(wp) :: length = 0.0_wp
-   end type segment_type
 
    !> Intervals of the second mesh over those of the first
    real(wp), parameter :: refinement = 1.5_wp
@@ -153,7 +144,7 @@ contains
             point%kind = period_doubling
          end if
       end if
-      segment = segment_between(first, second, settings)
+      segment = segment_between(first, second, settings%scale)
       if (point%kind /= "") then
          point%unstable = [before%unstable(), behind%unstable()]
          call locate_twice(family, settings, segment, point, error)
@@ -168,11 +159,12 @@ contains
          return
       end if
       if (allocated(error)) deallocate (error)
-      call orbit_on(family, settings, segment, 0.5_wp, middle, error)
+      call orbit_on(family, settings%scale, segment, 0.5_wp, middle, error)
       if (allocated(error)) return
-      call find_multipliers(family, middle, settings%multipliers, between, error)
+      call find_multipliers(family, middle, settings%refinement%multipliers, between, error)
       if (allocated(error)) return
-      call tangent_to(family, settings%scale, middle, segment%along(1), tangent, error)
+      tangent = segment%along(1)
+      call turn_to_tangent(family, settings%scale, middle, tangent, error)
       if (allocated(error)) return
       sign_between = sign(1.0_wp, tangent%parameters(1))
       call search(family, settings, first, middle, [signs(1), sign_between], before, between, &
@@ -181,24 +173,6 @@ contains
       call search(family, settings, middle, second, [sign_between, signs(2)], between, behind, &
                   halvings - 1, points, error)
    end subroutine search
-
-   !> The segment between two orbits, on the mesh of the first.
-   type(segment_type) function segment_between(first, second, settings) result(segment)
-      !> The orbits
-      type(periodic_orbit_type), intent(in) :: first, second
-      !> Free parameters
-      type(branch_settings_type), intent(in) :: settings
-
-      segment%ends(1) = first
-      segment%ends(2) = second%on_mesh(first%mesh)
-      segment%along(1) = difference_of(segment%ends(2), first, settings%scale)
-      associate (d => segment%along(1))
-         segment%length = sqrt(inner_product(first, d, d))
-         d%nodes = d%nodes/segment%length
-         d%period = d%period/segment%length
-         d%parameters = d%parameters/segment%length
-      end associate
-   end function segment_between
 
    !> Find a point on the mesh of the segment, then on a finer one.
    subroutine locate_twice(family, settings, segment, point, error)
@@ -223,7 +197,7 @@ contains
       coarse = point%orbit%parameters(p)
       finer = adapted_mesh(point%orbit, nint(refinement*point%orbit%intervals()))
       first = segment%ends(1)%on_mesh(finer)
-      call locate(family, settings, segment_between(first, segment%ends(2), settings), point, error)
+      call locate(family, settings, segment_between(first, segment%ends(2), settings%scale), point, error)
       if (allocated(error)) return
       point%mesh_error = abs(point%orbit%parameters(p) - coarse)
    end subroutine locate_twice
@@ -292,14 +266,15 @@ contains
       type(orbit_change_type) :: tangent
 
       g = 0.0_wp
-      call orbit_on(family, settings, segment, place, point%orbit, error)
+      call orbit_on(family, settings%scale, segment, place, point%orbit, error)
       if (allocated(error)) return
-      call find_multipliers(family, point%orbit, settings%multipliers, multipliers, error)
+      call find_multipliers(family, point%orbit, settings%refinement%multipliers, multipliers, error)
       if (allocated(error)) return
       call test_value(point%kind, multipliers, point%multiplier, g)
       point%trivial_error = multipliers%trivial_error
       if (point%kind /= fold) return
-      call tangent_to(family, settings%scale, point%orbit, segment%along(1), tangent, error)
+      tangent = segment%along(1)
+      call turn_to_tangent(family, settings%scale, point%orbit, tangent, error)
       g = tangent%parameters(1)
    end subroutine test_at
 
@@ -329,35 +304,9 @@ contains
             if (any(real_ones)) critical = m(minloc(abs(m + 1.0_wp), dim=1, mask=real_ones))
             g = real(critical) + 1.0_wp
          case default
-            if (any(real_ones)) critical = m(minloc(abs(m - 1.0_wp), dim=1, mask=real_ones))
+            critical = m(minloc(abs(m - 1.0_wp), dim=1))
             g = real(critical) - 1.0_wp
          end select
       end associate
    end subroutine test_value
-
-   !> The orbit at a place on a segment.
-   subroutine orbit_on(family, settings, segment, place, orbit, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> How the branch was followed
-      type(branch_settings_type), intent(in) :: settings
-      !> The segment
-      type(segment_type), intent(in) :: segment
-      !> Place, 0..1
-      real(wp), intent(in) :: place
-      !> The orbit
-      type(periodic_orbit_type), intent(out) :: orbit
-      !> There is none
-      type(error_type), allocatable, intent(out) :: error
-      type(newton_type) :: newton
-
-      associate (first => segment%ends(1), second => segment%ends(2))
-         orbit = first
-         orbit%nodes = (1.0_wp - place)*first%nodes + place*second%nodes
-         orbit%period = (1.0_wp - place)*first%period + place*second%period
-         orbit%parameters = (1.0_wp - place)*first%parameters + place*second%parameters
-         call correct_orbit(family, settings%scale, first, segment%along, [place*segment%length], &
-                            orbit, newton, error)
-      end associate
-   end subroutine orbit_on
 end module orbit_points

@@ -32,6 +32,8 @@ module periodic_orbit
       procedure :: node_times
       !> The same orbit on another mesh
       procedure :: on_mesh
+      !> The same orbit from another end of an interval on
+      procedure :: from_interval
       !> Least and greatest value of a component
       procedure :: range_of
       !> Weights of an inner product
@@ -145,6 +147,27 @@ contains
       end associate
       orbit%nodes(:, size(orbit%nodes, 2)) = orbit%nodes(:, 1)
    end function on_mesh
+
+   !> The same orbit with its time counted from the left end of an interval.
+   pure function from_interval(self, first) result(orbit)
+      !> The orbit
+      class(periodic_orbit_type), intent(in) :: self
+      !> The interval that becomes number 1
+      integer, intent(in) :: first
+      type(periodic_orbit_type) :: orbit
+      integer :: intervals, node
+
+      intervals = self%intervals()
+      node = (first - 1)*self%basis%degree
+      orbit = self
+      associate (start => self%mesh(first), last => size(self%nodes, 2) - 1)
+         orbit%mesh(:intervals - first + 1) = self%mesh(first:intervals) - start
+         orbit%mesh(intervals - first + 2:intervals) = self%mesh(:first - 1) + (1.0_wp - start)
+         orbit%nodes(:, :last - node) = self%nodes(:, node + 1:last)
+         orbit%nodes(:, last - node + 1:last) = self%nodes(:, :node)
+         orbit%nodes(:, last + 1) = orbit%nodes(:, 1)
+      end associate
+   end function from_interval
 
    !> Least and greatest value of a component. Each extreme at a node is made better by the extreme
    !> of its polynomial, found by golden section between the neighbouring nodes.
