@@ -26,6 +26,7 @@ program tester
    use test_lyapunov_spectrum, only: collect_lyapunov_spectrum
    use test_measured_run, only: collect_measured_run
    use test_motion_classes, only: collect_motion_classes
+   use test_periodic_orbits, only: collect_periodic_orbits
    use test_progress, only: collect_progress
    use test_section_motion, only: collect_section_motion
    use test_slip_events, only: collect_slip_events
@@ -68,6 +69,7 @@ program tester
                              new_testsuite("lyapunov_spectrum", collect_lyapunov_spectrum), &
                              new_testsuite("measured_run", collect_measured_run), &
                              new_testsuite("motion_classes", collect_motion_classes), &
+                             new_testsuite("periodic_orbits", collect_periodic_orbits), &
                              new_testsuite("progress", collect_progress), &
                              new_testsuite("section_motion", collect_section_motion), &
                              new_testsuite("slip_events", collect_slip_events), &

@@ -1,7 +1,7 @@
 !> Branches of periodic orbits in one parameter by pseudo-arclength continuation, through folds. The
 !> step is controlled by the effort of Newton's method.
 module orbit_branch
-   use dde_errors, only: error_type
+   use dde_errors, only: error_type, raise
    use dde_kinds, only: wp
    use floquet_multipliers, only: find_multipliers, multipliers_type
    use orbit_change, only: inner_product, orbit_change_type
@@ -12,7 +12,7 @@ module orbit_branch
    use problem_family, only: problem_family_type
    implicit none (type, external)
    private
-   public :: branch_settings_type, branch_type, follow_branch, orbit_amplitude, parameter_direction
+   public :: branch_settings_type, branch_type, follow_branch
 
    !> How far a branch is followed, and how.
    type :: branch_settings_type
@@ -143,7 +143,6 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(orbit_change_type) :: along(1), move
       type(periodic_orbit_type) :: orbit
-      logical :: turned
 
       associate (before => branch%orbits(i), scale => settings%scale)
          newton%most_iterations = most_iterations
@@ -156,12 +155,13 @@ contains
          move = along(1)
          call turn_to_tangent(family, scale, orbit, along(1), error)
          if (allocated(error)) return
-         turned = inner_product(orbit, along(1), move) < least_cosine
-         if (turned .and. step > settings%least_step/shorter) then
-            allocate (error)
-            error%message = "the branch turns"
-            return
+         if (orbit%is_opposite(before)) then
+            call raise(error, "the step passes through a Hopf point")
+         else if (inner_product(orbit, along(1), move) < least_cosine &
+                  .and. step > settings%least_step/shorter) then
+            call raise(error, "the branch turns")
          end if
+         if (allocated(error)) return
          branch%orbits(i + 1) = orbit
          branch%tangents(i + 1) = along(1)
       end associate
@@ -216,7 +216,7 @@ contains
       associate (parameter_value => orbit%parameters(settings%scale%free(1)))
          if (parameter_value < settings%window(1) .or. parameter_value > settings%window(2)) then
             reason = "window"
-         else if (orbit_amplitude(orbit) < settings%least_amplitude) then
+         else if (orbit%amplitude() < settings%least_amplitude) then
             reason = "amplitude"
          else if (orbit%period > settings%longest_period) then
             reason = "period"
@@ -225,14 +225,6 @@ contains
          end if
       end associate
    end function has_ended
-
-   !> The largest range of a component.
-   pure real(wp) function orbit_amplitude(orbit) result(amplitude)
-      !> The orbit
-      type(periodic_orbit_type), intent(in) :: orbit
-
-      amplitude = maxval(maxval(orbit%nodes, dim=2) - minval(orbit%nodes, dim=2))
-   end function orbit_amplitude
 
    !> Keep the first orbits of a branch.
    subroutine cut(branch, count)

@@ -22,6 +22,8 @@ module orbit_change
       procedure :: size_against
       !> A multiple of it
       procedure :: times
+      !> It and a multiple of another one
+      procedure :: plus
       !> It interpolated on another mesh
       procedure :: on_mesh
    end type orbit_change_type
@@ -145,6 +147,20 @@ contains
       times%period = factor*self%period
       times%parameters = factor*self%parameters
    end function times
+
+   !> A change and a multiple of another one.
+   pure type(orbit_change_type) function plus(self, other, factor)
+      !> The change
+      class(orbit_change_type), intent(in) :: self
+      !> The other one
+      type(orbit_change_type), intent(in) :: other
+      !> Its factor
+      real(wp), intent(in) :: factor
+
+      plus%nodes = self%nodes + factor*other%nodes
+      plus%period = self%period + factor*other%period
+      plus%parameters = self%parameters + factor*other%parameters
+   end function plus
 
    !> A change interpolated on another mesh.
    pure type(orbit_change_type) function on_mesh(self, orbit, mesh)

@@ -32,8 +32,10 @@ module periodic_orbit
       procedure :: node_times
       !> The same orbit on another mesh
       procedure :: on_mesh
-      !> The same orbit from another end of an interval on
-      procedure :: from_interval
+      !> Largest range of a component
+      procedure :: amplitude
+      !> Whether another orbit on the same mesh swings against it
+      procedure :: is_opposite
       !> Least and greatest value of a component
       procedure :: range_of
       !> Weights of an inner product
@@ -148,26 +150,33 @@ contains
       orbit%nodes(:, size(orbit%nodes, 2)) = orbit%nodes(:, 1)
    end function on_mesh
 
-   !> The same orbit with its time counted from the left end of an interval.
-   pure function from_interval(self, first) result(orbit)
+   !> The largest range of a component, by the nodes.
+   pure real(wp) function amplitude(self)
       !> The orbit
       class(periodic_orbit_type), intent(in) :: self
-      !> The interval that becomes number 1
-      integer, intent(in) :: first
-      type(periodic_orbit_type) :: orbit
-      integer :: intervals, node
 
-      intervals = self%intervals()
-      node = (first - 1)*self%basis%degree
-      orbit = self
-      associate (start => self%mesh(first), last => size(self%nodes, 2) - 1)
-         orbit%mesh(:intervals - first + 1) = self%mesh(first:intervals) - start
-         orbit%mesh(intervals - first + 2:intervals) = self%mesh(:first - 1) + (1.0_wp - start)
-         orbit%nodes(:, :last - node) = self%nodes(:, node + 1:last)
-         orbit%nodes(:, last - node + 1:last) = self%nodes(:, :node)
-         orbit%nodes(:, last + 1) = orbit%nodes(:, 1)
-      end associate
-   end function from_interval
+      amplitude = maxval(maxval(self%nodes, dim=2) - minval(self%nodes, dim=2))
+   end function amplitude
+
+   !> Whether two orbits on the same mesh swing against each other: so do the orbits on both sides of
+   !> a Hopf point on a branch that passes through it.
+   pure logical function is_opposite(self, other)
+      !> The orbit
+      class(periodic_orbit_type), intent(in) :: self
+      !> The other one
+      type(periodic_orbit_type), intent(in) :: other
+      real(wp) :: product_of_swings
+      integer :: i
+
+      product_of_swings = 0.0_wp
+      do i = 1, size(self%nodes, 1)
+         associate (x => self%nodes(i, :), y => other%nodes(i, :))
+            product_of_swings = product_of_swings &
+                                + sum((x - sum(x)/size(x))*(y - sum(y)/size(y)))
+         end associate
+      end do
+      is_opposite = product_of_swings < 0.0_wp
+   end function is_opposite
 
    !> Least and greatest value of a component. Each extreme at a node is made better by the extreme
    !> of its polynomial, found by golden section between the neighbouring nodes.
