@@ -26,6 +26,7 @@ program tester
    use test_lyapunov_spectrum, only: collect_lyapunov_spectrum
    use test_measured_run, only: collect_measured_run
    use test_motion_classes, only: collect_motion_classes
+   use test_orbit_branches, only: collect_orbit_branches
    use test_periodic_orbits, only: collect_periodic_orbits
    use test_progress, only: collect_progress
    use test_section_motion, only: collect_section_motion
@@ -69,6 +70,7 @@ program tester
                              new_testsuite("lyapunov_spectrum", collect_lyapunov_spectrum), &
                              new_testsuite("measured_run", collect_measured_run), &
                              new_testsuite("motion_classes", collect_motion_classes), &
+                             new_testsuite("orbit_branches", collect_orbit_branches), &
                              new_testsuite("periodic_orbits", collect_periodic_orbits), &
                              new_testsuite("progress", collect_progress), &
                              new_testsuite("section_motion", collect_section_motion), &

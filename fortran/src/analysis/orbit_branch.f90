@@ -54,6 +54,8 @@ module orbit_branch
    real(wp), parameter :: longer = 1.5_wp, shorter = 0.5_wp
    !> Least cosine of the angle between tangents of neighbours
    real(wp), parameter :: least_cosine = 0.8_wp
+   !> Least share of its amplitude that an orbit has after its correction
+   real(wp), parameter :: remaining_share = 0.1_wp
    !> Orbits between two adaptions of an accurate mesh
    integer, parameter :: adapt_every = 5
 
@@ -83,15 +85,14 @@ contains
       integer :: i
 
       associate (scale => settings%scale)
-         along(1) = parameter_direction(start)
-         if (present(tangent)) along(1) = tangent
-         along(1) = along(1)%times(real(direction, wp))
-         orbit = start
-         call correct_orbit(family, scale, start, along, [0.0_wp], orbit, newton, error)
+         call first_orbit(family, scale, start, orbit, along(1), newton, error, tangent)
          if (allocated(error)) return
          branch%iterations = newton%iterations
-         call turn_to_tangent(family, scale, orbit, along(1), error)
-         if (allocated(error)) return
+         if (present(tangent)) then
+            along(1) = along(1)%times(real(direction, wp))
+         else if (along(1)%parameters(1)*direction < 0.0_wp) then
+            along(1) = along(1)%times(-1.0_wp)
+         end if
          allocate (branch%orbits(settings%most_orbits), branch%tangents(settings%most_orbits), &
                    branch%multipliers(settings%most_orbits))
          branch%orbits(1) = orbit
@@ -124,6 +125,43 @@ contains
       call cut(branch, i)
       if (branch%ending == "window") call end_at_window(family, settings, branch)
    end subroutine follow_branch
+
+   !> The first orbit of a branch and its tangent.
+   subroutine first_orbit(family, scale, start, orbit, along, newton, error, tangent)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> Free parameters
+      type(orbit_scale_type), intent(in) :: scale
+      !> Approximation of the orbit
+      type(periodic_orbit_type), intent(in) :: start
+      !> The orbit
+      type(periodic_orbit_type), intent(out) :: orbit
+      !> Its tangent
+      type(orbit_change_type), intent(out) :: along
+      !> Effort
+      type(newton_type), intent(out) :: newton
+      !> There is no orbit
+      type(error_type), allocatable, intent(out) :: error
+      !> Approximation of the tangent
+      type(orbit_change_type), intent(in), optional :: tangent
+      type(orbit_change_type) :: directions(1)
+
+      directions(1) = parameter_direction(start)
+      if (present(tangent)) directions(1) = tangent
+      orbit = start
+      call correct_orbit(family, scale, start, directions, [0.0_wp], orbit, newton, error)
+      if (allocated(error) .or. orbit%amplitude() < remaining_share*start%amplitude()) then
+         ! at these parameters it becomes the stationary state, so its amplitude is kept
+         directions(1)%nodes = start%nodes - spread(sum(start%nodes, dim=2)/size(start%nodes, 2), &
+                                                    2, size(start%nodes, 2))
+         directions(1)%parameters = [0.0_wp]
+         orbit = start
+         call correct_orbit(family, scale, start, directions, [0.0_wp], orbit, newton, error)
+         if (allocated(error)) return
+      end if
+      along = directions(1)
+      call turn_to_tangent(family, scale, orbit, along, error)
+   end subroutine first_orbit
 
    !> The next orbit of a branch.
    subroutine take_step(family, settings, branch, i, step, newton, error)

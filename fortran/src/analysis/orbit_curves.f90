@@ -179,13 +179,14 @@ contains
       real(wp) :: at, g, g_before, move, slope
 
       at = 0.0_wp
+      move = 0.0_wp
       slope = frame%slope
       do evaluations = 1, most_evaluations
          call test_beside(family, settings%scale, settings%refinement%multipliers, before, &
                           frame%directions, [step, at], point, g, error)
          if (allocated(error)) return
          ! at a shorter distance the difference is one of rounding errors
-         if (evaluations > 1 .and. abs(move) > resolved) slope = (g - g_before)/move
+         if (abs(move) > resolved) slope = (g - g_before)/move
          move = -g/slope
          if (abs(move) <= share) return
          at = at + move

@@ -74,11 +74,25 @@ contains
                         samples, continuation=place)
          if (allocated(error)) return
          orbit%nodes = samples%values
-         last = size(orbit%nodes, 2)
-         orbit%nodes(:, last) = orbit%nodes(:, 1)
+         call close_orbit(orbit)
          if (i < rounds) orbit%mesh = adapted_mesh(orbit, intervals)
       end do
    end subroutine orbit_of_trajectory
+
+   !> Distribute the difference between the ends over the period: the mesh would follow a jump.
+   pure subroutine close_orbit(orbit)
+      !> The orbit
+      type(periodic_orbit_type), intent(inout) :: orbit
+      real(wp) :: gap(size(orbit%nodes, 1)), times(size(orbit%nodes, 2))
+      integer :: i
+
+      times = orbit%node_times()
+      gap = orbit%nodes(:, size(times)) - orbit%nodes(:, 1)
+      do i = 1, size(times)
+         orbit%nodes(:, i) = orbit%nodes(:, i) - times(i)*gap
+      end do
+      orbit%nodes(:, size(times)) = orbit%nodes(:, 1)
+   end subroutine close_orbit
 
    !> The first state that is the same as state 1, or else the most similar one.
    pure integer function repetition(states)
