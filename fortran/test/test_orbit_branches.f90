@@ -148,7 +148,8 @@ contains
          call expect_success(error, failure)
          do i = 1, 8
             ! in small steps of epsilon up to just below the fold
-            call integrate(build_block(10.0_wp, 0.5_wp + (epsilon_of_fold - 1.0e-3_wp - 0.5_wp)*i/8, &
+            call integrate(build_block(10.0_wp, &
+                                       0.5_wp + (epsilon_of_fold - 1.0e-3_wp - 0.5_wp)*i/8, &
                                        0.8_wp, 0.8_wp), arrived%time(1), arrived%time(1) &
                            + 400.0_wp, at_tolerance(1.0e-8_wp), outcome, failure, &
                            continuation=arrived)
@@ -215,8 +216,9 @@ contains
       end associate
    end subroutine test_torus
 
-   !> Mackey and Glass's equation: from its Hopf point (cos(omega tau) = -1/4, omega^2 = 0.15) to the
-   !> first period doubling. Simulations repeat after one maximum before it and after two behind it,
+   !> Mackey and Glass's equation: from its Hopf point (cos(omega tau) = -1/4, omega^2 = 0.15) to
+   !> the first period doubling. Simulations repeat after one maximum before it and after two
+   !> behind it,
    !> and those lie on the branch of double period.
    subroutine test_doubling(error)
       type(error_type), allocatable, intent(out) :: error
@@ -269,8 +271,8 @@ contains
       range = doubled%orbits(i)%range_of(1)
       call expect_close(error, range(2), maxval(maxima), 1.0e-5_wp, "its maximum")
       call expect(error, doubled%multipliers(i)%unstable() == 0, "stable")
-      call expect_close(error, doubled%orbits(1)%period/special(1)%orbit%period, 2.0_wp, 1.0e-2_wp, &
-                        "twice the period")
+      call expect_close(error, doubled%orbits(1)%period/special(1)%orbit%period, 2.0_wp, &
+                        1.0e-2_wp, "twice the period")
       special(1)%kind = fold
       call orbit_of_double_period(family, special(1), 0.01_wp, orbit, tangent, failure)
       call expect_failure(error, failure, "kind fold")
@@ -310,8 +312,8 @@ contains
                            gauss_points, -1, branch, special, error)
       if (allocated(error)) return
       call expect(error, branch%ending == "amplitude", "a small amplitude")
-      call expect_between(error, branch%orbits(size(branch%orbits))%amplitude(), 1.0e-4_wp, 0.05_wp, &
-                          "the last amplitude")
+      call expect_between(error, branch%orbits(size(branch%orbits))%amplitude(), 1.0e-4_wp, &
+                          0.05_wp, "the last amplitude")
       settings%longest_period = 10.4_wp
       call branch_of_block(build_block(10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp, v=1.1_wp), settings, 5, &
                            gauss_points, 1, branch, special, error)
@@ -347,8 +349,8 @@ contains
       settings%longest_period = 120.0_wp
       settings%refinement%accuracy = 1.0e-4_wp
       call orbit_at_hopf_point(family, [0.8071232250_wp], [0.0_wp, 0.0_wp], 0.7819651621_wp, &
-                               0.01_wp, collocation_basis_type(5, gauss_points), 20, orbit, tangent, &
-                               failure)
+                               0.01_wp, collocation_basis_type(5, gauss_points), 20, orbit, &
+                               tangent, failure)
       call expect_success(error, failure)
       call follow_branch(family, settings, orbit, 1, branch, failure, tangent)
       call expect_success(error, failure)
@@ -377,7 +379,8 @@ contains
                   //text(count(special%kind == fold)))
    end subroutine test_neurons
 
-   !> The first parameter on a branch at a period, by linear interpolation after it was last shorter.
+   !> The first parameter on a branch at a period, by linear interpolation after it was last
+   !> shorter.
    pure real(wp) function parameter_at(branch, period) result(value)
       !> The branch
       type(branch_type), intent(in) :: branch

@@ -111,10 +111,10 @@ contains
    end subroutine past_after_period
 
    !> Number of multipliers outside of the unit circle.
-   pure integer function unstable(self)
+   pure integer function unstable(self) result(value)
       !> The multipliers
       class(multipliers_type), intent(in) :: self
 
-      unstable = count(abs(self%values) > 1.0_wp)
+      value = count(abs(self%values) > 1.0_wp)
    end function unstable
 end module floquet_multipliers

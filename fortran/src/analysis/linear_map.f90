@@ -113,6 +113,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       complex(wp), allocatable :: small_values(:), small_vectors(:, :)
       real(wp), allocatable :: basis(:, :), h(:, :), image(:)
+      real(wp) :: residual
       integer :: count, i, k
       logical :: complete
 
@@ -124,7 +125,7 @@ contains
          call map%apply(basis(:, k), image)
          call extend_basis(basis, k, image, h(:, k))
          complete = k == n .or. .not. h(k + 1, k) > 0.0_wp
-         if (.not. complete .and. (k < first_check .or. mod(k - first_check, steps_between) > 0)) cycle
+         if (.not. (complete .or. is_check(k))) cycle
          call eigenvectors(upper_hessenberg(h(:k, :k)), small_values, small_vectors, error)
          if (allocated(error)) return
          count = min(wanted, k)
@@ -134,7 +135,9 @@ contains
             end if
          end if
          if (.not. complete) then
-            if (any(h(k + 1, k)*abs(small_vectors(k, :count)) > tolerance*abs(small_values(1)))) cycle
+            ! the norm of the residual of an eigenvector
+            residual = h(k + 1, k)*maxval(abs(small_vectors(k, :count)))
+            if (residual > tolerance*abs(small_values(1))) cycle
          end if
          values = small_values(:count)
          vectors = cmplx(matmul(basis(:, :k), real(small_vectors(:, :count))), &
@@ -142,6 +145,14 @@ contains
          return
       end do
    end subroutine leading_eigenvalues
+
+   !> Whether Arnoldi's method checks its eigenvalues after so many steps.
+   pure logical function is_check(steps) result(value)
+      !> Steps
+      integer, intent(in) :: steps
+
+      value = steps >= first_check .and. mod(steps - first_check, steps_between) == 0
+   end function is_check
 
    !> The part of a matrix on and above its first subdiagonal.
    pure function upper_hessenberg(h) result(matrix)

@@ -97,8 +97,8 @@ contains
                    branch%multipliers(settings%most_orbits))
          branch%orbits(1) = orbit
          branch%tangents(1) = along(1)
-         call make_accurate(family, scale, settings%refinement, branch%orbits(1), branch%tangents(1), &
-                            branch%multipliers(1), .true., error)
+         call make_accurate(family, scale, settings%refinement, branch%orbits(1), &
+                            branch%tangents(1), branch%multipliers(1), .true., error)
          if (allocated(error)) return
          step = settings%first_step
          i = 1
@@ -107,8 +107,9 @@ contains
             call take_step(family, settings, branch, i, step, newton, failure)
             branch%iterations = branch%iterations + newton%iterations
             if (.not. allocated(failure)) then
-               call make_accurate(family, scale, settings%refinement, branch%orbits(i + 1), branch%tangents(i + 1), &
-                                  branch%multipliers(i + 1), mod(i, adapt_every) == 0, failure)
+               call make_accurate(family, scale, settings%refinement, branch%orbits(i + 1), &
+                                  branch%tangents(i + 1), branch%multipliers(i + 1), &
+                                  mod(i, adapt_every) == 0, failure)
             end if
             if (allocated(failure)) then
                step = shorter*step
@@ -242,7 +243,7 @@ contains
    end subroutine end_at_window
 
    !> Whether a branch ends at an orbit, and why.
-   logical function has_ended(settings, orbit, reason)
+   logical function has_ended(settings, orbit, reason) result(value)
       !> Its limits
       type(branch_settings_type), intent(in) :: settings
       !> The orbit
@@ -250,7 +251,7 @@ contains
       !> Why, where it ends
       character(len=:), allocatable, intent(inout) :: reason
 
-      has_ended = .true.
+      value = .true.
       associate (parameter_value => orbit%parameters(settings%scale%free(1)))
          if (parameter_value < settings%window(1) .or. parameter_value > settings%window(2)) then
             reason = "window"
@@ -259,7 +260,7 @@ contains
          else if (orbit%period > settings%longest_period) then
             reason = "period"
          else
-            has_ended = .false.
+            value = .false.
          end if
       end associate
    end function has_ended

@@ -78,7 +78,7 @@ contains
 
    !> Inner product of two changes of an orbit: the integral over the period, and the products of
    !> the changes of period and parameters.
-   real(wp) function inner_product(orbit, a, b)
+   real(wp) function inner_product(orbit, a, b) result(value)
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       !> Changes
@@ -87,7 +87,7 @@ contains
       type(orbit_change_type) :: weights
 
       weights = weights_of(orbit, a)
-      inner_product = sum(weights%nodes*b%nodes) + a%period*b%period &
+      value = sum(weights%nodes*b%nodes) + a%period*b%period &
                       + dot_product(a%parameters, b%parameters)
    end function inner_product
 
@@ -124,32 +124,32 @@ contains
 
    !> The largest change of a component over its greatest value, of the period over the period and
    !> of a parameter in its unit.
-   pure real(wp) function size_against(self, orbit)
+   pure real(wp) function size_against(self, orbit) result(value)
       !> The change
       class(orbit_change_type), intent(in) :: self
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
 
       associate (greatest => max(maxval(abs(orbit%nodes), dim=2), tiny(1.0_wp)))
-         size_against = maxval([maxval(maxval(abs(self%nodes), dim=2)/greatest), &
+         value = maxval([maxval(maxval(abs(self%nodes), dim=2)/greatest), &
                            abs(self%period), abs(self%parameters)])
       end associate
    end function size_against
 
    !> A multiple of a change.
-   pure type(orbit_change_type) function times(self, factor)
+   pure type(orbit_change_type) function times(self, factor) result(value)
       !> The change
       class(orbit_change_type), intent(in) :: self
       !> Factor
       real(wp), intent(in) :: factor
 
-      times%nodes = factor*self%nodes
-      times%period = factor*self%period
-      times%parameters = factor*self%parameters
+      value%nodes = factor*self%nodes
+      value%period = factor*self%period
+      value%parameters = factor*self%parameters
    end function times
 
    !> A change and a multiple of another one.
-   pure type(orbit_change_type) function plus(self, other, factor)
+   pure type(orbit_change_type) function plus(self, other, factor) result(value)
       !> The change
       class(orbit_change_type), intent(in) :: self
       !> The other one
@@ -157,13 +157,13 @@ contains
       !> Its factor
       real(wp), intent(in) :: factor
 
-      plus%nodes = self%nodes + factor*other%nodes
-      plus%period = self%period + factor*other%period
-      plus%parameters = self%parameters + factor*other%parameters
+      value%nodes = self%nodes + factor*other%nodes
+      value%period = self%period + factor*other%period
+      value%parameters = self%parameters + factor*other%parameters
    end function plus
 
    !> A change interpolated on another mesh.
-   pure type(orbit_change_type) function on_mesh(self, orbit, mesh)
+   pure type(orbit_change_type) function on_mesh(self, orbit, mesh) result(value)
       !> The change
       class(orbit_change_type), intent(in) :: self
       !> The orbit it changes
@@ -175,8 +175,8 @@ contains
       carrier = orbit
       carrier%nodes = self%nodes
       carrier = carrier%on_mesh(mesh)
-      on_mesh%nodes = carrier%nodes
-      on_mesh%period = self%period
-      on_mesh%parameters = self%parameters
+      value%nodes = carrier%nodes
+      value%period = self%period
+      value%parameters = self%parameters
    end function on_mesh
 end module orbit_change

@@ -45,7 +45,8 @@ module orbit_curves
       integer, allocatable :: cusps(:)
    end type curve_type
 
-   !> Evaluations of the test function at one point, and the distance between two at which it is zero
+   !> Evaluations of the test function at one point, and the distance between two at which it is
+   !> zero
    integer, parameter :: most_evaluations = 8
    real(wp), parameter :: share = 1.0e-9_wp
    !> Distance of two evaluations from which the slope of the test function is known
@@ -199,18 +200,18 @@ contains
 
    !> Whether the multipliers of a point are accurate. At a fold the trivial one is double: then its
    !> error is the square root of the other errors.
-   pure logical function accurate(point, refinement)
+   pure logical function accurate(point, refinement) result(value)
       !> The point
       type(special_point_type), intent(in) :: point
       !> What is accurate
       type(refinement_type), intent(in) :: refinement
 
-      accurate = point%trivial_error <= refinement%accuracy
-      if (point%kind == fold) accurate = point%trivial_error <= sqrt(refinement%accuracy)
+      value = point%trivial_error <= refinement%accuracy
+      if (point%kind == fold) value = point%trivial_error <= sqrt(refinement%accuracy)
    end function accurate
 
    !> Whether a curve ends at its last point, and why.
-   logical function has_ended(settings, points, last, step, reason)
+   logical function has_ended(settings, points, last, step, reason) result(value)
       !> Its limits
       type(curve_settings_type), intent(in) :: settings
       !> Points
@@ -223,7 +224,7 @@ contains
       character(len=:), allocatable, intent(inout) :: reason
       real(wp) :: far(2)
 
-      has_ended = .true.
+      value = .true.
       associate (point => points(last), free => settings%scale%free)
          far = abs(point%orbit%parameters(free) - points(1)%orbit%parameters(free)) &
                /settings%scale%unit
@@ -242,7 +243,7 @@ contains
                   abs(point%orbit%amplitude() - points(1)%orbit%amplitude()) < step) then
             reason = "closed"
          else
-            has_ended = .false.
+            value = .false.
          end if
       end associate
    end function has_ended

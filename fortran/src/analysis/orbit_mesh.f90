@@ -6,7 +6,7 @@ module orbit_mesh
    use periodic_orbit, only: periodic_orbit_type
    implicit none (type, external)
    private
-   public :: adapted, adapted_mesh, uniform_mesh
+   public :: adapted_mesh, uniform_mesh
 
    !> Share of the intervals that is distributed evenly in time, against gaps.
    real(wp), parameter :: even_share = 0.1_wp
@@ -22,16 +22,6 @@ contains
 
       mesh = [(real(i, wp)/intervals, i=0, intervals)]
    end function uniform_mesh
-
-   !> An orbit interpolated on a mesh that follows it.
-   pure type(periodic_orbit_type) function adapted(orbit, intervals)
-      !> The orbit
-      type(periodic_orbit_type), intent(in) :: orbit
-      !> Number of intervals
-      integer, intent(in) :: intervals
-
-      adapted = orbit%on_mesh(adapted_mesh(orbit, intervals))
-   end function adapted
 
    !> A mesh of which each interval has the same share of the integral of the density of intervals.
    pure function adapted_mesh(orbit, intervals) result(mesh)

@@ -1,5 +1,5 @@
-!> Small changes of a periodic orbit. On one interval of the mesh the nodes follow from the left end,
-!> the delayed values and the forcing. So all follow, interval by interval, from the past.
+!> Small changes of a periodic orbit. On one interval of the mesh the nodes follow from the left
+!> end, the delayed values and the forcing. So all follow, interval by interval, from the past.
 module orbit_passes
    use dde_kinds, only: wp
    implicit none (type, external)
@@ -45,11 +45,11 @@ module orbit_passes
 contains
 
    !> Numbers of a past.
-   pure integer function past_size(self)
+   pure integer function past_size(self) result(value)
       !> The equations
       class(orbit_passes_type), intent(in) :: self
 
-      past_size = self%n + size(self%delayed)*self%reach*self%degree
+      value = self%n + size(self%delayed)*self%reach*self%degree
    end function past_size
 
    !> Nodes over a period that follow from a past and forcings.

@@ -55,12 +55,12 @@ module orbit_points
 contains
 
    !> Angle of the multiplier over a full turn.
-   pure real(wp) function angle(self)
+   pure real(wp) function angle(self) result(value)
       !> The point
       class(special_point_type), intent(in) :: self
       real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
 
-      angle = atan2(aimag(self%multiplier), real(self%multiplier))/turn
+      value = atan2(aimag(self%multiplier), real(self%multiplier))/turn
    end function angle
 
    !> The fraction p/q with q up to 10 that is nearest to an angle in turns.
@@ -197,7 +197,8 @@ contains
       coarse = point%orbit%parameters(p)
       finer = adapted_mesh(point%orbit, nint(refinement*point%orbit%intervals()))
       first = segment%ends(1)%on_mesh(finer)
-      call locate(family, settings, segment_between(first, segment%ends(2), settings%scale), point, error)
+      call locate(family, settings, segment_between(first, segment%ends(2), settings%scale), &
+                  point, error)
       if (allocated(error)) return
       point%mesh_error = abs(point%orbit%parameters(p) - coarse)
    end subroutine locate_twice
@@ -268,7 +269,8 @@ contains
       g = 0.0_wp
       call orbit_on(family, settings%scale, segment, place, point%orbit, error)
       if (allocated(error)) return
-      call find_multipliers(family, point%orbit, settings%refinement%multipliers, multipliers, error)
+      call find_multipliers(family, point%orbit, settings%refinement%multipliers, multipliers, &
+                            error)
       if (allocated(error)) return
       call test_value(point%kind, multipliers, point%multiplier, g)
       point%trivial_error = multipliers%trivial_error
@@ -278,8 +280,8 @@ contains
       g = tangent%parameters(1)
    end subroutine test_at
 
-   !> Test function of a kind of point by multipliers: m + 1, m - 1 or |m| - 1 for the one nearest to
-   !> -1, to 1, or to the unit circle off the real axis.
+   !> Test function of a kind of point by multipliers: m + 1, m - 1 or |m| - 1 for the one nearest
+   !> to -1, to 1, or to the unit circle off the real axis.
    pure subroutine test_value(kind, multipliers, critical, g)
       !> Kind of the point
       character(len=*), intent(in) :: kind

@@ -60,7 +60,9 @@ contains
       if (allocated(error)) return
       intervals = orbit%intervals()
       do round = 1, most_rounds
-         if (multipliers%trivial_error <= refinement%accuracy .and. .not. (due .and. round == 1)) return
+         if (multipliers%trivial_error <= refinement%accuracy) then
+            if (round > 1 .or. .not. due) return
+         end if
          reference = orbit%on_mesh(adapted_mesh(orbit, intervals))
          direction(1) = along%on_mesh(orbit, reference%mesh)
          adapted = reference

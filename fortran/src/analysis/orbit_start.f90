@@ -68,7 +68,8 @@ contains
       orbit%period = maxima%time(repeated)%hi - start
       orbit%mesh = uniform_mesh(intervals)
       do i = 1, rounds
-         samples = table_sampler([(last, last=1, problem%n)], start + orbit%period*orbit%node_times())
+         samples = table_sampler([(last, last=1, problem%n)], &
+                                 start + orbit%period*orbit%node_times())
          place = arrived
          call integrate(problem, arrived%time(1), start + orbit%period, options, outcome, error, &
                         samples, continuation=place)
@@ -95,7 +96,7 @@ contains
    end subroutine close_orbit
 
    !> The first state that is the same as state 1, or else the most similar one.
-   pure integer function repetition(states)
+   pure integer function repetition(states) result(value)
       !> The states, shape (n, at least 2)
       real(wp), intent(in) :: states(:, :)
       real(wp) :: distance(2:size(states, 2)), scale(size(states, 1))
@@ -107,8 +108,8 @@ contains
       do i = 2, size(states, 2)
          distance(i) = maxval(abs(states(:, i) - states(:, 1))/scale)
       end do
-      repetition = findloc(distance <= same, .true., dim=1) + 1
-      if (repetition == 1) repetition = minloc(distance, dim=1) + 1
+      value = findloc(distance <= same, .true., dim=1) + 1
+      if (value == 1) value = minloc(distance, dim=1) + 1
    end function repetition
 
    !> The small orbit x = x0 + a Re(q exp(2 pi i s)), T = 2 pi/omega, near a Hopf point, where q is

@@ -40,7 +40,8 @@ contains
                     //period_doubling//" expected")
          return
       end if
-      call find_multipliers(family, point%orbit, multipliers_wanted, multipliers, error, disturbances)
+      call find_multipliers(family, point%orbit, multipliers_wanted, multipliers, error, &
+                            disturbances)
       if (allocated(error)) return
       critical = minloc(abs(multipliers%values + 1.0_wp), dim=1)
       last = size(point%orbit%nodes, 2)

@@ -26,8 +26,6 @@ module periodic_orbit
       procedure :: locate
       !> State
       procedure :: at
-      !> Its derivative by s
-      procedure :: slope_at
       !> All nodes in s
       procedure :: node_times
       !> The same orbit on another mesh
@@ -45,11 +43,11 @@ module periodic_orbit
 contains
 
    !> Number of intervals.
-   pure integer function intervals(self)
+   pure integer function intervals(self) result(value)
       !> The orbit
       class(periodic_orbit_type), intent(in) :: self
 
-      intervals = size(self%mesh) - 1
+      value = size(self%mesh) - 1
    end function intervals
 
    !> The interval and the place 0..1 in it of a time in [0, 1].
@@ -94,22 +92,6 @@ contains
       state = matmul(self%nodes(:, first:first + self%basis%degree), self%basis%values_at(place))
    end function at
 
-   !> Derivative by s at a time of any period.
-   pure function slope_at(self, s) result(slope)
-      !> The orbit
-      class(periodic_orbit_type), intent(in) :: self
-      !> Time in periods
-      real(wp), intent(in) :: s
-      real(wp) :: slope(size(self%nodes, 1))
-      real(wp) :: place
-      integer :: first, i
-
-      call self%locate(s - floor(s), i, place)
-      first = (i - 1)*self%basis%degree + 1
-      slope = matmul(self%nodes(:, first:first + self%basis%degree), &
-                     self%basis%slopes_at(place))/(self%mesh(i + 1) - self%mesh(i))
-   end function slope_at
-
    !> Times of all nodes, in periods.
    pure function node_times(self) result(times)
       !> The orbit
@@ -151,16 +133,16 @@ contains
    end function on_mesh
 
    !> The largest range of a component, by the nodes.
-   pure real(wp) function amplitude(self)
+   pure real(wp) function amplitude(self) result(value)
       !> The orbit
       class(periodic_orbit_type), intent(in) :: self
 
-      amplitude = maxval(maxval(self%nodes, dim=2) - minval(self%nodes, dim=2))
+      value = maxval(maxval(self%nodes, dim=2) - minval(self%nodes, dim=2))
    end function amplitude
 
-   !> Whether two orbits on the same mesh swing against each other: so do the orbits on both sides of
-   !> a Hopf point on a branch that passes through it.
-   pure logical function is_opposite(self, other)
+   !> Whether two orbits on the same mesh swing against each other: so do the orbits on both sides
+   !> of a Hopf point on a branch that passes through it.
+   pure logical function is_opposite(self, other) result(value)
       !> The orbit
       class(periodic_orbit_type), intent(in) :: self
       !> The other one
@@ -175,7 +157,7 @@ contains
                                 + sum((x - sum(x)/size(x))*(y - sum(y)/size(y)))
          end associate
       end do
-      is_opposite = product_of_swings < 0.0_wp
+      value = product_of_swings < 0.0_wp
    end function is_opposite
 
    !> Least and greatest value of a component. Each extreme at a node is made better by the extreme

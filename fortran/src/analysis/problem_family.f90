@@ -6,8 +6,8 @@ module problem_family
    private
    public :: problem_family_type
 
-   !> Problems with the same number of equations and of delays, whose right-hand side does not depend
-   !> on time. Here a delay may be 0.
+   !> Problems with the same number of equations and of delays, whose right-hand side does not
+   !> depend on time. Here a delay may be 0.
    type, abstract :: problem_family_type
    contains
       !> The problem at parameters
