@@ -7,11 +7,11 @@ module orbit_curves
    use orbit_change, only: difference_of, inner_product, orbit_change_type
    use orbit_mesh, only: adapted_mesh
    use orbit_passes, only: orbit_scale_type
-   use orbit_points, only: fold, special_point_type, torus_bifurcation
    use orbit_refinement, only: refinement_type
    use orbit_surface, only: first_plane, frame_type, test_beside, turn_along, turn_frame
    use periodic_orbit, only: periodic_orbit_type
    use problem_family, only: problem_family_type
+   use special_points, only: fold, special_point_type, torus_bifurcation
    implicit none (type, external)
    private
    public :: curve_settings_type, curve_type, follow_curve

@@ -6,9 +6,9 @@ module orbit_surface
    use orbit_change, only: inner_product, orbit_change_type
    use orbit_equations, only: correct_orbit, newton_type, solve_about
    use orbit_passes, only: orbit_scale_type
-   use orbit_points, only: fold, special_point_type, test_value
    use periodic_orbit, only: periodic_orbit_type
    use problem_family, only: problem_family_type
+   use special_points, only: fold, special_point_type, test_value
    implicit none (type, external)
    private
    public :: first_plane, frame_type, test_beside, turn_along, turn_frame

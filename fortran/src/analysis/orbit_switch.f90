@@ -4,9 +4,9 @@ module orbit_switch
    use dde_kinds, only: wp
    use floquet_multipliers, only: find_multipliers, multipliers_type
    use orbit_change, only: orbit_change_type
-   use orbit_points, only: period_doubling, special_point_type
    use periodic_orbit, only: periodic_orbit_type
    use problem_family, only: problem_family_type
+   use special_points, only: period_doubling, special_point_type
    implicit none (type, external)
    private
    public :: orbit_of_double_period
