@@ -3,6 +3,7 @@
 module test_orbit_branches
    use block_builder, only: build_block
    use block_family, only: block_family_type, vector_of
+   use branch_ends, only: branch_settings_type
    use collocation_basis, only: collocation_basis_type, gauss_points, radau_points
    use cycle_families, only: duffing, known_family, mackey_glass, neurons
    use dde, only: continuation_type, dde_problem_type, event_table, integrate, integration_result
@@ -10,7 +11,7 @@ module test_orbit_branches
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use orbit_branch, only: branch_settings_type, branch_type, follow_branch
+   use orbit_branch, only: branch_type, follow_branch
    use orbit_change, only: orbit_change_type
    use orbit_curves, only: curve_settings_type, curve_type, follow_curve
    use orbit_passes, only: orbit_scale_type

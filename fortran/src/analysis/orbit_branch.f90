@@ -1,36 +1,19 @@
 !> Branches of periodic orbits in one parameter by pseudo-arclength continuation, through folds. The
 !> step is controlled by the effort of Newton's method.
 module orbit_branch
-   use dde_errors, only: error_type, raise
+   use branch_ends, only: branch_settings_type, has_ended
+   use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use floquet_multipliers, only: find_multipliers, multipliers_type
    use orbit_change, only: inner_product, orbit_change_type
    use orbit_equations, only: correct_orbit, newton_type, turn_to_tangent
    use orbit_passes, only: orbit_scale_type
-   use orbit_refinement, only: make_accurate, refinement_type
+   use orbit_refinement, only: make_accurate
    use periodic_orbit, only: periodic_orbit_type
    use problem_family, only: problem_family_type
    implicit none (type, external)
    private
-   public :: branch_settings_type, branch_type, follow_branch
-
-   !> How far a branch is followed, and how.
-   type :: branch_settings_type
-      !> The free parameter and its unit
-      type(orbit_scale_type) :: scale
-      !> Window on the parameter
-      real(wp) :: window(2) = [-huge(1.0_wp), huge(1.0_wp)]
-      !> First, least and longest step, in units of arclength
-      real(wp) :: first_step = 0.01_wp, least_step = 1.0e-6_wp, longest_step = 0.1_wp
-      !> Most orbits
-      integer :: most_orbits = 200
-      !> The branch ends where no component has a larger range.
-      real(wp) :: least_amplitude = 1.0e-3_wp
-      !> It ends where the period is longer.
-      real(wp) :: longest_period = huge(1.0_wp)
-      !> Multipliers and their accuracy
-      type(refinement_type) :: refinement
-   end type branch_settings_type
+   public :: branch_type, follow_branch
 
    !> Orbits in the order of the branch.
    type :: branch_type
@@ -40,7 +23,7 @@ module orbit_branch
       type(orbit_change_type), allocatable :: tangents(:)
       !> Multipliers
       type(multipliers_type), allocatable :: multipliers(:)
-      !> Why it ends: 'window', 'amplitude', 'period', 'orbits', 'convergence'
+      !> Why it ends: 'window', 'amplitude', 'period', 'closed', 'orbits', 'convergence'
       character(len=:), allocatable :: ending
       !> Iterations of Newton's method, also of steps that failed
       integer :: iterations = 0
@@ -87,6 +70,13 @@ contains
       associate (scale => settings%scale)
          call first_orbit(family, scale, start, orbit, along(1), newton, error, tangent)
          if (allocated(error)) return
+         associate (p => orbit%parameters(scale%free(1)))
+            if (p < settings%window(1) .or. p > settings%window(2)) then
+               call raise(error, "branch: the first orbit is at "//text(p)//"; " &
+                          //text(settings%window(1))//".."//text(settings%window(2))//" expected")
+               return
+            end if
+         end associate
          branch%iterations = newton%iterations
          if (present(tangent)) then
             along(1) = along(1)%times(real(direction, wp))
@@ -118,7 +108,7 @@ contains
                exit
             end if
             i = i + 1
-            if (has_ended(settings, branch%orbits(i), branch%ending)) exit
+            if (has_ended(settings, branch%orbits(:i), step, branch%ending)) exit
             if (newton%iterations <= easy) step = min(longer*step, settings%longest_step)
             if (newton%iterations >= hard) step = shorter*step
          end do
@@ -241,29 +231,6 @@ contains
          branch%multipliers(last) = multipliers
       end associate
    end subroutine end_at_window
-
-   !> Whether a branch ends at an orbit, and why.
-   logical function has_ended(settings, orbit, reason) result(value)
-      !> Its limits
-      type(branch_settings_type), intent(in) :: settings
-      !> The orbit
-      type(periodic_orbit_type), intent(in) :: orbit
-      !> Why, where it ends
-      character(len=:), allocatable, intent(inout) :: reason
-
-      value = .true.
-      associate (parameter_value => orbit%parameters(settings%scale%free(1)))
-         if (parameter_value < settings%window(1) .or. parameter_value > settings%window(2)) then
-            reason = "window"
-         else if (orbit%amplitude() < settings%least_amplitude) then
-            reason = "amplitude"
-         else if (orbit%period > settings%longest_period) then
-            reason = "period"
-         else
-            value = .false.
-         end if
-      end associate
-   end function has_ended
 
    !> Keep the first orbits of a branch.
    subroutine cut(branch, count)

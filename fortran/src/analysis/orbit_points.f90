@@ -2,10 +2,11 @@
 !> points, and points at which another branch crosses. Each is a root of a test function on the
 !> segment between two orbits, and each is found on two meshes.
 module orbit_points
+   use branch_ends, only: branch_settings_type
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use floquet_multipliers, only: find_multipliers, multipliers_type
-   use orbit_branch, only: branch_settings_type, branch_type
+   use orbit_branch, only: branch_type
    use orbit_change, only: orbit_change_type
    use orbit_equations, only: turn_to_tangent
    use orbit_mesh, only: adapted_mesh

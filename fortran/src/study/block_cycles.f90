@@ -3,12 +3,13 @@
 module block_cycles
    use block_family, only: block_family_type, parameters_of, vector_of
    use block_parameters, only: block_history_type, block_parameters_type
+   use branch_ends, only: branch_settings_type
    use collocation_basis, only: collocation_basis_type, gauss_points, radau_points
    use cycle_lines, only: cycle_line_type, find_hopf_starts, hopf_start_type
    use dde, only: continuation_type, integrate, integration_options, integration_result
    use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use orbit_branch, only: branch_settings_type, branch_type, follow_branch
+   use orbit_branch, only: branch_type, follow_branch
    use orbit_change, only: orbit_change_type
    use orbit_passes, only: orbit_scale_type
    use orbit_points, only: find_special_points
@@ -52,8 +53,10 @@ module block_cycles
    real(wp), parameter :: first_amplitude = 0.01_wp
    !> Tolerance of trajectories, and the time in which a period is looked for
    real(wp), parameter :: tolerance = 1.0e-9_wp, search_time = 300.0_wp
-   !> Orbits of one parameter are the same if period and amplitude differ by less than this share.
-   real(wp), parameter :: same = 1.0e-3_wp
+   !> A branch ends at a Hopf point if parameter and period differ by less than this share. A
+   !> trajectory comes to an orbit of a branch if period and amplitude differ by less than the second
+   !> share: near a bifurcation it comes to it slowly.
+   real(wp), parameter :: same = 1.0e-3_wp, alike = 0.05_wp
    !> Most branches of double periods
    integer, parameter :: most_doublings = 4
 
@@ -104,6 +107,8 @@ contains
          do direction = -1, 1, 2
             call append(how, orbit, direction, "trajectory", found, error)
             if (allocated(error)) return
+            if (size(found) == 0) cycle
+            if (found(size(found))%branch%ending == "closed") exit
          end do
       end do
       j = size(found)
@@ -251,9 +256,9 @@ contains
                share = (orbit%parameters(p) - a%parameters(p))/(b%parameters(p) - a%parameters(p))
                value = value .or. &
                        (abs(a%period + share*(b%period - a%period) - orbit%period) &
-                        < 10.0_wp*same*orbit%period .and. &
+                        < alike*orbit%period .and. &
                         abs(a%amplitude() + share*(b%amplitude() - a%amplitude()) &
-                            - orbit%amplitude()) < 10.0_wp*same*orbit%amplitude())
+                            - orbit%amplitude()) < alike*orbit%amplitude())
             end associate
          end do
       end do
