@@ -16,13 +16,13 @@ module test_orbit_branches
    use orbit_curves, only: curve_settings_type, curve_type, follow_curve
    use orbit_passes, only: orbit_scale_type
    use orbit_points, only: find_special_points
-                           special_point_type, torus_bifurcation
    use orbit_start, only: orbit_at_hopf_point, orbit_of_trajectory
    use orbit_switch, only: orbit_of_double_period
    use periodic_orbit, only: periodic_orbit_type
    use problem_family, only: problem_family_type
    use solving, only: at_tolerance
-   use special_points, only: fold, nearest_resonance, period_doubling, &
+   use special_points, only: fold, nearest_resonance, period_doubling, special_point_type, &
+                             torus_bifurcation
    use spring_block, only: index_of_ln_v, spring_block_type
    implicit none (type, external)
    private
