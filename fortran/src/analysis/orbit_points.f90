@@ -19,8 +19,9 @@ module orbit_points
    private
    public :: find_special_points
 
-   !> Intervals of the second mesh over those of the first
-   real(wp), parameter :: refinement = 1.5_wp
+   !> Intervals of a mesh over those of the one before, and the difference of the parameter between
+   !> two meshes that agree, in its unit
+   real(wp), parameter :: refinement = 1.5_wp, agreement = 1.0e-10_wp
    !> Iterations of a root search, and the share of the segment to which it goes
    integer, parameter :: most_iterations = 60
    real(wp), parameter :: share = 1.0e-11_wp
@@ -98,7 +99,7 @@ contains
       segment = segment_between(first, second, settings%scale)
       if (point%kind /= "") then
          point%unstable = [before%unstable(), behind%unstable()]
-         call locate_twice(family, settings, segment, point, error)
+         call locate_on_meshes(family, settings, segment, point, error)
          if (.not. allocated(error)) then
             points = [points, point]
             return
@@ -125,8 +126,8 @@ contains
                   halvings - 1, points, error)
    end subroutine search
 
-   !> Find a point on the mesh of the segment, then on a finer one.
-   subroutine locate_twice(family, settings, segment, point, error)
+   !> Find a point on the mesh of the segment, then on finer ones until the last two agree.
+   subroutine locate_on_meshes(family, settings, segment, point, error)
       !> The problems
       class(problem_family_type), intent(in) :: family
       !> How the branch was followed
@@ -139,20 +140,26 @@ contains
       type(error_type), allocatable, intent(out) :: error
       real(wp), allocatable :: finer(:)
       real(wp) :: coarse
-      integer :: p
+      integer :: intervals, p
       type(periodic_orbit_type) :: first
 
       call locate(family, settings, segment, point, error)
       if (allocated(error)) return
       p = settings%scale%free(1)
       coarse = point%orbit%parameters(p)
-      finer = adapted_mesh(point%orbit, nint(refinement*point%orbit%intervals()))
-      first = segment%ends(1)%on_mesh(finer)
-      call locate(family, settings, segment_between(first, segment%ends(2), settings%scale), &
-                  point, error)
-      if (allocated(error)) return
-      point%mesh_error = abs(point%orbit%parameters(p) - coarse)
-   end subroutine locate_twice
+      do
+         intervals = nint(refinement*point%orbit%intervals())
+         finer = adapted_mesh(point%orbit, intervals)
+         first = segment%ends(1)%on_mesh(finer)
+         call locate(family, settings, segment_between(first, segment%ends(2), settings%scale), &
+                     point, error)
+         if (allocated(error)) return
+         point%mesh_error = abs(point%orbit%parameters(p) - coarse)
+         coarse = point%orbit%parameters(p)
+         if (point%mesh_error <= agreement*settings%scale%unit(1)) return
+         if (intervals >= settings%refinement%most_intervals) return
+      end do
+   end subroutine locate_on_meshes
 
    !> Find a point on a segment by the secant method with bisection (Illinois).
    subroutine locate(family, settings, segment, point, error)

@@ -243,7 +243,6 @@ contains
       type(cycles_type), intent(in) :: found(:)
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
-      real(wp) :: share
       integer :: i, j
 
       value = .false.
@@ -253,14 +252,20 @@ contains
                        p => settings%line%along)
                if ((a%parameters(p) - orbit%parameters(p)) &
                    *(b%parameters(p) - orbit%parameters(p)) > 0.0_wp) cycle
-               share = (orbit%parameters(p) - a%parameters(p))/(b%parameters(p) - a%parameters(p))
-               value = value .or. &
-                       (abs(a%period + share*(b%period - a%period) - orbit%period) &
-                        < alike*orbit%period .and. &
-                        abs(a%amplitude() + share*(b%amplitude() - a%amplitude()) &
-                            - orbit%amplitude()) < alike*orbit%amplitude())
+               value = value .or. (is_between(orbit%period, a%period, b%period) .and. &
+                                   is_between(orbit%amplitude(), a%amplitude(), b%amplitude()))
             end associate
          end do
       end do
    end function is_known
+
+   !> Whether a number lies between two others, or almost so.
+   pure logical function is_between(x, a, b) result(value)
+      !> The number
+      real(wp), intent(in) :: x
+      !> The others, > 0
+      real(wp), intent(in) :: a, b
+
+      value = x > (1.0_wp - alike)*min(a, b) .and. x < (1.0_wp + alike)*max(a, b)
+   end function is_between
 end module block_cycles
