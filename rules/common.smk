@@ -164,7 +164,9 @@ def cycles_values(wildcards):
     """The line on which cycles are followed, and how, as namelist group."""
     cycles = config["cycles"]
     shared = {key: value for key, value in cycles.items() if key != "lines"}
-    return {**shared, **cycles["lines"][wildcards.cycle_line]}
+    line = cycles["lines"][wildcards.cycle_line]
+    # a namelist has no empty lists
+    return {**shared, **{key: value for key, value in line.items() if value != []}}
 
 
 def spectrum_values(wildcards):

@@ -125,8 +125,8 @@ contains
                               0.3_wp**m, 1.0e-14_wp, "value")
             call expect_close(error, dot_product(basis%node**m, basis%slopes_at(0.3_wp)), &
                               m*0.3_wp**(m - 1), 1.0e-12_wp, "slope")
-            call expect_close(error, dot_product(basis%node**m, basis%top), gamma(m + 1.0_wp), &
-                              1.0e-8_wp*gamma(m + 1.0_wp), "derivative number "//text(m))
+            call expect_close(error, dot_product(basis%node**m, basis%leading), 1.0_wp, 1.0e-8_wp, &
+                              "leading coefficient of degree "//text(m))
          end do
       end do
    end subroutine test_points

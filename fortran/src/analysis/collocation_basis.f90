@@ -23,8 +23,8 @@ module collocation_basis
       real(wp), allocatable :: weight(:)
       !> Values and slopes of the Lagrange polynomials at the points, shape (m + 1, m)
       real(wp), allocatable :: value(:, :), slope(:, :)
-      !> Their m-th derivatives, shape (m + 1)
-      real(wp), allocatable :: top(:)
+      !> Their coefficients of the power m, shape (m + 1)
+      real(wp), allocatable :: leading(:)
    contains
       !> Lagrange polynomials at a place
       procedure :: values_at
@@ -49,13 +49,13 @@ contains
       integer :: i, k
 
       basis%degree = degree
-      allocate (basis%node(degree + 1), basis%top(degree + 1))
+      allocate (basis%node(degree + 1), basis%leading(degree + 1))
       do i = 0, degree
          basis%node(i + 1) = 0.5_wp*(1.0_wp - cos(pi*i/degree))
       end do
       do i = 1, degree + 1
-         basis%top(i) = gamma(degree + 1.0_wp)/product( &
-                        basis%node(i) - pack(basis%node, [(k /= i, k=1, degree + 1)]))
+         basis%leading(i) = 1.0_wp/product(basis%node(i) - pack(basis%node, &
+                                                                [(k /= i, k=1, degree + 1)]))
       end do
       basis%point = points_of(degree, real(kind, wp))
       basis%weight = weights_of(basis%point)
@@ -75,11 +75,10 @@ contains
       real(wp) :: values(self%degree + 1)
       integer :: i, k
 
-      values = 1.0_wp
       do i = 1, size(values)
+         values(i) = self%leading(i)
          do k = 1, size(values)
-            if (k == i) cycle
-            values(i) = values(i)*(place - self%node(k))/(self%node(i) - self%node(k))
+            if (k /= i) values(i) = values(i)*(place - self%node(k))
          end do
       end do
    end function values_at
@@ -91,19 +90,17 @@ contains
       !> Place, 0..1 inside the interval
       real(wp), intent(in) :: place
       real(wp) :: slopes(self%degree + 1)
-      real(wp) :: term
-      integer :: i, j, k
+      real(wp) :: value
+      integer :: i, k
 
-      slopes = 0.0_wp
       do i = 1, size(slopes)
-         do j = 1, size(slopes)
-            if (j == i) cycle
-            term = 1.0_wp/(self%node(i) - self%node(j))
-            do k = 1, size(slopes)
-               if (k == i .or. k == j) cycle
-               term = term*(place - self%node(k))/(self%node(i) - self%node(k))
-            end do
-            slopes(i) = slopes(i) + term
+         value = self%leading(i)
+         slopes(i) = 0.0_wp
+         do k = 1, size(slopes)
+            if (k == i) cycle
+            ! the product rule, factor by factor
+            slopes(i) = slopes(i)*(place - self%node(k)) + value
+            value = value*(place - self%node(k))
          end do
       end do
    end function slopes_at

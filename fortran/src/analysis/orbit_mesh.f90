@@ -74,8 +74,8 @@ contains
       associate (m => orbit%basis%degree)
          do i = 1, last
             length(i) = orbit%mesh(i + 1) - orbit%mesh(i)
-            derivative(:, i) = matmul(orbit%nodes(:, (i - 1)*m + 1:i*m + 1), orbit%basis%top) &
-                               /length(i)**m
+            derivative(:, i) = matmul(orbit%nodes(:, (i - 1)*m + 1:i*m + 1), orbit%basis%leading) &
+                               /length(i)**m*gamma(m + 1.0_wp)
          end do
          length(0) = length(last)
          length(last + 1) = length(1)

@@ -27,7 +27,7 @@ contains
       type(cycle_settings_type), intent(out) :: settings
       !> It cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
-      character(len=word_length) :: along
+      character(len=:), allocatable :: along
       real(wp) :: v
       integer :: i
 
@@ -40,7 +40,7 @@ contains
          if (line%along == along_tau) p%tau = line%window(1)
          if (line%along == along_epsilon) p%epsilon = line%window(1)
          call p%check(path, error)
-         call check_quantity(error, path, trim(along), line%window(1), "window(1)")
+         call check_quantity(error, path, along, line%window(1), "window(1)")
          call check_number(error, path, "window(2)", line%window(2), above=line%window(1))
          do i = 1, size(settings%starts)
             call check_number(error, path, "starts", settings%starts(i), at_least=line%window(1), &
@@ -63,7 +63,7 @@ contains
       !> What is asked
       type(cycle_settings_type), intent(out) :: settings
       !> Name of the parameter along the line
-      character(len=*), intent(out) :: along_read
+      character(len=:), allocatable, intent(out) :: along_read
       !> Velocity before the trajectories
       real(wp), intent(out) :: v_read
       !> It cannot be read
@@ -94,7 +94,7 @@ contains
          read (unit, nml=cycles, iostat=status, iomsg=reason)
          call close_namelist(path, "cycles", unit, status, reason, error)
       end if
-      along_read = along
+      along_read = trim(along)
       v_read = v
       settings%line%window = window
       settings%line%parameters%tau = tau

@@ -54,8 +54,8 @@ module block_cycles
    !> Tolerance of trajectories, and the time in which a period is looked for
    real(wp), parameter :: tolerance = 1.0e-9_wp, search_time = 300.0_wp
    !> A branch ends at a Hopf point if parameter and period differ by less than this share. A
-   !> trajectory comes to an orbit of a branch if period and amplitude differ by less than the second
-   !> share: near a bifurcation it comes to it slowly.
+   !> trajectory comes to an orbit of a branch if period and amplitude differ by less than the
+   !> second share: near a bifurcation it comes to it slowly.
    real(wp), parameter :: same = 1.0e-3_wp, alike = 0.05_wp
    !> Most branches of double periods
    integer, parameter :: most_doublings = 4
@@ -103,7 +103,7 @@ contains
       do i = 1, size(settings%starts)
          call orbit_at(settings, i, basis, orbit, failure)
          if (allocated(failure)) cycle
-         if (is_known(settings, found, orbit)) cycle
+         if (orbit%amplitude() < first_amplitude .or. is_known(settings, found, orbit)) cycle
          do direction = -1, 1, 2
             call append(how, orbit, direction, "trajectory", found, error)
             if (allocated(error)) return
@@ -136,8 +136,8 @@ contains
       here = points
       do i = 1, min(size(here), most_doublings)
          if (here(i)%kind /= period_doubling) cycle
-         call orbit_of_double_period(block_family_type(), here(i), first_amplitude, orbit, tangent, &
-                                     error)
+         call orbit_of_double_period(block_family_type(), here(i), first_amplitude, orbit, &
+                                     tangent, error)
          if (allocated(error)) return
          call append(how, orbit, 1, "period_doubling", found, error, tangent)
          if (allocated(error)) return
@@ -171,7 +171,8 @@ contains
       end do
       associate (last => longer(size(longer)))
          last%origin = origin
-         call follow_branch(block_family_type(), how, orbit, direction, last%branch, failure, tangent)
+         call follow_branch(block_family_type(), how, orbit, direction, last%branch, failure, &
+                            tangent)
          if (allocated(failure)) return
          call find_special_points(block_family_type(), how, last%branch, last%points, error)
       end associate
