@@ -3,7 +3,6 @@
 !> IIA damps fast components, which Gauss points leave undamped.
 module collocation_basis
    use dde_kinds, only: wp
-   use dde_lapack, only: factorise_by_lapack, solve_by_lapack
    implicit none (type, external)
    private
    public :: collocation_basis_type, gauss_points, radau_points
@@ -141,26 +140,26 @@ contains
       if (share > 0.0_wp) points(degree) = 1.0_wp
    end function points_of
 
-   !> Weights with which polynomials below degree m are integrated exactly: those of 1, ...,
-   !> P_{m-1}, whose integrals vanish but the first.
+   !> Weights w with which polynomials up to degree 2m - 2 are integrated exactly. So 1, ..., P_{m-1}
+   !> are orthogonal also as sums over the points: w = 1/(sum of (2j + 1) P_j^2 over j = 0..m-1).
    pure function weights_of(points) result(weights)
       !> The points, shape (m)
       real(wp), intent(in) :: points(:)
       real(wp) :: weights(size(points))
-      real(wp) :: legendre(size(points), size(points))
-      integer :: k, pivot(size(points))
-      logical :: singular
+      real(wp), dimension(size(points)) :: before, legendre, next
+      integer :: j
 
+      before = 0.0_wp
+      legendre = 1.0_wp
+      weights = 1.0_wp
       associate (x => 2.0_wp*points - 1.0_wp)
-         legendre(1, :) = 1.0_wp
-         if (size(points) > 1) legendre(2, :) = x
-         do k = 2, size(points) - 1
-            legendre(k + 1, :) = ((2*k - 1)*x*legendre(k, :) - (k - 1)*legendre(k - 1, :))/k
+         do j = 1, size(points) - 1
+            next = ((2*j - 1)*x*legendre - (j - 1)*before)/j
+            before = legendre
+            legendre = next
+            weights = weights + (2*j + 1)*legendre**2
          end do
       end associate
-      weights = 0.0_wp
-      weights(1) = 1.0_wp
-      call factorise_by_lapack(legendre, pivot, singular)
-      call solve_by_lapack(legendre, pivot, weights)
+      weights = 1.0_wp/weights
    end function weights_of
 end module collocation_basis
