@@ -38,8 +38,9 @@ module orbit_curves
    type :: curve_type
       !> Its points; the first is the one it starts at
       type(special_point_type), allocatable :: points(:)
-      !> Why it ends: 'window', 'hopf' (a generalised or double Hopf point), '1:1' or '1:2'
-      !> (resonances), 'closed', 'period', 'points', 'convergence'
+      !> Why it ends: 'window', 'generalised_hopf' (folds) or 'double_hopf' (others), '1:1' or
+      !> '1:2' (resonances), 'closed', 'shorter_period' (at a cycle of a part of the period),
+      !> 'period', 'points', 'convergence'
       character(len=:), allocatable :: ending
       !> Points of a curve of folds before which it turns back in both parameters: cusps
       integer, allocatable :: cusps(:)
@@ -60,6 +61,9 @@ module orbit_curves
    real(wp), parameter :: resonant = 0.004_wp
    !> How the intervals grow where the mesh is not accurate
    real(wp), parameter :: growth = 1.3_wp
+
+   !> Message of a step that is too long
+   character(len=*), parameter :: passes_through = "the step passes through a shorter cycle"
 
 contains
 
@@ -82,6 +86,7 @@ contains
       type(special_point_type) :: next
       real(wp) :: step
       integer :: evaluations, i
+      logical :: passed
 
       allocate (curve%points(settings%most_points), curve%cusps(0))
       curve%points(1) = start
@@ -93,6 +98,7 @@ contains
          if (along%parameters(2)*direction < 0.0_wp) along = along%times(-1.0_wp)
       end associate
       curve%ending = "points"
+      passed = .false.
       step = settings%first_step
       i = 1
       do while (i < settings%most_points)
@@ -101,10 +107,12 @@ contains
          call take_step(family, settings, step, next, next_frame, evaluations, failure)
          if (allocated(failure)) then
             step = shorter*step
+            passed = passed .or. failure%message == passes_through
             if (step >= settings%least_step) cycle
-            curve%ending = "convergence"
+            curve%ending = trim(merge("shorter_period", "convergence   ", passed))
             exit
          end if
+         passed = .false.
          if (sum(frame%directions(1)%parameters*next_frame%directions(1)%parameters) < 0.0_wp &
              .and. next%kind == fold) curve%cusps = [curve%cusps, i + 1]
          frame = next_frame
@@ -147,8 +155,8 @@ contains
          end do
          call find_beside(family, settings, before, frame, step, point, evaluations, error)
          if (allocated(error)) return
-         if (point%orbit%is_opposite(before)) then
-            call raise(error, "the step passes through a Hopf point")
+         if (point%orbit%opposite_parts(before) > 0) then
+            call raise(error, passes_through)
             return
          end if
          move = difference_of(point%orbit, before, scale)
@@ -232,7 +240,7 @@ contains
              .or. any(point%orbit%parameters(free) > settings%window(2, :))) then
             reason = "window"
          else if (point%orbit%amplitude() < settings%least_amplitude) then
-            reason = "hopf"
+            reason = trim(merge("generalised_hopf", "double_hopf     ", point%kind == fold))
          else if (point%kind == torus_bifurcation .and. abs(point%angle()) < resonant) then
             reason = "1:1"
          else if (point%kind == torus_bifurcation .and. abs(point%angle()) > 0.5_wp - resonant) then
