@@ -116,7 +116,8 @@ contains
             end if
             passed = .false.
             i = i + 1
-            if (has_ended(settings, branch%orbits(:i), step, branch%ending)) exit
+            if (has_ended(settings, branch%orbits(:i), step, branch%tangents(1)%parameters(1) &
+                          *branch%tangents(i)%parameters(1) > 0.0_wp, branch%ending)) exit
             if (newton%iterations <= easy) step = min(longer*step, settings%longest_step)
             if (newton%iterations >= hard) step = shorter*step
          end do

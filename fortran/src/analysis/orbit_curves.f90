@@ -59,6 +59,8 @@ module orbit_curves
    real(wp), parameter :: most_bend = 0.5_wp
    !> Angle of a pair, in turns, so close to 0 or 1/2 that the curve ends in a resonance
    real(wp), parameter :: resonant = 0.004_wp
+   !> A closed curve has more points than this.
+   integer, parameter :: fewest_points = 5
    !> How the intervals grow where the mesh is not accurate
    real(wp), parameter :: growth = 1.3_wp
 
@@ -230,12 +232,15 @@ contains
       real(wp), intent(in) :: step
       !> Why, where it ends
       character(len=:), allocatable, intent(inout) :: reason
-      real(wp) :: far(2)
+      real(wp) :: far(4)
 
       value = .true.
       associate (point => points(last), free => settings%scale%free)
-         far = abs(point%orbit%parameters(free) - points(1)%orbit%parameters(free)) &
-               /settings%scale%unit
+         associate (first => points(1)%orbit, now => point%orbit)
+            far = abs([(now%parameters(free) - first%parameters(free))/settings%scale%unit, &
+                       now%period/first%period - 1.0_wp, &
+                       now%amplitude()/first%amplitude() - 1.0_wp])
+         end associate
          if (any(point%orbit%parameters(free) < settings%window(1, :)) &
              .or. any(point%orbit%parameters(free) > settings%window(2, :))) then
             reason = "window"
@@ -247,8 +252,7 @@ contains
             reason = "1:2"
          else if (point%orbit%period > settings%longest_period) then
             reason = "period"
-         else if (last > 5 .and. maxval(far) < 0.5_wp*step .and. &
-                  abs(point%orbit%amplitude() - points(1)%orbit%amplitude()) < step) then
+         else if (last > fewest_points .and. maxval(far) < 0.5_wp*step) then
             reason = "closed"
          else
             value = .false.

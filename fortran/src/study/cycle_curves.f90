@@ -19,11 +19,12 @@ module cycle_curves
       type(curve_type) :: parts(2)
    end type cycle_curve_type
 
-   !> A point is on a curve if it is so near in the parameter along the line, in units of the window,
-   !> and in the period, as a share.
+   !> A point is on a curve if it is so near in the parameter along the line, in units of the
+   !> window, and in the period, as a share.
    real(wp), parameter :: near = 1.0e-2_wp
-   !> Trivial multipliers are accurate to this, with at most so many intervals: curves are drawn, not
-   !> tabulated. A curve starts with a third of the intervals of its point, but not with less than
+   !> Trivial multipliers are accurate to this, with at most so many intervals: curves are drawn,
+   !> not tabulated. A curve starts with a third of the intervals of its point, but not with less
+   !> than
    !> the first number.
    real(wp), parameter :: accuracy = 1.0e-5_wp
    integer, parameter :: first_intervals = 50, most_intervals = 120, most_points = 200
