@@ -109,7 +109,7 @@ contains
    pure function points_of(degree, share) result(points)
       !> Degree m
       integer, intent(in) :: degree
-      !> 0: Gauss, 1: Radau IIA
+      !> 0 for Gauss points, 1 for those of Radau IIA
       real(wp), intent(in) :: share
       real(wp) :: points(degree)
       real(wp) :: move, p(0:degree), slope(0:degree), x

@@ -59,8 +59,6 @@ module orbit_curves
    real(wp), parameter :: most_bend = 0.5_wp
    !> Angle of a pair, in turns, so close to 0 or 1/2 that the curve ends in a resonance
    real(wp), parameter :: resonant = 0.004_wp
-   !> A closed curve has more points than this.
-   integer, parameter :: fewest_points = 5
    !> How the intervals grow where the mesh is not accurate
    real(wp), parameter :: growth = 1.3_wp
 
@@ -232,15 +230,9 @@ contains
       real(wp), intent(in) :: step
       !> Why, where it ends
       character(len=:), allocatable, intent(inout) :: reason
-      real(wp) :: far(4)
 
       value = .true.
       associate (point => points(last), free => settings%scale%free)
-         associate (first => points(1)%orbit, now => point%orbit)
-            far = abs([(now%parameters(free) - first%parameters(free))/settings%scale%unit, &
-                       now%period/first%period - 1.0_wp, &
-                       now%amplitude()/first%amplitude() - 1.0_wp])
-         end associate
          if (any(point%orbit%parameters(free) < settings%window(1, :)) &
              .or. any(point%orbit%parameters(free) > settings%window(2, :))) then
             reason = "window"
@@ -252,13 +244,34 @@ contains
             reason = "1:2"
          else if (point%orbit%period > settings%longest_period) then
             reason = "period"
-         else if (last > fewest_points .and. maxval(far) < 0.5_wp*step) then
+         else if (is_closed(settings, points(:last), step)) then
             reason = "closed"
          else
             value = .false.
          end if
       end associate
    end function has_ended
+
+   !> Whether a curve comes back to its first point.
+   pure logical function is_closed(settings, points, step) result(value)
+      !> How the curve is followed
+      type(curve_settings_type), intent(in) :: settings
+      !> Its points
+      type(special_point_type), intent(in) :: points(:)
+      !> Length of the last step
+      real(wp), intent(in) :: step
+      real(wp) :: distance(size(points))
+      integer :: i
+
+      do i = 1, size(points)
+         associate (first => points(1)%orbit, now => points(i)%orbit, scale => settings%scale)
+            distance(i) = maxval(abs([(now%parameters(scale%free) - first%parameters(scale%free)) &
+                                      /scale%unit, now%period/first%period - 1.0_wp, &
+                                      now%amplitude()/first%amplitude() - 1.0_wp]))
+         end associate
+      end do
+      value = distance(size(points)) < 0.5_wp*min(step, maxval(distance))
+   end function is_closed
 
    !> Keep the first points.
    subroutine cut(points, count)
