@@ -143,16 +143,20 @@ contains
    !> Number k of turns after which the mean of an orbit is taken if the parts of two orbits on the
    !> same mesh beside these means are opposite, or 0. With k = 1 they lie on both sides of a Hopf
    !> point, otherwise on both sides of a cycle of 1/k of their period, on a branch that passes
-   !> through it.
+   !> through it. There the parts may also be shifted: then they are neither opposite nor alike.
    pure integer function opposite_parts(self, other) result(turns)
       !> The orbit
       class(periodic_orbit_type), intent(in) :: self
       !> The other one
       type(periodic_orbit_type), intent(in) :: other
       integer, parameter :: most_turns = 3
+      real(wp), parameter :: alike = 0.7_wp
+      real(wp), dimension(size(self%nodes, 1), size(self%nodes, 2)) :: mine, theirs
 
       do turns = 1, most_turns
-         if (sum(part_beside(self, turns)*part_beside(other, turns)) < 0.0_wp) return
+         mine = part_beside(self, turns)
+         theirs = part_beside(other, turns)
+         if (sum(mine*theirs) < merge(0.0_wp, alike, turns == 1)*norm2(mine)*norm2(theirs)) return
       end do
       turns = 0
    end function opposite_parts
