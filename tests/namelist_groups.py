@@ -6,7 +6,6 @@ OBSERVATION = {
     "t_lasting": 50.0,
     "t_turning": 20.0,
     "interval": 5.0,
-    "blocks": 2,
     "exponents": 4,
     "zero_level": 1e-4,
     "longest_bar": 1e-3,
@@ -39,6 +38,7 @@ POINTS = {
     "u": [0.0, -0.5],
     "v": [1.1, 1.5],
     "sweep": "none",
+    "refinements": 0,
     "kept": 100,
 }
 CASES = {

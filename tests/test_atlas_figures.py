@@ -142,6 +142,20 @@ def test_exponents_have_one_colour_scale(drawn):
         np.testing.assert_allclose(values[:11], -0.01)
 
 
+def test_points_not_computed_have_the_exponent_of_the_nearest_of_their_kind():
+    """And their own class; the title counts both."""
+    rows = grid_of(0.5)
+    rows[0]["exponent_1"] = -0.5
+    for i, nearest in ((6, 0), (7, 1)):  # a fixed point above the first, a cycle above the second
+        assert rows[i]["class"] == rows[nearest]["class"]
+    for i in (6, 7):
+        rows[i] |= {"computed": "no", "exponent_1": math.nan}
+    figure = atlas.draw(rows, [], {})
+    assert "12 points, 10 computed, 1 undecided, 1 failed" in title_of(figure.axes[0])
+    values = figure.axes[1].collections[0].get_array().ravel()
+    assert (values[6], values[7]) == (-0.5, -0.01)
+
+
 def test_scenes_stand_in_their_own_plane(drawn):
     """With a name in the map of classes only; curves are dashed where subcritical."""
     there = [{(x, y) for x, y, _ in points_in(axes)} for axes in drawn.axes[:4]]

@@ -34,6 +34,18 @@ def test_parts_hold_every_row_once(count, parts):
     assert max(sizes) - min(sizes) <= 1
 
 
+@pytest.mark.parametrize("distance", [2, 4, 16])
+@pytest.mark.parametrize(("count", "parts"), [(51, 7), (51, 3), (9, 9), (28, 5), (1000, 31)])
+def test_parts_end_with_lines_that_are_computed_first(count, parts, distance):
+    """All but the last; each row is in one part, and no part is much larger than another."""
+    ends = [attractor_surveys.part_of(count, parts, part, distance) for part in range(1, parts + 1)]
+    rows = [row for first, last in ends for row in range(first, last + 1)]
+    assert rows == list(range(1, count + 1))
+    assert all((last - first) % distance == 0 for first, last in ends[:-1])
+    sizes = [last - first + 1 for first, last in ends]
+    assert max(sizes) - min(sizes) < 2 * distance
+
+
 def test_parts_of_the_atlas_divide_its_delays(full):
     """All of epsilon in each part, both windows as a whole, at xi and gamma of the plane."""
     settings = full["atlas"]
@@ -43,6 +55,7 @@ def test_parts_of_the_atlas_divide_its_delays(full):
         assert points["epsilon_part"] == [1, settings["epsilon_count"]]
         assert points["epsilon_window"] == settings["epsilon_window"]
         assert points["tau_window"] == settings["planes"]["fault"]["tau_window"]
+        assert points["refinements"] == settings["refinements"]
         assert points["xi_window"] == [0.5, 0.5]
         assert points["gamma_window"] == [1e8, 1e8]
         delays += range(points["tau_part"][0], points["tau_part"][1] + 1)
@@ -65,6 +78,7 @@ def test_runs_of_a_route_go_along_its_parameter(full, run, sweep):
     ]
     assert groups["observation"].items() >= full["spectra"].items()
     assert "kept" not in groups["observation"]
+    assert points["refinements"] == 0
     assert points["kept"] == routes["observation"]["kept"]
 
 
@@ -134,6 +148,22 @@ def a_run(classes: list[str], **given) -> xr.Dataset:
         data[key] = (("point", "exponent"), np.stack([first, first - 1], axis=1))
     data["problem"] = ("point", words.astype(object))
     return xr.Dataset(data)
+
+
+def test_points_that_were_not_computed_have_class_and_period_only():
+    """With their parameters and history; `computed` stands before the class."""
+    run = a_run(["cycle", "cycle"], period=[3, 3], time=[900.0, math.nan])
+    run["computed"] = ("point", [1, 0], {"flag_meanings": "no yes"})
+    first, second = attractor_tables.atlas_rows(run)
+    columns = list(first)
+    assert list(second) == columns
+    assert columns[columns.index("class") - 1] == "computed"
+    assert (first["computed"], second["computed"]) == ("yes", "no")
+    assert first["by_section"] == "cycle"
+    empty = {key for key, value in second.items() if isinstance(value, float) and math.isnan(value)}
+    place = {"epsilon", "tau", "xi", "gamma", "theta", "u", "v"}
+    assert set(columns) - empty == place | {"computed", "class", "period"}
+    assert (second["class"], second["period"]) == ("cycle", 3.0)
 
 
 def attractors_in(run: xr.Dataset) -> list[int]:
@@ -270,3 +300,5 @@ def test_points_are_counted_and_cycles_parted():
     assert count_in_words(rows) == "4 points, 1 undecided"
     failed = {"class": "undecided", "period": math.nan, "problem": "it stopped"}
     assert count_in_words([*rows, failed]) == "5 points, 1 undecided, 1 failed"
+    taken = rows[0] | {"computed": "no"}
+    assert count_in_words([*rows, taken]) == "5 points, 4 computed, 1 undecided"

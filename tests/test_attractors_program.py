@@ -33,7 +33,7 @@ def test_points_are_the_rectangle_for_each_history(programs, groups):
         assert set(found[key].values) <= set(range(5))
     assert found.xi.values.tolist() == found.gamma.values.tolist() == [0.8] * 8
     settings = {"name": "a part", "sweep": "none", "method": "auto", "tolerance": 1e-6}
-    recorded = ("t_transient", "t_observed", "t_turning", "interval", "blocks", "zero_level")
+    recorded = ("t_transient", "t_observed", "t_turning", "interval", "zero_level")
     assert found.attrs.items() >= (settings | {key: OBSERVATION[key] for key in recorded}).items()
     assert found.problem.str.strip().values.tolist() == [""] * 8
 
@@ -174,6 +174,25 @@ def test_same_bytes_in_one_thread_and_in_two(programs, groups, monkeypatch):
         programs.made_of("attractors", groups)
         contents.add(programs.output.read_bytes())
     assert len(contents) == 1
+
+
+@pytest.mark.parametrize(
+    ("given", "place"),
+    [
+        ({"sweep": "up", "tau_part": [1, 1]}, "in a sweep"),
+        ({"theta": [0.0, 0.1], "u": [0.0, 0.0], "v": [1.1, 1.1]}, "from 2 histories"),
+        ({"tau_count": 1, "tau_part": [1, 1]}, "along one line"),
+        ({"epsilon_count": 1, "epsilon_part": [1, 1]}, "along one line"),
+        ({"gamma_count": 2, "gamma_part": [1, 2]}, "along xi or gamma"),
+    ],
+)
+def test_refinements_of_no_plane_are_refused(programs, groups, given, place):
+    """They need cells of epsilon and tau, and one history."""
+    one = {"theta": [0.0], "u": [0.0], "v": [1.1], "refinements": 1}
+    groups["points"] |= one | given
+    done = programs.run_groups("attractors", groups)
+    assert f"refinements = 1 {place}; expected 0, or a plane of epsilon and tau" in done.stderr
+    assert programs.left_behind() == []
 
 
 def test_points_that_are_none_or_too_many_are_refused(programs, groups):

@@ -5,6 +5,7 @@ import math
 import subprocess
 import sys
 
+import classes
 import compare
 import exponents
 import long_runs
@@ -13,6 +14,7 @@ import pytest
 import ratios
 import scenes
 import workers
+import xarray as xr
 from conftest import ROOT
 
 from scripts.files.tsv import read_table
@@ -329,3 +331,23 @@ def test_answer_of_the_worker_is_read(monkeypatch, tmp_path):
     assert (seconds, passed) == (2.0, 100.0)
     assert pieces[1].tolist() == [[[0.5, 0.1], [-0.5, 0.2]]]
     assert pieces[2][1].tolist() == [[0.4, 0.3], [-0.4, 0.4]]
+
+
+def attractors_of(found: list[int], maxima: list[float]) -> xr.Dataset:
+    """Points with these classes and smallest maxima."""
+    run = xr.Dataset({"class": ("point", found), "smallest_maximum": ("point", maxima)})
+    run["class"].attrs["flag_meanings"] = "undecided fixed_point cycle torus chaos"
+    return run
+
+
+def test_classes_are_compared_where_both_are_known():
+    """Undecided points are counted by themselves; a point at rest has no spurious maximum."""
+    found = attractors_of([0, 1, 2, 3, 4], [1.0, 0.0, 1e-6, 0.5, 0.5])
+    best = attractors_of([2, 1, 2, 4, 0], [1.0] * 5)
+    assert classes.row_of(1e-6, 10.0, found, best) == {
+        "tolerance": 1e-6,
+        "seconds_per_point": 2.0,
+        "undecided": 1,
+        "other_class": 1,
+        "spurious_maxima": 1,
+    }

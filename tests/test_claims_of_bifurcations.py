@@ -191,6 +191,20 @@ def test_roots_decide(rows, verdict):
     assert found.verdict == verdict
 
 
+def test_roots_decide_counts_computed_points_only():
+    """The others have the class of their neighbours."""
+    rows = [
+        attractor_row("cycle", computed="yes", **ABOVE),
+        attractor_row("fixed point", computed="yes", **BELOW),
+        attractor_row("fixed point", computed="no", largest_maximum=math.nan, **ABOVE),
+        attractor_row("cycle", computed="no", largest_maximum=math.nan, **ABOVE),
+    ]
+    found = TESTS["roots_decide"](results(atlas=rows), least_motion=1e-3)
+    assert found.verdict == REPRODUCED
+    assert found.evidence.startswith("2 computed motions ")
+    assert "nan" not in found.evidence
+
+
 @pytest.mark.parametrize(
     ("given", "pairs"),
     [

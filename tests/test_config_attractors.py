@@ -103,9 +103,19 @@ def test_more_parts_than_delays_are_refused(config):
     assert line == "config atlas: parts = 4; expected a whole number >= 1 and <= tau_count = 3"
 
 
+@pytest.mark.parametrize("count", ["epsilon_count", "tau_count"])
+def test_refinements_of_one_line_are_refused(config, count):
+    """There are no cells to refine."""
+    config["atlas"] |= {"parts": 1, "refinements": 1, count: 1}
+    line = line_about(refusal(config), "refinements")
+    assert line.startswith("config atlas: refinements = 1; expected 0 for one line, ")
+    config["atlas"]["refinements"] = 0
+    checked(config)
+
+
 def test_part_of_too_many_points_is_refused(config):
     """Ten rows of 100000 in a part are as many as may be."""
-    config["atlas"] |= {"epsilon_count": 100000, "tau_count": 80, "parts": 8}
+    config["atlas"] |= {"epsilon_count": 100000, "tau_count": 80, "parts": 8, "refinements": 0}
     checked(config)
     config["atlas"]["parts"] = 7
     assert "config atlas: parts = 7 of 1200000 points; expected at most 1000000" in refusal(config)

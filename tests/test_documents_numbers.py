@@ -73,9 +73,22 @@ def hopf(of: str, kind: str) -> list[dict]:
     return [row for row in table("hopf-points.tsv") if (row["of"], row["kind"]) == (of, kind)]
 
 
+NUMBERS = "zero one two three four five six seven eight nine ten".split()
+
+
 def count(of: str, kind: str) -> str:
     """How many special points, in words."""
-    return "zero one two three four five six seven eight nine ten".split()[len(hopf(of, kind))]
+    return NUMBERS[len(hopf(of, kind))]
+
+
+def stable_tori(of: str, most_pairs: int) -> str:
+    """How many double Hopf points have stable tori beside few unstable pairs, in words."""
+    return NUMBERS[
+        sum(
+            row["torus_1"] == "stable" and int(row["unstable_pairs"]) <= most_pairs
+            for row in hopf(of, "double_hopf")
+        )
+    ]
 
 
 def turns(of: str, column: str) -> list[float]:
@@ -90,11 +103,11 @@ def amplitude_death(scene: str) -> list[float]:
     return [float(hopf(scene, kind)[0]["tau"]) for kind in kinds]
 
 
-def double_hopf_near(of: str, epsilon: float) -> list[float]:
-    """The double Hopf point of a plane that is nearest in epsilon: epsilon and tau."""
+def double_hopf_near(of: str, epsilon: float, columns=("epsilon", "tau")) -> list[float]:
+    """Of the double Hopf point of a plane that is nearest in epsilon."""
     points = hopf(of, "double_hopf")
     nearest = min(points, key=lambda row: abs(float(row["epsilon"]) - epsilon))
-    return [float(nearest["epsilon"]), float(nearest["tau"])]
+    return [float(nearest[column]) for column in columns]
 
 
 def frequencies(scene: str) -> list[float]:
@@ -336,6 +349,28 @@ SAID = [
         "docs/findings.md", "{} in Figure 2, {} in Figure 3",
         lambda: [count(of, "double_hopf") for of in ("tau_of_epsilon", "xi_of_epsilon")],
     ),
+    Said(
+        "docs/findings.md", "the tori are stable at {} points of Figure 2 and {} of Figure 3",
+        lambda: [stable_tori(of, 9) for of in ("tau_of_epsilon", "xi_of_epsilon")],
+    ),
+    Said(
+        "docs/findings.md", "is unstable: at {} points of Figure 2 and {} of Figure 3",
+        lambda: [stable_tori(of, 0) for of in ("tau_of_epsilon", "xi_of_epsilon")],
+    ),
+    Said(
+        "docs/findings.md", "start at the double Hopf point ({:.3f}, {:.2f}) of xi = 0.8",
+        lambda: double_hopf_near("tau_of_epsilon_xi_08", 0.464),
+    ),
+    Said(
+        "docs/findings.md", "the angle of its multipliers is {:.3f}",
+        lambda: double_hopf_near("tau_of_epsilon_xi_08", 0.464, ["angle_1"]),
+    ),
+    Said(
+        "docs/findings.md", "l2 is negative at all {} points",
+        lambda: [
+            NUMBERS[sum(float(row["l2"]) < 0 for row in hopf("tau_of_epsilon", "generalised_hopf"))]
+        ],
+    ),
     Said("docs/findings.md", "tau from {:.3f} to {:.3f}, at", lambda: amplitude_death("torus")),
     Said(
         "docs/findings.md", "those of `chaos` from {:.3f} to {:.3f}",
@@ -453,3 +488,13 @@ def test_number_is_that_of_the_results(said):
     """If a result has changed, write the new number into the document."""
     text = " ".join((ROOT / said.document).read_text().split())
     assert said.expected in text
+
+
+@pytest.mark.parametrize(("tau", "between"), [(12.5, True), (10.0, False)])
+def test_tori_lie_between_the_curves_that_start(tau, between):
+    """As docs/findings.md says of `true_torus` and `torus`: epsilon = 0.5, xi = 0.8."""
+    keys = ("epsilon", "tau")
+    columns = [*keys, *(f"start_{key}_{number}" for number in (1, 2) for key in keys)]
+    point = double_hopf_near("tau_of_epsilon_xi_08", 0.464, columns)
+    shares = np.linalg.solve(np.array(point[2:]).reshape(2, 2).T, [0.5 - point[0], tau - point[1]])
+    assert bool(min(shares) > 0) is between

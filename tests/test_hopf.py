@@ -8,6 +8,8 @@ from scripts.files.tsv import read_table, write_table
 from scripts.tables.hopf_points_table import COLUMNS, rows_of
 
 PLANES = ["tau_of_epsilon", "xi_of_epsilon"]
+PLACE = ("epsilon", "tau", "xi")
+COEFFICIENTS = [["2100", "1011"], ["1110", "0021"]]
 
 
 @pytest.fixture
@@ -269,6 +271,42 @@ def test_special_points_solve_the_characteristic_equation(curves):
         for omega in omegas:
             assert residual(1j * omega, *place) < 1e-10
         assert (row["l1_1"] == "0") is (row["kind"] == "generalised_hopf")
+
+
+@both_planes
+def test_curves_start_where_the_normal_form_says(curves, plane):
+    """Along the start of a curve of tori the pair of the cycle grows as it must, the other too."""
+    rows = [row for row in rows_of("plane", curves) if row["kind"] == "double_hopf"]
+    for row in rows:
+        p = np.array([[float(row[f"g{key}"]) for key in keys] for keys in COEFFICIENTS])
+        assert float(row["theta"]) == pytest.approx(p[0, 1] / p[1, 1], rel=1e-4)
+        assert float(row["delta"]) == pytest.approx(p[1, 0] / p[0, 0], rel=1e-4)
+        for j in (0, 1):
+            step = {key: 1e-5 * float(row[f"start_{key}_{j + 1}"]) for key in PLACE}
+            there = [float(row[key]) + step[key] for key in PLACE]
+            growth = [
+                root_near(1j * float(row[f"omega_{k}"]), *there, plane["gamma"]).real
+                for k in (1, 2)
+            ]
+            assert np.linalg.norm(list(step.values())) == pytest.approx(1e-5, rel=1e-5)
+            expected = -p[:, j] / np.linalg.norm(p[:, j])
+            assert growth / np.linalg.norm(growth) == pytest.approx(expected, abs=1e-2)
+            angle = 2 * np.pi * float(row[f"omega_{2 - j}"]) / float(row[f"omega_{j + 1}"])
+            assert np.cos(float(row[f"angle_{j + 1}"])) == pytest.approx(np.cos(angle))
+
+
+@both_planes
+def test_generalised_points_have_their_columns(curves):
+    """Folds leave along the Hopf curve; there is one curve and no coefficient of two pairs."""
+    rows = [row for row in rows_of("plane", curves) if row["kind"] == "generalised_hopf"]
+    for row in rows:
+        step = {key: 1e-5 * float(row[f"start_{key}_1"]) for key in PLACE}
+        there = [float(row[key]) + step[key] for key in PLACE]
+        root = root_near(1j * float(row["omega_1"]), *there, curves.attrs["gamma"])
+        assert abs(root.real) < 1e-3 * np.linalg.norm(list(step.values()))
+        assert float(row["l2"]) != 0
+        assert {row[key] for key in ("g2100", "theta", "unfolding", "angle_1", "torus_1")} == {""}
+        assert {row[f"start_{key}_2"] for key in PLACE} == {""}
 
 
 @both_planes

@@ -164,6 +164,18 @@ def test_atlas_has_a_map_for_each_plane():
     assert second["cells"][1]["words"].endswith("no result: too stiff")
 
 
+def test_cell_that_was_not_computed_says_so():
+    """With its class, that of its neighbours, and no exponents."""
+    taken = {"computed": "no", **{f"exponent_{i}": np.nan for i in (1, 2, 3)}}
+    rows = [attractor(0.1, 0.0, computed="yes"), attractor(0.2, 0.0, period=3.0, **taken)]
+    (found,) = page_views.atlas(rows)
+    assert "exponents -0.01" in found["cells"][0]["words"]
+    assert found["cells"][1]["kind"] == "cycle of period > 1"
+    assert found["cells"][1]["words"].endswith(
+        "γ = 0.8: cycle of period 3 in its section, as its neighbours; not computed"
+    )
+
+
 def test_programs_are_told_by_version_and_compiler(tmp_path):
     """As the files say."""
     for name, compiler in (("a", "one"), ("b", "one"), ("c", "two")):

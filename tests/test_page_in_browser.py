@@ -137,7 +137,7 @@ def test_atlas_is_pointed_at_and_zoomed(seen):
         pytest.skip("this page has no atlas")
     assert atlas["by_pointer"] == atlas["cell"]
     assert atlas["by_keyboard"] == atlas["neighbour"] != atlas["cell"]
-    assert "exponents" in atlas["cell"]
+    assert any(words in atlas["cell"] for words in ("; exponents ", "; not computed"))
     whole, closer, back = ([float(x) for x in box.split()] for box in atlas["boxes"])
     assert whole == back
     assert closer[2] == pytest.approx(whole[2] / 1.5)

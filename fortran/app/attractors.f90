@@ -28,7 +28,8 @@ program attractors_program
    call stop_on(error)
    report = progress_type("attractors of "//trim(asked%name))
    if (asked%sweep == "none") then
-      call find_attractors(asked%points, settings, options, findings, report)
+      call find_attractors(asked%points, settings, options, findings, report, asked%columns, &
+                           asked%refinements)
    else
       call sweep_attractors(asked%points, settings, options, findings, report)
    end if

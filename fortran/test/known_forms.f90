@@ -12,8 +12,7 @@ module known_forms
    !> and tau1. Lags: 0, tau_s, tau2, tau1.
    type, extends(delay_equation_type) :: neurons
    contains
-      procedure :: second => no_second_form
-      procedure :: third => third_form_of_tanh
+      procedure :: derivative => derivative_of_tanh
    end type neurons
 
    !> The delayed block in theta, u and v. Lags: 0, tau.
@@ -21,16 +20,16 @@ module known_forms
       !> Parameters
       type(block_parameters_type) :: p
    contains
-      procedure :: second => second_form_in_v
-      procedure :: third => third_form_in_v
+      procedure :: derivative => derivative_in_v
    end type block_in_v
 
 contains
 
-   !> The neurons at their Hopf point.
-   pure function new_neurons() result(equation)
+   !> The neurons.
+   pure function new_neurons(a21, tau_s) result(equation)
+      real(wp), intent(in) :: a21, tau_s
       type(neurons) :: equation
-      real(wp), parameter :: kappa = 0.5_wp, beta = -1.0_wp, a12 = 1.0_wp, a21 = 0.8071232250_wp
+      real(wp), parameter :: kappa = 0.5_wp, beta = -1.0_wp, a12 = 1.0_wp
 
       allocate (equation%linear%a(2, 2, 4))
       equation%linear%a = 0.0_wp
@@ -38,30 +37,23 @@ contains
       equation%linear%a(:, :, 2) = reshape([beta, 0.0_wp, 0.0_wp, beta], [2, 2])
       equation%linear%a(1, 2, 3) = a12
       equation%linear%a(2, 1, 4) = a21
-      equation%linear%lag = [0.0_wp, 1.5_wp, 0.2_wp, 0.2_wp]
+      equation%linear%lag = [0.0_wp, tau_s, 0.2_wp, 0.2_wp]
    end function new_neurons
 
-   !> tanh is odd.
-   pure function no_second_form(self, x, y) result(form)
+   !> tanh is odd; its third derivative at 0 is -2, its fifth is 16.
+   pure function derivative_of_tanh(self, x) result(form)
       class(neurons), intent(in) :: self
-      complex(wp), intent(in) :: x(:, :), y(:, :)
+      complex(wp), intent(in) :: x(:, :, :)
       complex(wp) :: form(size(x, 1))
-
-      form = 0.0_wp
-   end function no_second_form
-
-   !> The third derivative of tanh at 0 is -2.
-   pure function third_form_of_tanh(self, x, y, z) result(form)
-      class(neurons), intent(in) :: self
-      complex(wp), intent(in) :: x(:, :), y(:, :), z(:, :)
-      complex(wp) :: form(size(x, 1))
+      real(wp), parameter :: at_zero(2:5) = [0.0_wp, -2.0_wp, 0.0_wp, 16.0_wp]
       integer :: i
 
       form = 0.0_wp
-      do i = 2, 4
-         form = form - 2.0_wp*matmul(self%linear%a(:, :, i), x(:, i)*y(:, i)*z(:, i))
+      do i = 2, size(x, 2)
+         form = form + at_zero(size(x, 3)) &
+                *matmul(self%linear%a(:, :, i), product(x(:, i, :), dim=2))
       end do
-   end function third_form_of_tanh
+   end function derivative_of_tanh
 
    !> The block; its linear part by hand.
    pure function new_block_in_v(p) result(equation)
@@ -77,6 +69,19 @@ contains
       equation%linear%a(1, 3, 2) = -(1.0_wp + p%epsilon)
       equation%linear%lag = [0.0_wp, p%tau]
    end function new_block_in_v
+
+   !> To third order.
+   pure function derivative_in_v(self, x) result(form)
+      class(block_in_v), intent(in) :: self
+      complex(wp), intent(in) :: x(:, :, :)
+      complex(wp) :: form(size(x, 1))
+
+      if (size(x, 3) == 2) then
+         form = second_form_in_v(self, x(:, :, 1), x(:, :, 2))
+      else
+         form = third_form_in_v(self, x(:, :, 1), x(:, :, 2), x(:, :, 3))
+      end if
+   end function derivative_in_v
 
    !> Of theta' = -v [theta + (1 + epsilon) ln z] and v' = -gamma^2 [u + (theta + ln v)/xi], with
    !> z = v(t - tau), at theta = u = 0, v = z = 1.

@@ -23,13 +23,16 @@ program tester
    use test_hopf_condition, only: collect_hopf_condition
    use test_hopf_curves, only: collect_hopf_curves
    use test_hopf_points, only: collect_hopf_points
+   use test_hopf_unfoldings, only: collect_hopf_unfoldings
    use test_linear_stability, only: collect_linear_stability
    use test_lyapunov_spectrum, only: collect_lyapunov_spectrum
    use test_measured_run, only: collect_measured_run
    use test_motion_classes, only: collect_motion_classes
+   use test_normal_forms, only: collect_normal_forms
    use test_orbit_branches, only: collect_orbit_branches
    use test_periodic_orbits, only: collect_periodic_orbits
    use test_progress, only: collect_progress
+   use test_refined_grid, only: collect_refined_grid
    use test_section_motion, only: collect_section_motion
    use test_slip_events, only: collect_slip_events
    use test_spectral_peaks, only: collect_spectral_peaks
@@ -68,13 +71,16 @@ program tester
                              new_testsuite("hopf_condition", collect_hopf_condition), &
                              new_testsuite("hopf_curves", collect_hopf_curves), &
                              new_testsuite("hopf_points", collect_hopf_points), &
+                             new_testsuite("hopf_unfoldings", collect_hopf_unfoldings), &
                              new_testsuite("linear_stability", collect_linear_stability), &
                              new_testsuite("lyapunov_spectrum", collect_lyapunov_spectrum), &
                              new_testsuite("measured_run", collect_measured_run), &
                              new_testsuite("motion_classes", collect_motion_classes), &
+                             new_testsuite("normal_forms", collect_normal_forms), &
                              new_testsuite("orbit_branches", collect_orbit_branches), &
                              new_testsuite("periodic_orbits", collect_periodic_orbits), &
                              new_testsuite("progress", collect_progress), &
+                             new_testsuite("refined_grid", collect_refined_grid), &
                              new_testsuite("section_motion", collect_section_motion), &
                              new_testsuite("slip_events", collect_slip_events), &
                              new_testsuite("spectral_peaks", collect_spectral_peaks), &

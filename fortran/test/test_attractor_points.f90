@@ -34,6 +34,7 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("in threads", test_threads), &
+                   new_unittest("on a grid", test_grid), &
                    new_unittest("a point that cannot be run", test_problem), &
                    new_unittest("no run can be finished", test_all_problems)]
    end subroutine collect_attractor_points
@@ -61,7 +62,7 @@ contains
    !> How attractors are found here.
    pure type(attractor_settings_type) function quickly() result(settings)
       settings = attractor_settings_type(t_transient=200.0_wp, t_observed=500.0_wp, &
-                                    t_turning=50.0_wp, interval=5.0_wp, blocks=2, exponents=3, &
+                                    t_turning=50.0_wp, interval=5.0_wp, exponents=3, &
                                          zero_level=1.0e-3_wp, longest_bar=1.0e-2_wp, doublings=1, &
                                          sample_interval=0.1_wp, window="hann", segments=2, &
                                     overlap=0.5_wp, peak_floor=1.0e-6_wp, peak_prominence=10.0_wp)
@@ -95,6 +96,54 @@ contains
          end do
       end do
    end subroutine test_threads
+
+   !> On a grid across the Hopf curve of the block without delay,
+   !> epsilon = xi gamma**2/(xi + gamma**2): the points that are computed are the same as without
+   !> refinements, the others have the class of their neighbours.
+   subroutine test_grid(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: columns = 5, lines = 5
+      type(finding_type), allocatable :: all_computed(:), findings(:)
+      type(integration_options) :: options
+      type(memory_type) :: memory
+      type(point_type) :: points(columns, lines)
+      integer :: i, j, threads
+
+      threads = omp_get_max_threads()
+      do j = 1, lines
+         do i = 1, columns
+            points(i, j) = point_type( &
+                           block_parameters_type(tau=0.0_wp, xi=0.5_wp + 0.02_wp*j, &
+                                                 epsilon=0.1_wp*i, gamma=0.8_wp), &
+                           block_history_type(v=1.1_wp))
+         end do
+      end do
+      options = at_tolerance(1.0e-6_wp, "auto")
+      associate (list => reshape(points, [size(points)]))
+         call find_attractors(list, quickly(), options, all_computed)
+         do i = 1, 2
+            memory = memory_type(done=[integer ::], total=[integer ::])
+            call omp_set_num_threads(i)
+            call find_attractors(list, quickly(), options, findings, memory, columns, 1)
+            call omp_set_num_threads(threads)
+            call expect(error, all(all_computed%computed) .and. .not. all(findings%computed), &
+                        "some points are not computed")
+            call expect(error, all(findings%attractor%class == all_computed%attractor%class), &
+                        "the same classes")
+            do j = 1, size(list)
+               if (.not. findings(j)%computed) cycle
+               call expect_success(error, findings(j)%problem)
+               if (allocated(error)) return
+               call expect(error, same_bits(all_of(findings(j)), all_of(all_computed(j))), &
+                           "the same at point "//text(j))
+            end do
+            associate (done => memory%done, n => size(memory%done))
+               call expect(error, all(done(2:) >= done(:n - 1)) .and. done(n) == size(list) &
+                           .and. all(done(:n - 1) < size(list)), "progress to the end")
+            end associate
+         end do
+      end associate
+   end subroutine test_grid
 
    !> All numbers of a finding.
    pure function all_of(finding) result(numbers)
@@ -144,7 +193,7 @@ contains
       call expect(error, same_bits(all_of(findings(3)), all_of(alone(1))), "the same alone")
    end subroutine test_problem
 
-   !> Too few steps are allowed for any.
+   !> Too few steps are allowed for any. So none has the class of its neighbours.
    subroutine test_all_problems(error)
       type(error_type), allocatable, intent(out) :: error
       type(finding_type), allocatable :: findings(:)
@@ -153,7 +202,8 @@ contains
 
       options = at_tolerance(1.0e-6_wp, "auto")
       options%most_steps = 5
-      call find_attractors(some_points(), quickly(), options, findings)
+      call find_attractors(some_points(), quickly(), options, findings, columns=4, refinements=1)
+      call expect(error, all(findings%computed), "all are computed")
       do i = 1, size(findings)
          call expect_failure(error, findings(i)%problem, "5 steps (most_steps) were used up")
          call expect(error, findings(i)%attractor%class == undecided, "undecided")

@@ -2,12 +2,13 @@
 module test_attractors
    use block_builder, only: build_block
    use attractors, only: attractor_settings_type, attractor_type, find_attractor
-   use dde, only: integration_options
+   use dde, only: integrate, integration_options, integration_result
    use dde_errors, only: failure_type => error_type
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use motion_classes, only: chaos, class_names, cycle_motion, fixed_point, torus, undecided
+   use observed_motion, only: observed_motion_type
    use solving, only: at_tolerance
    use spring_block, only: spring_block_type
    implicit none (type, external)
@@ -30,7 +31,8 @@ contains
                    new_unittest("unstable steady sliding", test_unstable), &
                    new_unittest("approach shorter than the delay", test_short_approach), &
                    new_unittest("a run that ends early", test_failed_run), &
-                   new_unittest("too few samples", test_few_samples)]
+                   new_unittest("too few samples", test_few_samples), &
+                   new_unittest("maxima of a stuck block", test_stuck)]
    end subroutine collect_attractors
 
    !> Settings as in the configuration, with times of a scene's own.
@@ -41,7 +43,7 @@ contains
       real(wp), intent(in) :: t_observed
 
       settings = attractor_settings_type(t_transient=t_transient, t_observed=t_observed, &
-                                         t_turning=0.5_wp*t_observed, interval=5.0_wp, blocks=20, &
+                                         t_turning=0.5_wp*t_observed, interval=5.0_wp, &
                                          exponents=4, zero_level=3.0e-5_wp, longest_bar=1.0e-3_wp, &
                                          doublings=0, sample_interval=0.1_wp, window="hann", &
                                          segments=8, overlap=0.5_wp, peak_floor=1.0e-6_wp, &
@@ -286,4 +288,32 @@ contains
       call expect_failure(error, failure, "samples")
       call expect(error, found%class == undecided, "undecided")
    end subroutine test_few_samples
+
+   !> A loose tolerance makes no maxima while v of a stuck block is 1e-6 and less. All maxima of these
+   !> cycles are larger than 0.04 at the tolerance 1e-10.
+   subroutine test_stuck(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_options) :: options
+      type(integration_result) :: outcome
+      type(observed_motion_type) :: motion(5)
+      real(wp), parameter :: epsilons(5) = [1.5_wp, 1.0_wp, 1.25_wp, 1.16_wp, 1.4_wp]
+      real(wp), parameter :: delays(5) = [9.3_wp, 13.3_wp, 14.7_wp, 18.7_wp, 18.7_wp]
+      type(spring_block_type) :: stuck
+      integer :: i
+
+      options = at_tolerance(1.0e-6_wp, "auto")
+      do i = 1, size(motion)
+         stuck = disturbed(delays(i), epsilons(i), 0.5_wp)
+         call integrate(stuck, 0.0_wp, 1000.0_wp, options, outcome, failure, &
+                        continuation=motion(i)%continuation)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         call motion(i)%clear()
+         call motion(i)%observe(stuck, 1000.0_wp, 0.1_wp, options, failure)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         call expect_between(error, minval(motion(i)%maxima), 1.0e-3_wp, 10.0_wp, "maximum")
+      end do
+   end subroutine test_stuck
 end module test_attractors

@@ -40,7 +40,7 @@ contains
 
       call expect_refusals(error, observation_reader, "observation", [ &
          character(len=line_length) :: "t_transient = 100.0", "t_observed = 200.0", &
-         "t_lasting = 50.0", "t_turning = 20.0", "interval = 5.0", "blocks = 2", "exponents = 4", &
+         "t_lasting = 50.0", "t_turning = 20.0", "interval = 5.0", "exponents = 4", &
          "zero_level = 1.0e-4", "longest_bar = 1.0e-3", "doublings = 0", &
          "sample_interval = 0.1", "window = 'hann'", "segments = 2", "overlap = 0.5", &
          "peak_floor = 1.0e-6", "peak_prominence = 10.0", "tolerance = 1.0e-6", &
@@ -50,8 +50,6 @@ contains
          spoiled("t_lasting", "-1.0", "t_lasting = -1.0"//from_0), &
          spoiled("t_turning", "-1.0", "t_turning = -1.0"//from_0), &
          spoiled("interval", "0.0", "interval = 0.0"//above_0), &
-         spoiled("blocks", "1", "blocks = 1"//from_2), &
-         spoiled("blocks", "1001", "blocks = 1001; expected a whole number <= 1000"), &
          spoiled("exponents", "1", "exponents = 1"//from_2), &
          spoiled("exponents", "65", "exponents = 65; expected a whole number <= 64"), &
          spoiled("zero_level", "-1.0", "zero_level = -1.0"//from_0), &
@@ -88,7 +86,7 @@ contains
          "epsilon_part = 2, 3", "tau_window = 0.0, 10.0", "tau_count = 3", "tau_part = 1, 1", &
          "xi_window = 0.8, 0.8", "xi_count = 1", "xi_part = 1, 1", "gamma_window = 0.8, 1.0e8", &
          "gamma_count = 1", "gamma_part = 1, 1", "theta = 0.0", "u = 0.0", "v = 1.1", &
-         "sweep = 'up'", "kept = 100"], [ &
+         "sweep = 'up'", "refinements = 0", "kept = 100"], [ &
          spoiled("name", "'"//repeat("a", 129)//"'", "letters of name = 129; expected"), &
          spoiled("xi_window", "0.0, 0.8", "xi_window = 0.0"//above_0), &
          spoiled("xi_part", "1, 2", "xi_part = 1, 2; expected first and last"), &
@@ -115,6 +113,9 @@ contains
          spoiled("sweep", "'left'", "sweep = 'left'; expected one of 'none' 'up' 'down'"), &
          spoiled("tau_part", "1, 2", "sweep = 'up' along 2 parameters; expected at most one"), &
          spoiled("v", "1.1, 1.5, u = 0.0, 0.0, theta = 0.0, 0.0", "'up' from 2 histories;"), &
+         spoiled("refinements", "-1", "refinements = -1"//from_0_count), &
+         spoiled("refinements", "5", "refinements = 5; expected a whole number <= 4"), &
+         spoiled("refinements", "1", "refinements = 1 in a sweep; expected 0"), &
          spoiled("kept", "-1", "kept = -1"//from_0_count), &
          spoiled("kept", "100001", "kept = 100001; expected a whole number <= 100000")])
    end subroutine test_points

@@ -203,7 +203,7 @@ contains
       complex(wp), allocatable :: roots(:)
       real(wp) :: l1
 
-      equation = new_neurons()
+      equation = new_neurons(0.8071232250_wp, 1.5_wp)
       call find_roots(equation%linear, -0.01_wp, roots, failure)
       call expect_success(error, failure)
       call expect_close(error, real(roots(1)), 0.0_wp, 1.0e-9_wp, "real part of the pair")

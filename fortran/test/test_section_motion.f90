@@ -331,6 +331,12 @@ contains
          points(1, i) = points(1, i) + 1.0e-5_wp*i
       end do
       call expect(error, period_of_tail(points, reach, .false.) == 0, "drift")
+      points = 0.0_wp
+      points(1, :) = [(3.0e-6_wp*reach(1)*cos(2.0_wp*i), i=1, n)]
+      do i = n - 20, n
+         call expect(error, period_of_tail(points(:, :i), reach, .false.) == 1, &
+                     "distances that swing")
+      end do
    end subroutine test_tail
 
    !> Maxima that grow drift, however slowly; noise, a cycle, a beat and a change below 1e-3 do not.

@@ -14,6 +14,7 @@ from scripts.claims.claims_results import (
     short,
 )
 from scripts.claims.roots_of_5 import unstable_pairs as unstable_pairs_of_5
+from scripts.tables.motion_rows import is_computed
 
 KINDS = {"supercritical": -1, "subcritical": 1}
 """Kinds of a Hopf bifurcation by the sign of the first Lyapunov coefficient."""
@@ -161,8 +162,9 @@ def amplitude_death(results: Results, *, scenes: list[str]) -> Finding:
 
 
 def roots_decide(results: Results, *, least_motion: float) -> Finding:
-    """Whether no motion comes to rest where (5) has an unstable root, in the atlas and scenes."""
-    rows = [row for row in results.atlas + results.attractors if row["class"] != "undecided"]
+    """Whether no computed motion of the atlas or a scene rests where (5) has an unstable root."""
+    motions = [row for row in results.atlas + results.attractors if is_computed(row)]
+    rows = [row for row in motions if row["class"] != "undecided"]
     stable, unstable = [], []
     for row in rows:
         pairs = unstable_pairs_of_5(**{key: row[key] for key in ("epsilon", "tau", "xi", "gamma")})
@@ -174,14 +176,15 @@ def roots_decide(results: Results, *, least_motion: float) -> Finding:
         if row["class"] == "fixed point" or row["largest_maximum"] - 1 < least_motion
     ]
     least = min((row["largest_maximum"] - 1 for row in unstable), default=np.nan)
-    undecided = len(results.atlas) + len(results.attractors) - len(rows)
+    undecided = len(motions) - len(rows)
     return decided(
         bool(unstable) and any(at_rest) and not rests,
-        f"{len(rows)} motions of the atlas and of the scenes have a class. {len(stable)} of them"
-        f" are at parameters where all roots have negative real parts: {sum(at_rest)} come to rest,"
-        f" {len(stable) - sum(at_rest)} move on another attractor. {len(unstable)} are at"
-        f" parameters with unstable roots: {len(rests)} come to rest, and in the others the largest"
-        f" v is at least 1 + {short(least, 2)}. {undecided} more motions are undecided.",
+        f"{len(rows)} computed motions of the atlas and of the scenes have a class."
+        f" {len(stable)} of them are at parameters where all roots have negative real parts:"
+        f" {sum(at_rest)} come to rest, {len(stable) - sum(at_rest)} move on another attractor."
+        f" {len(unstable)} are at parameters with unstable roots: {len(rests)} come to rest, and in"
+        f" the others the largest v is at least 1 + {short(least, 2)}. {undecided} more motions are"
+        " undecided.",
     )
 
 

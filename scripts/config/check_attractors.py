@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator
 
 from scripts.config.ranges import range_of
+from scripts.namelists.attractor_surveys import part_of
 from scripts.namelists.study_cases import PARAMETERS
 
 LEAST_LN_V, LARGEST_LN_V = -700.0, 700.0
@@ -121,7 +122,16 @@ def _of_parts(place: str, atlas: dict) -> Iterator[str]:
         yield (
             f"{place}: parts = {parts}; expected a whole number >= 1 and <= tau_count = {delays}"
         )
-    elif (points := math.ceil(delays / parts) * atlas["epsilon_count"]) > MOST_POINTS:
+        return
+    refinements, columns = atlas["refinements"], atlas["epsilon_count"]
+    if refinements > 0 and min(delays, columns) == 1:
+        yield (
+            f"{place}: refinements = {refinements}; expected 0 for one line,"
+            f" epsilon_count = {columns}, tau_count = {delays}"
+        )
+    ends = (part_of(delays, parts, part, 2**refinements) for part in range(1, parts + 1))
+    points = columns * max(last - first + 1 for first, last in ends)
+    if points > MOST_POINTS:
         yield f"{place}: parts = {parts} of {points} points; expected at most {MOST_POINTS} in each"
 
 

@@ -11,12 +11,19 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
-from scripts.drawing.class_map import CELLS, draw_classes, legend_of, mark_failures, table_of
+from scripts.drawing.class_map import (
+    CELLS,
+    KINDS,
+    draw_classes,
+    legend_of,
+    mark_failures,
+    table_of,
+)
 from scripts.drawing.hopf_plane import SUBCRITICAL, draw_piece
 from scripts.drawing.style import INK, logged, save
 from scripts.files.inputs import read
 from scripts.files.tsv import read_table
-from scripts.tables.motion_rows import count_in_words, planes_of
+from scripts.tables.motion_rows import count_in_words, is_computed, kind_of, planes_of
 
 LINEAR, LARGEST = 1e-3, 0.1
 """Exponents closer to zero are coloured on a linear scale, larger ones all alike."""
@@ -75,12 +82,26 @@ def draw(rows: list[dict], curves: list[xr.Dataset], scenes: dict[str, dict]) ->
 
 
 def draw_exponents(axes: Axes, rows: list[dict]):
-    """The largest exponent of each row, white at zero."""
+    """The largest exponent of each row, white at zero; see `filled` for those not computed."""
     x, y, values = table_of(rows, "tau", lambda row: row["exponent_1"])
+    _, _, kinds = table_of(rows, "tau", lambda row: KINDS.index(kind_of(row)))
+    _, _, computed = table_of(rows, "tau", is_computed)
+    values = filled(values, kinds, computed == 1)
     norm = SymLogNorm(LINEAR, vmin=-LARGEST, vmax=LARGEST)
     mesh = axes.pcolormesh(x, y, values, cmap="PuOr_r", norm=norm, **CELLS)
     mark_failures(axes, rows, "tau")
     return mesh
+
+
+def filled(values: np.ndarray, kinds: np.ndarray, computed: np.ndarray) -> np.ndarray:
+    """Values on a grid, where not computed that of the nearest computed point of the same kind."""
+    whole = values.copy()
+    places = np.argwhere(computed)
+    for place in np.argwhere(~computed):
+        alike = places[kinds[tuple(places.T)] == kinds[tuple(place)]]
+        nearest = alike[np.argmin(((alike - place) ** 2).sum(axis=1))]
+        whole[tuple(place)] = values[tuple(nearest)]
+    return whole
 
 
 def draw_curves(axes: Axes, curves: xr.Dataset) -> None:

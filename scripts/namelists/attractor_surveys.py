@@ -26,7 +26,13 @@ def observation_group(observation: dict, spectra: dict) -> dict:
 
 
 def points_group(
-    name: str, *, place: dict, histories: list[dict], kept: int, sweep: str = "none"
+    name: str,
+    *,
+    place: dict,
+    histories: list[dict],
+    kept: int,
+    sweep: str = "none",
+    refinements: int = 0,
 ) -> dict:
     """The namelist group of points; each parameter of the place is a value or an axis."""
     axes = {
@@ -35,7 +41,8 @@ def points_group(
         for key, value in axis_of(place[parameter]).items()
     }
     columns = {key: [history[key] for history in histories] for key in ("theta", "u", "v")}
-    return {"name": name, **axes, **columns, "sweep": sweep, "kept": kept}
+    how = {"sweep": sweep, "refinements": refinements, "kept": kept}
+    return {"name": name, **axes, **columns, **how}
 
 
 def axis_of(given: float | dict) -> dict:
@@ -44,9 +51,14 @@ def axis_of(given: float | dict) -> dict:
     return {"part": [1, axis["count"]], **axis}
 
 
-def part_of(count: int, parts: int, part: int) -> list[int]:
-    """First and last of `count` places in part 1..parts, all about as large."""
-    return [(part - 1) * count // parts + 1, part * count // parts]
+def part_of(count: int, parts: int, part: int, distance: int = 1) -> list[int]:
+    """First and last of `count` lines in part 1..parts, all about as large.
+
+    From the first to the last line of a part but the last, there is a whole number of distances.
+    """
+    steps = (count - parts) // distance
+    first, after = (i * steps // parts * distance + i + 1 for i in (part - 1, part))
+    return [first, count if part == parts else after - 1]
 
 
 def scene_groups(config: dict, scene: str) -> dict:
@@ -64,10 +76,13 @@ def scene_groups(config: dict, scene: str) -> dict:
 
 
 def atlas_groups(config: dict, plane: str, part: int) -> dict:
-    """Namelist of a part of the atlas: some delays of a plane."""
+    """Namelist of a part of the atlas: some delays of a plane.
+
+    A part is refined by itself, from every 2**refinements-th of its delays and from the last.
+    """
     atlas = config["atlas"]
-    settings = atlas["planes"][plane]
-    delays = part_of(atlas["tau_count"], atlas["parts"], part)
+    settings, refinements = atlas["planes"][plane], atlas["refinements"]
+    delays = part_of(atlas["tau_count"], atlas["parts"], part, 2**refinements)
     points = points_group(
         f"{plane} part {part} of {atlas['parts']}",
         place={
@@ -77,6 +92,7 @@ def atlas_groups(config: dict, plane: str, part: int) -> dict:
         },
         histories=[atlas["history"]],
         kept=atlas["observation"]["kept"],
+        refinements=refinements,
     )
     observation = observation_group(atlas["observation"], config["spectra"])
     return {"observation": observation, "points": points}

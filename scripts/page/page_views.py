@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from scripts.files.tsv import as_text
-from scripts.tables.motion_rows import UNDECIDED, has_problem, kind_of, planes_of
+from scripts.tables.motion_rows import UNDECIDED, has_problem, is_computed, kind_of, planes_of
 
 SHOWN = 1000.0
 """Time up to the end of a run that can be zoomed into."""
@@ -33,6 +33,8 @@ def verdict(row: dict) -> str:
         met = f"undecided ({row['reason']})"
     elif met != row["class"]:
         met = f"cycle of period {row['period']:g} in its section"
+    if not is_computed(row):
+        return f"{met}, as its neighbours; not computed"
     exponents = [
         f"{row[f'exponent_{i}']:.3g} ± {row[f'error_{i}']:.1g}"
         for i in (1, 2, 3)

@@ -40,6 +40,23 @@ def rows_of(run: xr.Dataset) -> list[dict]:
     ]
 
 
+NOT_COMPUTED = ["epsilon", "tau", "xi", "gamma", "theta", "u", "v", "computed", "class", "period"]
+"""Columns of points of the atlas that were not computed; the others are empty."""
+
+
+def atlas_rows(run: xr.Dataset) -> list[dict]:
+    """Rows of a part of the atlas, with the column `computed` before the class."""
+    rows = []
+    for computed, row in zip(words(run.computed), rows_of(run), strict=True):
+        items = list(row.items())
+        at = list(row).index("class")
+        whole = dict([*items[:at], ("computed", computed), *items[at:]])
+        if computed == "no":
+            whole = {key: value if key in NOT_COMPUTED else np.nan for key, value in whole.items()}
+        rows.append(whole)
+    return rows
+
+
 def numbers(values: xr.DataArray) -> list[float]:
     """A column of numbers."""
     return values.values.astype(float).tolist()
@@ -107,7 +124,7 @@ if __name__ == "__main__":
         rows_by_kind = {
             "scenes": lambda path, run: scene_rows(path.stem, run),
             "route": route_rows,
-            "atlas": lambda _, run: rows_of(run),
+            "atlas": lambda _, run: atlas_rows(run),
         }
         rows = rows_by_kind[snakemake.params.of]
         write_table(snakemake.output[0], [row for path, run in runs for row in rows(path, run)])

@@ -13,7 +13,13 @@ from scripts.tables.linear_stability_table import amplitude_death
 COLUMNS = [
     *("of", "kind", "epsilon", "tau", "xi", "gamma", "unstable_pairs"),
     *("omega_1", "branch_1", "l1_1", "omega_2", "branch_2", "l1_2"),
+    *("l2", "g2100", "g1011", "g1110", "g0021", "theta", "delta", "unfolding"),
+    *("start_epsilon_1", "start_tau_1", "start_xi_1", "angle_1", "criticality_1", "torus_1"),
+    *("start_epsilon_2", "start_tau_2", "start_xi_2", "angle_2", "criticality_2", "torus_2"),
 ]
+
+COEFFICIENTS = ("g2100", "g1011", "g1110", "g0021", "theta", "delta")
+"""Of a double Hopf point; real parts of g."""
 
 
 def rows_of(plane: str, curves: xr.Dataset) -> list[dict]:
@@ -29,6 +35,9 @@ def rows_of(plane: str, curves: xr.Dataset) -> list[dict]:
             "unstable_pairs": int(point.special_unstable_pairs),
             **pair(point, 1),
             **pair(point, 2),
+            **normal_form(str(kind), point),
+            **start(str(kind), point, 1),
+            **start(str(kind), point, 2),
         }
         for kind, point in zip(kinds, points, strict=True)
     ]
@@ -64,6 +73,39 @@ def pair(point: xr.Dataset, number: int) -> dict:
         f"branch_{number}": int(point[f"special_branch_{number}"]) if there else "",
         f"l1_{number}": digits(point[f"special_l1_{number}"], 6) if there else "",
     }
+
+
+def normal_form(kind: str, point: xr.Dataset) -> dict:
+    """Coefficients of a generalised or a double Hopf point."""
+    keys = {"generalised_hopf": ("l2",), "double_hopf": COEFFICIENTS}.get(kind, ())
+    found = {key: digits(point[f"special_{key}"], 6) for key in keys}
+    found["unfolding"] = word(point.special_unfolding)
+    return dict.fromkeys(("l2", *COEFFICIENTS), "") | found
+
+
+def start(kind: str, point: xr.Dataset, number: int) -> dict:
+    """Where a curve of folds (number 1) or of torus bifurcations starts."""
+    there = kind == "double_hopf" or (kind == "generalised_hopf" and number == 1)
+    found = {}
+    for key in ("epsilon", "tau", "xi"):
+        name = f"special_start_{key}_{number}"
+        fixed = "0" if there else ""
+        found[f"start_{key}_{number}"] = (
+            digits(point[name], 6) if there and name in point else fixed
+        )
+    angle = f"angle_{number}"
+    return found | {
+        angle: digits(point[f"special_{angle}"]) if kind == "double_hopf" else "",
+        **{
+            f"{key}_{number}": word(point[f"special_{key}_{number}"])
+            for key in ("criticality", "torus")
+        },
+    }
+
+
+def word(value: xr.DataArray) -> str:
+    """A word of the file."""
+    return str(np.char.strip(value.values.astype(str)))
 
 
 def digits(value, number: int = 15) -> str:

@@ -20,6 +20,11 @@ def has_problem(row: dict) -> bool:
     return isinstance(row["problem"], str)
 
 
+def is_computed(row: dict) -> bool:
+    """Whether a point was computed; points of the atlas may have the class of their neighbours."""
+    return row.get("computed") != "no"
+
+
 def kind_of(row: dict) -> str:
     """The class, cycles parted by their period in the section."""
     several = row["class"] == "cycle" and row["period"] > 1
@@ -38,8 +43,12 @@ def parameter_of(rows: list[dict]) -> str:
 
 
 def count_in_words(rows: list[dict]) -> str:
-    """How many points there are, and of how many the class is not known."""
+    """How many points there are, how many were computed if not all, and how many have no class."""
+    computed = sum(map(is_computed, rows))
     unsure = sum(row["class"] == UNDECIDED and not has_problem(row) for row in rows)
     failed = sum(map(has_problem, rows))
-    told = [f"{len(rows)} points", f"{unsure} undecided", f"{failed} failed"]
-    return ", ".join(told if failed else told[:2])
+    counts = [f"{len(rows)} points"]
+    counts += [f"{computed} computed"] * (computed < len(rows))
+    counts += [f"{unsure} undecided"]
+    counts += [f"{failed} failed"] * (failed > 0)
+    return ", ".join(counts)

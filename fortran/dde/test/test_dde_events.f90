@@ -7,6 +7,7 @@ module test_dde_events
    use expectations, only: expect, expect_between, expect_close, expect_success
    use dde_kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use published_problems, only: mackey_glass
    use solving, only: at_tolerance
    use test_problems, only: sine
    use undelayed_problems, only: quadrature, swing, without_delays
@@ -29,6 +30,10 @@ module test_dde_events
       procedure :: values => partial_values
    end type partial_function
 
+   !> A table of which nothing is known beforehand, so that all steps are searched.
+   type, extends(event_table) :: searched_table
+   end type searched_table
+
 contains
 
    !> All tests of this suite.
@@ -45,6 +50,7 @@ contains
                    new_unittest("a zero where steps meet", test_zero_at_step_end), &
                    new_unittest("a value that is not finite", test_not_finite), &
                    new_unittest("a fast function of time", test_fast), &
+                   new_unittest("steps without events are not searched", test_bounds), &
                    new_unittest("work", test_work)]
    end subroutine collect_dde_events
 
@@ -271,6 +277,38 @@ contains
          call expect(error, outcome%accepted == unwatched%accepted, "as many steps")
       end do
    end subroutine test_fast
+
+   !> Bounds of dense output pass over steps, but over no event of a chaotic motion.
+   subroutine test_bounds(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: direction(2) = [0, 0]
+      real(wp), parameter :: level(2) = [0.9_wp, 0.0_wp]
+      type(event_table) :: table
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(mackey_glass) :: problem
+      type(searched_table) :: searched
+      integer :: i
+
+      problem = mackey_glass(n=1, lag=[17.0_wp], component=[1], past=[1.2_wp], first=[1.2_wp])
+      do i = 1, size(methods)
+         table = event_table([1, 1], level, direction, of_slope=[.false., .true.])
+         searched = searched_table(component=[1, 1], level=level, direction=direction, &
+                                   terminal=[.false., .false.], of_slope=[.false., .true.])
+         call integrate(problem, 0.0_wp, 300.0_wp, at_tolerance(1.0e-6_wp, methods(i)), outcome, &
+                        failure, watcher=table)
+         call expect_success(error, failure)
+         call integrate(problem, 0.0_wp, 300.0_wp, at_tolerance(1.0e-6_wp, methods(i)), outcome, &
+                        failure, watcher=searched)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         call expect(error, searched%received > 20, "many events")
+         call expect_close(error, table%time(:table%received)%hi, &
+                           searched%time(:searched%received)%hi, 0.0_wp, methods(i))
+         call expect(error, all(table%which(:table%received) &
+                                == searched%which(:searched%received)), "of the same functions")
+      end do
+   end subroutine test_bounds
 
    !> A watcher costs three evaluations a step of the explicit method, and changes no state.
    subroutine test_work(error)

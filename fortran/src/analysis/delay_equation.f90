@@ -2,7 +2,7 @@
 !>
 !>     y'(t) = sum_j A_j y(t - lag_j),
 !>
-!> and the second and third derivative forms of their right-hand side.
+!> and the higher derivative forms of their right-hand side.
 module delay_equation
    use dde_kinds, only: wp
    implicit none (type, external)
@@ -28,37 +28,56 @@ module delay_equation
       !> First derivative
       type(linear_system_type) :: linear
    contains
+      !> The derivative of any order from 2 on
+      procedure(derivative_form), deferred :: derivative
       !> B(x, y)
-      procedure(second_form), deferred :: second
+      procedure :: second => second_form
       !> C(x, y, z)
-      procedure(third_form), deferred :: third
+      procedure :: third => third_form
    end type delay_equation_type
 
    abstract interface
-      !> Second derivative, symmetric and linear in both arguments.
-      pure function second_form(self, x, y) result(form)
+      !> Derivative of the order of the number of arguments, symmetric and linear in each of them.
+      pure function derivative_form(self, x) result(form)
          import :: delay_equation_type, wp
          implicit none (type, external)
          !> The equation
          class(delay_equation_type), intent(in) :: self
-         !> Histories at all lags, shape (n, number of lags)
-         complex(wp), intent(in) :: x(:, :), y(:, :)
+         !> Histories at all lags, shape (n, number of lags, order)
+         complex(wp), intent(in) :: x(:, :, :)
          complex(wp) :: form(size(x, 1))
-      end function second_form
-
-      !> Third derivative, symmetric and linear in all arguments.
-      pure function third_form(self, x, y, z) result(form)
-         import :: delay_equation_type, wp
-         implicit none (type, external)
-         !> The equation
-         class(delay_equation_type), intent(in) :: self
-         !> Histories at all lags, shape (n, number of lags)
-         complex(wp), intent(in) :: x(:, :), y(:, :), z(:, :)
-         complex(wp) :: form(size(x, 1))
-      end function third_form
+      end function derivative_form
    end interface
 
 contains
+
+   !> Second derivative.
+   pure function second_form(self, x, y) result(form)
+      !> The equation
+      class(delay_equation_type), intent(in) :: self
+      !> First history
+      complex(wp), intent(in) :: x(:, :)
+      !> Second history
+      complex(wp), intent(in) :: y(:, :)
+      complex(wp) :: form(size(x, 1))
+
+      form = self%derivative(reshape([x, y], [shape(x), 2]))
+   end function second_form
+
+   !> Third derivative.
+   pure function third_form(self, x, y, z) result(form)
+      !> The equation
+      class(delay_equation_type), intent(in) :: self
+      !> First history
+      complex(wp), intent(in) :: x(:, :)
+      !> Second history
+      complex(wp), intent(in) :: y(:, :)
+      !> Third history
+      complex(wp), intent(in) :: z(:, :)
+      complex(wp) :: form(size(x, 1))
+
+      form = self%derivative(reshape([x, y, z], [shape(x), 3]))
+   end function third_form
 
    !> Delta(s), singular at characteristic roots.
    pure function characteristic_matrix(self, s) result(matrix)

@@ -30,8 +30,8 @@ module lyapunov_spectrum
       real(wp) :: t_turning = 0.0_wp
       !> Longest mean time between two orthonormalisations
       real(wp) :: interval = 0.0_wp
-      !> Number of blocks
-      integer :: blocks = 0
+      !> The number of intervals is a multiple of this
+      integer :: blocks = 2
       !> Norm of the vectors after orthonormalisation. They need fewer digits than the solution: the
       !> absolute tolerance over this is their relative one.
       real(wp) :: vector_size = 0.01_wp

@@ -32,9 +32,6 @@ module motion_classes
                                                         "unstable rest        ", &
                                                         "not stationary       "]
 
-   !> An exponent so many standard errors from zero is far from it.
-   real(wp), parameter :: far = 6.0_wp
-
 contains
 
    !> The class by leading exponents: all negative, a fixed point; one zero, the others negative, a
@@ -72,8 +69,9 @@ contains
       end if
    end function class_by_exponents
 
-   !> The class by exponents, if none of the others contradicts it, and if one confirms it or it is
-   !> clear by the exponents alone.
+   !> The class by exponents, if the section confirms it, or the spectrum where the section shows
+   !> nothing, or if it is clear by the exponents alone. A section that is smooth or repeats
+   !> outweighs a spectrum: lines too close to each other look like a continuum.
    pure subroutine agree(exponents, by_exponents, by_section, by_spectrum, found, reason)
       !> Exponents, descending
       type(exponent_type), intent(in) :: exponents(:)
@@ -88,13 +86,13 @@ contains
       !> Why it is undecided, of `reason_names`
       integer, intent(out) :: reason
 
-      associate (others => [by_section, by_spectrum])
+      associate (witness => merge(by_spectrum, by_section, by_section == undecided))
          found = undecided
          if (by_exponents == undecided) then
             reason = no_class_by_exponents
-         else if (any(others /= undecided .and. others /= by_exponents)) then
+         else if (witness /= undecided .and. witness /= by_exponents) then
             reason = contradicted
-         else if (all(others == undecided) .and. .not. clear(exponents)) then
+         else if (witness == undecided .and. .not. clear(exponents)) then
             reason = not_confirmed
          else
             found = by_exponents
@@ -103,18 +101,18 @@ contains
       end associate
    end subroutine agree
 
-   !> Whether one exponent is the flow's and all others are far from zero: then they need no
-   !> confirmation. If all of them are negative, the attractor is a cycle. Two equal ones that are
-   !> positive may be those of an unstable cycle that the motion has not left yet.
+   !> Whether one exponent is the flow's and all others have a sign: then they need no confirmation.
+   !> If all of them are negative, the attractor is a cycle. Two equal ones that are positive may be
+   !> those of an unstable cycle that the motion has not left yet.
    pure logical function clear(exponents) result(value)
       !> Exponents, descending
       type(exponent_type), intent(in) :: exponents(:)
 
-      value = count(abs(exponents%value) <= far*exponents%error) == 1
+      value = count(abs(exponents%value) <= error_bars*exponents%error) == 1
       if (.not. value .or. size(exponents) < 2) return
       associate (first => exponents(1), second => exponents(2))
          value = first%value <= 0.0_wp &
-                 .or. first%value - second%value > far*max(first%error, second%error)
+                 .or. first%value - second%value > error_bars*max(first%error, second%error)
       end associate
    end function clear
 end module motion_classes

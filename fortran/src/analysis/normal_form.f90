@@ -1,12 +1,12 @@
 !> The normal form of a Hopf bifurcation of a delay equation.
 module normal_form
-   use delay_equation, only: delay_equation_type
+   use delay_equation, only: delay_equation_type, linear_system_type
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use lapack, only: null_vectors, solve
    implicit none (type, external)
    private
-   public :: first_lyapunov_coefficient
+   public :: critical_vectors, first_lyapunov_coefficient
 
 contains
 
@@ -30,19 +30,13 @@ contains
       complex(wp), dimension(size(equation%linear%a, 1)) :: p, q
       complex(wp), dimension(size(equation%linear%a, 1), size(equation%linear%lag)) :: &
          phi, history_11, history_20
-      complex(wp) :: delta(size(q), size(q)), s
-      real(wp) :: row_size(size(q))
+      complex(wp) :: s
 
       l1 = 0.0_wp
       s = cmplx(0.0_wp, omega, kind=wp)
       associate (linear => equation%linear)
-         delta = linear%characteristic_matrix(s)
-         ! rows of one size: otherwise the rounding errors of a large row are those of all
-         row_size = maxval(abs(delta), dim=2)
-         call null_vectors(delta/spread(row_size, 2, size(q)), q, p, error)
+         call critical_vectors(linear, s, q, p, error)
          if (allocated(error)) return
-         p = p/row_size
-         p = p/sum(p*matmul(linear%characteristic_slope(s), q))
          phi = history_of(q, s, linear%lag)
          call respond(equation, 2.0_wp*s, equation%second(phi, phi), history_20, error)
          if (allocated(error)) return
@@ -54,6 +48,30 @@ contains
                               + 2.0_wp*equation%second(phi, history_11) &
                               + equation%third(phi, phi, conjg(phi)))))/omega
    end subroutine first_lyapunov_coefficient
+
+   !> The vectors of a simple root: Delta(s) q = 0, |q| = 1, p^T Delta(s) = 0, p^T Delta'(s) q = 1.
+   subroutine critical_vectors(linear, s, q, p, error)
+      !> The linear system
+      type(linear_system_type), intent(in) :: linear
+      !> The root
+      complex(wp), intent(in) :: s
+      !> Right vector, shape (n)
+      complex(wp), intent(out) :: q(:)
+      !> Left vector, shape (n)
+      complex(wp), intent(out) :: p(:)
+      !> No convergence
+      type(error_type), allocatable, intent(out) :: error
+      complex(wp) :: delta(size(q), size(q))
+      real(wp) :: row_size(size(q))
+
+      delta = linear%characteristic_matrix(s)
+      ! rows of one size: otherwise the rounding errors of a large row are those of all
+      row_size = maxval(abs(delta), dim=2)
+      call null_vectors(delta/spread(row_size, 2, size(q)), q, p, error)
+      if (allocated(error)) return
+      p = p/row_size
+      p = p/sum(p*matmul(linear%characteristic_slope(s), q))
+   end subroutine critical_vectors
 
    !> The answer of the linear system to a forcing exp(s t), as history.
    subroutine respond(equation, s, forcing, history, error)

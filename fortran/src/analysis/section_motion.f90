@@ -16,8 +16,8 @@ module section_motion
    !> Points of a cycle repeat within this share of the scale.
    real(wp), parameter :: same_point = 1.0e-3_wp
    !> The last points of a cycle that is reached repeat within the first share of the scale, so many
-   !> times and in so many points at least. The distance may not grow by more than this factor,
-   !> unless it is below the second share.
+   !> times and in so many points at least. From the first half of them to the second the largest
+   !> distance may not grow by more than this factor, unless it is below the second share.
    real(wp), parameter :: reached = 1.0e-5_wp, negligible = 1.0e-6_wp, most_growth = 1.1_wp
    integer, parameter :: last_turns = 3, last_points = 12
    !> Maxima drift if, of the 66 pairs of the means of so many blocks of them, so many more are in
@@ -92,10 +92,11 @@ contains
                if (distance(i) > merge(same_point, reached, on_the_way)) exit
             end do
             if (i <= n) cycle
-            associate (first => maxval(distance(n - repeats + 1:n - repeats + period)), &
-                       last => maxval(distance(n - period + 1:n)))
+            associate (first => maxval(distance(n - repeats + 1:n - repeats/2)), &
+                       last => maxval(distance(n - repeats/2 + 1:n)))
                if (last <= max(most_growth*first, negligible)) return
             end associate
+            exit
          end do
       end associate
       period = 0

@@ -37,6 +37,7 @@ contains
       call file%create(path, "Attractors of the spring block with delayed friction")
       call file%attribute("name", trim(asked%name))
       call file%attribute("sweep", trim(asked%sweep))
+      call file%attribute("refinements", int(asked%refinements, int64))
       call put_settings(file, settings, options)
       rows = file%dimension("point", size(findings))
       associate (points => asked%points, found => findings%attractor)
@@ -47,9 +48,12 @@ contains
          call put("history_theta", points%history%theta, "theta for t <= 0")
          call put("history_u", points%history%u, "u for t <= 0")
          call put("history_v", points%history%v, "v for t <= 0")
+         call put_flags("computed", merge(1, 0, findings%computed), ["no ", "yes"], &
+                        "whether the motion was computed; "// &
+                        "if not, class and period are those of the neighbours")
          call put_flags("class", found%class, class_names, "class of the motion")
          call put_flags("reason", found%reason, reason_names, "why the class is undecided")
-         call put("time", found%time, "time until the class was certain, or the limit")
+         call put_found("time", found%time, "time until the class was certain, or the limit")
          call put_flags("by_exponents", found%by_exponents, class_names, &
                         "class by Lyapunov exponents")
          call put_flags("by_section", found%by_section, class_names, &
@@ -58,11 +62,11 @@ contains
                         "class by the spectrum of v")
          call put_exponents()
          call put_integers("period", found%period, "points of a cycle in the section, 0: none")
-         call put("roughness", found%roughness, &
-                  "of the section as a function of two phases, 0: smooth, 1: random")
+         call put_found("roughness", found%roughness, &
+                        "of the section as a function of two phases, 0: smooth, 1: random")
          call put("base_1", found%bases(1), "first base frequency of v, 0: none")
          call put("base_2", found%bases(2), "second base frequency of v, 0: none")
-         call put("line_share", found%line_share, "share of the power of v in their lines")
+         call put_found("line_share", found%line_share, "share of the power of v in their lines")
          do i = 1, size(findings)
             call reach(findings(i), least(i), most(i))
          end do
@@ -86,6 +90,19 @@ contains
 
          call file%put(file%real_variable(name, rows, long_name, "1"), values)
       end subroutine put
+
+      !> A real number at each computed point, NaN at the others.
+      subroutine put_found(name, values, long_name)
+         !> Its name
+         character(len=*), intent(in) :: name
+         !> Its values
+         real(wp), intent(in) :: values(:)
+         !> What it is
+         character(len=*), intent(in) :: long_name
+
+         call put(name, merge(values, ieee_value(1.0_wp, ieee_quiet_nan), findings%computed), &
+                  long_name)
+      end subroutine put_found
 
       !> An integer at each point.
       subroutine put_integers(name, values, long_name)
@@ -174,7 +191,6 @@ contains
       call file%attribute("t_lasting", settings%t_lasting)
       call file%attribute("t_turning", settings%t_turning)
       call file%attribute("interval", settings%interval)
-      call file%attribute("blocks", int(settings%blocks, int64))
       call file%attribute("zero_level", settings%zero_level)
       call file%attribute("longest_bar", settings%longest_bar)
       call file%attribute("sample_interval", settings%sample_interval)

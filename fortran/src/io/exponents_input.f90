@@ -52,8 +52,9 @@ contains
 
       call read_group(path, settings, error)
       if (allocated(error)) return
-      call check_growth(error, path, "count", settings%exponents, settings%blocks, &
-                        settings%t_turning, settings%interval, settings%zero_level)
+      call check_growth(error, path, "count", settings%exponents, settings%t_turning, &
+                        settings%interval, settings%zero_level)
+      call check_count(error, path, "blocks", settings%blocks, at_least=2, at_most=most_blocks)
       call check_number(error, path, "t_end", settings%t_end, above=scene%t_transient)
       do i = 1, size(settings%check_tolerances)
          call check_tolerance(error, path, "check_tolerances("//text(i)//")", &
@@ -66,8 +67,7 @@ contains
    end subroutine read_exponents
 
    !> Refuse what of the growth of tangent vectors cannot be measured; keep an earlier error.
-   pure subroutine check_growth(error, path, key, exponents, blocks, t_turning, interval, &
-                                zero_level)
+   pure subroutine check_growth(error, path, key, exponents, t_turning, interval, zero_level)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
       !> Path of the namelist file
@@ -76,8 +76,6 @@ contains
       character(len=*), intent(in) :: key
       !> Number of exponents, that of the flow among them
       integer, intent(in) :: exponents
-      !> Number of blocks
-      integer, intent(in) :: blocks
       !> Time before measuring in which the vectors turn
       real(wp), intent(in) :: t_turning
       !> Longest time between two orthonormalisations
@@ -86,7 +84,6 @@ contains
       real(wp), intent(in) :: zero_level
 
       call check_count(error, path, key, exponents, at_least=2, at_most=most_exponents)
-      call check_count(error, path, "blocks", blocks, at_least=2, at_most=most_blocks)
       call check_number(error, path, "t_turning", t_turning, at_least=0.0_wp)
       call check_number(error, path, "interval", interval, above=0.0_wp)
       call check_number(error, path, "zero_level", zero_level, at_least=0.0_wp)

@@ -1,6 +1,7 @@
 !> Files of Hopf curves.
 module hopf_output
    use dde_errors, only: error_type
+   use double_hopf, only: word_length
    use hopf_curves, only: curve_point_type
    use hopf_input, only: hopf_settings_type
    use hopf_points, only: hopf_point_type
@@ -61,21 +62,24 @@ contains
       call file%put(printed_residual, points%printed_residual)
       call file%put(l1, points%l1)
       call file%put(others, points%unstable_pairs)
-      call put_special(file, special)
+      rows = file%dimension("special", size(special))
+      call put_special(file, rows, special)
+      call put_unfoldings(file, settings, rows, special)
       call put_map(file, settings, pairs)
       call file%finish(error)
    end subroutine write_curves
 
    !> The special points.
-   subroutine put_special(file, special)
+   subroutine put_special(file, rows, special)
       !> The file
       type(output_file_type), intent(inout) :: file
+      !> Dimension of the special points
+      integer, intent(in) :: rows
       !> Special points
       type(hopf_point_type), intent(in) :: special(:)
       character(len=1), parameter :: number(2) = ["1", "2"]
-      integer :: branch, i, l1, omega, place(3), pairs, rows
+      integer :: branch, i, l1, omega, place(3), pairs
 
-      rows = file%dimension("special", size(special))
       call file%words("special_kind", rows, special%kind, "kind of the special point")
       place(1) = file%real_variable("special_epsilon", rows, "its epsilon", "1")
       place(2) = file%real_variable("special_tau", rows, "its tau", "1")
@@ -97,6 +101,84 @@ contains
          call file%put(l1, special%l1(i))
       end do
    end subroutine put_special
+
+   !> Their normal forms, and the curves of folds and tori that start there; 0 or an empty word
+   !> where a point has none.
+   subroutine put_unfoldings(file, settings, rows, special)
+      !> The file
+      type(output_file_type), intent(inout) :: file
+      !> The plane
+      type(hopf_settings_type), intent(in) :: settings
+      !> Dimension of the special points
+      integer, intent(in) :: rows
+      !> Special points
+      type(hopf_point_type), intent(in) :: special(:)
+      character(len=*), parameter :: number(2) = ["1", "2"]
+      character(len=*), parameter :: name(2, 2) = reshape(["g2100", "g1110", "g1011", "g0021"], &
+                                                          [2, 2])
+      character(len=word_length), dimension(size(special), 2) :: criticality, torus
+      character(len=4) :: unfolding(size(special))
+      real(wp), dimension(size(special), 2) :: angle, ratios
+      integer :: i, j, k
+
+      angle = 0.0_wp
+      ratios = 0.0_wp
+      criticality = ""
+      torus = ""
+      unfolding = ""
+      do i = 1, size(special)
+         if (special(i)%kind /= "double_hopf") cycle
+         associate (form => special(i)%unfolding%form)
+            ratios(i, :) = form%ratios()
+            unfolding(i) = form%unfolding()
+            do j = 1, 2
+               angle(i, j) = form%torus_angle(j)
+               criticality(i, j) = form%criticality(j)
+               torus(i, j) = form%torus_stability(j)
+            end do
+         end associate
+      end do
+      call put("l2", real(special%unfolding%c2)/special%omega(1), "second Lyapunov coefficient")
+      do k = 1, 2
+         do j = 1, 2
+            call put(name(j, k), real(special%unfolding%form%g(j, k)), &
+                     "real part of the coefficient "//name(j, k))
+            call put(name(j, k)//"_imaginary", aimag(special%unfolding%form%g(j, k)), &
+                     "imaginary part of the coefficient "//name(j, k))
+         end do
+      end do
+      call put("theta", ratios(:, 1), "Re g1011/Re g0021")
+      call put("delta", ratios(:, 2), "Re g1110/Re g2100")
+      call file%words("special_unfolding", rows, unfolding, &
+                      "case of Guckenheimer and Holmes, table 7.5.1")
+      do j = 1, 2
+         call put("start_epsilon_"//number(j), special%unfolding%start(1, j), &
+                  "direction of curve "//number(j)//" of folds or tori, epsilon")
+         call put("start_"//trim(settings%ordinate)//"_"//number(j), &
+                  special%unfolding%start(2, j), &
+                  "direction of curve "//number(j)//" of folds or tori, "//trim(settings%ordinate))
+         call put("angle_"//number(j), angle(:, j), &
+                  "angle of the multipliers where tori of cycle "//number(j)//" start")
+         call file%words("special_criticality_"//number(j), rows, criticality(:, j), &
+                         "kind of this torus bifurcation")
+         call file%words("special_torus_"//number(j), rows, torus(:, j), &
+                         "stability of its torus on the centre manifold")
+      end do
+
+   contains
+
+      !> One number of each point.
+      subroutine put(key, values, long_name)
+         !> Name without special_
+         character(len=*), intent(in) :: key
+         !> The numbers
+         real(wp), intent(in) :: values(:)
+         !> What they are
+         character(len=*), intent(in) :: long_name
+
+         call file%put(file%real_variable("special_"//key, rows, long_name, "1"), values)
+      end subroutine put
+   end subroutine put_unfoldings
 
    !> The number of unstable pairs over the window.
    subroutine put_map(file, settings, pairs)

@@ -36,8 +36,8 @@ contains
       call check_number(error, path, "t_transient", settings%t_transient, above=0.0_wp)
       call check_number(error, path, "t_observed", settings%t_observed, above=0.0_wp)
       call check_number(error, path, "t_lasting", settings%t_lasting, at_least=0.0_wp)
-      call check_growth(error, path, "exponents", settings%exponents, settings%blocks, &
-                        settings%t_turning, settings%interval, settings%zero_level)
+      call check_growth(error, path, "exponents", settings%exponents, settings%t_turning, &
+                        settings%interval, settings%zero_level)
       call check_number(error, path, "longest_bar", settings%longest_bar, above=0.0_wp)
       call check_count(error, path, "doublings", settings%doublings, at_least=0, &
                        at_most=most_doublings)
@@ -76,9 +76,9 @@ contains
       real(wp) :: interval, longest_bar, overlap, peak_floor, peak_prominence, sample_interval
       real(wp) :: t_lasting, t_observed, t_transient, t_turning, tolerance, zero_level
       character(len=256) :: reason
-      integer :: blocks, doublings, exponents, segments, status, unit
+      integer :: doublings, exponents, segments, status, unit
       integer(int64) :: most_steps
-      namelist /observation/ t_transient, t_observed, t_lasting, t_turning, interval, blocks, &
+      namelist /observation/ t_transient, t_observed, t_lasting, t_turning, interval, &
          exponents, zero_level, longest_bar, doublings, sample_interval, window, segments, &
          overlap, peak_floor, peak_prominence, tolerance, method, most_steps
 
@@ -94,7 +94,6 @@ contains
       peak_floor = t_transient
       peak_prominence = t_transient
       tolerance = t_transient
-      blocks = 0
       doublings = -1
       exponents = 0
       segments = 0
@@ -107,7 +106,7 @@ contains
       call close_namelist(path, "observation", unit, status, reason, error)
       settings = attractor_settings_type( &
                  t_transient=t_transient, t_observed=t_observed, t_lasting=t_lasting, &
-                 t_turning=t_turning, interval=interval, blocks=blocks, exponents=exponents, &
+                 t_turning=t_turning, interval=interval, exponents=exponents, &
                  zero_level=zero_level, longest_bar=longest_bar, doublings=doublings, &
                  sample_interval=sample_interval, &
                  segments=segments, overlap=overlap, peak_floor=peak_floor, &

@@ -18,6 +18,8 @@ module points_input
    integer, parameter :: most_places = 100000, most_points = 1000000
    !> Most maxima and points of the section kept of each.
    integer, parameter :: most_kept = 100000
+   !> Most refinements: every 16th line is computed first.
+   integer, parameter :: most_refinements = 4
    !> Longest name.
    integer, parameter :: longest_name = 128
    !> Directions of a sweep.
@@ -48,6 +50,10 @@ module points_input
       type(point_type), allocatable :: points(:)
       !> Whether each point starts where the one before ended: "none", "up" or "down"
       character(len=word_length) :: sweep = "none"
+      !> Points in a line of the grid
+      integer :: columns = 0
+      !> Every 2**refinements-th line in epsilon and tau is computed in full
+      integer :: refinements = 0
       !> Most maxima and points of the section kept of each
       integer :: kept = 0
    end type points_settings_type
@@ -86,7 +92,9 @@ contains
                         product([real(histories, wp), real(wanted(axes), wp)]), &
                         at_most=real(most_points, wp))
       call check_sweep(error, path, settings%sweep, axes, histories)
+      call check_refinements(error, path, settings, axes, histories)
       if (allocated(error)) return
+      settings%columns = wanted(axes(of_epsilon))
       settings%points = grid_of(axes, [(block_history_type(theta=theta(i), u=u(i), v=v(i)), &
                                         i=1, histories)])
       if (settings%sweep == "down") then
@@ -186,11 +194,43 @@ contains
       end if
    end subroutine check_sweep
 
+   !> Refuse refinements of what is no plane of epsilon and tau from one history.
+   pure subroutine check_refinements(error, path, settings, axes, histories)
+      !> First error met
+      type(error_type), allocatable, intent(inout) :: error
+      !> Path of the namelist file
+      character(len=*), intent(in) :: path
+      !> Refinements and sweep
+      type(points_settings_type), intent(in) :: settings
+      !> The axes
+      type(axis_type), intent(in) :: axes(:)
+      !> Number of histories
+      integer, intent(in) :: histories
+      character(len=:), allocatable :: place
+
+      call check_count(error, path, "refinements", settings%refinements, at_least=0, &
+                       at_most=most_refinements)
+      if (allocated(error) .or. settings%refinements == 0) return
+      if (settings%sweep /= "none") then
+         place = "in a sweep"
+      else if (histories > 1) then
+         place = "from "//text(histories)//" histories"
+      else if (any(axes([of_epsilon, of_tau])%places == 1)) then
+         place = "along one line"
+      else if (any(wanted(axes([of_xi, of_gamma])) > 1)) then
+         place = "along xi or gamma"
+      else
+         return
+      end if
+      call raise(error, path//": refinements = "//text(settings%refinements)//" "//place &
+                 //"; expected 0, or a plane of epsilon and tau from one history")
+   end subroutine check_refinements
+
    !> Read the group &points.
    subroutine read_group(path, settings, axes, theta, u, v, error)
       !> Path of the namelist file
       character(len=*), intent(in) :: path
-      !> Name, sweep and what is kept
+      !> Name, sweep, refinements and what is kept
       type(points_settings_type), intent(out) :: settings
       !> Values of the parameters, in the order of `names`
       type(axis_type), intent(out) :: axes(:)
@@ -201,11 +241,11 @@ contains
       character(len=len(settings%name)) :: name, sweep
       real(wp), dimension(2) :: epsilon_window, gamma_window, tau_window, xi_window
       integer, dimension(2) :: epsilon_part, gamma_part, tau_part, xi_part
-      integer :: epsilon_count, gamma_count, kept, status, tau_count, unit, xi_count
+      integer :: epsilon_count, gamma_count, kept, refinements, status, tau_count, unit, xi_count
       character(len=256) :: reason
       namelist /points/ name, epsilon_window, epsilon_count, epsilon_part, tau_window, tau_count, &
          tau_part, xi_window, xi_count, xi_part, gamma_window, gamma_count, gamma_part, theta, u, &
-         v, sweep, kept
+         v, sweep, refinements, kept
 
       name = ""
       sweep = ""
@@ -224,6 +264,7 @@ contains
       tau_part = 0
       xi_part = 0
       gamma_part = 0
+      refinements = -1
       kept = -1
       call open_namelist(path, unit, error)
       if (allocated(error)) return
@@ -231,6 +272,7 @@ contains
       call close_namelist(path, "points", unit, status, reason, error)
       settings%name = name
       settings%sweep = sweep
+      settings%refinements = refinements
       settings%kept = kept
       axes = [axis_type(epsilon_window, epsilon_count, epsilon_part), &
               axis_type(tau_window, tau_count, tau_part), &

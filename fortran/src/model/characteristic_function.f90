@@ -10,7 +10,7 @@ module characteristic_function
    implicit none (type, external)
    private
    public :: delta, delta_by_epsilon, delta_by_s, delta_by_tau, relative_residual, root_by_epsilon
-   public :: root_by_tau, slope_bound, terms
+   public :: root_by_tau, root_by_xi, slope_bound, terms
 
 contains
 
@@ -91,6 +91,16 @@ contains
       value = -s*p%gamma**2/p%xi*exp(-s*p%tau)
    end function delta_by_epsilon
 
+   !> Derivative of Delta by xi.
+   pure complex(wp) function delta_by_xi(p, s) result(value)
+      !> Parameters
+      type(block_parameters_type), intent(in) :: p
+      !> Point of the complex plane
+      complex(wp), intent(in) :: s
+
+      value = -(p%gamma/p%xi)**2*s*(s + 1.0_wp - (1.0_wp + p%epsilon)*exp(-s*p%tau))
+   end function delta_by_xi
+
    !> Derivative of a root by tau.
    pure complex(wp) function root_by_tau(p, s) result(value)
       !> Parameters
@@ -110,6 +120,16 @@ contains
 
       value = -delta_by_epsilon(p, s)/delta_by_s(p, s)
    end function root_by_epsilon
+
+   !> Derivative of a root by xi.
+   pure complex(wp) function root_by_xi(p, s) result(value)
+      !> Parameters
+      type(block_parameters_type), intent(in) :: p
+      !> The root
+      complex(wp), intent(in) :: s
+
+      value = -delta_by_xi(p, s)/delta_by_s(p, s)
+   end function root_by_xi
 
    !> |Delta(s)| over its largest term: how well s is a characteristic root.
    pure real(wp) function relative_residual(p, s) result(value)

@@ -29,8 +29,6 @@ module attractor_verdict
       real(wp) :: t_turning = 0.0_wp
       !> Longest time between orthonormalisations
       real(wp) :: interval = 0.0_wp
-      !> Number of blocks of exponents
-      integer :: blocks = 0
       !> Number of exponents; without delay no more are measured than equations
       integer :: exponents = 0
       !> An exponent this close to zero has no sign
@@ -89,8 +87,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(section_verdict_type) :: in_section
 
-      attractor%exponents = average_growth(measured%growth, measured%length, settings%blocks, &
-                                           flow=.true.)
+      attractor%exponents = average_growth(measured%growth, measured%length, blocks=1, flow=.true.)
       attractor%by_exponents = class_by_exponents(attractor%exponents, settings%zero_level, &
                                                   settings%longest_bar)
       attractor%by_section = undecided

@@ -51,16 +51,18 @@ contains
          attractor%time = now(1)
          call approach(block_model, settings, options, attractor, error)
          if (allocated(error)) return
-         if (attractor%class == undecided) call judge_motion(block_model, settings, options, &
-                                                             attractor, error)
-         if (allocated(error)) return
+         if (attractor%class == undecided .and. attractor%reason /= unstable_rest) then
+            call judge_motion(block_model, settings, options, attractor, error)
+            if (allocated(error)) return
+         end if
          attractor%time = now(1) - attractor%time
       end associate
       if (present(arrived)) arrived = attractor%motion%continuation
       call attractor%motion%forget_path()
    end subroutine find_attractor
 
-   !> Wait until the block is at rest or on a cycle, but not longer than the approach may take.
+   !> Wait until the block is at rest or on a cycle, but not longer than the approach may take. Near
+   !> unstable steady sliding wait as long as a motion may be observed.
    subroutine approach(block_model, settings, options, attractor, error)
       !> The block
       type(spring_block_type), intent(in) :: block_model
@@ -72,9 +74,11 @@ contains
       type(attractor_type), intent(inout) :: attractor
       !> The run ended before its time
       type(error_type), allocatable, intent(out) :: error
-      integer :: part
+      integer :: most_parts, part
 
-      do part = 1, approach_parts
+      most_parts = max(approach_parts, ceiling(approach_parts*longest_time(settings) &
+                                               /settings%t_transient))
+      do part = 1, most_parts
          call attractor%motion%clear()
          call attractor%motion%observe(block_model, settings%t_transient/approach_parts, &
                                        settings%sample_interval, options, error)
@@ -82,8 +86,18 @@ contains
          call judge_rest(block_model, settings, attractor, error)
          if (allocated(error) .or. attractor%class == fixed_point) return
          if (on_cycle(attractor%motion)) return
+         if (part >= approach_parts .and. .not. settles(attractor%motion%samples(3, :))) return
       end do
+      attractor%reason = unstable_rest
    end subroutine approach
+
+   !> Longest time of an observation.
+   pure real(wp) function longest_time(settings) result(time)
+      !> How
+      type(attractor_settings_type), intent(in) :: settings
+
+      time = settings%t_observed*2**settings%doublings
+   end function longest_time
 
    !> Whether the block has come to rest: it stays close to steady sliding or approaches it, and
    !> steady sliding is stable.
@@ -136,10 +150,6 @@ contains
       logical :: last, reached, surviving, turned
       real(wp) :: spent, time
 
-      if (settles(attractor%motion%samples(3, :))) then
-         attractor%reason = unstable_rest
-         return
-      end if
       reached = on_cycle(attractor%motion)
       surviving = .false.
       turned = .false.
@@ -152,7 +162,7 @@ contains
          call attractor%motion%observe(block_model, time, settings%sample_interval, options, error)
          if (allocated(error)) return
          spent = spent + time
-         last = spent >= settings%t_observed*2**settings%doublings
+         last = spent >= longest_time(settings)
          call judge_rest(block_model, settings, attractor, error)
          if (allocated(error) .or. attractor%class == fixed_point) return
          if (reached .neqv. on_cycle(attractor%motion)) then
@@ -184,7 +194,10 @@ contains
          if (attractor%class == chaos .and. .not. surviving) then
             surviving = .true.
             call outlive(block_model, settings, options, attractor, error)
-            if (allocated(error)) return
+            if (allocated(error)) then
+               attractor%class = undecided
+               return
+            end if
             call judge_rest(block_model, settings, attractor, error)
             if (allocated(error) .or. attractor%class == fixed_point) return
             if (on_cycle(attractor%motion)) then
@@ -194,7 +207,7 @@ contains
             end if
          end if
          if (attractor%class /= undecided .or. last) return
-         time = spent
+         time = sum(measured%length)
          call extend_growth(block_model, growth_settings(block_model, settings, 0.0_wp), options, &
                             measured, error)
       end do
@@ -261,7 +274,6 @@ contains
 
       wanted = growth_settings_type(exponents=exponents_of(block_model, settings), &
                                     t_turning=settings%t_turning, t_end=t_end, &
-                                    interval=settings%interval, blocks=settings%blocks, &
-                                    bounds=.true., across_flow=.true.)
+                                    interval=settings%interval, bounds=.true., across_flow=.true.)
    end function growth_settings
 end module attractors

@@ -1,5 +1,5 @@
-!> The delayed block about its stationary state in theta, u and w = ln v, to third order: equation
-!> (4) of the paper as in `spring_block`,
+!> The delayed block about its stationary state in theta, u and w = ln v: equation (4) of the
+!> paper as in `spring_block`,
 !>
 !>     theta' = -exp(w) [theta + (1 + epsilon) w(t - tau)]
 !>     u'     =  exp(w) - 1
@@ -19,8 +19,7 @@ module block_equation
       !> Parameters, nondimensional
       type(block_parameters_type) :: parameters
    contains
-      procedure :: second => second_form_of_4
-      procedure :: third => third_form_of_4
+      procedure :: derivative => derivative_of_4
    end type block_equation_type
 
    interface block_equation_type
@@ -52,38 +51,36 @@ contains
       equation%linear%lag = [0.0_wp, parameters%tau]
    end function new_block_equation
 
-   !> Second derivatives of (4).
-   pure function second_form_of_4(self, x, y) result(form)
+   !> Derivative of (4) of order k. The right-hand side is made of exp(w) and of exp(w) f and
+   !> exp(-w) f with f linear: of the former it is the product of all w_i, of the latter the sum
+   !> over i of f_i times the other w.
+   pure function derivative_of_4(self, x) result(form)
       !> The block
       class(block_equation_type), intent(in) :: self
-      !> Histories at t and t - tau
-      complex(wp), intent(in) :: x(:, :), y(:, :)
+      !> Histories at t and t - tau, shape (3, 2, k)
+      complex(wp), intent(in) :: x(:, :, :)
       complex(wp) :: form(size(x, 1))
+      complex(wp), dimension(size(x, 3)) :: circle, w
+      complex(wp) :: others, sum_of_forces, sum_of_frictions
+      integer :: i, k
 
-      associate (p => self%parameters, wx => x(index_of_ln_v, 1), wy => y(index_of_ln_v, 1))
-         form(index_of_theta) = -(wx*friction(p, y) + wy*friction(p, x))
-         form(index_of_u) = wx*wy
-         form(index_of_ln_v) = p%gamma**2*(wx*force(p, y) + wy*force(p, x))
-      end associate
-   end function second_form_of_4
-
-   !> Third derivatives of (4).
-   pure function third_form_of_4(self, x, y, z) result(form)
-      !> The block
-      class(block_equation_type), intent(in) :: self
-      !> Histories at t and t - tau
-      complex(wp), intent(in) :: x(:, :), y(:, :), z(:, :)
-      complex(wp) :: form(size(x, 1))
-
-      associate (p => self%parameters, wx => x(index_of_ln_v, 1), wy => y(index_of_ln_v, 1), &
-                 wz => z(index_of_ln_v, 1))
-         form(index_of_theta) = -(wx*wy*friction(p, z) + wy*wz*friction(p, x) &
-                                  + wz*wx*friction(p, y))
-         form(index_of_u) = wx*wy*wz
-         form(index_of_ln_v) = -p%gamma**2*(wx*wy*force(p, z) + wy*wz*force(p, x) &
-                                            + wz*wx*force(p, y))
-      end associate
-   end function third_form_of_4
+      k = size(x, 3)
+      w = x(index_of_ln_v, 1, :)
+      sum_of_frictions = 0.0_wp
+      sum_of_forces = 0.0_wp
+      do i = 1, k
+         ! the argument before i in the circle, and all others from i on
+         circle = cshift(w, i - 1)
+         others = product(circle(:k - 1))
+         associate (left => x(:, :, 1 + modulo(i - 2, k)))
+            sum_of_frictions = sum_of_frictions + others*friction(self%parameters, left)
+            sum_of_forces = sum_of_forces + others*force(self%parameters, left)
+         end associate
+      end do
+      form(index_of_theta) = -sum_of_frictions
+      form(index_of_u) = product(w)
+      form(index_of_ln_v) = (-1)**k*self%parameters%gamma**2*sum_of_forces
+   end function derivative_of_4
 
    !> theta + (1 + epsilon) w(t - tau).
    pure complex(wp) function friction(p, x) result(value)

@@ -1,6 +1,7 @@
 !> Planes of two parameters in which Hopf curves are drawn, each with its window.
 module hopf_planes
    use block_parameters, only: block_parameters_type
+   use characteristic_function, only: root_by_epsilon, root_by_tau, root_by_xi
    use hopf_condition, only: hopf_epsilon, hopf_tau, hopf_xi, two_pi
    use dde_kinds, only: wp
    implicit none (type, external)
@@ -22,6 +23,8 @@ module hopf_planes
       procedure(parameters_at), deferred :: parameters
       !> The ordinate among the parameters
       procedure(ordinate_of), deferred, nopass :: ordinate
+      !> Derivatives of a root by epsilon and by the ordinate
+      procedure(slopes_of_root), deferred, nopass :: root_slopes
       !> Least omega, and highest branch, that the window can hold
       procedure(reach), deferred :: bounds
    end type curve_plane_type
@@ -59,6 +62,17 @@ module hopf_planes
          type(block_parameters_type), intent(in) :: p
       end function ordinate_of
 
+      !> Derivatives of a root by epsilon and by the ordinate.
+      pure function slopes_of_root(p, s) result(slopes)
+         import :: block_parameters_type, wp
+         implicit none (type, external)
+         !> Parameters
+         type(block_parameters_type), intent(in) :: p
+         !> The root
+         complex(wp), intent(in) :: s
+         complex(wp) :: slopes(2)
+      end function slopes_of_root
+
       !> Least omega and highest branch in the window, given the largest omega.
       pure subroutine reach(self, omega_most, omega_least, k_most)
          import :: curve_plane_type, wp
@@ -82,6 +96,7 @@ module hopf_planes
       procedure :: at => tau_branch
       procedure :: parameters => tau_parameters
       procedure, nopass :: ordinate => tau_ordinate
+      procedure, nopass :: root_slopes => tau_slopes
       procedure :: bounds => tau_bounds
    end type tau_plane_type
 
@@ -93,6 +108,7 @@ module hopf_planes
       procedure :: at => xi_branch
       procedure :: parameters => xi_parameters
       procedure, nopass :: ordinate => xi_ordinate
+      procedure, nopass :: root_slopes => xi_slopes
       procedure :: bounds => xi_bounds
    end type xi_plane_type
 
@@ -130,6 +146,17 @@ contains
 
       value = p%tau
    end function tau_ordinate
+
+   !> By epsilon and tau.
+   pure function tau_slopes(p, s) result(slopes)
+      !> Parameters
+      type(block_parameters_type), intent(in) :: p
+      !> The root
+      complex(wp), intent(in) :: s
+      complex(wp) :: slopes(2)
+
+      slopes = [root_by_epsilon(p, s), root_by_tau(p, s)]
+   end function tau_slopes
 
    !> Least omega: where xi |gamma^2 - omega^2|/(gamma^2 omega) falls to omega_most; highest branch:
    !> where (2 pi k - pi)/omega_most exceeds tau.
@@ -185,6 +212,17 @@ contains
 
       value = p%xi
    end function xi_ordinate
+
+   !> By epsilon and xi.
+   pure function xi_slopes(p, s) result(slopes)
+      !> Parameters
+      type(block_parameters_type), intent(in) :: p
+      !> The root
+      complex(wp), intent(in) :: s
+      complex(wp) :: slopes(2)
+
+      slopes = [root_by_epsilon(p, s), root_by_xi(p, s)]
+   end function xi_slopes
 
    !> Least omega: as in `tau_bounds` for the least xi; highest branch: from omega_most and tau.
    pure subroutine xi_bounds(self, omega_most, omega_least, k_most)

@@ -8,6 +8,7 @@ module hopf_points
    use hopf_condition, only: hopf_tau, partner_omega, two_pi
    use hopf_curves, only: curve_point_type
    use hopf_planes, only: curve_plane_type, tau_plane_type
+   use hopf_unfoldings, only: unfold_double_hopf, unfold_generalised_hopf, unfolding_type
    use dde_kinds, only: wp
    use normal_form, only: first_lyapunov_coefficient
    use root_counts, only: pairs_beside
@@ -34,6 +35,8 @@ module hopf_points
       real(wp) :: l1(2) = 0.0_wp
       !> Unstable pairs beside these
       integer :: unstable_pairs = 0
+      !> Normal form of a generalised or double Hopf point
+      type(unfolding_type) :: unfolding
    end type hopf_point_type
 
    !> First Lyapunov coefficient along a branch.
@@ -186,6 +189,13 @@ contains
                                          point%l1(i), error)
          if (allocated(error)) return
       end do
+      select case (kind)
+      case ("generalised_hopf")
+         call unfold_generalised_hopf(plane, omega(1), branch(1), point%unfolding, error)
+      case ("double_hopf")
+         call unfold_double_hopf(plane, point%parameters, point%omega, point%unfolding, error)
+      case default
+      end select
       found = [found, point]
    end subroutine add
 

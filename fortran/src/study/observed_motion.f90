@@ -1,5 +1,5 @@
-!> What is kept of a block in motion: samples, maxima of v, and the section v = 1, v rising (where u
-!> is least), with points (theta, u).
+!> What is kept of a block in motion: samples, maxima of v that stand out, and the section v = 1, v
+!> rising (where u is least), with points (theta, u).
 module observed_motion
    use dde, only: continuation_type, event_table, integrate, integration_options, &
                   integration_result, table_sampler
@@ -10,10 +10,14 @@ module observed_motion
    private
    public :: observed_motion_type
 
-   !> Numbers of the two event functions.
+   !> Numbers of the event functions.
    enum, bind(c)
-      enumerator :: section = 1, maximum
+      enumerator :: section = 1, maximum, minimum
    end enum
+
+   !> ln v rises by this much at least from a minimum to a maximum. Where v of a stuck block hardly
+   !> changes, errors within the tolerance make smaller ones.
+   real(wp), parameter :: least_rise = 1.0e-3_wp
 
    !> A motion as far as it was observed.
    type :: observed_motion_type
@@ -25,6 +29,8 @@ module observed_motion
       real(wp), allocatable :: section(:, :)
       !> When it was at each, shape (points)
       real(wp), allocatable :: section_time(:)
+      !> Least ln v since the last maximum
+      real(wp), private :: lowest = huge(1.0_wp)
       !> Where the motion is; empty at its beginning
       type(continuation_type) :: continuation
    contains
@@ -82,8 +88,9 @@ contains
       integer :: i
 
       start = self%continuation%time(1)
-      events = event_table([index_of_ln_v, index_of_ln_v], level=[0.0_wp, 0.0_wp], &
-                           direction=[1, -1], of_slope=[.false., .true.])
+      events = event_table([(index_of_ln_v, i=section, minimum)], &
+                           level=[(0.0_wp, i=section, minimum)], direction=[1, -1, 1], &
+                           of_slope=[.false., .true., .true.])
       ! rounding may put the last one beyond the end, where there is none
       samples = table_sampler([index_of_theta, index_of_u, index_of_ln_v], &
                               [(min(start + i*interval, start + time), &
@@ -102,12 +109,19 @@ contains
       type(event_table), intent(in) :: events
       !> The motion
       type(observed_motion_type), intent(inout) :: motion
+      logical :: kept(events%received)
       integer :: i
 
-      associate (met => events%which(:events%received), rows => [(i, i=1, events%received)])
-         motion%maxima = [motion%maxima, &
-                          exp(events%y(index_of_ln_v, pack(rows, met == maximum)))]
-         associate (passages => pack(rows, met == section))
+      do i = 1, events%received
+         associate (ln_v => events%y(index_of_ln_v, i))
+            kept(i) = events%which(i) == maximum .and. ln_v - motion%lowest >= least_rise
+            if (kept(i)) motion%lowest = huge(1.0_wp)
+            if (events%which(i) == minimum) motion%lowest = min(motion%lowest, ln_v)
+         end associate
+      end do
+      associate (rows => [(i, i=1, events%received)])
+         motion%maxima = [motion%maxima, exp(events%y(index_of_ln_v, pack(rows, kept)))]
+         associate (passages => pack(rows, events%which(:events%received) == section))
             motion%section = reshape([motion%section, &
                                       events%y([index_of_theta, index_of_u], passages)], &
                                      [2, size(motion%section, 2) + size(passages)])

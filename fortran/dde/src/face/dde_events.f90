@@ -28,6 +28,8 @@ module dde_events
    contains
       !> Refuse what cannot be watched
       procedure :: check => check_directions
+      !> Whether bounds of state and slope show that no function is zero
+      procedure :: never_zero => not_known
       !> The event functions
       procedure(event_values), deferred :: values
       !> Receive an event
@@ -87,6 +89,7 @@ module dde_events
       real(wp), allocatable :: y(:, :)
    contains
       procedure :: check => check_table
+      procedure :: never_zero => never_at_level
       procedure :: values => less_level
       procedure :: take => take_row
    end type event_table
@@ -152,6 +155,18 @@ contains
                  //" of the watcher; a time > 0 expected")
    end subroutine check_directions
 
+   !> Nothing is known of functions in general.
+   pure logical function not_known(self, least, most, least_slope, most_slope) result(value)
+      !> The watcher
+      class(event_watcher_type), intent(in) :: self
+      !> Bounds of each component, shape (n)
+      real(wp), intent(in) :: least(:), most(:)
+      !> Bounds of its time derivative, shape (n)
+      real(wp), intent(in) :: least_slope(:), most_slope(:)
+
+      value = .false.
+   end function not_known
+
    !> Refuse levels of components that are not there.
    pure subroutine check_table(self, n, error)
       !> The table
@@ -179,6 +194,25 @@ contains
          return
       end do
    end subroutine check_table
+
+   !> Whether components and slopes keep from their levels. An extension may have other functions:
+   !> nothing is known of those.
+   pure logical function never_at_level(self, least, most, least_slope, most_slope) result(value)
+      !> The table
+      class(event_table), intent(in) :: self
+      !> Bounds of each component, shape (n)
+      real(wp), intent(in) :: least(:), most(:)
+      !> Bounds of its time derivative, shape (n)
+      real(wp), intent(in) :: least_slope(:), most_slope(:)
+      type(event_table) :: plain
+
+      value = same_type_as(self, plain)
+      if (.not. value) return
+      value = all(merge(least_slope(self%component) > self%level &
+                        .or. most_slope(self%component) < self%level, &
+                        least(self%component) > self%level .or. most(self%component) < self%level, &
+                        self%of_slope))
+   end function never_at_level
 
    !> Components or slopes, less their levels.
    pure subroutine less_level(self, t, y, slope, g)

@@ -1,5 +1,6 @@
-!> The search for events in a step. Event functions are evaluated on dense output, at a number of
-!> places that its degree requires, and where a parabola through three of these is nearest to zero.
+!> The search for events in a step. Where bounds of dense output exclude events there is none. Else
+!> event functions are evaluated on it, at a number of places that its degree requires, and where a
+!> parabola through three of these is nearest to zero.
 !> A passage between two places is located to rounding of the step.
 module dde_event_search
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -33,7 +34,7 @@ module dde_event_search
       procedure :: begin
       !> Search a step
       procedure :: search_step
-      procedure, private :: choose_places, go_to, report, locate
+      procedure, private :: choose_places, go_to, report, locate, stays
    end type event_search
 
 contains
@@ -81,8 +82,11 @@ contains
       real(wp) :: before
 
       call self%here%take_up(step, start, step_end)
-      call self%choose_places(watcher, places, g)
       ended = .false.
+      share = 1.0_wp
+      call watcher%values(self%here%t%hi, self%here%y, self%here%slope, self%g)
+      if (self%stays(watcher)) return
+      call self%choose_places(watcher, places, g)
       share = 0.0_wp
       do i = 1, size(places)
          before = share
@@ -97,6 +101,21 @@ contains
       end do
       call self%go_to(watcher, 1.0_wp)
    end subroutine search_step
+
+   !> Whether no function leaves its side in the step, by the functions at its end and by bounds.
+   logical function stays(self, watcher) result(value)
+      !> The search, at the end of the step
+      class(event_search), intent(inout) :: self
+      !> The watcher
+      class(event_watcher_type), intent(in) :: watcher
+
+      value = .not. any(sign_of(self%g, self%side) /= self%side)
+      if (.not. value) return
+      call self%here%find_bounds()
+      associate (here => self%here)
+         value = watcher%never_zero(here%least, here%most, here%least_slope, here%most_slope)
+      end associate
+   end function stays
 
    !> Places at which functions are evaluated, ascending up to 1: an even grid, and places between
    !> where a function may pass zero twice.
@@ -113,7 +132,7 @@ contains
       real(wp) :: bend, half_rise, place
       integer :: i, k, last
 
-      last = max(self%here%degree + 1, ceiling(self%here%h/watcher%look_every))
+      last = max(self%here%degree() + 1, ceiling(self%here%h/watcher%look_every))
       allocate (grid(size(self%g), 0:last))
       do k = 0, last
          call self%go_to(watcher, k*1.0_wp/last)

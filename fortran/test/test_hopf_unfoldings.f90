@@ -1,0 +1,248 @@
+!> What the normal forms predict beside special points of the Hopf curves, against roots of (5) and
+!> against cycles by simulation and by harmonic balance.
+module test_hopf_unfoldings
+   use block_equation, only: block_equation_type
+   use block_parameters, only: block_parameters_type
+   use characteristic_roots, only: find_roots
+   use dde_errors, only: failure_type => error_type, text
+   use dde_kinds, only: wp
+   use expectations, only: expect, expect_between, expect_close, expect_success
+   use harmonic_balance, only: find_cycle
+   use hopf_condition, only: two_pi
+   use hopf_planes, only: curve_plane_type
+   use hopf_point_runs, only: find_points, modes_of, parameters_at, run
+   use hopf_points, only: hopf_point_type
+   use hopf_unfoldings, only: cycle_type, predict_fold, predict_torus
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use spring_block, only: index_of_ln_v
+   implicit none (type, external)
+   private
+   public :: collect_hopf_unfoldings
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_hopf_unfoldings(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("directions against roots", test_directions), &
+                   new_unittest("folds leave along the curve", test_fold_direction), &
+                   new_unittest("torus between its lines", test_torus), &
+                   new_unittest("folds against harmonic balance", test_fold), &
+                   new_unittest("cycles at their torus", test_cycle_at_torus)]
+   end subroutine collect_hopf_unfoldings
+
+   !> A small way from a double Hopf point along the start of a curve of tori, the growth rates of
+   !> both pairs have the ratio that the normal form gives, with p_jj and mu_j of different sign.
+   subroutine test_directions(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(hopf_point_type), allocatable :: found(:)
+      class(curve_plane_type), allocatable :: plane
+      complex(wp), allocatable :: roots(:)
+      type(block_equation_type) :: equation
+      real(wp), parameter :: step = 1.0e-5_wp
+      real(wp) :: growth(2)
+      integer :: i, j, n, pair
+
+      do n = 1, 2
+         call find_points(n, "double_hopf", plane, found, error)
+         if (allocated(error)) return
+         do i = 1, size(found)
+            do pair = 1, 2
+               associate (p => found(i)%parameters, u => found(i)%unfolding)
+                  equation = block_equation_type(plane%parameters( &
+                             p%epsilon + step*u%start(1, pair), &
+                             plane%ordinate(p) + step*u%start(2, pair)))
+                  call find_roots(equation%linear, -0.05_wp, roots, failure)
+                  call expect_success(error, failure)
+                  if (allocated(error)) return
+                  do j = 1, 2
+                     growth(j) = real(roots(minloc(abs(roots - cmplx(0.0_wp, found(i)%omega(j), &
+                                                                     kind=wp)), dim=1)))
+                  end do
+                  growth = growth/norm2(growth)
+                  call expect_close(error, growth, u%form%torus_rates(pair), 1.0e-2_wp, &
+                                    "growth rates at point "//text(i)//" of plane "//text(n))
+                  call expect(error, growth(pair)*real(u%form%g(pair, pair)) < 0.0_wp, &
+                              "the cycle exists")
+               end associate
+            end do
+         end do
+      end do
+   end subroutine test_directions
+
+   !> Towards that side of a generalised Hopf point on which l1 and l2 differ in sign, by l1 and
+   !> places of nearby points of the curve.
+   subroutine test_fold_direction(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(hopf_point_type), allocatable :: found(:)
+      class(curve_plane_type), allocatable :: plane
+      type(block_parameters_type) :: there
+      real(wp) :: way(2)
+      integer :: i, n, side
+
+      do n = 1, 2
+         call find_points(n, "generalised_hopf", plane, found, error)
+         if (allocated(error)) return
+         do i = 1, size(found)
+            associate (p => found(i)%parameters, u => found(i)%unfolding)
+               ! c1 = 0 here
+               side = nint(-sign(1.0_wp, real(u%c2)*u%c1_slope))
+               there = plane%at(found(i)%omega(1)*(1.0_wp + 1.0e-5_wp*side), found(i)%branch(1))
+               way = [there%epsilon - p%epsilon, plane%ordinate(there) - plane%ordinate(p)]
+               call expect_close(error, u%start(:, 1), way/norm2(way), 1.0e-3_wp, &
+                                 "start of the folds at point "//text(i)//" of plane "//text(n))
+               call expect_close(error, real(u%c1), 0.0_wp, 1.0e-13_wp, "Re c1")
+            end associate
+         end do
+      end do
+   end subroutine test_fold_direction
+
+   !> Beside all double Hopf points whose tori attract, but for two at which that takes too long:
+   !> between the lines both pairs live on, so that the maxima of ln v are of many sizes; beyond the
+   !> line of a cycle with stable tori the other pair dies out and the maxima become equal. The
+   !> history is of both pairs.
+   subroutine test_torus(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(hopf_point_type), allocatable :: found(:)
+      class(curve_plane_type), allocatable :: plane
+      integer :: i, n, pair, tested
+
+      tested = 0
+      do n = 1, 2
+         call find_points(n, "double_hopf", plane, found, error)
+         if (allocated(error)) return
+         do i = 1, size(found)
+            associate (form => found(i)%unfolding%form)
+               do pair = 1, 2
+                  if (found(i)%unstable_pairs > 0 .or. form%torus_stability(pair) /= "stable" &
+                      .or. real(form%g(1, 1)) > -1.0e-3_wp .or. form%unfolding() == "Ia") cycle
+                  call check_line(plane, found(i), pair, error)
+                  tested = tested + 1
+               end do
+            end associate
+         end do
+      end do
+      call expect(error, tested == 4, "four lines")
+   end subroutine test_torus
+
+   !> On both sides of the line at which the torus of a cycle is born.
+   subroutine check_line(plane, point, pair, error)
+      !> The plane
+      class(curve_plane_type), intent(in) :: plane
+      !> The double Hopf point
+      type(hopf_point_type), intent(in) :: point
+      !> Pair of the cycle
+      integer, intent(in) :: pair
+      !> The first failure of the test
+      type(error_type), allocatable, intent(inout) :: error
+      complex(wp) :: mode(3, 2)
+      real(wp) :: known_mean, known_range, least, mean, most, mu(2), r(2)
+      real(wp), parameter :: size_of_cycle = 0.05_wp, time = 3.0e4_wp
+      character(len=:), allocatable :: where
+
+      where = " of cycle "//text(pair)//" at tau = "//text(point%parameters%tau)
+      associate (g => real(point%unfolding%form%g))
+         ! |z_j|^2 of tori is positive for both pairs between the lines, negative for one beyond
+         r = 0.3_wp*size_of_cycle
+         r(pair) = size_of_cycle
+         mode = modes_of(point, sqrt(r))
+         mu = -matmul(g, r)
+         call run(parameters_at(plane, point, mu), point%omega, mode, time, least, mean, most, &
+                  error)
+         ! to first order, from the difference to the sum of both amplitudes
+         known_range = 4.0_wp*minval(abs(mode(index_of_ln_v, :)))
+         call expect_close(error, most - least, known_range, 0.3_wp*known_range, &
+                           "range of the maxima on the torus"//where)
+         r(3 - pair) = -r(3 - pair)
+         mu = -matmul(g, r)
+         call run(parameters_at(plane, point, mu), point%omega, mode, time, least, mean, most, &
+                  error)
+         known_mean = 2.0_wp*abs(mode(index_of_ln_v, pair)) &
+                      *sqrt(-mu(pair)/g(pair, pair)/size_of_cycle)
+         call expect_between(error, most - least, 0.0_wp, 1.0e-3_wp*mean, &
+                             "range of the maxima"//where)
+         call expect_close(error, mean, known_mean, 0.15_wp*known_mean, "maximum"//where)
+      end associate
+   end subroutine check_line
+
+   !> Epsilon along cycles of growing amplitude has its extreme at the fold. With the share of the
+   !> square of the predicted amplitude it is a parabola, the depth of which is the distance from
+   !> the Hopf curve. The period there, by its change along the cycles.
+   subroutine test_fold(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(hopf_point_type), allocatable :: found(:)
+      class(curve_plane_type), allocatable :: plane
+      type(cycle_type) :: fold
+      complex(wp) :: mode(3, 2)
+      real(wp), parameter :: amplitude = 0.02_wp, shares(-1:1) = [0.5_wp, 1.0_wp, 1.5_wp]
+      real(wp) :: curvature, epsilon(-1:1), frequency(-1:1), period_error(-1:1), slope
+      integer :: i, j, n
+
+      do n = 1, 2
+         call find_points(n, "generalised_hopf", plane, found, error)
+         if (allocated(error)) return
+         do i = 1, size(found)
+            associate (point => found(i))
+               call predict_fold(plane, point%omega(1), point%branch(1), point%unfolding, &
+                                 amplitude, fold, failure)
+               call expect_success(error, failure)
+               mode = modes_of(point, [1.0_wp, 0.0_wp])
+               do j = -1, 1
+                  call find_cycle(fold%parameters, point%omega(1), mode(:, 1), &
+                                  2.0_wp*abs(mode(index_of_ln_v, 1))*amplitude*sqrt(shares(j)), &
+                                  epsilon(j), frequency(j), error)
+               end do
+               if (allocated(error)) return
+            end associate
+            slope = epsilon(1) - epsilon(-1)
+            curvature = 4.0_wp*(epsilon(1) - 2.0_wp*epsilon(0) + epsilon(-1))
+            call expect_between(error, -slope/curvature, -0.01_wp, 0.01_wp, &
+                                "share at the fold less 1")
+            call expect_close(error, epsilon(0), fold%parameters%epsilon, &
+                              0.01_wp*abs(0.5_wp*curvature), "epsilon of the fold")
+            period_error = two_pi/frequency - fold%period
+            call expect_between(error, period_error(0)/period_error(-1), -0.01_wp, 0.01_wp, &
+                                "error of the period over its change")
+         end do
+      end do
+   end subroutine test_fold
+
+   !> The cycle of the predicted amplitude has the predicted epsilon and period, by their distances
+   !> from the double Hopf point.
+   subroutine test_cycle_at_torus(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(hopf_point_type), allocatable :: found(:)
+      class(curve_plane_type), allocatable :: plane
+      type(cycle_type) :: torus
+      complex(wp) :: mode(3, 2)
+      real(wp), parameter :: amplitude = 0.02_wp
+      real(wp) :: epsilon, frequency
+      integer :: i, j, n
+
+      do n = 1, 2
+         call find_points(n, "double_hopf", plane, found, error)
+         if (allocated(error)) return
+         do i = 1, size(found)
+            mode = modes_of(found(i), [1.0_wp, 1.0_wp])
+            do j = 1, 2
+               associate (point => found(i), omega => found(i)%omega(j))
+                  torus = predict_torus(plane, point%parameters, point%unfolding, j, amplitude)
+                  call find_cycle(torus%parameters, omega, mode(:, j), &
+                                  2.0_wp*abs(mode(index_of_ln_v, j))*amplitude, epsilon, &
+                                  frequency, error)
+                  if (allocated(error)) return
+                  call expect_between(error, (epsilon - torus%parameters%epsilon) &
+                                      /(torus%parameters%epsilon - point%parameters%epsilon), &
+                                      -2.0e-3_wp, 2.0e-3_wp, "error of epsilon over its change")
+                  call expect_between(error, (two_pi/frequency - torus%period) &
+                                      /(torus%period - two_pi/omega), -2.0e-3_wp, 2.0e-3_wp, &
+                                      "error of the period over its change")
+               end associate
+            end do
+         end do
+      end do
+   end subroutine test_cycle_at_torus
+end module test_hopf_unfoldings
