@@ -6,6 +6,7 @@ program tester
    use test_attractor_sweep, only: collect_attractor_sweep
    use test_attractors, only: collect_attractors
    use test_base_frequencies, only: collect_base_frequencies
+   use test_block_cycles, only: collect_block_cycles
    use test_block_parameters, only: collect_block_parameters
    use test_dde_extremes, only: collect_dde_extremes
    use test_dde_gsl, only: collect_dde_gsl
@@ -28,6 +29,8 @@ program tester
    use test_measured_run, only: collect_measured_run
    use test_motion_classes, only: collect_motion_classes
    use test_normal_forms, only: collect_normal_forms
+   use test_orbit_branches, only: collect_orbit_branches
+   use test_periodic_orbits, only: collect_periodic_orbits
    use test_progress, only: collect_progress
    use test_refined_grid, only: collect_refined_grid
    use test_section_motion, only: collect_section_motion
@@ -51,6 +54,7 @@ program tester
                              new_testsuite("attractor_sweep", collect_attractor_sweep), &
                              new_testsuite("attractors", collect_attractors), &
                              new_testsuite("base_frequencies", collect_base_frequencies), &
+                             new_testsuite("block_cycles", collect_block_cycles), &
                              new_testsuite("block_parameters", collect_block_parameters), &
                              new_testsuite("dde_extremes", collect_dde_extremes), &
                              new_testsuite("dde_gsl", collect_dde_gsl), &
@@ -73,6 +77,8 @@ program tester
                              new_testsuite("measured_run", collect_measured_run), &
                              new_testsuite("motion_classes", collect_motion_classes), &
                              new_testsuite("normal_forms", collect_normal_forms), &
+                             new_testsuite("orbit_branches", collect_orbit_branches), &
+                             new_testsuite("periodic_orbits", collect_periodic_orbits), &
                              new_testsuite("progress", collect_progress), &
                              new_testsuite("refined_grid", collect_refined_grid), &
                              new_testsuite("section_motion", collect_section_motion), &
