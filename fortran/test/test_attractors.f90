@@ -289,8 +289,8 @@ contains
       call expect(error, found%class == undecided, "undecided")
    end subroutine test_few_samples
 
-   !> A loose tolerance makes no maxima while v of a stuck block is 1e-6 and less. All maxima of these
-   !> cycles are larger than 0.04 at the tolerance 1e-10.
+   !> A loose tolerance makes no maxima while v of a stuck block is 1e-6 and less. All maxima of
+   !> these cycles are larger than 0.04 at the tolerance 1e-10.
    subroutine test_stuck(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
