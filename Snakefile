@@ -25,6 +25,7 @@ rule all:
         "results/index.html",
         "results/tables/tolerance-proportionality.tsv",
         "results/tables/hopf-points.tsv",
+        "results/tables/cycle-points.tsv",
         "results/tables/linear-stability.tsv",
         "results/tables/basins.tsv",
         "results/tables/claims.tsv",
@@ -34,6 +35,7 @@ include: "rules/build.smk"
 include: "rules/trajectories.smk"
 include: "rules/slip_events.smk"
 include: "rules/curves.smk"
+include: "rules/cycles.smk"
 include: "rules/linear_stability.smk"
 include: "rules/spectra.smk"
 include: "rules/friction.smk"

@@ -65,6 +65,7 @@ wildcard_constraints:
     study="stability|trust",
     survey=f"scenes|basins|routes/({LINES})|atlas/({'|'.join(config['atlas']['planes'])})",
     line=LINES,
+    cycle_line="|".join(config["cycles"]["lines"]),
     part=r"\w+",
 
 
@@ -157,6 +158,15 @@ def linear_stability_values(wildcards):
 def plane_values(wildcards):
     """The plane's namelist group."""
     return config["hopf_curves"][wildcards.plane]
+
+
+def cycles_values(wildcards):
+    """The line on which cycles are followed, and how, as namelist group."""
+    cycles = config["cycles"]
+    shared = {key: value for key, value in cycles.items() if key != "lines"}
+    line = cycles["lines"][wildcards.cycle_line]
+    # a namelist has no empty lists
+    return {**shared, **{key: value for key, value in line.items() if value != []}}
 
 
 def spectrum_values(wildcards):

@@ -26,7 +26,7 @@ ROOT = Path(__file__).parent.parent
 SMOKE = ("--configfile", "config/smoke.yaml")
 """Arguments for a run in smoke size; further config files may follow, targets must stand before."""
 PROGRAMS = [
-    *("trajectory", "spectrum", "hopf", "linear_stability", "velocity_step", "exponents"),
+    *("trajectory", "spectrum", "hopf", "linear_stability", "velocity_step", "exponents", "cycles"),
     *("attractors", "measure", "reference", "slip_events"),
 ]
 BUILT = "spectrum"
@@ -35,6 +35,7 @@ GROUPS = {
     "trajectory": "scene",
     "spectrum": "spectrum",
     "hopf": "hopf_curves",
+    "cycles": "cycles",
     "linear_stability": "linear_stability",
     "velocity_step": "velocity_step",
     "slip_events": "scene",
@@ -343,6 +344,11 @@ def good_inputs(filled_config, trajectory_file) -> dict[str, dict]:
         "trajectory": {**scene, "variables": ["theta", "u", "v"]},
         "spectrum": {"trajectory": str(trajectory_file), **config["spectra"]},
         "hopf": config["hopf_curves"]["tau_of_epsilon"] | {"cells": 20},
+        "cycles": {
+            **{key: value for key, value in config["cycles"].items() if key != "lines"},
+            **config["cycles"]["lines"]["torus_in_epsilon"],
+            **{"t_transient": 500.0, "intervals": 20, "most_orbits": 5},
+        },
         "linear_stability": {
             **{key: scene[key] for key in ("tau", "epsilon", "xi", "gamma")},
             **config["linear_stability"],

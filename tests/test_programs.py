@@ -18,6 +18,7 @@ REFUSED = {
     "trajectory": ("scene", "tau", -1.0, "scene 'torus': tau = -1.0; expected a finite number >= "),
     "spectrum": ("spectrum", "segments", 0, "segments = 0; expected a whole number >= 1"),
     "hopf": ("hopf_curves", "gamma", 0.0, "gamma = 0.0; expected a finite number > 0"),
+    "cycles": ("cycles", "degree", 2, "degree = 2; expected a whole number >= 3"),
     "linear_stability": ("linear_stability", "xi", -1.0, "xi = -1.0; expected a finite number > 0"),
     "velocity_step": ("velocity_step", "samples", 1, "samples = 1; expected a whole number >= 2"),
     "slip_events": ("scene", "xi", -1.0, "scene 'torus': xi = -1.0; expected a finite number > 0"),

@@ -73,6 +73,13 @@ def test_namelists_hold_the_config(smoke, smoke_config):
         **{f"hopf/{k}": {"hopf_curves": v} for k, v in smoke_config["hopf_curves"].items()},
         "velocity_step": {"velocity_step": smoke_config["velocity_step"]},
     }
+    cycles = smoke_config["cycles"]
+    shared = {key: value for key, value in cycles.items() if key != "lines"}
+    for name, line in cycles["lines"].items():
+        given = {key: value for key, value in line.items() if value != []}
+        # a list of one is read as its item
+        given |= {"starts": line["starts"][0]} if len(line["starts"]) == 1 else {}
+        expected[f"cycles/{name}"] = {"cycles": shared | given}
     for name, scene in scenes.items():
         parameters = {key: scene[key] for key in ("tau", "epsilon", "xi", "gamma")}
         asked = {"linear_stability": parameters | smoke_config["linear_stability"]}

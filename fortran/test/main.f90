@@ -28,6 +28,8 @@ program tester
    use test_measured_run, only: collect_measured_run
    use test_motion_classes, only: collect_motion_classes
    use test_normal_forms, only: collect_normal_forms
+   use test_orbit_branches, only: collect_orbit_branches
+   use test_periodic_orbits, only: collect_periodic_orbits
    use test_progress, only: collect_progress
    use test_refined_grid, only: collect_refined_grid
    use test_section_motion, only: collect_section_motion
@@ -73,6 +75,8 @@ program tester
                              new_testsuite("measured_run", collect_measured_run), &
                              new_testsuite("motion_classes", collect_motion_classes), &
                              new_testsuite("normal_forms", collect_normal_forms), &
+                             new_testsuite("orbit_branches", collect_orbit_branches), &
+                             new_testsuite("periodic_orbits", collect_periodic_orbits), &
                              new_testsuite("progress", collect_progress), &
                              new_testsuite("refined_grid", collect_refined_grid), &
                              new_testsuite("section_motion", collect_section_motion), &

@@ -1,4 +1,4 @@
-"""What the schema cannot see of attractors: keys that contradict each other, in words."""
+"""What the schema cannot see of attractors and cycles: keys that contradict each other."""
 
 import math
 from collections.abc import Iterator
@@ -18,11 +18,12 @@ FEWEST_SAMPLES = 16
 
 
 def contradictions(config: dict) -> Iterator[str]:
-    """Problems of more than one key: of scenes' attractors, the atlas, routes and basins."""
+    """Problems of more than one key: of scenes' attractors, the atlas, routes, basins, cycles."""
     yield from _of_scenes(config)
     yield from _of_atlas(config["atlas"], config["spectra"])
     yield from _of_routes(config["routes"], config["spectra"])
     yield from _of_basins(config["basins"], config["spectra"])
+    yield from _of_cycles(config["cycles"])
 
 
 def _of_scenes(config: dict) -> Iterator[str]:
@@ -58,13 +59,29 @@ def _of_routes(routes: dict, spectra: dict) -> Iterator[str]:
         yield f"{place} histories: name {name!r}; expected another, this is the name of a sweep"
     yield from _of_observation(f"{place} observation", routes["observation"], spectra)
     for name, line in routes["lines"].items():
-        inside, along = f"{place} lines {name}", line["along"]
-        yield from window(inside, "window", line["window"], **range_of(along))
-        if along in line:
-            yield f"{inside}: {along} = {line[along]}; expected no value, it is along {along}"
-        missing = [key for key in PARAMETERS if key not in line and key != along]
-        if missing:
-            yield f"{inside}: key {missing} is missing"
+        yield from _of_line(f"{place} lines {name}", line)
+
+
+def _of_line(inside: str, line: dict) -> Iterator[str]:
+    """A line along one parameter, the other three fixed."""
+    along = line["along"]
+    yield from window(inside, "window", line["window"], **range_of(along))
+    if along in line:
+        yield f"{inside}: {along} = {line[along]}; expected no value, it is along {along}"
+    missing = [key for key in PARAMETERS if key not in line and key != along]
+    if missing:
+        yield f"{inside}: key {missing} is missing"
+
+
+def _of_cycles(cycles: dict) -> Iterator[str]:
+    """Lines along which cycles are followed, and starts on them."""
+    for name, line in cycles["lines"].items():
+        inside = f"config cycles lines {name}"
+        yield from _of_line(inside, line)
+        low, high = line["window"]
+        for start in line["starts"]:
+            if not low <= start <= high:
+                yield f"{inside}: starts = {start}; expected a number in {line['window']}"
 
 
 def _of_basins(basins: dict, spectra: dict) -> Iterator[str]:

@@ -87,6 +87,7 @@ def _names_that_are_no_text(config: dict):
         ["routes", "histories"],
         ["routes", "lines"],
         ["basins", "places"],
+        ["cycles", "lines"],
     ):
         named = config
         for key in path:

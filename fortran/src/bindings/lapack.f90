@@ -1,12 +1,36 @@
-!> Dense linear algebra by LAPACK: eigenvalues, systems of equations and null vectors.
+!> Dense linear algebra by LAPACK: eigenvalues and eigenvectors, systems of equations and null
+!> vectors.
 module lapack
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: eigenvalues, null_vectors, solve
+   public :: eigenvalues, eigenvectors, null_vectors, solve
+
+   !> Solution of a system for several right-hand sides.
+   interface solve
+      module procedure :: solve_complex, solve_real
+   end interface solve
 
    interface
+      subroutine dgeev(jobvl, jobvr, n, a, lda, wr, wi, vl, ldvl, vr, ldvr, work, lwork, info)
+         import :: wp
+         implicit none (type, external)
+         character(len=1), intent(in) :: jobvl, jobvr
+         integer, intent(in) :: n, lda, ldvl, ldvr, lwork
+         real(wp), intent(inout) :: a(lda, *)
+         real(wp), intent(out) :: wr(*), wi(*), vl(ldvl, *), vr(ldvr, *), work(*)
+         integer, intent(out) :: info
+      end subroutine dgeev
+
+      subroutine dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
+         import :: wp
+         implicit none (type, external)
+         integer, intent(in) :: n, nrhs, lda, ldb
+         real(wp), intent(inout) :: a(lda, *), b(ldb, *)
+         integer, intent(out) :: ipiv(*), info
+      end subroutine dgesv
+
       subroutine dggev(jobvl, jobvr, n, a, lda, b, ldb, alphar, alphai, beta, vl, ldvl, vr, ldvr, &
                        work, lwork, info)
          import :: wp
@@ -70,8 +94,70 @@ contains
       values = pack(cmplx(alpha(:, 1), alpha(:, 2), kind=wp), finite)/pack(beta, finite)
    end subroutine eigenvalues
 
-   !> Solution of a system for several right-hand sides.
-   subroutine solve(matrix, right, solution, error)
+   !> Eigenvalues in descending order of modulus, and eigenvectors of norm 1.
+   subroutine eigenvectors(matrix, values, vectors, error)
+      !> The matrix, shape (n, n)
+      real(wp), intent(in) :: matrix(:, :)
+      !> Eigenvalues, shape (n); of a pair the one with positive imaginary part first
+      complex(wp), allocatable, intent(out) :: values(:)
+      !> Eigenvectors, shape (n, n)
+      complex(wp), allocatable, intent(out) :: vectors(:, :)
+      !> No convergence
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable :: a(:, :), imaginary(:), modulus(:), real_part(:), right(:, :), work(:)
+      real(wp) :: no_left(1, 1)
+      integer :: i, info, n, next
+
+      n = size(matrix, 1)
+      allocate (a, source=matrix)
+      allocate (real_part(n), imaginary(n), right(n, n), work(34*n), values(n), vectors(n, n))
+      call dgeev("N", "V", n, a, n, real_part, imaginary, no_left, 1, right, n, work, size(work), &
+                 info)
+      if (info /= 0) then
+         call raise(error, "eigenvectors: dgeev returns "//text(info)//" for "//text(n) &
+                    //" rows; 0 expected")
+         return
+      end if
+      modulus = hypot(real_part, imaginary)
+      i = 1
+      do while (i <= n)
+         next = maxloc(modulus, dim=1)
+         values(i) = cmplx(real_part(next), imaginary(next), kind=wp)
+         vectors(:, i) = right(:, next)
+         modulus(next) = -1.0_wp
+         i = i + 1
+         if (imaginary(next) <= 0.0_wp) cycle
+         ! LAPACK keeps a pair side by side
+         vectors(:, i - 1) = cmplx(right(:, next), right(:, next + 1), kind=wp)
+         values(i) = conjg(values(i - 1))
+         vectors(:, i) = conjg(vectors(:, i - 1))
+         modulus(next + 1) = -1.0_wp
+         i = i + 1
+      end do
+   end subroutine eigenvectors
+
+   !> Solution of a real system.
+   subroutine solve_real(matrix, right, solution, error)
+      !> The matrix, shape (n, n)
+      real(wp), intent(in) :: matrix(:, :)
+      !> Right-hand sides, shape (n, m)
+      real(wp), intent(in) :: right(:, :)
+      !> Solutions, shape (n, m)
+      real(wp), intent(out) :: solution(:, :)
+      !> The matrix is singular
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: a(size(matrix, 1), size(matrix, 2))
+      integer :: info, pivot(size(matrix, 1))
+
+      a = matrix
+      solution = right
+      call dgesv(size(a, 1), size(right, 2), a, size(a, 1), pivot, solution, size(a, 1), info)
+      if (info /= 0) call raise(error, "solve: pivot "//text(info)//" of "//text(size(pivot)) &
+                                //" is 0; a regular matrix expected")
+   end subroutine solve_real
+
+   !> Solution of a complex system.
+   subroutine solve_complex(matrix, right, solution, error)
       !> The matrix, shape (n, n)
       complex(wp), intent(in) :: matrix(:, :)
       !> Right-hand sides, shape (n, m)
@@ -88,7 +174,7 @@ contains
       call zgesv(size(a, 1), size(right, 2), a, size(a, 1), pivot, solution, size(a, 1), info)
       if (info /= 0) call raise(error, "solve: pivot "//text(info)//" of "//text(size(pivot)) &
                                 //" is 0; a regular matrix expected")
-   end subroutine solve
+   end subroutine solve_complex
 
    !> The unit vectors q and p with matrix q = 0 and p^T matrix = 0, of a matrix of rank n - 1: the
    !> last singular vectors.

@@ -1,0 +1,24 @@
+!> Cycles along a line of parameters: stable and unstable branches and their special points.
+program cycles_program
+   use block_cycles, only: cycle_settings_type, cycles_type, find_cycles
+   use cycle_lines, only: hopf_start_type
+   use cycles_input, only: read_cycles
+   use cycles_output, only: write_cycles
+   use dde_errors, only: error_type
+   use program_arguments, only: get_paths, stop_on
+   implicit none (type, external)
+   character(len=:), allocatable :: namelist_path, output_path
+   type(cycle_settings_type) :: settings
+   type(cycles_type), allocatable :: found(:)
+   type(error_type), allocatable :: error
+   type(hopf_start_type), allocatable :: hopf(:)
+
+   call get_paths(namelist_path, output_path, error)
+   call stop_on(error)
+   call read_cycles(namelist_path, settings, error)
+   call stop_on(error)
+   call find_cycles(settings, hopf, found, error)
+   call stop_on(error)
+   call write_cycles(output_path, settings, hopf, found, error)
+   call stop_on(error)
+end program cycles_program

@@ -1,0 +1,80 @@
+!> How far a branch of periodic orbits is followed.
+module branch_ends
+   use dde_kinds, only: wp
+   use orbit_passes, only: orbit_scale_type
+   use orbit_refinement, only: refinement_type
+   use periodic_orbit, only: periodic_orbit_type
+   implicit none (type, external)
+   private
+   public :: branch_settings_type, has_ended
+
+   !> How far a branch is followed, and how.
+   type :: branch_settings_type
+      !> The free parameter and its unit
+      type(orbit_scale_type) :: scale
+      !> Window on the parameter
+      real(wp) :: window(2) = [-huge(1.0_wp), huge(1.0_wp)]
+      !> First, least and longest step, in units of arclength
+      real(wp) :: first_step = 0.01_wp, least_step = 1.0e-6_wp, longest_step = 0.1_wp
+      !> Most orbits
+      integer :: most_orbits = 200
+      !> The branch ends where no component has a larger range.
+      real(wp) :: least_amplitude = 1.0e-3_wp
+      !> It ends where the period is longer.
+      real(wp) :: longest_period = huge(1.0_wp)
+      !> Multipliers and their accuracy
+      type(refinement_type) :: refinement
+   end type branch_settings_type
+
+contains
+
+   !> Whether a branch ends at its last orbit, and why.
+   logical function has_ended(settings, orbits, step, reason) result(value)
+      !> Its limits
+      type(branch_settings_type), intent(in) :: settings
+      !> Its orbits
+      type(periodic_orbit_type), intent(in) :: orbits(:)
+      !> Length of the last step
+      real(wp), intent(in) :: step
+      !> Why, where it ends
+      character(len=:), allocatable, intent(inout) :: reason
+
+      value = .true.
+      associate (orbit => orbits(size(orbits)), &
+                 parameter_value => orbits(size(orbits))%parameters(settings%scale%free(1)))
+         if (parameter_value < settings%window(1) .or. parameter_value > settings%window(2)) then
+            reason = "window"
+         else if (orbit%amplitude() < settings%least_amplitude) then
+            reason = "amplitude"
+         else if (orbit%period > settings%longest_period) then
+            reason = "period"
+         else if (is_closed(settings, orbits, step)) then
+            reason = "closed"
+         else
+            value = .false.
+         end if
+      end associate
+   end function has_ended
+
+   !> Whether a branch comes back to its first orbit.
+   pure logical function is_closed(settings, orbits, step) result(value)
+      !> How the branch is followed
+      type(branch_settings_type), intent(in) :: settings
+      !> Its orbits
+      type(periodic_orbit_type), intent(in) :: orbits(:)
+      !> Length of the last step
+      real(wp), intent(in) :: step
+      real(wp) :: distance(size(orbits))
+      integer :: i
+
+      associate (first => orbits(1), p => settings%scale%free(1))
+         do i = 1, size(orbits)
+            distance(i) = maxval(abs([(orbits(i)%parameters(p) - first%parameters(p)) &
+                                      /settings%scale%unit(1), &
+                                      orbits(i)%period/first%period - 1.0_wp, &
+                                      orbits(i)%amplitude()/first%amplitude() - 1.0_wp]))
+         end do
+      end associate
+      value = distance(size(orbits)) < 0.5_wp*min(step, maxval(distance))
+   end function is_closed
+end module branch_ends

@@ -1,0 +1,165 @@
+!> Polynomials on the unit interval by their values at nodes, and the points at which they fulfil an
+!> equation. Collocation at Gauss points has the highest order. Collocation at the points of Radau
+!> IIA damps fast components, which Gauss points leave undamped.
+module collocation_basis
+   use dde_kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: collocation_basis_type, gauss_points, radau_points
+
+   !> Kinds of points.
+   integer, parameter :: gauss_points = 0, radau_points = 1
+
+   !> Polynomials of one degree. Node 1 is 0, the last node is 1.
+   type :: collocation_basis_type
+      !> Degree m
+      integer :: degree = 0
+      !> Nodes, the extremes of a Chebyshev polynomial, shape (m + 1)
+      real(wp), allocatable :: node(:)
+      !> Collocation points, shape (m)
+      real(wp), allocatable :: point(:)
+      !> Weights of the integral over the unit interval at the points, shape (m)
+      real(wp), allocatable :: weight(:)
+      !> Values and slopes of the Lagrange polynomials at the points, shape (m + 1, m)
+      real(wp), allocatable :: value(:, :), slope(:, :)
+      !> Their coefficients of the power m, shape (m + 1)
+      real(wp), allocatable :: leading(:)
+   contains
+      !> Lagrange polynomials at a place
+      procedure :: values_at
+      !> Their derivatives at a place
+      procedure :: slopes_at
+   end type collocation_basis_type
+
+   interface collocation_basis_type
+      module procedure :: new_basis
+   end interface collocation_basis_type
+
+contains
+
+   !> The basis of a degree with points of a kind.
+   pure function new_basis(degree, kind) result(basis)
+      !> Degree m >= 1
+      integer, intent(in) :: degree
+      !> gauss_points or radau_points
+      integer, intent(in) :: kind
+      type(collocation_basis_type) :: basis
+      real(wp), parameter :: pi = acos(-1.0_wp)
+      integer :: i, k
+
+      basis%degree = degree
+      allocate (basis%node(degree + 1), basis%leading(degree + 1))
+      do i = 0, degree
+         basis%node(i + 1) = 0.5_wp*(1.0_wp - cos(pi*i/degree))
+      end do
+      do i = 1, degree + 1
+         basis%leading(i) = 1.0_wp/product(basis%node(i) - pack(basis%node, &
+                                                                [(k /= i, k=1, degree + 1)]))
+      end do
+      basis%point = points_of(degree, real(kind, wp))
+      basis%weight = weights_of(basis%point)
+      allocate (basis%value(degree + 1, degree), basis%slope(degree + 1, degree))
+      do k = 1, degree
+         basis%value(:, k) = basis%values_at(basis%point(k))
+         basis%slope(:, k) = basis%slopes_at(basis%point(k))
+      end do
+   end function new_basis
+
+   !> Lagrange polynomials at a place.
+   pure function values_at(self, place) result(values)
+      !> The basis
+      class(collocation_basis_type), intent(in) :: self
+      !> Place, 0..1 inside the interval
+      real(wp), intent(in) :: place
+      real(wp) :: values(self%degree + 1)
+      integer :: i, k
+
+      do i = 1, size(values)
+         values(i) = self%leading(i)
+         do k = 1, size(values)
+            if (k /= i) values(i) = values(i)*(place - self%node(k))
+         end do
+      end do
+   end function values_at
+
+   !> Derivatives of the Lagrange polynomials at a place.
+   pure function slopes_at(self, place) result(slopes)
+      !> The basis
+      class(collocation_basis_type), intent(in) :: self
+      !> Place, 0..1 inside the interval
+      real(wp), intent(in) :: place
+      real(wp) :: slopes(self%degree + 1)
+      real(wp) :: value
+      integer :: i, k
+
+      do i = 1, size(slopes)
+         value = self%leading(i)
+         slopes(i) = 0.0_wp
+         do k = 1, size(slopes)
+            if (k == i) cycle
+            ! the product rule, factor by factor
+            slopes(i) = slopes(i)*(place - self%node(k)) + value
+            value = value*(place - self%node(k))
+         end do
+      end do
+   end function slopes_at
+
+   !> Zeros of P_m(x) - share P_{m-1}(x) with x = 2 point - 1, by Newton's method from the right,
+   !> where zeros already found are divided out (Maehly).
+   pure function points_of(degree, share) result(points)
+      !> Degree m
+      integer, intent(in) :: degree
+      !> 0: Gauss, 1: Radau IIA
+      real(wp), intent(in) :: share
+      real(wp) :: points(degree)
+      real(wp) :: move, p(0:degree), slope(0:degree), x
+      integer, parameter :: most_iterations = 60
+      integer :: i, iteration, k
+
+      p(0) = 1.0_wp
+      slope(0) = 0.0_wp
+      do i = degree, 1, -1
+         x = 1.5_wp
+         do iteration = 1, most_iterations
+            p(1) = x
+            slope(1) = 1.0_wp
+            do k = 2, degree
+               p(k) = ((2*k - 1)*x*p(k - 1) - (k - 1)*p(k - 2))/k
+               slope(k) = slope(k - 2) + (2*k - 1)*p(k - 1)
+            end do
+            associate (f => p(degree) - share*p(degree - 1), &
+                       df => slope(degree) - share*slope(degree - 1), &
+                       found => 2.0_wp*points(i + 1:) - 1.0_wp)
+               move = f/(df - f*sum(1.0_wp/(x - found)))
+            end associate
+            x = x - move
+            if (abs(move) <= 2.0_wp*epsilon(x)) exit
+         end do
+         points(i) = 0.5_wp*(x + 1.0_wp)
+      end do
+      if (share > 0.0_wp) points(degree) = 1.0_wp
+   end function points_of
+
+   !> Weights w with which polynomials up to degree 2m - 2 are integrated exactly. So 1, ..., P_{m-1}
+   !> are orthogonal also as sums over the points: w = 1/(sum of (2j + 1) P_j^2 over j = 0..m-1).
+   pure function weights_of(points) result(weights)
+      !> The points, shape (m)
+      real(wp), intent(in) :: points(:)
+      real(wp) :: weights(size(points))
+      real(wp), dimension(size(points)) :: before, legendre, next
+      integer :: j
+
+      before = 0.0_wp
+      legendre = 1.0_wp
+      weights = 1.0_wp
+      associate (x => 2.0_wp*points - 1.0_wp)
+         do j = 1, size(points) - 1
+            next = ((2*j - 1)*x*legendre - (j - 1)*before)/j
+            before = legendre
+            legendre = next
+            weights = weights + (2*j + 1)*legendre**2
+         end do
+      end associate
+      weights = 1.0_wp/weights
+   end function weights_of
+end module collocation_basis

@@ -1,0 +1,120 @@
+!> Floquet multipliers of a periodic orbit: eigenvalues of the map that takes a small disturbance of
+!> the past over one period.
+module floquet_multipliers
+   use dde_errors, only: error_type
+   use dde_kinds, only: wp
+   use linear_map, only: leading_eigenvalues, linear_map_type
+   use orbit_linearisation, only: linearise_orbit
+   use orbit_passes, only: orbit_passes_type, orbit_scale_type
+   use periodic_orbit, only: periodic_orbit_type
+   use problem_family, only: problem_family_type
+   implicit none (type, external)
+   private
+   public :: find_multipliers, multipliers_type
+
+   !> Multipliers of an orbit.
+   type :: multipliers_type
+      !> All but the trivial one that were asked for, in descending order of modulus; of a pair the
+      !> one with positive imaginary part first
+      complex(wp), allocatable :: values(:)
+      !> Distance of the trivial multiplier from 1: the accuracy
+      real(wp) :: trivial_error = 0.0_wp
+   contains
+      !> Number outside of the unit circle
+      procedure :: unstable
+   end type multipliers_type
+
+   !> Residual of an eigenvector over the greatest modulus.
+   real(wp), parameter :: tolerance = 1.0e-11_wp
+
+   !> The map of the past.
+   type, extends(linear_map_type) :: period_map_type
+      !> Linear equations about the orbit
+      type(orbit_passes_type) :: linear
+      !> Nodes and delayed components of the last vector
+      real(wp), allocatable :: nodes(:), delayed(:, :)
+   contains
+      procedure :: apply => past_after_period
+   end type period_map_type
+
+contains
+
+   !> Multipliers of greatest modulus.
+   subroutine find_multipliers(family, orbit, wanted, found, error, disturbances)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> The orbit
+      type(periodic_orbit_type), intent(in) :: orbit
+      !> Number of multipliers
+      integer, intent(in) :: wanted
+      !> What was found
+      type(multipliers_type), intent(out) :: found
+      !> No convergence
+      type(error_type), allocatable, intent(out) :: error
+      !> Disturbances over the period at the nodes of the orbit, shape (n, nodes, multipliers)
+      complex(wp), allocatable, intent(out), optional :: disturbances(:, :, :)
+      complex(wp), allocatable :: pasts(:, :), values(:)
+      type(orbit_scale_type) :: none
+      type(period_map_type) :: map
+      integer :: i, kept, trivial
+
+      allocate (none%free(0), none%unit(0))
+      call linearise_orbit(family, orbit, none, .true., map%linear, error)
+      if (allocated(error)) return
+      associate (linear => map%linear)
+         allocate (map%nodes(size(orbit%nodes)))
+         allocate (map%delayed(size(linear%delayed), &
+                               (linear%reach + linear%intervals)*linear%degree + 1))
+         call leading_eigenvalues(map, linear%past_size(), wanted + 1, tolerance, values, pasts, &
+                                  error)
+         if (allocated(error)) return
+      end associate
+      trivial = minloc(abs(values - 1.0_wp), dim=1)
+      found%trivial_error = abs(values(trivial) - 1.0_wp)
+      found%values = pack(values, [(i /= trivial, i=1, size(values))])
+      if (.not. present(disturbances)) return
+      allocate (disturbances(size(orbit%nodes, 1), size(orbit%nodes, 2), size(found%values)))
+      kept = 0
+      do i = 1, size(values)
+         if (i == trivial) cycle
+         kept = kept + 1
+         disturbances(:, :, kept) = cmplx(over_period(map, real(pasts(:, i)), orbit), &
+                                          over_period(map, aimag(pasts(:, i)), orbit), kind=wp)
+      end do
+   end subroutine find_multipliers
+
+   !> A disturbance over the period.
+   function over_period(map, past, orbit) result(disturbance)
+      !> The map
+      type(period_map_type), intent(inout) :: map
+      !> Its past
+      real(wp), intent(in) :: past(:)
+      !> The orbit
+      type(periodic_orbit_type), intent(in) :: orbit
+      real(wp) :: disturbance(size(orbit%nodes, 1), size(orbit%nodes, 2))
+
+      call map%linear%pass(past, [0.0_wp, 0.0_wp], map%nodes, map%delayed)
+      disturbance = reshape(map%nodes, shape(disturbance))
+   end function over_period
+
+   !> The past a period later.
+   subroutine past_after_period(self, vector, image)
+      !> The map
+      class(period_map_type), intent(inout) :: self
+      !> A past
+      real(wp), intent(in) :: vector(:)
+      !> The past a period later
+      real(wp), intent(out) :: image(:)
+
+      call self%linear%pass(vector, [0.0_wp, 0.0_wp], self%nodes, self%delayed)
+      image = self%linear%later_past(self%nodes, self%delayed)
+   end subroutine past_after_period
+
+   !> Number of multipliers outside of the unit circle.
+   pure integer function unstable(self) result(value)
+      !> The multipliers
+      class(multipliers_type), intent(in) :: self
+
+      value = count(abs(self%values) > 1.0_wp)
+   end function unstable
+end module floquet_multipliers

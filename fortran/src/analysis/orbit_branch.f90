@@ -1,0 +1,264 @@
+!> Branches of periodic orbits in one parameter by pseudo-arclength continuation, through folds. The
+!> step is controlled by the effort of Newton's method.
+module orbit_branch
+   use branch_ends, only: branch_settings_type, has_ended
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: wp
+   use floquet_multipliers, only: find_multipliers, multipliers_type
+   use orbit_change, only: inner_product, orbit_change_type
+   use orbit_equations, only: correct_orbit, newton_type, turn_to_tangent
+   use orbit_passes, only: orbit_scale_type
+   use orbit_refinement, only: make_accurate
+   use periodic_orbit, only: periodic_orbit_type
+   use problem_family, only: problem_family_type
+   implicit none (type, external)
+   private
+   public :: branch_type, follow_branch
+
+   !> Orbits in the order of the branch.
+   type :: branch_type
+      !> The orbits
+      type(periodic_orbit_type), allocatable :: orbits(:)
+      !> Tangents, of norm 1, in the direction of the branch
+      type(orbit_change_type), allocatable :: tangents(:)
+      !> Multipliers
+      type(multipliers_type), allocatable :: multipliers(:)
+      !> Why it ends: 'window', 'amplitude', 'period', 'closed', 'orbits', 'convergence'
+      character(len=:), allocatable :: ending
+      !> Iterations of Newton's method, also of steps that failed
+      integer :: iterations = 0
+   end type branch_type
+
+   !> Iterations with which a step is longer next time, and those with which it is shorter
+   integer, parameter :: easy = 3, hard = 6
+   !> Iterations after which a step has failed
+   integer, parameter :: most_iterations = 8
+   !> Factors of the step
+   real(wp), parameter :: longer = 1.5_wp, shorter = 0.5_wp
+   !> Least cosine of the angle between tangents of neighbours
+   real(wp), parameter :: least_cosine = 0.8_wp
+   !> Least share of its amplitude that an orbit has after its correction
+   real(wp), parameter :: remaining_share = 0.1_wp
+   !> Orbits between two adaptions of an accurate mesh
+   integer, parameter :: adapt_every = 5
+
+contains
+
+   !> Follow a branch from an orbit.
+   subroutine follow_branch(family, settings, start, direction, branch, error, tangent)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> How far and how
+      type(branch_settings_type), intent(in) :: settings
+      !> Approximation of the first orbit
+      type(periodic_orbit_type), intent(in) :: start
+      !> 1 or -1: towards greater or smaller parameters, or along the tangent or against it
+      integer, intent(in) :: direction
+      !> The branch
+      type(branch_type), intent(out) :: branch
+      !> There is no first orbit
+      type(error_type), allocatable, intent(out) :: error
+      !> Tangent at the start, where the parameter does not determine the orbit
+      type(orbit_change_type), intent(in), optional :: tangent
+      type(error_type), allocatable :: failure
+      type(newton_type) :: newton
+      type(orbit_change_type) :: along(1)
+      type(periodic_orbit_type) :: orbit
+      real(wp) :: step
+      integer :: i
+
+      associate (scale => settings%scale)
+         call first_orbit(family, scale, start, orbit, along(1), newton, error, tangent)
+         if (allocated(error)) return
+         associate (p => orbit%parameters(scale%free(1)))
+            if (p < settings%window(1) .or. p > settings%window(2)) then
+               call raise(error, "branch: the first orbit is at "//text(p)//"; " &
+                          //text(settings%window(1))//".."//text(settings%window(2))//" expected")
+               return
+            end if
+         end associate
+         branch%iterations = newton%iterations
+         if (present(tangent)) then
+            along(1) = along(1)%times(real(direction, wp))
+         else if (along(1)%parameters(1)*direction < 0.0_wp) then
+            along(1) = along(1)%times(-1.0_wp)
+         end if
+         allocate (branch%orbits(settings%most_orbits), branch%tangents(settings%most_orbits), &
+                   branch%multipliers(settings%most_orbits))
+         branch%orbits(1) = orbit
+         branch%tangents(1) = along(1)
+         call make_accurate(family, scale, settings%refinement, branch%orbits(1), &
+                            branch%tangents(1), branch%multipliers(1), .true., error)
+         if (allocated(error)) return
+         step = settings%first_step
+         i = 1
+         branch%ending = "orbits"
+         do while (i < settings%most_orbits)
+            call take_step(family, settings, branch, i, step, newton, failure)
+            branch%iterations = branch%iterations + newton%iterations
+            if (.not. allocated(failure)) then
+               call make_accurate(family, scale, settings%refinement, branch%orbits(i + 1), &
+                                  branch%tangents(i + 1), branch%multipliers(i + 1), &
+                                  mod(i, adapt_every) == 0, failure)
+            end if
+            if (allocated(failure)) then
+               step = shorter*step
+               if (step >= settings%least_step) cycle
+               branch%ending = "convergence"
+               exit
+            end if
+            i = i + 1
+            if (has_ended(settings, branch%orbits(:i), step, branch%ending)) exit
+            if (newton%iterations <= easy) step = min(longer*step, settings%longest_step)
+            if (newton%iterations >= hard) step = shorter*step
+         end do
+      end associate
+      call cut(branch, i)
+      if (branch%ending == "window") call end_at_window(family, settings, branch)
+   end subroutine follow_branch
+
+   !> The first orbit of a branch and its tangent.
+   subroutine first_orbit(family, scale, start, orbit, along, newton, error, tangent)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> Free parameters
+      type(orbit_scale_type), intent(in) :: scale
+      !> Approximation of the orbit
+      type(periodic_orbit_type), intent(in) :: start
+      !> The orbit
+      type(periodic_orbit_type), intent(out) :: orbit
+      !> Its tangent
+      type(orbit_change_type), intent(out) :: along
+      !> Effort
+      type(newton_type), intent(out) :: newton
+      !> There is no orbit
+      type(error_type), allocatable, intent(out) :: error
+      !> Approximation of the tangent
+      type(orbit_change_type), intent(in), optional :: tangent
+      type(orbit_change_type) :: directions(1)
+
+      directions(1) = parameter_direction(start)
+      if (present(tangent)) directions(1) = tangent
+      orbit = start
+      call correct_orbit(family, scale, start, directions, [0.0_wp], orbit, newton, error)
+      if (allocated(error) .or. orbit%amplitude() < remaining_share*start%amplitude()) then
+         ! at these parameters it becomes the stationary state, so its amplitude is kept
+         directions(1)%nodes = start%nodes - spread(sum(start%nodes, dim=2)/size(start%nodes, 2), &
+                                                    2, size(start%nodes, 2))
+         directions(1)%parameters = [0.0_wp]
+         orbit = start
+         call correct_orbit(family, scale, start, directions, [0.0_wp], orbit, newton, error)
+         if (allocated(error)) return
+      end if
+      along = directions(1)
+      call turn_to_tangent(family, scale, orbit, along, error)
+   end subroutine first_orbit
+
+   !> The next orbit of a branch.
+   subroutine take_step(family, settings, branch, i, step, newton, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> How far and how
+      type(branch_settings_type), intent(in) :: settings
+      !> The branch
+      type(branch_type), intent(inout) :: branch
+      !> Orbits so far
+      integer, intent(in) :: i
+      !> Length of the step
+      real(wp), intent(in) :: step
+      !> Effort
+      type(newton_type), intent(out) :: newton
+      !> The step is too long
+      type(error_type), allocatable, intent(out) :: error
+      type(orbit_change_type) :: along(1), move
+      type(periodic_orbit_type) :: orbit
+
+      associate (before => branch%orbits(i), scale => settings%scale)
+         newton%most_iterations = most_iterations
+         along(1) = branch%tangents(i)
+         orbit = before
+         move = along(1)%times(step)
+         call move%add_to(orbit, scale)
+         call correct_orbit(family, scale, before, along, [step], orbit, newton, error)
+         if (allocated(error)) return
+         move = along(1)
+         call turn_to_tangent(family, scale, orbit, along(1), error)
+         if (allocated(error)) return
+         if (orbit%is_opposite(before)) then
+            call raise(error, "the step passes through a Hopf point")
+         else if (inner_product(orbit, along(1), move) < least_cosine &
+                  .and. step > settings%least_step/shorter) then
+            call raise(error, "the branch turns")
+         end if
+         if (allocated(error)) return
+         branch%orbits(i + 1) = orbit
+         branch%tangents(i + 1) = along(1)
+      end associate
+   end subroutine take_step
+
+   !> Replace the last orbit by that at the edge of the window.
+   subroutine end_at_window(family, settings, branch)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> The window
+      type(branch_settings_type), intent(in) :: settings
+      !> The branch
+      type(branch_type), intent(inout) :: branch
+      type(error_type), allocatable :: error
+      type(multipliers_type) :: multipliers
+      type(newton_type) :: newton
+      type(orbit_change_type) :: along(1)
+      type(periodic_orbit_type) :: orbit
+      real(wp) :: edge
+      integer :: last
+
+      last = size(branch%orbits)
+      associate (scale => settings%scale, p => settings%scale%free(1))
+         orbit = branch%orbits(last)
+         edge = min(max(orbit%parameters(p), settings%window(1)), settings%window(2))
+         orbit%parameters(p) = edge
+         along(1) = parameter_direction(orbit)
+         call correct_orbit(family, scale, orbit, along, [0.0_wp], orbit, newton, error)
+         if (allocated(error)) return
+         orbit%parameters(p) = edge
+         along(1) = branch%tangents(last)
+         call turn_to_tangent(family, scale, orbit, along(1), error)
+         if (allocated(error)) return
+         call find_multipliers(family, orbit, settings%refinement%multipliers, multipliers, error)
+         if (allocated(error)) return
+         branch%orbits(last) = orbit
+         branch%tangents(last) = along(1)
+         branch%multipliers(last) = multipliers
+      end associate
+   end subroutine end_at_window
+
+   !> Keep the first orbits of a branch.
+   subroutine cut(branch, count)
+      !> The branch
+      type(branch_type), intent(inout) :: branch
+      !> Their number
+      integer, intent(in) :: count
+
+      type(branch_type) :: whole
+      integer :: i
+
+      call move_alloc(branch%orbits, whole%orbits)
+      call move_alloc(branch%tangents, whole%tangents)
+      call move_alloc(branch%multipliers, whole%multipliers)
+      allocate (branch%orbits(count), branch%tangents(count), branch%multipliers(count))
+      do i = 1, count
+         branch%orbits(i) = whole%orbits(i)
+         branch%tangents(i) = whole%tangents(i)
+         branch%multipliers(i) = whole%multipliers(i)
+      end do
+   end subroutine cut
+
+   !> The direction in which only the parameter changes.
+   pure type(orbit_change_type) function parameter_direction(orbit) result(direction)
+      !> An orbit
+      type(periodic_orbit_type), intent(in) :: orbit
+
+      allocate (direction%nodes(size(orbit%nodes, 1), size(orbit%nodes, 2)), source=0.0_wp)
+      direction%parameters = [1.0_wp]
+   end function parameter_direction
+end module orbit_branch

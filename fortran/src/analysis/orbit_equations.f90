@@ -1,0 +1,255 @@
+!> Periodic orbits by Newton's method: collocation equations, phase condition and further linear
+!> conditions. Unknowns are the past of one period, the period and free parameters.
+module orbit_equations
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: wp
+   use linear_map, only: linear_map_type, solve_by_gmres
+   use orbit_change, only: difference_of, inner_product, orbit_change_type, phase_condition, &
+                           weights_of
+   use orbit_linearisation, only: linearise_orbit
+   use orbit_passes, only: orbit_passes_type, orbit_scale_type
+   use periodic_orbit, only: periodic_orbit_type
+   use problem_family, only: problem_family_type
+   implicit none (type, external)
+   private
+   public :: correct_orbit, newton_type, solve_about, turn_to_tangent
+
+   !> Newton's method.
+   type :: newton_type
+      !> Iterations allowed
+      integer :: most_iterations = 10
+      !> It ends where no component changes by more than this share of its greatest value.
+      real(wp) :: tolerance = 1.0e-10_wp
+      !> Iterations made
+      integer :: iterations = 0
+      !> The last change
+      real(wp) :: last_change = 0.0_wp
+   end type newton_type
+
+   !> Residual of the linear systems.
+   real(wp), parameter :: linear_tolerance = 1.0e-10_wp
+   !> A change of this size that does not decrease by half is one of rounding errors.
+   real(wp), parameter :: rounding = 1.0e-7_wp
+   !> A change so much larger than the orbit is divergence.
+   real(wp), parameter :: divergence = 1.0e3_wp
+
+   !> The linear system of an iteration; the vector is the past, then the changes of the period and
+   !> of the free parameters.
+   type, extends(linear_map_type) :: orbit_map_type
+      !> Collocation equations
+      type(orbit_passes_type) :: linear
+      !> Conditions: the phase condition, then one for each free parameter
+      type(orbit_change_type), allocatable :: conditions(:)
+      !> Nodes and delayed components of the last vector
+      real(wp), allocatable :: nodes(:), delayed(:, :)
+   contains
+      procedure :: apply => defect_of_change
+   end type orbit_map_type
+
+contains
+
+   !> Correct an orbit: the collocation equations, the phase of the reference, and for each free
+   !> parameter a condition that the inner product of a direction with the change from the reference
+   !> is given.
+   subroutine correct_orbit(family, scale, reference, directions, distances, orbit, newton, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> Free parameters
+      type(orbit_scale_type), intent(in) :: scale
+      !> An orbit on the same mesh
+      type(periodic_orbit_type), intent(in) :: reference
+      !> Directions, one for each free parameter
+      type(orbit_change_type), intent(in) :: directions(:)
+      !> The inner products
+      real(wp), intent(in) :: distances(:)
+      !> First an approximation, then the orbit
+      type(periodic_orbit_type), intent(inout) :: orbit
+      !> The method, and its effort
+      type(newton_type), intent(inout) :: newton
+      !> No convergence
+      type(error_type), allocatable, intent(out) :: error
+      type(orbit_change_type), allocatable :: conditions(:)
+      type(orbit_change_type) :: change
+      real(wp) :: before, target(1 + size(directions))
+      integer :: i
+
+      allocate (conditions(1 + size(directions)))
+      conditions(1) = phase_condition(reference, size(scale%free))
+      do i = 1, size(directions)
+         conditions(i + 1) = weights_of(reference, directions(i))
+      end do
+      newton%last_change = huge(1.0_wp)
+      do i = 1, newton%most_iterations
+         newton%iterations = i
+         call remaining(reference, scale, conditions, distances, orbit, target)
+         call solve_conditions(family, scale, orbit, conditions, 1.0_wp, target, change, error)
+         if (allocated(error)) return
+         before = newton%last_change
+         newton%last_change = change%size_against(orbit)
+         if (.not. newton%last_change <= divergence) exit
+         call change%add_to(orbit, scale)
+         if (newton%last_change <= newton%tolerance) return
+         if (newton%last_change <= rounding .and. newton%last_change >= 0.5_wp*before) return
+         if (.not. orbit%period > 0.0_wp) exit
+      end do
+      call raise(error, "periodic orbit: Newton's method changes it by " &
+                 //text(newton%last_change)//" after "//text(newton%iterations) &
+                 //" iterations; at most "//text(newton%tolerance)//" expected")
+   end subroutine correct_orbit
+
+   !> The change of an orbit with given inner products with directions that keeps it one: a tangent.
+   subroutine solve_about(family, scale, orbit, directions, distances, change, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> Free parameters
+      type(orbit_scale_type), intent(in) :: scale
+      !> The orbit
+      type(periodic_orbit_type), intent(in) :: orbit
+      !> Directions, one for each free parameter
+      type(orbit_change_type), intent(in) :: directions(:)
+      !> The inner products
+      real(wp), intent(in) :: distances(:)
+      !> The change
+      type(orbit_change_type), intent(out) :: change
+      !> The directions do not determine it
+      type(error_type), allocatable, intent(out) :: error
+      type(orbit_change_type), allocatable :: conditions(:)
+      integer :: i
+
+      allocate (conditions(1 + size(directions)))
+      conditions(1) = phase_condition(orbit, size(scale%free))
+      do i = 1, size(directions)
+         conditions(i + 1) = weights_of(orbit, directions(i))
+      end do
+      call solve_conditions(family, scale, orbit, conditions, 0.0_wp, [0.0_wp, distances], change, &
+                            error)
+   end subroutine solve_about
+
+   !> Turn a direction to the tangent of norm 1 whose inner product with it is positive.
+   subroutine turn_to_tangent(family, scale, orbit, direction, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> Free parameters
+      type(orbit_scale_type), intent(in) :: scale
+      !> The orbit
+      type(periodic_orbit_type), intent(in) :: orbit
+      !> The direction, then the tangent
+      type(orbit_change_type), intent(inout) :: direction
+      !> There is none
+      type(error_type), allocatable, intent(out) :: error
+      type(orbit_change_type) :: directions(1), tangent
+
+      directions(1) = direction
+      call solve_about(family, scale, orbit, directions, [1.0_wp], tangent, error)
+      if (allocated(error)) return
+      direction = tangent%times(1.0_wp/sqrt(inner_product(orbit, tangent, tangent)))
+   end subroutine turn_to_tangent
+
+   !> Solve the linear equations about an orbit.
+   subroutine solve_conditions(family, scale, orbit, conditions, residual, target, change, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> Free parameters
+      type(orbit_scale_type), intent(in) :: scale
+      !> The orbit
+      type(periodic_orbit_type), intent(in) :: orbit
+      !> Conditions
+      type(orbit_change_type), intent(in) :: conditions(:)
+      !> 1 if the change removes the residual of the orbit, 0 if it leaves it
+      real(wp), intent(in) :: residual
+      !> Values of the conditions
+      real(wp), intent(in) :: target(:)
+      !> The change
+      type(orbit_change_type), intent(out) :: change
+      !> No solution
+      type(error_type), allocatable, intent(out) :: error
+      type(orbit_map_type) :: map
+      real(wp), allocatable :: right(:), solution(:)
+      integer :: past, unknowns
+
+      call linearise_orbit(family, orbit, scale, .false., map%linear, error)
+      if (allocated(error)) return
+      map%conditions = conditions
+      past = map%linear%past_size()
+      unknowns = past + size(conditions)
+      allocate (map%nodes(size(orbit%nodes)))
+      associate (linear => map%linear)
+         allocate (map%delayed(size(linear%delayed), &
+                               (linear%reach + linear%intervals)*linear%degree + 1))
+      end associate
+      allocate (right(unknowns), solution(unknowns))
+      solution = 0.0_wp
+      call answer(map, solution, residual, right)
+      right = -right
+      right(past + 1:) = right(past + 1:) + target
+      call solve_by_gmres(map, right, linear_tolerance, solution, error)
+      if (allocated(error)) return
+      call answer(map, solution, residual, right)
+      change%nodes = reshape(map%nodes, shape(orbit%nodes))
+      change%period = solution(past + 1)
+      change%parameters = solution(past + 2:)
+   end subroutine solve_conditions
+
+   !> The past less the past a period later, and the values of the conditions.
+   subroutine defect_of_change(self, vector, image)
+      !> The system
+      class(orbit_map_type), intent(inout) :: self
+      !> Past, changes of the period and of the free parameters
+      real(wp), intent(in) :: vector(:)
+      !> The defects
+      real(wp), intent(out) :: image(:)
+
+      call answer(self, vector, 0.0_wp, image)
+   end subroutine defect_of_change
+
+   !> The same with the residual of the orbit.
+   subroutine answer(self, vector, residual, image)
+      !> The system
+      class(orbit_map_type), intent(inout) :: self
+      !> Past, changes of the period and of the free parameters
+      real(wp), intent(in) :: vector(:)
+      !> Factor of the residual
+      real(wp), intent(in) :: residual
+      !> The defects
+      real(wp), intent(out) :: image(:)
+      integer :: i, past
+
+      past = self%linear%past_size()
+      call self%linear%pass(vector(:past), [residual, vector(past + 1:)], self%nodes, self%delayed)
+      image(:past) = vector(:past) - self%linear%later_past(self%nodes, self%delayed)
+      do i = 1, size(self%conditions)
+         associate (c => self%conditions(i))
+            image(past + i) = dot_product(reshape(c%nodes, [size(c%nodes)]), self%nodes) &
+                              + c%period*vector(past + 1) &
+                              + dot_product(c%parameters, vector(past + 2:))
+         end associate
+      end do
+   end subroutine answer
+
+   !> Values that the conditions must still gain.
+   subroutine remaining(reference, scale, conditions, distances, orbit, target)
+      !> The reference
+      type(periodic_orbit_type), intent(in) :: reference
+      !> Free parameters
+      type(orbit_scale_type), intent(in) :: scale
+      !> Conditions
+      type(orbit_change_type), intent(in) :: conditions(:)
+      !> Inner products wanted, one less than conditions
+      real(wp), intent(in) :: distances(:)
+      !> The orbit
+      type(periodic_orbit_type), intent(in) :: orbit
+      !> What is left of them
+      real(wp), intent(out) :: target(:)
+      type(orbit_change_type) :: made
+      integer :: i
+
+      target = [0.0_wp, distances]
+      made = difference_of(orbit, reference, scale)
+      do i = 1, size(conditions)
+         associate (c => conditions(i))
+            target(i) = target(i) - sum(c%nodes*made%nodes) - c%period*made%period &
+                        - dot_product(c%parameters, made%parameters)
+         end associate
+      end do
+   end subroutine remaining
+end module orbit_equations

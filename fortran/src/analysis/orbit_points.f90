@@ -1,0 +1,240 @@
+!> Special points on branches of periodic orbits: folds, period doublings, torus (Neimark-Sacker)
+!> points, and points at which another branch crosses. Each is a root of a test function on the
+!> segment between two orbits, and each is found on two meshes.
+module orbit_points
+   use branch_ends, only: branch_settings_type
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: wp
+   use floquet_multipliers, only: find_multipliers, multipliers_type
+   use orbit_branch, only: branch_type
+   use orbit_change, only: orbit_change_type
+   use orbit_equations, only: turn_to_tangent
+   use orbit_mesh, only: adapted_mesh
+   use orbit_segment, only: orbit_on, segment_between, segment_type
+   use periodic_orbit, only: periodic_orbit_type
+   use problem_family, only: problem_family_type
+   use special_points, only: branching, fold, period_doubling, special_point_type, test_value, &
+                             torus_bifurcation
+   implicit none (type, external)
+   private
+   public :: find_special_points
+
+   !> Intervals of a mesh over those of the one before, and the difference of the parameter between
+   !> two meshes that agree, in its unit
+   real(wp), parameter :: refinement = 1.5_wp, agreement = 1.0e-10_wp
+   !> Iterations of a root search, and the share of the segment to which it goes
+   integer, parameter :: most_iterations = 60
+   real(wp), parameter :: share = 1.0e-11_wp
+   !> A test function is 0 where it is this small; a jump is larger.
+   real(wp), parameter :: small = 1.0e-6_wp
+   !> Halvings of a segment with several special points
+   integer, parameter :: most_halvings = 8
+
+contains
+
+   !> All special points on a branch.
+   subroutine find_special_points(family, settings, branch, points, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> How the branch was followed
+      type(branch_settings_type), intent(in) :: settings
+      !> The branch
+      type(branch_type), intent(in) :: branch
+      !> The points, in the order of the branch
+      type(special_point_type), allocatable, intent(out) :: points(:)
+      !> A point was not found
+      type(error_type), allocatable, intent(out) :: error
+      integer :: i
+
+      allocate (points(0))
+      do i = 1, size(branch%orbits) - 1
+         call search(family, settings, branch%orbits(i), branch%orbits(i + 1), &
+                     [sign(1.0_wp, branch%tangents(i)%parameters(1)), &
+                      sign(1.0_wp, branch%tangents(i + 1)%parameters(1))], &
+                     branch%multipliers(i), branch%multipliers(i + 1), most_halvings, points, error)
+         if (allocated(error)) return
+      end do
+   end subroutine find_special_points
+
+   !> Special points between two orbits.
+   recursive subroutine search(family, settings, first, second, signs, before, behind, halvings, &
+                               points, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> How the branch was followed
+      type(branch_settings_type), intent(in) :: settings
+      !> The orbits
+      type(periodic_orbit_type), intent(in) :: first, second
+      !> Direction of the parameter there, 1 or -1
+      real(wp), intent(in) :: signs(2)
+      !> Their multipliers
+      type(multipliers_type), intent(in) :: before, behind
+      !> Halvings allowed
+      integer, intent(in) :: halvings
+      !> Points so far
+      type(special_point_type), allocatable, intent(inout) :: points(:)
+      !> A point was not found
+      type(error_type), allocatable, intent(out) :: error
+      type(multipliers_type) :: between
+      type(orbit_change_type) :: tangent
+      type(periodic_orbit_type) :: middle
+      type(segment_type) :: segment
+      type(special_point_type) :: point
+      integer :: change
+      logical :: folds
+      real(wp) :: sign_between
+
+      change = behind%unstable() - before%unstable()
+      folds = signs(1)*signs(2) < 0.0_wp
+      if (change == 0 .and. .not. folds) return
+      point%kind = ""
+      if (folds .and. abs(change) == 1) point%kind = fold
+      if (.not. folds .and. abs(change) == 2) point%kind = torus_bifurcation
+      if (.not. folds .and. abs(change) == 1) then
+         point%kind = branching
+         if (count(real(before%values) < -1.0_wp) /= count(real(behind%values) < -1.0_wp)) then
+            point%kind = period_doubling
+         end if
+      end if
+      segment = segment_between(first, second, settings%scale)
+      if (point%kind /= "") then
+         point%unstable = [before%unstable(), behind%unstable()]
+         call locate_on_meshes(family, settings, segment, point, error)
+         if (.not. allocated(error)) then
+            points = [points, point]
+            return
+         end if
+      end if
+      if (halvings == 0) then
+         if (.not. allocated(error)) call raise(error, "special points: "//text(change) &
+                                                //" multipliers cross within a step")
+         return
+      end if
+      if (allocated(error)) deallocate (error)
+      call orbit_on(family, settings%scale, segment, 0.5_wp, middle, error)
+      if (allocated(error)) return
+      call find_multipliers(family, middle, settings%refinement%multipliers, between, error)
+      if (allocated(error)) return
+      tangent = segment%along(1)
+      call turn_to_tangent(family, settings%scale, middle, tangent, error)
+      if (allocated(error)) return
+      sign_between = sign(1.0_wp, tangent%parameters(1))
+      call search(family, settings, first, middle, [signs(1), sign_between], before, between, &
+                  halvings - 1, points, error)
+      if (allocated(error)) return
+      call search(family, settings, middle, second, [sign_between, signs(2)], between, behind, &
+                  halvings - 1, points, error)
+   end subroutine search
+
+   !> Find a point on the mesh of the segment, then on finer ones until the last two agree.
+   subroutine locate_on_meshes(family, settings, segment, point, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> How the branch was followed
+      type(branch_settings_type), intent(in) :: settings
+      !> The segment
+      type(segment_type), intent(in) :: segment
+      !> The point, of known kind
+      type(special_point_type), intent(inout) :: point
+      !> It was not found
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable :: finer(:)
+      real(wp) :: coarse
+      integer :: intervals, p
+      type(periodic_orbit_type) :: first
+
+      call locate(family, settings, segment, point, error)
+      if (allocated(error)) return
+      p = settings%scale%free(1)
+      coarse = point%orbit%parameters(p)
+      do
+         intervals = nint(refinement*point%orbit%intervals())
+         finer = adapted_mesh(point%orbit, intervals)
+         first = segment%ends(1)%on_mesh(finer)
+         call locate(family, settings, segment_between(first, segment%ends(2), settings%scale), &
+                     point, error)
+         if (allocated(error)) return
+         point%mesh_error = abs(point%orbit%parameters(p) - coarse)
+         coarse = point%orbit%parameters(p)
+         if (point%mesh_error <= agreement*settings%scale%unit(1)) return
+         if (intervals >= settings%refinement%most_intervals) return
+      end do
+   end subroutine locate_on_meshes
+
+   !> Find a point on a segment by the secant method with bisection (Illinois).
+   subroutine locate(family, settings, segment, point, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> How the branch was followed
+      type(branch_settings_type), intent(in) :: settings
+      !> The segment
+      type(segment_type), intent(in) :: segment
+      !> The point, of known kind
+      type(special_point_type), intent(inout) :: point
+      !> It was not found
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: a(2), at, g(2), g_here
+      integer :: i, last, side
+
+      a = [0.0_wp, 1.0_wp]
+      do i = 1, 2
+         call test_at(family, settings, segment, a(i), point, g(i), error)
+         if (allocated(error)) return
+      end do
+      if (g(1)*g(2) > 0.0_wp) then
+         call raise(error, "special point "//trim(point%kind)//": test function "//text(g(1)) &
+                    //" and "//text(g(2))//" at the ends of a step; different signs expected")
+         return
+      end if
+      last = 0
+      do i = 1, most_iterations
+         at = a(1) + (a(2) - a(1))*g(1)/(g(1) - g(2))
+         call test_at(family, settings, segment, at, point, g_here, error)
+         if (allocated(error)) return
+         side = merge(1, 2, g_here*g(1) > 0.0_wp)
+         if (abs(at - a(side)) <= share .or. abs(g_here) <= tiny(g_here)) exit
+         a(side) = at
+         g(side) = g_here
+         ! the other end would never move
+         if (side == last) g(3 - side) = 0.5_wp*g(3 - side)
+         last = side
+      end do
+      if (abs(g_here) > small) then
+         call raise(error, "special point "//trim(point%kind)//": test function "//text(g_here) &
+                    //" where it changes sign; at most "//text(small)//" expected")
+      end if
+   end subroutine locate
+
+   !> The orbit at a place on a segment, and the test function of the point there.
+   subroutine test_at(family, settings, segment, place, point, g, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> How the branch was followed
+      type(branch_settings_type), intent(in) :: settings
+      !> The segment
+      type(segment_type), intent(in) :: segment
+      !> Place, 0..1
+      real(wp), intent(in) :: place
+      !> The point, of known kind; its orbit is the one at the place
+      type(special_point_type), intent(inout) :: point
+      !> Test function
+      real(wp), intent(out) :: g
+      !> There is no orbit
+      type(error_type), allocatable, intent(out) :: error
+      type(multipliers_type) :: multipliers
+      type(orbit_change_type) :: tangent
+
+      g = 0.0_wp
+      call orbit_on(family, settings%scale, segment, place, point%orbit, error)
+      if (allocated(error)) return
+      call find_multipliers(family, point%orbit, settings%refinement%multipliers, multipliers, &
+                            error)
+      if (allocated(error)) return
+      call test_value(point%kind, multipliers, point%multiplier, g)
+      point%trivial_error = multipliers%trivial_error
+      if (point%kind /= fold) return
+      tangent = segment%along(1)
+      call turn_to_tangent(family, settings%scale, point%orbit, tangent, error)
+      g = tangent%parameters(1)
+   end subroutine test_at
+end module orbit_points

@@ -1,0 +1,183 @@
+!> First approximations of periodic orbits: from a trajectory that has come to a cycle, and from a
+!> Hopf point.
+module orbit_start
+   use collocation_basis, only: collocation_basis_type
+   use dde, only: continuation_type, dde_problem_type, event_table, find_jacobian, integrate, &
+                  integration_options, integration_result, table_sampler
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: wp
+   use delay_equation, only: linear_system_type
+   use lapack, only: null_vectors
+   use orbit_change, only: orbit_change_type
+   use orbit_mesh, only: adapted_mesh, uniform_mesh
+   use periodic_orbit, only: periodic_orbit_type
+   use problem_family, only: problem_family_type
+   implicit none (type, external)
+   private
+   public :: orbit_at_hopf_point, orbit_of_trajectory
+
+   !> Maxima at which the states differ by less than this share of their range are the same.
+   real(wp), parameter :: same = 1.0e-3_wp
+   !> Rounds in which the mesh follows the samples.
+   integer, parameter :: rounds = 5
+
+contains
+
+   !> The orbit that a trajectory follows from maximum to maximum of a component. The period ends at
+   !> the first maximum that is the same as the first one or, where none is, at the most similar.
+   subroutine orbit_of_trajectory(problem, options, arrived, component, longest, basis, intervals, &
+                                  orbit, error)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Method and tolerances
+      type(integration_options), intent(in) :: options
+      !> Where the trajectory is
+      type(continuation_type), intent(in) :: arrived
+      !> The component
+      integer, intent(in) :: component
+      !> Time to look for a period
+      real(wp), intent(in) :: longest
+      !> Polynomials of the orbit
+      type(collocation_basis_type), intent(in) :: basis
+      !> Intervals of the orbit
+      integer, intent(in) :: intervals
+      !> The orbit, without its parameters
+      type(periodic_orbit_type), intent(out) :: orbit
+      !> No maximum comes again
+      type(error_type), allocatable, intent(out) :: error
+      type(continuation_type) :: place
+      type(event_table) :: maxima
+      type(integration_result) :: outcome
+      type(table_sampler) :: samples
+      real(wp) :: start
+      integer :: i, last, repeated
+
+      maxima = event_table(component=[component], level=[0.0_wp], direction=[-1], of_slope=[.true.])
+      place = arrived
+      call integrate(problem, arrived%time(1), arrived%time(1) + longest, options, outcome, error, &
+                     watcher=maxima, continuation=place)
+      if (allocated(error)) return
+      if (maxima%received < 2) then
+         call raise(error, "periodic orbit: "//text(maxima%received)//" maxima in a time of " &
+                    //text(longest)//"; at least 2 expected")
+         return
+      end if
+      repeated = repetition(maxima%y(:, :maxima%received))
+      start = maxima%time(1)%hi
+      orbit%basis = basis
+      orbit%period = maxima%time(repeated)%hi - start
+      orbit%mesh = uniform_mesh(intervals)
+      do i = 1, rounds
+         samples = table_sampler([(last, last=1, problem%n)], &
+                                 start + orbit%period*orbit%node_times())
+         place = arrived
+         call integrate(problem, arrived%time(1), start + orbit%period, options, outcome, error, &
+                        samples, continuation=place)
+         if (allocated(error)) return
+         orbit%nodes = samples%values
+         call close_orbit(orbit)
+         if (i < rounds) orbit%mesh = adapted_mesh(orbit, intervals)
+      end do
+   end subroutine orbit_of_trajectory
+
+   !> Distribute the difference between the ends over the period: the mesh would follow a jump.
+   pure subroutine close_orbit(orbit)
+      !> The orbit
+      type(periodic_orbit_type), intent(inout) :: orbit
+      real(wp) :: gap(size(orbit%nodes, 1)), times(size(orbit%nodes, 2))
+      integer :: i
+
+      times = orbit%node_times()
+      gap = orbit%nodes(:, size(times)) - orbit%nodes(:, 1)
+      do i = 1, size(times)
+         orbit%nodes(:, i) = orbit%nodes(:, i) - times(i)*gap
+      end do
+      orbit%nodes(:, size(times)) = orbit%nodes(:, 1)
+   end subroutine close_orbit
+
+   !> The first state that is the same as state 1, or else the most similar one.
+   pure integer function repetition(states) result(value)
+      !> The states, shape (n, at least 2)
+      real(wp), intent(in) :: states(:, :)
+      real(wp) :: distance(2:size(states, 2)), scale(size(states, 1))
+      integer :: i
+
+      ! maxima of a cycle of period 1 do not differ at all: then their size counts
+      scale = max(maxval(states, dim=2) - minval(states, dim=2), same*maxval(abs(states), dim=2), &
+                  tiny(1.0_wp))
+      do i = 2, size(states, 2)
+         distance(i) = maxval(abs(states(:, i) - states(:, 1))/scale)
+      end do
+      value = findloc(distance <= same, .true., dim=1) + 1
+      if (value == 1) value = minloc(distance, dim=1) + 1
+   end function repetition
+
+   !> The small orbit x = x0 + a Re(q exp(2 pi i s)), T = 2 pi/omega, near a Hopf point, where q is
+   !> the null vector of the characteristic matrix at i omega and its greatest component is 1.
+   subroutine orbit_at_hopf_point(family, parameters, state, omega, amplitude, basis, intervals, &
+                                  orbit, tangent, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> Parameters of the Hopf point
+      real(wp), intent(in) :: parameters(:)
+      !> Stationary state x0
+      real(wp), intent(in) :: state(:)
+      !> Frequency of the imaginary pair, > 0
+      real(wp), intent(in) :: omega
+      !> Amplitude a > 0
+      real(wp), intent(in) :: amplitude
+      !> Polynomials of the orbit
+      type(collocation_basis_type), intent(in) :: basis
+      !> Intervals of the orbit
+      integer, intent(in) :: intervals
+      !> The orbit
+      type(periodic_orbit_type), intent(out) :: orbit
+      !> Direction of growing amplitude
+      type(orbit_change_type), intent(out) :: tangent
+      !> There is no null vector
+      type(error_type), allocatable, intent(out) :: error
+      complex(wp), dimension(size(state)) :: p, q
+      class(dde_problem_type), allocatable :: problem
+      type(linear_system_type) :: linear
+      real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
+      integer :: i
+
+      call family%at(parameters, problem)
+      linear = linear_part(problem, state)
+      call null_vectors(linear%characteristic_matrix(cmplx(0.0_wp, omega, kind=wp)), q, p, error)
+      if (allocated(error)) return
+      q = q/q(maxloc(abs(q), dim=1))
+      orbit%basis = basis
+      orbit%mesh = uniform_mesh(intervals)
+      orbit%period = turn/omega
+      orbit%parameters = parameters
+      associate (times => orbit%node_times())
+         allocate (tangent%nodes(size(state), size(times)))
+         do i = 1, size(times) - 1
+            tangent%nodes(:, i) = real(q)*cos(turn*times(i)) - aimag(q)*sin(turn*times(i))
+         end do
+         tangent%nodes(:, size(times)) = tangent%nodes(:, 1)
+      end associate
+      tangent%parameters = [0.0_wp]
+      orbit%nodes = spread(state, 2, size(tangent%nodes, 2)) + amplitude*tangent%nodes
+   end subroutine orbit_at_hopf_point
+
+   !> The linear part of a problem at a stationary state.
+   function linear_part(problem, state) result(linear)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Stationary state
+      real(wp), intent(in) :: state(:)
+      type(linear_system_type) :: linear
+      real(wp) :: by_y(size(state), size(state)), by_z(size(state), size(problem%lag))
+      integer :: k
+
+      call find_jacobian(problem, 0.0_wp, state, state(problem%component), by_y, by_z)
+      allocate (linear%a(size(state), size(state), size(problem%lag) + 1), source=0.0_wp)
+      linear%a(:, :, 1) = by_y
+      do k = 1, size(problem%lag)
+         linear%a(:, problem%component(k), k + 1) = by_z(:, k)
+      end do
+      linear%lag = [0.0_wp, problem%lag]
+   end function linear_part
+end module orbit_start

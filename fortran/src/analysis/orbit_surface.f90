@@ -1,0 +1,168 @@
+!> Periodic orbits near a special point, as a surface over the tangent plane of two parameters.
+module orbit_surface
+   use dde_errors, only: error_type
+   use dde_kinds, only: wp
+   use floquet_multipliers, only: find_multipliers, multipliers_type
+   use orbit_change, only: inner_product, orbit_change_type
+   use orbit_equations, only: correct_orbit, newton_type, solve_about
+   use orbit_passes, only: orbit_scale_type
+   use periodic_orbit, only: periodic_orbit_type
+   use problem_family, only: problem_family_type
+   use special_points, only: fold, special_point_type, test_value
+   implicit none (type, external)
+   private
+   public :: first_plane, frame_type, test_beside, turn_along, turn_frame
+
+   !> Where a curve goes, at a point of it.
+   type :: frame_type
+      !> Along the curve, and beside it on the surface of orbits; orthonormal
+      type(orbit_change_type) :: directions(2)
+      !> Derivative of the test function beside the curve
+      real(wp) :: slope = 0.0_wp
+   end type frame_type
+
+   !> Distance of the evaluations for the derivative of the test function
+   real(wp), parameter :: beside = 1.0e-4_wp
+
+contains
+
+   !> Turn the directions at a point: along the first the test function does not change.
+   subroutine turn_along(family, scale, wanted, point, frame, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> The two free parameters
+      type(orbit_scale_type), intent(in) :: scale
+      !> Number of multipliers
+      integer, intent(in) :: wanted
+      !> The point
+      type(special_point_type), intent(in) :: point
+      !> Orthonormal directions of the tangent plane; the first keeps its sense
+      type(frame_type), intent(inout) :: frame
+      !> There are none
+      type(error_type), allocatable, intent(out) :: error
+      type(orbit_change_type) :: plane(2)
+      type(special_point_type) :: near
+      real(wp) :: g(3), length
+      integer :: i
+
+      near = point
+      do i = 1, 3
+         call test_beside(family, scale, wanted, point%orbit, frame%directions, &
+                          beside*[merge(1, 0, i == 1), merge(1, 0, i == 2)], near, g(i), error)
+         if (allocated(error)) return
+      end do
+      g(:2) = (g(:2) - g(3))/beside
+      length = norm2(g(:2))
+      plane(1) = combination(frame%directions, sign(1.0_wp, g(2))*[g(2), -g(1)]/length)
+      plane(2) = combination(frame%directions, g(:2)/length)
+      frame%directions(1) = plane(1)
+      frame%directions(2) = plane(2)
+      frame%slope = length
+   end subroutine turn_along
+
+   !> Orthonormal directions of the tangent plane at an orbit.
+   subroutine first_plane(family, scale, orbit, plane, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> The two free parameters
+      type(orbit_scale_type), intent(in) :: scale
+      !> The orbit
+      type(periodic_orbit_type), intent(in) :: orbit
+      !> The directions
+      type(orbit_change_type), intent(out) :: plane(2)
+      !> There are none
+      type(error_type), allocatable, intent(out) :: error
+      type(orbit_change_type) :: rough(2)
+
+      ! at a fold the amplitude determines the orbit, not the parameter
+      rough(1)%nodes = orbit%nodes - spread(sum(orbit%nodes, dim=2)/size(orbit%nodes, 2), 2, &
+                                            size(orbit%nodes, 2))
+      rough(1)%parameters = [0.0_wp, 0.0_wp]
+      allocate (rough(2)%nodes(size(orbit%nodes, 1), size(orbit%nodes, 2)), source=0.0_wp)
+      rough(2)%parameters = [0.0_wp, 1.0_wp]
+      call turn_frame(family, scale, orbit, rough, error)
+      plane = rough
+   end subroutine first_plane
+
+   !> Turn two directions into orthonormal ones of the tangent plane; the first keeps its direction
+   !> in it.
+   subroutine turn_frame(family, scale, orbit, directions, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> Free parameters
+      type(orbit_scale_type), intent(in) :: scale
+      !> The orbit
+      type(periodic_orbit_type), intent(in) :: orbit
+      !> The directions
+      type(orbit_change_type), intent(inout) :: directions(2)
+      !> They do not determine the plane
+      type(error_type), allocatable, intent(out) :: error
+      type(orbit_change_type) :: first, second
+
+      call solve_about(family, scale, orbit, directions, [1.0_wp, 0.0_wp], first, error)
+      if (allocated(error)) return
+      call solve_about(family, scale, orbit, directions, [0.0_wp, 1.0_wp], second, error)
+      if (allocated(error)) return
+      first = first%times(1.0_wp/sqrt(inner_product(orbit, first, first)))
+      second = second%plus(first, -inner_product(orbit, first, second))
+      directions(1) = first
+      directions(2) = second%times(1.0_wp/sqrt(inner_product(orbit, second, second)))
+   end subroutine turn_frame
+
+   !> The orbit at a place of the plane about an orbit, and the test function of a point there.
+   subroutine test_beside(family, scale, wanted, before, directions, place, point, g, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> The two free parameters
+      type(orbit_scale_type), intent(in) :: scale
+      !> Number of multipliers
+      integer, intent(in) :: wanted
+      !> The orbit
+      type(periodic_orbit_type), intent(in) :: before
+      !> Directions of the plane
+      type(orbit_change_type), intent(in) :: directions(2)
+      !> Place
+      real(wp), intent(in) :: place(2)
+      !> The point, of known kind
+      type(special_point_type), intent(inout) :: point
+      !> The test function
+      real(wp), intent(out) :: g
+      !> There is no orbit
+      type(error_type), allocatable, intent(out) :: error
+      type(multipliers_type) :: multipliers
+      type(newton_type) :: newton
+      type(orbit_change_type) :: move, plane(2)
+
+      g = 0.0_wp
+      point%orbit = before
+      move = combination(directions, place)
+      call move%add_to(point%orbit, scale)
+      call correct_orbit(family, scale, before, directions, place, point%orbit, newton, error)
+      if (allocated(error)) return
+      call find_multipliers(family, point%orbit, wanted, multipliers, error)
+      if (allocated(error)) return
+      call test_value(point%kind, multipliers, point%multiplier, g)
+      point%trivial_error = multipliers%trivial_error
+      if (point%kind /= fold) return
+      ! at a fold there is a tangent along which no parameter changes
+      call solve_about(family, scale, point%orbit, directions, [1.0_wp, 0.0_wp], plane(1), &
+                       error)
+      if (allocated(error)) return
+      call solve_about(family, scale, point%orbit, directions, [0.0_wp, 1.0_wp], plane(2), &
+                       error)
+      if (allocated(error)) return
+      g = plane(1)%parameters(1)*plane(2)%parameters(2) &
+          - plane(1)%parameters(2)*plane(2)%parameters(1)
+   end subroutine test_beside
+
+   !> A linear combination of two changes.
+   type(orbit_change_type) function combination(changes, factors) result(change)
+      !> The changes
+      type(orbit_change_type), intent(in) :: changes(2)
+      !> Their factors
+      real(wp), intent(in) :: factors(2)
+
+      change = changes(1)%times(factors(1))
+      change = change%plus(changes(2), factors(2))
+   end function combination
+end module orbit_surface

@@ -1,0 +1,240 @@
+!> A periodic orbit as a continuous piecewise polynomial of s = t/T, with its period T and the
+!> parameters it belongs to.
+module periodic_orbit
+   use collocation_basis, only: collocation_basis_type
+   use dde_kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: periodic_orbit_type
+
+   !> Interval i has the nodes (i - 1) m + 1 to i m + 1, where m is the degree.
+   type :: periodic_orbit_type
+      !> Polynomials on an interval
+      type(collocation_basis_type) :: basis
+      !> Ends of the intervals in s, from 0 to 1
+      real(wp), allocatable :: mesh(:)
+      !> State at the nodes, shape (n, intervals m + 1); the last is the first
+      real(wp), allocatable :: nodes(:, :)
+      !> Period T > 0
+      real(wp) :: period = 0.0_wp
+      !> Parameters of the problem family
+      real(wp), allocatable :: parameters(:)
+   contains
+      !> Number of intervals
+      procedure :: intervals
+      !> Interval and place in it
+      procedure :: locate
+      !> State
+      procedure :: at
+      !> All nodes in s
+      procedure :: node_times
+      !> The same orbit on another mesh
+      procedure :: on_mesh
+      !> Largest range of a component
+      procedure :: amplitude
+      !> Whether another orbit on the same mesh swings against it
+      procedure :: is_opposite
+      !> Least and greatest value of a component
+      procedure :: range_of
+      !> Weights of an inner product
+      procedure :: functional
+   end type periodic_orbit_type
+
+contains
+
+   !> Number of intervals.
+   pure integer function intervals(self) result(value)
+      !> The orbit
+      class(periodic_orbit_type), intent(in) :: self
+
+      value = size(self%mesh) - 1
+   end function intervals
+
+   !> The interval and the place 0..1 in it of a time in [0, 1].
+   pure subroutine locate(self, s, interval, place)
+      !> The orbit
+      class(periodic_orbit_type), intent(in) :: self
+      !> Time in periods, 0..1
+      real(wp), intent(in) :: s
+      !> Interval, 1..intervals
+      integer, intent(out) :: interval
+      !> Place in it
+      real(wp), intent(out) :: place
+      integer :: above, middle
+
+      interval = 1
+      above = size(self%mesh)
+      do while (above - interval > 1)
+         middle = (interval + above)/2
+         if (self%mesh(middle) <= s) then
+            interval = middle
+         else
+            above = middle
+         end if
+      end do
+      associate (left => self%mesh(interval), right => self%mesh(interval + 1))
+         place = (s - left)/(right - left)
+      end associate
+   end subroutine locate
+
+   !> State at a time of any period.
+   pure function at(self, s) result(state)
+      !> The orbit
+      class(periodic_orbit_type), intent(in) :: self
+      !> Time in periods
+      real(wp), intent(in) :: s
+      real(wp) :: state(size(self%nodes, 1))
+      real(wp) :: place
+      integer :: first, i
+
+      call self%locate(s - floor(s), i, place)
+      first = (i - 1)*self%basis%degree + 1
+      state = matmul(self%nodes(:, first:first + self%basis%degree), self%basis%values_at(place))
+   end function at
+
+   !> Times of all nodes, in periods.
+   pure function node_times(self) result(times)
+      !> The orbit
+      class(periodic_orbit_type), intent(in) :: self
+      real(wp) :: times((size(self%mesh) - 1)*self%basis%degree + 1)
+      integer :: i
+
+      associate (m => self%basis%degree, mesh => self%mesh)
+         do i = 1, self%intervals()
+            times((i - 1)*m + 1:i*m) = mesh(i) + (mesh(i + 1) - mesh(i))*self%basis%node(:m)
+         end do
+         times(size(times)) = 1.0_wp
+      end associate
+   end function node_times
+
+   !> The same orbit by its values at the nodes of another mesh.
+   pure function on_mesh(self, mesh, basis) result(orbit)
+      !> The orbit
+      class(periodic_orbit_type), intent(in) :: self
+      !> Ends of the intervals, from 0 to 1
+      real(wp), intent(in) :: mesh(:)
+      !> Polynomials, where they are others
+      type(collocation_basis_type), intent(in), optional :: basis
+      type(periodic_orbit_type) :: orbit
+      integer :: i
+
+      orbit%basis = self%basis
+      if (present(basis)) orbit%basis = basis
+      orbit%mesh = mesh
+      orbit%period = self%period
+      orbit%parameters = self%parameters
+      associate (times => orbit%node_times())
+         allocate (orbit%nodes(size(self%nodes, 1), size(times)))
+         do i = 1, size(times)
+            orbit%nodes(:, i) = self%at(times(i))
+         end do
+      end associate
+      orbit%nodes(:, size(orbit%nodes, 2)) = orbit%nodes(:, 1)
+   end function on_mesh
+
+   !> The largest range of a component, by the nodes.
+   pure real(wp) function amplitude(self) result(value)
+      !> The orbit
+      class(periodic_orbit_type), intent(in) :: self
+
+      value = maxval(maxval(self%nodes, dim=2) - minval(self%nodes, dim=2))
+   end function amplitude
+
+   !> Whether two orbits on the same mesh swing against each other: so do the orbits on both sides
+   !> of a Hopf point on a branch that passes through it.
+   pure logical function is_opposite(self, other) result(value)
+      !> The orbit
+      class(periodic_orbit_type), intent(in) :: self
+      !> The other one
+      type(periodic_orbit_type), intent(in) :: other
+      real(wp) :: product_of_swings
+      integer :: i
+
+      product_of_swings = 0.0_wp
+      do i = 1, size(self%nodes, 1)
+         associate (x => self%nodes(i, :), y => other%nodes(i, :))
+            product_of_swings = product_of_swings &
+                                + sum((x - sum(x)/size(x))*(y - sum(y)/size(y)))
+         end associate
+      end do
+      value = product_of_swings < 0.0_wp
+   end function is_opposite
+
+   !> Least and greatest value of a component. Each extreme at a node is made better by the extreme
+   !> of its polynomial, found by golden section between the neighbouring nodes.
+   pure function range_of(self, component) result(range)
+      !> The orbit
+      class(periodic_orbit_type), intent(in) :: self
+      !> Component of the state
+      integer, intent(in) :: component
+      real(wp) :: range(2)
+      integer :: last
+
+      associate (x => self%nodes(component, :), times => self%node_times())
+         last = size(x) - 1
+         range(1) = -highest(self, component, -1.0_wp, times, minloc(x(:last), dim=1))
+         range(2) = highest(self, component, 1.0_wp, times, maxloc(x(:last), dim=1))
+      end associate
+   end function range_of
+
+   !> Maximum of a component times a sign about a node.
+   pure real(wp) function highest(self, component, sign, times, node) result(value)
+      !> The orbit
+      class(periodic_orbit_type), intent(in) :: self
+      !> Component of the state
+      integer, intent(in) :: component
+      !> 1 or -1
+      real(wp), intent(in) :: sign
+      !> Times of the nodes
+      real(wp), intent(in) :: times(:)
+      !> Node of the highest value
+      integer, intent(in) :: node
+      real(wp), parameter :: golden = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp)
+      integer, parameter :: sections = 40
+      real(wp) :: left, p, q, right, state(size(self%nodes, 1))
+      integer :: i
+
+      left = times(max(node, 2) - 1)
+      if (node == 1) left = times(size(times) - 1) - 1.0_wp
+      right = times(node + 1)
+      value = sign*self%nodes(component, node)
+      do i = 1, sections
+         p = right - golden*(right - left)
+         q = left + golden*(right - left)
+         state = self%at(p)
+         associate (at_p => sign*state(component))
+            value = max(value, at_p)
+            state = self%at(q)
+            if (at_p > sign*state(component)) then
+               right = q
+            else
+               left = p
+            end if
+         end associate
+      end do
+   end function highest
+
+   !> Weights g of the nodes with sum(g x) = integral of a . x over the period, for a function a and
+   !> all piecewise polynomials x.
+   pure function functional(self, a) result(g)
+      !> The orbit, whose mesh and polynomials are meant
+      class(periodic_orbit_type), intent(in) :: self
+      !> Values of a at the collocation points, shape (n, m, intervals)
+      real(wp), intent(in) :: a(:, :, :)
+      real(wp) :: g(size(self%nodes, 1), size(self%nodes, 2))
+      integer :: first, i, j, k
+
+      g = 0.0_wp
+      associate (m => self%basis%degree)
+         do i = 1, self%intervals()
+            first = (i - 1)*m
+            do k = 1, m
+               do j = 1, m + 1
+                  g(:, first + j) = g(:, first + j) + (self%mesh(i + 1) - self%mesh(i)) &
+                                    *self%basis%weight(k)*self%basis%value(j, k)*a(:, k, i)
+               end do
+            end do
+         end do
+      end associate
+   end function functional
+end module periodic_orbit

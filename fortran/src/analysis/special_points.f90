@@ -1,0 +1,95 @@
+!> Special points of periodic orbits: what they are, and their test functions.
+module special_points
+   use dde_kinds, only: wp
+   use floquet_multipliers, only: multipliers_type
+   use periodic_orbit, only: periodic_orbit_type
+   implicit none (type, external)
+   private
+   public :: branching, fold, kind_length, nearest_resonance, period_doubling, special_point_type, &
+             test_value, torus_bifurcation
+
+   !> Kinds of special points.
+   character(len=*), parameter :: fold = "fold", period_doubling = "period_doubling", &
+                                  torus_bifurcation = "torus", branching = "branching"
+   !> Letters of a kind.
+   integer, parameter :: kind_length = 20
+
+   !> A special point.
+   type :: special_point_type
+      !> Its kind
+      character(len=kind_length) :: kind = ""
+      !> The orbit
+      type(periodic_orbit_type) :: orbit
+      !> The critical multiplier; of a pair the one with positive imaginary part
+      complex(wp) :: multiplier = (0.0_wp, 0.0_wp)
+      !> Distance of the trivial multiplier from 1
+      real(wp) :: trivial_error = 0.0_wp
+      !> Difference of the parameter between the two meshes
+      real(wp) :: mesh_error = 0.0_wp
+      !> Unstable multipliers before and behind it on the branch
+      integer :: unstable(2) = 0
+   contains
+      !> Share of a turn of the critical pair
+      procedure :: angle
+   end type special_point_type
+
+contains
+
+   !> Angle of the multiplier over a full turn.
+   pure real(wp) function angle(self) result(value)
+      !> The point
+      class(special_point_type), intent(in) :: self
+      real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
+
+      value = atan2(aimag(self%multiplier), real(self%multiplier))/turn
+   end function angle
+
+   !> The fraction p/q with q up to 10 that is nearest to an angle in turns.
+   pure function nearest_resonance(angle) result(fraction)
+      !> The angle, 0 to 1/2
+      real(wp), intent(in) :: angle
+      integer :: fraction(2)
+      integer, parameter :: largest = 10
+      integer :: p, q
+
+      fraction = [nint(angle), 1]
+      do q = 2, largest
+         p = nint(angle*q)
+         if (abs(angle - real(p, wp)/q) < abs(angle - real(fraction(1), wp)/fraction(2))) then
+            fraction = [p, q]
+         end if
+      end do
+   end function nearest_resonance
+
+   !> Test function of a kind of point by multipliers: m + 1, m - 1 or |m| - 1 for the one nearest
+   !> to -1, to 1, or to the unit circle off the real axis.
+   pure subroutine test_value(kind, multipliers, critical, g)
+      !> Kind of the point
+      character(len=*), intent(in) :: kind
+      !> Multipliers
+      type(multipliers_type), intent(in) :: multipliers
+      !> The critical one
+      complex(wp), intent(out) :: critical
+      !> The test function
+      real(wp), intent(out) :: g
+      logical :: real_ones(size(multipliers%values))
+
+      associate (m => multipliers%values)
+         real_ones = abs(aimag(m)) <= 0.0_wp
+         critical = (0.0_wp, 0.0_wp)
+         select case (kind)
+         case (torus_bifurcation)
+            if (.not. all(real_ones)) then
+               critical = m(minloc(abs(abs(m) - 1.0_wp), dim=1, mask=aimag(m) > 0.0_wp))
+            end if
+            g = abs(critical) - 1.0_wp
+         case (period_doubling)
+            if (any(real_ones)) critical = m(minloc(abs(m + 1.0_wp), dim=1, mask=real_ones))
+            g = real(critical) + 1.0_wp
+         case default
+            critical = m(minloc(abs(m - 1.0_wp), dim=1))
+            g = real(critical) - 1.0_wp
+         end select
+      end associate
+   end subroutine test_value
+end module special_points

@@ -1,0 +1,192 @@
+!> Files of cycles along a line of parameters.
+module cycles_output
+   use block_cycles, only: cycle_settings_type, cycles_type
+   use cycle_lines, only: along_epsilon, along_tau, hopf_start_type
+   use cycles_input, only: names_along
+   use dde_errors, only: error_type
+   use dde_kinds, only: int64, wp
+   use netcdf_output, only: output_file_type
+   use special_points, only: kind_length, nearest_resonance
+   use spring_block, only: index_of_ln_v
+   implicit none (type, external)
+   private
+   public :: write_cycles
+
+   !> Multipliers written for each orbit
+   integer, parameter :: multipliers = 4
+   !> Letters of the origin and of the ending of a branch
+   integer, parameter :: word_length = 16
+
+contains
+
+   !> Write the orbits of all branches one after another, the branches, the special points and the
+   !> Hopf points.
+   subroutine write_cycles(path, settings, hopf, found, error)
+      !> Path of the file
+      character(len=*), intent(in) :: path
+      !> What was asked
+      type(cycle_settings_type), intent(in) :: settings
+      !> Hopf points
+      type(hopf_start_type), intent(in) :: hopf(:)
+      !> Branches
+      type(cycles_type), intent(in) :: found(:)
+      !> It could not be written
+      type(error_type), allocatable, intent(out) :: error
+      type(output_file_type) :: file
+
+      call file%create(path, "Cycles along a line of parameters: stable and unstable branches")
+      associate (p => settings%line%parameters, along => settings%line%along)
+         call file%attribute("along", trim(names_along(along)))
+         if (along /= along_tau) call file%attribute("tau", p%tau)
+         if (along /= along_epsilon) call file%attribute("epsilon", p%epsilon)
+         call file%attribute("xi", p%xi)
+         call file%attribute("gamma", p%gamma)
+         call file%attribute("degree", int(settings%degree, int64))
+      end associate
+      call put_orbits(file, settings%line%along, found)
+      call put_points(file, found)
+      call put_hopf(file, hopf)
+      call file%finish(error)
+   end subroutine write_cycles
+
+   !> Orbits, and the branches they are on.
+   subroutine put_orbits(file, along, found)
+      !> The file
+      type(output_file_type), intent(inout) :: file
+      !> Number of the parameter along the line
+      integer, intent(in) :: along
+      !> Branches
+      type(cycles_type), intent(in) :: found(:)
+      real(wp), allocatable :: columns(:, :), imaginary(:, :), real_part(:, :)
+      integer, allocatable :: branch(:), intervals(:), unstable(:)
+      character(len=word_length) :: words(size(found), 2)
+      integer :: all, i, id(5), j, k, row, rows, several
+
+      all = 0
+      do i = 1, size(found)
+         all = all + size(found(i)%branch%orbits)
+         words(i, 1) = found(i)%origin
+         words(i, 2) = found(i)%branch%ending
+      end do
+      allocate (columns(all, 5), branch(all), intervals(all), unstable(all))
+      allocate (real_part(multipliers, all), imaginary(multipliers, all), source=0.0_wp)
+      row = 0
+      do i = 1, size(found)
+         do j = 1, size(found(i)%branch%orbits)
+            row = row + 1
+            associate (orbit => found(i)%branch%orbits(j), mu => found(i)%branch%multipliers(j))
+               columns(row, 1:2) = [orbit%parameters(along), orbit%period]
+               columns(row, 3:4) = exp(orbit%range_of(index_of_ln_v))
+               columns(row, 5) = mu%trivial_error
+               branch(row) = i
+               intervals(row) = orbit%intervals()
+               unstable(row) = mu%unstable()
+               k = min(multipliers, size(mu%values))
+               real_part(:k, row) = real(mu%values(:k))
+               imaginary(:k, row) = aimag(mu%values(:k))
+            end associate
+         end do
+      end do
+      rows = file%dimension("orbit", all)
+      id(1) = file%real_variable(trim(names_along(along)), rows, "parameter along the line", "1")
+      id(2) = file%real_variable("period", rows, "period", "1")
+      id(3) = file%real_variable("v_least", rows, "least velocity", "1")
+      id(4) = file%real_variable("v_most", rows, "greatest velocity", "1")
+      id(5) = file%real_variable("multiplier_error", rows, &
+                                 "distance of the trivial multiplier from 1", "1")
+      do i = 1, size(id)
+         call file%put(id(i), columns(:, i))
+      end do
+      call file%put(file%integer_variable("branch", rows, "number of the branch, from 1"), branch)
+      call file%put(file%integer_variable("intervals", rows, "intervals of the mesh"), intervals)
+      call file%put(file%integer_variable("unstable", rows, &
+                                          "multipliers outside of the unit circle"), unstable)
+      several = file%dimension("multiplier", multipliers)
+      call file%table("multiplier_real", [several, rows], real_part, &
+                      "real part of the multipliers of greatest modulus")
+      call file%table("multiplier_imaginary", [several, rows], imaginary, "their imaginary part")
+      rows = file%dimension("branches", size(found))
+      call file%words("branch_origin", rows, words(:, 1), "where the branch starts")
+      call file%words("branch_ending", rows, words(:, 2), "why it ends")
+   end subroutine put_orbits
+
+   !> Special points.
+   subroutine put_points(file, found)
+      !> The file
+      type(output_file_type), intent(inout) :: file
+      !> Branches
+      type(cycles_type), intent(in) :: found(:)
+      character(len=kind_length), allocatable :: kinds(:)
+      real(wp), allocatable :: columns(:, :)
+      integer, allocatable :: numbers(:, :)
+      integer :: all, i, id, j, row, rows
+      character(len=*), parameter :: names(11) = [character(len=24) :: &
+                                                  "tau", "epsilon", "xi", "gamma", "period", &
+                                                  "v_most", "multiplier_real", &
+                                                  "multiplier_imaginary", "angle", &
+                                                  "multiplier_error", "mesh_error"]
+      character(len=*), parameter :: meanings(11) = [character(len=60) :: &
+                                                     "its tau", "its epsilon", "its xi", &
+                                                     "its gamma", "its period", &
+                                                     "its greatest velocity", &
+                                                     "real part of the critical multiplier", &
+                                                     "imaginary part of it", &
+                                                     "angle of it over a full turn", &
+                                                     "distance of the trivial multiplier from 1", &
+                                                     "difference of the parameter on two meshes"]
+      character(len=*), parameter :: counts(5) = [character(len=24) :: &
+                                                  "branch", "unstable_before", "unstable_behind", &
+                                                  "resonance_turns", "resonance_periods"]
+      character(len=*), parameter :: count_meanings(5) = [character(len=60) :: &
+                                                          "its branch, from 1", &
+                                                          "unstable multipliers before it", &
+                                                          "unstable multipliers behind it", &
+                                                          "p of the fraction p/q nearest to the &
+                                                          &angle", "q of it, at most 10"]
+
+      all = sum([(size(found(i)%points), i=1, size(found))])
+      allocate (kinds(all), columns(all, size(names)), numbers(all, size(counts)))
+      row = 0
+      do i = 1, size(found)
+         do j = 1, size(found(i)%points)
+            row = row + 1
+            associate (point => found(i)%points(j))
+               kinds(row) = point%kind
+               columns(row, :4) = point%orbit%parameters
+               columns(row, 5) = point%orbit%period
+               columns(row, 6) = exp(maxval(point%orbit%range_of(index_of_ln_v)))
+               columns(row, 7:) = [real(point%multiplier), aimag(point%multiplier), &
+                                   point%angle(), point%trivial_error, point%mesh_error]
+               numbers(row, :) = [i, point%unstable, nearest_resonance(abs(point%angle()))]
+            end associate
+         end do
+      end do
+      rows = file%dimension("special", all)
+      call file%words("special_kind", rows, kinds, "kind of the special point")
+      do i = 1, size(names)
+         id = file%real_variable("special_"//trim(names(i)), rows, trim(meanings(i)), "1")
+         call file%put(id, columns(:, i))
+      end do
+      do i = 1, size(counts)
+         id = file%integer_variable("special_"//trim(counts(i)), rows, trim(count_meanings(i)))
+         call file%put(id, numbers(:, i))
+      end do
+   end subroutine put_points
+
+   !> Hopf points.
+   subroutine put_hopf(file, hopf)
+      !> The file
+      type(output_file_type), intent(inout) :: file
+      !> Hopf points
+      type(hopf_start_type), intent(in) :: hopf(:)
+      integer :: id(3), rows
+
+      rows = file%dimension("hopf", size(hopf))
+      id(1) = file%real_variable("hopf_tau", rows, "tau of the Hopf point", "1")
+      id(2) = file%real_variable("hopf_epsilon", rows, "its epsilon", "1")
+      id(3) = file%real_variable("hopf_omega", rows, "angular frequency of its pair", "1")
+      call file%put(id(1), hopf%parameters%tau)
+      call file%put(id(2), hopf%parameters%epsilon)
+      call file%put(id(3), hopf%omega)
+   end subroutine put_hopf
+end module cycles_output

@@ -1,0 +1,272 @@
+!> Cycles of the block along a line of parameters: branches from all Hopf points on it and from
+!> trajectories, with their special points.
+module block_cycles
+   use block_family, only: block_family_type, parameters_of, vector_of
+   use block_parameters, only: block_history_type, block_parameters_type
+   use branch_ends, only: branch_settings_type
+   use collocation_basis, only: collocation_basis_type, gauss_points, radau_points
+   use cycle_lines, only: cycle_line_type, find_hopf_starts, hopf_start_type
+   use dde, only: continuation_type, integrate, integration_options, integration_result
+   use dde_errors, only: error_type
+   use dde_kinds, only: wp
+   use orbit_branch, only: branch_type, follow_branch
+   use orbit_change, only: orbit_change_type
+   use orbit_passes, only: orbit_scale_type
+   use orbit_points, only: find_special_points
+   use orbit_start, only: orbit_at_hopf_point, orbit_of_trajectory
+   use orbit_switch, only: orbit_of_double_period
+   use periodic_orbit, only: periodic_orbit_type
+   use special_points, only: period_doubling, special_point_type
+   use spring_block, only: index_of_ln_v, spring_block_type
+   implicit none (type, external)
+   private
+   public :: cycle_settings_type, cycles_type, find_cycles
+
+   !> What is computed.
+   type :: cycle_settings_type
+      !> The line
+      type(cycle_line_type) :: line
+      !> Parameter values from which trajectories are followed to a cycle, with v = start_v before
+      real(wp), allocatable :: starts(:), start_v(:)
+      !> Time of these trajectories
+      real(wp) :: t_transient = 3000.0_wp
+      !> Degree and intervals of the first mesh
+      integer :: degree = 7, intervals = 40
+      !> Longest period, most orbits of a branch
+      real(wp) :: longest_period = 100.0_wp
+      integer :: most_orbits = 200
+   end type cycle_settings_type
+
+   !> A branch and what is on it.
+   type :: cycles_type
+      !> Where it starts: 'hopf', 'trajectory' or 'period_doubling'
+      character(len=16) :: origin = ""
+      !> The branch
+      type(branch_type) :: branch
+      !> Its special points
+      type(special_point_type), allocatable :: points(:)
+   end type cycles_type
+
+   !> From this gamma on w = ln v is in balance but for slip: the points are those of Radau.
+   real(wp), parameter :: stiff_gamma = 100.0_wp
+   !> Amplitude of the first orbit at a Hopf point and at a period doubling
+   real(wp), parameter :: first_amplitude = 0.01_wp
+   !> Tolerance of trajectories, and the time in which a period is looked for
+   real(wp), parameter :: tolerance = 1.0e-9_wp, search_time = 300.0_wp
+   !> A branch ends at a Hopf point if parameter and period differ by less than this share. A
+   !> trajectory comes to an orbit of a branch if period and amplitude differ by less than the
+   !> second share: near a bifurcation it comes to it slowly.
+   real(wp), parameter :: same = 1.0e-3_wp, alike = 0.05_wp
+   !> Most branches of double periods
+   integer, parameter :: most_doublings = 4
+
+contains
+
+   !> All branches along a line that the settings lead to.
+   subroutine find_cycles(settings, hopf, found, error)
+      !> What is computed
+      type(cycle_settings_type), intent(in) :: settings
+      !> Hopf points on the line
+      type(hopf_start_type), allocatable, intent(out) :: hopf(:)
+      !> The branches
+      type(cycles_type), allocatable, intent(out) :: found(:)
+      !> A search failed
+      type(error_type), allocatable, intent(out) :: error
+      type(branch_settings_type) :: how
+      type(collocation_basis_type) :: basis
+      type(error_type), allocatable :: failure
+      type(orbit_change_type) :: tangent
+      type(periodic_orbit_type) :: orbit
+      integer :: direction, i, j
+
+      associate (line => settings%line)
+         call find_hopf_starts(line, hopf, error)
+         if (allocated(error)) return
+         how%scale = orbit_scale_type([line%along], [line%window(2) - line%window(1)])
+         how%window = line%window
+         how%longest_period = settings%longest_period
+         how%most_orbits = settings%most_orbits
+         how%least_amplitude = first_amplitude
+         basis = collocation_basis_type(settings%degree, merge(radau_points, gauss_points, &
+                                                               line%parameters%gamma > stiff_gamma))
+      end associate
+      allocate (found(0))
+      do i = 1, size(hopf)
+         if (is_end(settings, found, hopf(i))) cycle
+         call orbit_at_hopf_point(block_family_type(), vector_of(hopf(i)%parameters), &
+                                  [0.0_wp, 0.0_wp, 0.0_wp], hopf(i)%omega, &
+                                  first_amplitude, basis, settings%intervals, orbit, tangent, error)
+         if (allocated(error)) return
+         call append(how, orbit, 1, "hopf", found, error, tangent)
+         if (allocated(error)) return
+      end do
+      do i = 1, size(settings%starts)
+         call orbit_at(settings, i, basis, orbit, failure)
+         if (allocated(failure)) cycle
+         if (orbit%amplitude() < first_amplitude .or. is_known(settings, found, orbit)) cycle
+         do direction = -1, 1, 2
+            call append(how, orbit, direction, "trajectory", found, error)
+            if (allocated(error)) return
+            if (size(found) == 0) cycle
+            if (found(size(found))%branch%ending == "closed") exit
+         end do
+      end do
+      j = size(found)
+      do i = 1, j
+         call follow_doublings(how, found(i)%points, found, error)
+         if (allocated(error)) return
+      end do
+   end subroutine find_cycles
+
+   !> Follow the branches of double period that start on a branch.
+   subroutine follow_doublings(how, points, found, error)
+      !> How branches are followed
+      type(branch_settings_type), intent(in) :: how
+      !> Special points of the branch
+      type(special_point_type), intent(in) :: points(:)
+      !> Branches so far
+      type(cycles_type), allocatable, intent(inout) :: found(:)
+      !> A search failed
+      type(error_type), allocatable, intent(out) :: error
+      type(special_point_type) :: here(size(points))
+      type(orbit_change_type) :: tangent
+      type(periodic_orbit_type) :: orbit
+      integer :: i
+
+      here = points
+      do i = 1, min(size(here), most_doublings)
+         if (here(i)%kind /= period_doubling) cycle
+         call orbit_of_double_period(block_family_type(), here(i), first_amplitude, orbit, &
+                                     tangent, error)
+         if (allocated(error)) return
+         call append(how, orbit, 1, "period_doubling", found, error, tangent)
+         if (allocated(error)) return
+      end do
+   end subroutine follow_doublings
+
+   !> Follow a branch and append it with its special points. A branch that cannot be started is left
+   !> out.
+   subroutine append(how, orbit, direction, origin, found, error, tangent)
+      !> How branches are followed
+      type(branch_settings_type), intent(in) :: how
+      !> Approximation of the first orbit
+      type(periodic_orbit_type), intent(in) :: orbit
+      !> 1 or -1
+      integer, intent(in) :: direction
+      !> Where the branch starts
+      character(len=*), intent(in) :: origin
+      !> Branches so far
+      type(cycles_type), allocatable, intent(inout) :: found(:)
+      !> A special point was not found
+      type(error_type), allocatable, intent(out) :: error
+      !> Tangent at the start
+      type(orbit_change_type), intent(in), optional :: tangent
+      type(cycles_type), allocatable :: longer(:)
+      type(error_type), allocatable :: failure
+      integer :: i
+
+      allocate (longer(size(found) + 1))
+      do i = 1, size(found)
+         longer(i) = found(i)
+      end do
+      associate (last => longer(size(longer)))
+         last%origin = origin
+         call follow_branch(block_family_type(), how, orbit, direction, last%branch, failure, &
+                            tangent)
+         if (allocated(failure)) return
+         call find_special_points(block_family_type(), how, last%branch, last%points, error)
+      end associate
+      call move_alloc(longer, found)
+   end subroutine append
+
+   !> The cycle that a trajectory comes to.
+   subroutine orbit_at(settings, i, basis, orbit, error)
+      !> What is computed
+      type(cycle_settings_type), intent(in) :: settings
+      !> Number of the start
+      integer, intent(in) :: i
+      !> Polynomials
+      type(collocation_basis_type), intent(in) :: basis
+      !> The orbit
+      type(periodic_orbit_type), intent(out) :: orbit
+      !> It comes to no cycle
+      type(error_type), allocatable, intent(out) :: error
+      type(block_parameters_type) :: parameters
+      type(continuation_type) :: arrived
+      type(integration_options) :: options
+      type(integration_result) :: outcome
+      type(spring_block_type) :: block
+      real(wp) :: vector(4)
+
+      vector = vector_of(settings%line%parameters)
+      vector(settings%line%along) = settings%starts(i)
+      parameters = parameters_of(vector)
+      block = spring_block_type(parameters, block_history_type(v=settings%start_v(i)))
+      options%relative = tolerance
+      options%absolute = tolerance
+      call integrate(block, 0.0_wp, settings%t_transient, options, outcome, error, &
+                     continuation=arrived)
+      if (allocated(error)) return
+      call orbit_of_trajectory(block, options, arrived, index_of_ln_v, search_time, basis, &
+                               settings%intervals, orbit, error)
+      orbit%parameters = vector
+   end subroutine orbit_at
+
+   !> Whether a branch already ends at a Hopf point.
+   pure logical function is_end(settings, found, hopf) result(value)
+      !> What is computed
+      type(cycle_settings_type), intent(in) :: settings
+      !> Branches so far
+      type(cycles_type), intent(in) :: found(:)
+      !> The Hopf point
+      type(hopf_start_type), intent(in) :: hopf
+      real(wp) :: vector(4)
+      integer :: i
+
+      value = .false.
+      vector = vector_of(hopf%parameters)
+      do i = 1, size(found)
+         if (found(i)%branch%ending /= "amplitude") cycle
+         associate (last => found(i)%branch%orbits(size(found(i)%branch%orbits)), &
+                    along => settings%line%along)
+            value = value .or. (abs(last%period*hopf%omega/(2.0_wp*acos(-1.0_wp)) - 1.0_wp) < same &
+                                .and. abs(last%parameters(along) - vector(along)) &
+                                < same*(settings%line%window(2) - settings%line%window(1)))
+         end associate
+      end do
+   end function is_end
+
+   !> Whether a branch already passes an orbit.
+   pure logical function is_known(settings, found, orbit) result(value)
+      !> What is computed
+      type(cycle_settings_type), intent(in) :: settings
+      !> Branches so far
+      type(cycles_type), intent(in) :: found(:)
+      !> The orbit
+      type(periodic_orbit_type), intent(in) :: orbit
+      integer :: i, j
+
+      value = .false.
+      do i = 1, size(found)
+         do j = 1, size(found(i)%branch%orbits) - 1
+            associate (a => found(i)%branch%orbits(j), b => found(i)%branch%orbits(j + 1), &
+                       p => settings%line%along)
+               if ((a%parameters(p) - orbit%parameters(p)) &
+                   *(b%parameters(p) - orbit%parameters(p)) > 0.0_wp) cycle
+               value = value .or. (is_between(orbit%period, a%period, b%period) .and. &
+                                   is_between(orbit%amplitude(), a%amplitude(), b%amplitude()))
+            end associate
+         end do
+      end do
+   end function is_known
+
+   !> Whether a number lies between two others, or almost so.
+   pure logical function is_between(x, a, b) result(value)
+      !> The number
+      real(wp), intent(in) :: x
+      !> The others, > 0
+      real(wp), intent(in) :: a, b
+
+      value = x > (1.0_wp - alike)*min(a, b) .and. x < (1.0_wp + alike)*max(a, b)
+   end function is_between
+end module block_cycles

@@ -1,0 +1,514 @@
+!> Branches of periodic orbits, their special points and curves of these, against published values
+!> and against simulations on both sides.
+module test_orbit_branches
+   use block_builder, only: build_block
+   use block_family, only: block_family_type, vector_of
+   use branch_ends, only: branch_settings_type
+   use collocation_basis, only: collocation_basis_type, gauss_points, radau_points
+   use cycle_families, only: duffing, known_family, mackey_glass, neurons
+   use dde, only: continuation_type, dde_problem_type, event_table, integrate, integration_result
+   use dde_errors, only: failure_type => error_type, text
+   use dde_kinds, only: wp
+   use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use orbit_branch, only: branch_type, follow_branch
+   use orbit_change, only: orbit_change_type
+   use orbit_curves, only: curve_settings_type, curve_type, follow_curve
+   use orbit_passes, only: orbit_scale_type
+   use orbit_points, only: find_special_points
+   use orbit_start, only: orbit_at_hopf_point, orbit_of_trajectory
+   use orbit_switch, only: orbit_of_double_period
+   use periodic_orbit, only: periodic_orbit_type
+   use problem_family, only: problem_family_type
+   use solving, only: at_tolerance
+   use special_points, only: fold, nearest_resonance, period_doubling, special_point_type, &
+                             torus_bifurcation
+   use spring_block, only: index_of_ln_v, spring_block_type
+   implicit none (type, external)
+   private
+   public :: collect_orbit_branches
+
+   real(wp), parameter :: pi = acos(-1.0_wp)
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_orbit_branches(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("a fold of the block", test_fold), &
+                   new_unittest("a torus point of the block", test_torus), &
+                   new_unittest("a period doubling and its branch", test_doubling), &
+                   new_unittest("ends of a branch", test_ends), &
+                   new_unittest("neurons up to a homoclinic orbit", test_neurons), &
+                   new_unittest("torus curves end at published points", test_torus_curves), &
+                   new_unittest("a fold curve ends at a published point", test_fold_curve), &
+                   new_unittest("nearest resonances", test_resonances)]
+   end subroutine collect_orbit_branches
+
+   !> The branch of a block through the cycle that a trajectory has come to, and its points.
+   subroutine branch_of_block(block, settings, degree, points, direction, branch, special, error)
+      !> The block
+      type(spring_block_type), intent(in) :: block
+      !> How far and how
+      type(branch_settings_type), intent(in) :: settings
+      !> Degree and kind of points
+      integer, intent(in) :: degree, points
+      !> 1 or -1
+      integer, intent(in) :: direction
+      !> The branch
+      type(branch_type), intent(out) :: branch
+      !> Its special points
+      type(special_point_type), allocatable, intent(out) :: special(:)
+      type(error_type), allocatable, intent(inout) :: error
+      type(block_family_type) :: family
+      type(continuation_type) :: arrived
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(periodic_orbit_type) :: orbit
+
+      call integrate(block, 0.0_wp, 1000.0_wp, at_tolerance(1.0e-8_wp), outcome, failure, &
+                     continuation=arrived)
+      call expect_success(error, failure)
+      call orbit_of_trajectory(block, at_tolerance(1.0e-8_wp), arrived, index_of_ln_v, 60.0_wp, &
+                               collocation_basis_type(degree, points), 30, orbit, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      orbit%parameters = vector_of(block%parameters)
+      call follow_branch(family, settings, orbit, direction, branch, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call find_special_points(family, settings, branch, special, failure)
+      call expect_success(error, failure)
+   end subroutine branch_of_block
+
+   !> Maxima of a component over the last part of a run that goes on from another one.
+   subroutine last_maxima(problem, component, start, duration, last, maxima, error)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> The component
+      integer, intent(in) :: component
+      !> Where the run starts; not changed
+      type(continuation_type), intent(in) :: start
+      !> Its duration, and that of its last part
+      real(wp), intent(in) :: duration, last
+      !> The maxima
+      real(wp), allocatable, intent(out) :: maxima(:)
+      type(error_type), allocatable, intent(inout) :: error
+      type(continuation_type) :: place
+      type(event_table) :: found
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      real(wp) :: t
+
+      place = start
+      t = start%time(1)
+      found = event_table(component=[component], level=[0.0_wp], direction=[-1], of_slope=[.true.])
+      call integrate(problem, t, t + duration - last, at_tolerance(1.0e-8_wp), outcome, failure, &
+                     continuation=place)
+      call expect_success(error, failure)
+      call integrate(problem, place%time(1), t + duration, at_tolerance(1.0e-8_wp), outcome, &
+                     failure, watcher=found, continuation=place)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      maxima = found%y(component, :found%received)
+   end subroutine last_maxima
+
+   !> The cycle of tau = 10, xi = 0.8 ends in a fold: simulations stay on it below and leave it
+   !> above. Two degrees and kinds of points give the same value.
+   subroutine test_fold(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(branch_settings_type) :: settings
+      type(branch_type) :: branch
+      type(continuation_type) :: arrived
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(special_point_type), allocatable :: other(:), special(:)
+      real(wp), allocatable :: maxima(:)
+      real(wp) :: range(2)
+      integer :: i
+
+      settings%scale = orbit_scale_type([2], [1.0_wp])
+      settings%window = [0.4_wp, 1.0_wp]
+      settings%most_orbits = 18
+      call branch_of_block(build_block(10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp, v=1.1_wp), settings, 6, &
+                           gauss_points, 1, branch, special, error)
+      if (allocated(error)) return
+      call expect(error, size(special) == 1, "one special point")
+      call expect(error, special(1)%kind == fold, "a fold")
+      call expect(error, all(special(1)%unstable == [0, 1]), "behind it one unstable multiplier")
+      call expect_close(error, special(1)%mesh_error, 0.0_wp, 1.0e-9_wp, "difference of the meshes")
+      call branch_of_block(build_block(10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp, v=1.1_wp), settings, 5, &
+                           radau_points, 1, branch, other, error)
+      if (allocated(error)) return
+      call expect_close(error, special(1)%orbit%parameters(2), other(1)%orbit%parameters(2), &
+                        1.0e-8_wp, "epsilon at the fold")
+      associate (epsilon_of_fold => special(1)%orbit%parameters(2))
+         call integrate(build_block(10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp, v=1.1_wp), 0.0_wp, &
+                        1000.0_wp, at_tolerance(1.0e-8_wp), outcome, failure, &
+                        continuation=arrived)
+         call expect_success(error, failure)
+         do i = 1, 8
+            ! in small steps of epsilon up to just below the fold
+            call integrate(build_block(10.0_wp, &
+                                       0.5_wp + (epsilon_of_fold - 1.0e-3_wp - 0.5_wp)*i/8, &
+                                       0.8_wp, 0.8_wp), arrived%time(1), arrived%time(1) &
+                           + 400.0_wp, at_tolerance(1.0e-8_wp), outcome, failure, &
+                           continuation=arrived)
+            call expect_success(error, failure)
+         end do
+         range = special(1)%orbit%range_of(index_of_ln_v)
+         call last_maxima(build_block(10.0_wp, epsilon_of_fold - 1.0e-3_wp, 0.8_wp, 0.8_wp), &
+                          index_of_ln_v, arrived, 1500.0_wp, 100.0_wp, maxima, error)
+         if (allocated(error)) return
+         call expect_close(error, maxval(maxima), minval(maxima), 1.0e-3_wp, "a cycle below")
+         call expect_close(error, maxval(maxima), range(2), 0.05_wp, "the cycle of the branch")
+         ! beyond a fold the motion returns to where the cycle was for a long time
+         call last_maxima(build_block(10.0_wp, epsilon_of_fold + 3.0e-3_wp, 0.8_wp, 0.8_wp), &
+                          index_of_ln_v, arrived, 6000.0_wp, 5000.0_wp, maxima, error)
+         if (allocated(error)) return
+         call expect(error, maxval(abs(maxima - range(2))) > 0.1_wp, "no such cycle above")
+      end associate
+   end subroutine test_fold
+
+   !> A longer delay makes the cycle of epsilon = 0.5, xi = 0.8 a torus.
+   subroutine test_torus(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(branch_settings_type) :: settings
+      type(branch_type) :: branch
+      type(continuation_type) :: arrived, behind
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(special_point_type), allocatable :: other(:), special(:)
+      real(wp), allocatable :: maxima(:)
+
+      settings%scale = orbit_scale_type([1], [5.0_wp])
+      settings%window = [10.0_wp, 12.4_wp]
+      call branch_of_block(build_block(10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp, v=1.1_wp), settings, 6, &
+                           gauss_points, 1, branch, special, error)
+      if (allocated(error)) return
+      call expect(error, branch%ending == "window", "the end of the window")
+      call expect_close(error, branch%orbits(size(branch%orbits))%parameters(1), 12.4_wp, &
+                        1.0e-12_wp, "the last orbit is at the edge")
+      call expect(error, size(special) == 1, "one special point")
+      call expect(error, special(1)%kind == torus_bifurcation, "a torus point")
+      call expect_close(error, abs(special(1)%multiplier), 1.0_wp, 1.0e-9_wp, "modulus of the pair")
+      call expect_close(error, special(1)%mesh_error, 0.0_wp, 1.0e-9_wp, "difference of the meshes")
+      call branch_of_block(build_block(10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp, v=1.1_wp), settings, 5, &
+                           radau_points, 1, branch, other, error)
+      if (allocated(error)) return
+      call expect_close(error, special(1)%orbit%parameters(1), other(1)%orbit%parameters(1), &
+                        1.0e-8_wp, "tau at the torus point")
+      associate (tau => special(1)%orbit%parameters(1))
+         call integrate(build_block(tau - 0.25_wp, 0.5_wp, 0.8_wp, 0.8_wp, v=1.1_wp), 0.0_wp, &
+                        3000.0_wp, at_tolerance(1.0e-8_wp), outcome, failure, &
+                        continuation=arrived)
+         call expect_success(error, failure)
+         call last_maxima(build_block(tau - 0.25_wp, 0.5_wp, 0.8_wp, 0.8_wp), index_of_ln_v, &
+                          arrived, 1000.0_wp, 200.0_wp, maxima, error)
+         if (allocated(error)) return
+         call expect_close(error, maxval(maxima), minval(maxima), 1.0e-3_wp, "a cycle before it")
+         call integrate(build_block(tau + 0.15_wp, 0.5_wp, 0.8_wp, 0.8_wp, v=1.1_wp), 0.0_wp, &
+                        3000.0_wp, at_tolerance(1.0e-8_wp), outcome, failure, &
+                        continuation=behind)
+         call expect_success(error, failure)
+         call last_maxima(build_block(tau + 0.15_wp, 0.5_wp, 0.8_wp, 0.8_wp), index_of_ln_v, &
+                          behind, 1000.0_wp, 200.0_wp, maxima, error)
+         if (allocated(error)) return
+         call expect(error, maxval(maxima) - minval(maxima) > 1.0e-2_wp, "no cycle behind it")
+      end associate
+   end subroutine test_torus
+
+   !> Mackey and Glass's equation: from its Hopf point (cos(omega tau) = -1/4, omega^2 = 0.15) to
+   !> the first period doubling. Simulations repeat after one maximum before it and after two
+   !> behind it,
+   !> and those lie on the branch of double period.
+   subroutine test_doubling(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(branch_settings_type) :: settings
+      type(branch_type) :: branch, doubled
+      type(failure_type), allocatable :: failure
+      type(known_family) :: family
+      type(orbit_change_type) :: tangent
+      type(periodic_orbit_type) :: orbit
+      type(special_point_type), allocatable :: special(:)
+      real(wp), allocatable :: maxima(:)
+      real(wp) :: omega, range(2), tau
+      integer :: i
+
+      family = known_family(equation=mackey_glass)
+      omega = sqrt(0.15_wp)
+      settings%scale = orbit_scale_type([1], [10.0_wp])
+      settings%window = [4.0_wp, 14.5_wp]
+      call orbit_at_hopf_point(family, [acos(-0.25_wp)/omega, 0.2_wp], [1.0_wp], omega, 0.01_wp, &
+                               collocation_basis_type(5, gauss_points), 20, orbit, tangent, failure)
+      call expect_success(error, failure)
+      call follow_branch(family, settings, orbit, 1, branch, failure, tangent)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect(error, branch%ending == "window", "the end of the window")
+      call expect(error, branch%orbits(2)%parameters(1) > acos(-0.25_wp)/omega, "supercritical")
+      call expect(error, branch%multipliers(2)%unstable() == 0, "stable at first")
+      call find_special_points(family, settings, branch, special, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect(error, size(special) >= 1, "a special point")
+      call expect(error, special(1)%kind == period_doubling, "a period doubling")
+      call expect_close(error, abs(special(1)%multiplier + 1.0_wp), 0.0_wp, 1.0e-9_wp, "multiplier")
+      tau = special(1)%orbit%parameters(1)
+      call simulate(tau - 0.3_wp, maxima)
+      if (allocated(error)) return
+      call expect_close(error, maxval(maxima), minval(maxima), 1.0e-4_wp, "one maximum before it")
+      call simulate(tau + 0.3_wp, maxima)
+      if (allocated(error)) return
+      call expect(error, abs(maxima(2) - maxima(1)) > 1.0e-2_wp, "different maxima behind it")
+      call expect_close(error, maxima(3), maxima(1), 1.0e-4_wp, "two in turn")
+      call orbit_of_double_period(family, special(1), 0.01_wp, orbit, tangent, failure)
+      call expect_success(error, failure)
+      settings%window(2) = tau + 0.3_wp
+      call follow_branch(family, settings, orbit, 1, doubled, failure, tangent)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      i = size(doubled%orbits)
+      call expect(error, doubled%ending == "window", "the branch of double period goes on")
+      range = doubled%orbits(i)%range_of(1)
+      call expect_close(error, range(2), maxval(maxima), 1.0e-5_wp, "its maximum")
+      call expect(error, doubled%multipliers(i)%unstable() == 0, "stable")
+      call expect_close(error, doubled%orbits(1)%period/special(1)%orbit%period, 2.0_wp, &
+                        1.0e-2_wp, "twice the period")
+      special(1)%kind = fold
+      call orbit_of_double_period(family, special(1), 0.01_wp, orbit, tangent, failure)
+      call expect_failure(error, failure, "kind fold")
+
+   contains
+
+      !> The last maxima at a delay.
+      subroutine simulate(delay, found)
+         !> The delay
+         real(wp), intent(in) :: delay
+         !> The maxima
+         real(wp), allocatable, intent(out) :: found(:)
+         class(dde_problem_type), allocatable :: problem
+         type(continuation_type) :: place
+         type(integration_result) :: outcome
+
+         call family%at([delay, 0.2_wp], problem)
+         call integrate(problem, 0.0_wp, 10.0_wp, at_tolerance(1.0e-8_wp), outcome, failure, &
+                        continuation=place)
+         call expect_success(error, failure)
+         call last_maxima(problem, 1, place, 8000.0_wp, 300.0_wp, found, error)
+      end subroutine simulate
+   end subroutine test_doubling
+
+   !> Branches end where they are told to.
+   subroutine test_ends(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(branch_settings_type) :: settings
+      type(branch_type) :: branch
+      type(special_point_type), allocatable :: special(:)
+
+      settings%scale = orbit_scale_type([2], [1.0_wp])
+      settings%window = [0.0_wp, 1.0_wp]
+      settings%least_amplitude = 0.05_wp
+      ! towards smaller epsilon the cycle shrinks to the Hopf point
+      call branch_of_block(build_block(10.0_wp, 0.35_wp, 0.8_wp, 0.8_wp, v=1.1_wp), settings, 5, &
+                           gauss_points, -1, branch, special, error)
+      if (allocated(error)) return
+      call expect(error, branch%ending == "amplitude", "a small amplitude")
+      call expect_between(error, branch%orbits(size(branch%orbits))%amplitude(), 1.0e-4_wp, &
+                          0.05_wp, "the last amplitude")
+      settings%longest_period = 10.4_wp
+      call branch_of_block(build_block(10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp, v=1.1_wp), settings, 5, &
+                           gauss_points, 1, branch, special, error)
+      if (allocated(error)) return
+      call expect(error, branch%ending == "period", "a long period")
+      settings%longest_period = 20.0_wp
+      settings%most_orbits = 3
+      call branch_of_block(build_block(10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp, v=1.1_wp), settings, 5, &
+                           gauss_points, 1, branch, special, error)
+      if (allocated(error)) return
+      call expect(error, branch%ending == "orbits" .and. size(branch%orbits) == 3, "three orbits")
+   end subroutine test_ends
+
+   !> Neurons, "demo1" of DDE-BIFTOOL 3.1.1: the branch from the Hopf point at a21 = 0.8071232250
+   !> turns once and goes on to a double homoclinic orbit at a21 = 2.3459 to 2.3460: there is the
+   !> limit of a21 at long periods. A small orbit has the period 8.0354 at a21 = 0.8072.
+   subroutine test_neurons(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(branch_settings_type) :: settings
+      type(branch_type) :: branch
+      type(failure_type), allocatable :: failure
+      type(known_family) :: family
+      type(orbit_change_type) :: tangent
+      type(periodic_orbit_type) :: orbit
+      type(special_point_type), allocatable :: special(:)
+      real(wp) :: a21(3)
+      integer :: i, last
+
+      family = known_family(equation=neurons)
+      settings%scale = orbit_scale_type([1], [1.0_wp])
+      settings%window = [0.0_wp, 5.0_wp]
+      settings%longest_step = 3.0_wp
+      settings%longest_period = 120.0_wp
+      settings%refinement%accuracy = 1.0e-4_wp
+      call orbit_at_hopf_point(family, [0.8071232250_wp], [0.0_wp, 0.0_wp], 0.7819651621_wp, &
+                               0.01_wp, collocation_basis_type(5, gauss_points), 20, orbit, &
+                               tangent, failure)
+      call expect_success(error, failure)
+      call follow_branch(family, settings, orbit, 1, branch, failure, tangent)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect(error, branch%ending == "period", "a long period")
+      ! a21 rounds to 0.8072 and the period to 8.0354 at the same amplitude
+      last = size(branch%orbits)
+      do i = 1, last - 1
+         associate (a => branch%orbits(i), b => branch%orbits(i + 1))
+            if (b%parameters(1) < 0.8072_wp) cycle
+            call expect_close(error, a%period + (b%period - a%period) &
+                              *(0.8072_wp - a%parameters(1))/(b%parameters(1) - a%parameters(1)), &
+                              8.0354_wp, 3.0e-4_wp, "period at a21 = 0.8072")
+            exit
+         end associate
+      end do
+      do i = 1, 3
+         a21(i) = parameter_at(branch, 90.0_wp + 10.0_wp*i)
+      end do
+      call expect_close(error, a21(3) - (a21(3) - a21(2))**2/(a21(3) - 2.0_wp*a21(2) + a21(1)), &
+                        2.34595_wp, 1.0e-4_wp, "a21 of the homoclinic orbit")
+      call find_special_points(family, settings, branch, special, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect(error, count(special%kind == fold) == 1, "one fold, not " &
+                  //text(count(special%kind == fold)))
+   end subroutine test_neurons
+
+   !> The first parameter on a branch at a period, by linear interpolation after it was last
+   !> shorter.
+   pure real(wp) function parameter_at(branch, period) result(value)
+      !> The branch
+      type(branch_type), intent(in) :: branch
+      !> The period
+      real(wp), intent(in) :: period
+      integer :: i
+
+      i = findloc(branch%orbits%period < period, .true., dim=1, back=.true.)
+      associate (a => branch%orbits(i), b => branch%orbits(i + 1))
+         value = a%parameters(1) + (b%parameters(1) - a%parameters(1)) &
+                 *(period - a%period)/(b%period - a%period)
+      end associate
+   end function parameter_at
+
+   !> A Hopf point of the Duffing equation: (a + b - omega^2)^2 + (d omega)^2 = b^2.
+   pure subroutine hopf_of_duffing(a, b, d, upper, turns, omega, tau)
+      !> Parameters
+      real(wp), intent(in) :: a, b, d
+      !> Whether the larger omega is meant
+      logical, intent(in) :: upper
+      !> Full turns of omega tau
+      integer, intent(in) :: turns
+      !> Frequency and delay
+      real(wp), intent(out) :: omega, tau
+      real(wp) :: half, root
+
+      half = a + b - 0.5_wp*d**2
+      root = sqrt(half**2 - (a + b)**2 + b**2)
+      omega = sqrt(half + merge(root, -root, upper))
+      tau = (modulo(atan2(-d*omega/b, (a + b - omega**2)/b), 2.0_wp*pi) + 2.0_wp*pi*turns)/omega
+   end subroutine hopf_of_duffing
+
+   !> The curve that starts at the first point of a kind on the branch from a Hopf point.
+   subroutine curve_of_duffing(b, upper, turns, kind, direction, curve, error)
+      !> Strength of the feedback
+      real(wp), intent(in) :: b
+      !> Hopf point
+      logical, intent(in) :: upper
+      integer, intent(in) :: turns
+      !> Kind of the point
+      character(len=*), intent(in) :: kind
+      !> Towards greater or smaller b
+      integer, intent(in) :: direction
+      !> The curve
+      type(curve_type), intent(out) :: curve
+      type(error_type), allocatable, intent(inout) :: error
+      real(wp), parameter :: a = 0.5_wp, d = 0.05_wp
+      type(branch_settings_type) :: settings
+      type(branch_type) :: branch
+      type(curve_settings_type) :: curve_settings
+      type(failure_type), allocatable :: failure
+      type(known_family) :: family
+      type(orbit_change_type) :: tangent
+      type(periodic_orbit_type) :: orbit
+      type(special_point_type), allocatable :: special(:)
+      real(wp) :: omega, tau
+      integer :: i
+
+      family = known_family(equation=duffing)
+      call hopf_of_duffing(a, b, d, upper, turns, omega, tau)
+      settings%scale = orbit_scale_type([1], [5.0_wp])
+      settings%window = [0.0_wp, 20.0_wp]
+      settings%most_orbits = 30
+      call orbit_at_hopf_point(family, [tau, a, b, d], [0.0_wp, 0.0_wp], omega, 0.02_wp, &
+                               collocation_basis_type(5, gauss_points), 20, orbit, tangent, failure)
+      call expect_success(error, failure)
+      call follow_branch(family, settings, orbit, 1, branch, failure, tangent)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call find_special_points(family, settings, branch, special, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      i = findloc(special%kind == kind, .true., dim=1)
+      call expect(error, i > 0, "a point of kind "//kind)
+      if (allocated(error)) return
+      curve_settings%scale = orbit_scale_type([1, 3], [5.0_wp, 0.2_wp])
+      curve_settings%least_amplitude = 0.003_wp
+      curve_settings%window = reshape([0.1_wp, 20.0_wp, 0.01_wp, 0.6_wp], [2, 2])
+      call follow_curve(family, curve_settings, special(i), direction, curve, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect(error, curve%ending == "hopf", "a Hopf point at its end, not "//curve%ending)
+   end subroutine curve_of_duffing
+
+   !> "minimal_demo" of DDE-BIFTOOL: torus curves start at the double Hopf points b = 0.354445,
+   !> tau = 8.72874 and b = 0.173725, tau = 17.4169.
+   subroutine test_torus_curves(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(curve_type) :: curve
+
+      call curve_of_duffing(0.37_wp, .true., 1, torus_bifurcation, -1, curve, error)
+      if (allocated(error)) return
+      associate (parameters => curve%points(size(curve%points))%orbit%parameters)
+         call expect_close(error, parameters(3), 0.354445_wp, 2.0e-6_wp, "b")
+         call expect_close(error, parameters(1), 8.72874_wp, 5.0e-5_wp, "tau")
+      end associate
+      call curve_of_duffing(0.2_wp, .true., 2, torus_bifurcation, -1, curve, error)
+      if (allocated(error)) return
+      associate (parameters => curve%points(size(curve%points))%orbit%parameters)
+         call expect_close(error, parameters(3), 0.173725_wp, 2.0e-6_wp, "b")
+         call expect_close(error, parameters(1), 17.4169_wp, 2.0e-4_wp, "tau")
+      end associate
+   end subroutine test_torus_curves
+
+   !> The same: a curve of folds starts at the generalised Hopf point b = 0.036906, tau = 14.8348.
+   subroutine test_fold_curve(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(curve_type) :: curve
+
+      call curve_of_duffing(0.04_wp, .true., 1, fold, -1, curve, error)
+      if (allocated(error)) return
+      associate (parameters => curve%points(size(curve%points))%orbit%parameters)
+         call expect_close(error, parameters(3), 0.036906_wp, 1.0e-6_wp, "b")
+         call expect_close(error, parameters(1), 14.8348_wp, 2.0e-4_wp, "tau")
+      end associate
+   end subroutine test_fold_curve
+
+   !> The golden mean has the fractions of Fibonacci numbers.
+   subroutine test_resonances(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call expect(error, all(nearest_resonance(1.0_wp/3) == [1, 3]), "1:3")
+      call expect(error, all(nearest_resonance(0.2_wp + 1.0e-4_wp) == [1, 5]), "1:5")
+      call expect(error, all(nearest_resonance(1.0e-3_wp) == [0, 1]), "1:1")
+      call expect(error, all(nearest_resonance(0.5_wp) == [1, 2]), "1:2")
+      call expect(error, all(nearest_resonance(0.3819660113_wp) == [3, 8]), "3:8")
+   end subroutine test_resonances
+end module test_orbit_branches

@@ -1,0 +1,421 @@
+!> Single periodic orbits and their multipliers, against exact solutions, exponents and other
+!> discretisations.
+module test_periodic_orbits
+   use block_builder, only: build_block
+   use block_family, only: block_family_type, vector_of
+   use collocation_basis, only: collocation_basis_type, gauss_points, radau_points
+   use cycle_families, only: delayed_sine, driven_growth, known_family
+   use dde, only: continuation_type, integrate, integration_result
+   use dde_errors, only: failure_type => error_type, text
+   use dde_kinds, only: wp
+   use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
+   use floquet_multipliers, only: find_multipliers, multipliers_type
+   use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use orbit_change, only: orbit_change_type
+   use orbit_equations, only: correct_orbit, newton_type
+   use orbit_mesh, only: adapted_mesh, uniform_mesh
+   use orbit_passes, only: orbit_scale_type
+   use orbit_start, only: orbit_of_trajectory
+   use periodic_orbit, only: periodic_orbit_type
+   use problem_family, only: problem_family_type
+   use solving, only: at_tolerance
+   use spring_block, only: index_of_ln_v, spring_block_type
+   implicit none (type, external)
+   private
+   public :: collect_periodic_orbits
+
+   real(wp), parameter :: pi = acos(-1.0_wp)
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_periodic_orbits(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("points and weights", test_points), &
+                   new_unittest("order of an exact orbit", test_order), &
+                   new_unittest("exact multipliers, delays of one and two periods", test_exact), &
+                   new_unittest("multipliers near a Hopf point", test_near_hopf), &
+                   new_unittest("multipliers and exponents", test_exponents), &
+                   new_unittest("without delay", test_no_delay), &
+                   new_unittest("relaxation cycles", test_relaxation), &
+                   new_unittest("gamma = 1e6", test_stiff), &
+                   new_unittest("adapted meshes", test_meshes), &
+                   new_unittest("refusals", test_refusals)]
+   end subroutine collect_periodic_orbits
+
+   !> Correct an orbit at fixed parameters.
+   subroutine correct(family, orbit, newton, failure)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> The orbit
+      type(periodic_orbit_type), intent(inout) :: orbit
+      !> The method
+      type(newton_type), intent(inout) :: newton
+      !> No convergence
+      type(failure_type), allocatable, intent(out) :: failure
+      type(orbit_change_type) :: no_direction(0)
+      type(orbit_scale_type) :: none
+      type(periodic_orbit_type) :: reference
+      real(wp) :: no_distance(0)
+
+      allocate (none%free(0), none%unit(0))
+      reference = orbit
+      call correct_orbit(family, none, reference, no_direction, no_distance, orbit, newton, failure)
+   end subroutine correct
+
+   !> The orbit of a block that a trajectory has come to, with its multipliers.
+   subroutine cycle_of_block(block, t_end, degree, points, intervals, orbit, multipliers, error)
+      !> The block
+      type(spring_block_type), intent(in) :: block
+      !> Time of the trajectory
+      real(wp), intent(in) :: t_end
+      !> Degree, kind of points and intervals
+      integer, intent(in) :: degree, points, intervals
+      !> The orbit
+      type(periodic_orbit_type), intent(out) :: orbit
+      !> Its multipliers
+      type(multipliers_type), intent(out) :: multipliers
+      type(error_type), allocatable, intent(inout) :: error
+      type(block_family_type) :: family
+      type(continuation_type) :: arrived
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(newton_type) :: newton
+      integer :: i
+
+      call integrate(block, 0.0_wp, t_end, at_tolerance(1.0e-9_wp, "auto"), outcome, failure, &
+                     continuation=arrived)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call orbit_of_trajectory(block, at_tolerance(1.0e-9_wp, "auto"), arrived, index_of_ln_v, &
+                               100.0_wp, collocation_basis_type(degree, points), intervals, orbit, &
+                               failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      orbit%parameters = vector_of(block%parameters)
+      do i = 1, 2
+         call correct(family, orbit, newton, failure)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         if (i == 1) orbit = orbit%on_mesh(adapted_mesh(orbit, intervals))
+      end do
+      call find_multipliers(family, orbit, 6, multipliers, failure)
+      call expect_success(error, failure)
+   end subroutine cycle_of_block
+
+   !> Gauss points integrate polynomials up to degree 2m - 1 exactly, those of Radau to 2m - 2; the
+   !> Lagrange polynomials reproduce polynomials and their slopes.
+   subroutine test_points(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(collocation_basis_type) :: basis
+      integer :: kind, m, power
+
+      do kind = gauss_points, radau_points
+         do m = 2, 9
+            basis = collocation_basis_type(m, kind)
+            do power = 0, 2*m - 1 - kind
+               call expect_close(error, sum(basis%weight*basis%point**power), &
+                                 1.0_wp/(power + 1), 1.0e-14_wp, "integral of s^"//text(power))
+            end do
+            call expect(error, abs(sum(basis%weight*basis%point**(2*m - kind)) &
+                                   - 1.0_wp/(2*m - kind + 1)) > 1.0e-12_wp, "no higher degree")
+            call expect_close(error, dot_product(basis%node**m, basis%values_at(0.3_wp)), &
+                              0.3_wp**m, 1.0e-14_wp, "value")
+            call expect_close(error, dot_product(basis%node**m, basis%slopes_at(0.3_wp)), &
+                              m*0.3_wp**(m - 1), 1.0e-12_wp, "slope")
+            call expect_close(error, dot_product(basis%node**m, basis%leading), 1.0_wp, 1.0e-8_wp, &
+                              "leading coefficient of degree "//text(m))
+         end do
+      end do
+   end subroutine test_points
+
+   !> The orbit sqrt(rho) sin t from a disturbed one: the error of the state is of order m + 1 where
+   !> the delay does not fall on the mesh.
+   subroutine test_order(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(newton_type) :: newton
+      type(periodic_orbit_type) :: orbit
+      real(wp) :: off(2), period_off(2)
+      integer, parameter :: intervals(2) = [9, 19]
+      integer :: i, kind, m
+
+      do kind = gauss_points, radau_points
+         do m = 3, 5
+            do i = 1, 2
+               orbit%basis = collocation_basis_type(m, kind)
+               orbit%mesh = uniform_mesh(intervals(i))
+               orbit%parameters = [0.25_wp]
+               orbit%period = 6.3_wp
+               orbit%nodes = reshape(0.51_wp*sin(2.0_wp*pi*orbit%node_times()), &
+                                     [1, intervals(i)*m + 1])
+               call correct(known_family(equation=delayed_sine), orbit, newton, failure)
+               call expect_success(error, failure)
+               if (allocated(error)) return
+               call expect(error, newton%iterations <= 5, "Newton's method is fast")
+               period_off(i) = abs(orbit%period - 2.0_wp*pi)
+               ! the phase is that of the nearest sine
+               off(i) = maxval(abs(orbit%nodes(1, :) - 0.5_wp*sin( &
+                                   2.0_wp*pi*orbit%node_times() + phase_of(orbit))))
+            end do
+            call expect_between(error, log(off(1)/off(2))/log(19.0_wp/9), m + 0.6_wp, m + 2.0_wp, &
+                                "order of the state, degree "//text(m))
+            call expect_between(error, log(period_off(1)/period_off(2))/log(19.0_wp/9), &
+                                m + 0.6_wp, 2*m + 1.5_wp, "order of the period, degree "//text(m))
+         end do
+      end do
+   end subroutine test_order
+
+   !> Phase of the sine that is nearest to an orbit of one component.
+   real(wp) function phase_of(orbit) result(value)
+      !> The orbit
+      type(periodic_orbit_type), intent(in) :: orbit
+      real(wp) :: part(2), state(1)
+      integer, parameter :: places = 1000
+      integer :: i
+
+      part = 0.0_wp
+      do i = 1, places
+         state = orbit%at(real(i, wp)/places)
+         part = part + state(1)*[sin(2.0_wp*pi*i/places), cos(2.0_wp*pi*i/places)]
+      end do
+      value = atan2(part(2), part(1))
+   end function phase_of
+
+   !> Where the delay is k periods, x(t - k) = x(t)/mu^k: the multipliers solve mu = exp(a/mu^k),
+   !> and exp(-2) is that of the circle. Both signs of a: a growing and an oscillating disturbance.
+   subroutine test_exact(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(known_family) :: family
+      type(multipliers_type) :: found
+      type(newton_type) :: newton
+      type(periodic_orbit_type) :: orbit
+      real(wp), parameter :: rates(2) = [0.5_wp, -1.8_wp]
+      real(wp) :: times(20*6 + 1)
+      complex(wp) :: mu
+      integer :: i, j, k, others
+
+      family = known_family(equation=driven_growth)
+      orbit%basis = collocation_basis_type(6, gauss_points)
+      orbit%mesh = uniform_mesh(20)
+      times = orbit%node_times()
+      do k = 1, 2
+         do i = 1, 2
+            orbit%parameters = [rates(i), 0.7_wp, real(k, wp)]
+            orbit%period = 1.0_wp
+            allocate (orbit%nodes(3, size(times)))
+            orbit%nodes(1, :) = cos(2.0_wp*pi*times)
+            orbit%nodes(2, :) = sin(2.0_wp*pi*times)
+            orbit%nodes(3, :) = 0.0_wp
+            call correct(family, orbit, newton, failure)
+            call expect_success(error, failure)
+            call find_multipliers(family, orbit, 6, found, failure)
+            call expect_success(error, failure)
+            if (allocated(error)) return
+            call expect_close(error, orbit%period, 1.0_wp, 1.0e-12_wp, "period")
+            call expect_close(error, found%trivial_error, 0.0_wp, 1.0e-9_wp, "trivial multiplier")
+            others = 0
+            do j = 1, size(found%values)
+               mu = found%values(j)
+               if (abs(mu - exp(-2.0_wp)) < 1.0e-8_wp) cycle
+               others = others + 1
+               call expect_close(error, abs(exp(rates(i)/mu**k) - mu), 0.0_wp, 2.0e-8_wp, &
+                                 "multiplier "//text(j)//" of "//text(k)//" periods")
+            end do
+            call expect(error, others >= 5, "multipliers of the delayed equation")
+            if (i == 1) then
+               ! the real root by iteration of mu = exp(a/mu^k) with averaging
+               mu = (1.3_wp, 0.0_wp)
+               do j = 1, 200
+                  mu = 0.5_wp*(mu + exp(rates(1)/mu**k))
+               end do
+               call expect_close(error, abs(found%values(1) - mu), 0.0_wp, 1.0e-9_wp, &
+                                 "the growing disturbance")
+               call expect(error, found%unstable() == 1, "one unstable multiplier")
+            else
+               call expect(error, abs(aimag(found%values(1))) > 0.1_wp, "an oscillation")
+            end if
+            deallocate (orbit%nodes)
+         end do
+      end do
+   end subroutine test_exact
+
+   !> A small orbit about a stationary state has the multipliers exp(T s), s the roots of
+   !> s = -(1 + rho) exp(-s pi/2).
+   subroutine test_near_hopf(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(multipliers_type) :: found
+      type(newton_type) :: newton
+      type(periodic_orbit_type) :: orbit
+      complex(wp) :: s
+      real(wp), parameter :: rho = 1.0e-8_wp
+      integer :: i
+
+      orbit%basis = collocation_basis_type(6, gauss_points)
+      orbit%mesh = uniform_mesh(20)
+      orbit%parameters = [rho]
+      orbit%period = 2.0_wp*pi
+      orbit%nodes = reshape(sqrt(rho)*sin(2.0_wp*pi*orbit%node_times()), [1, 121])
+      call correct(known_family(equation=delayed_sine), orbit, newton, failure)
+      call expect_success(error, failure)
+      call find_multipliers(known_family(equation=delayed_sine), orbit, 5, found, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect_close(error, abs(found%values(1)), 1.0_wp, 1.0e-6_wp, "the pair on the axis")
+      ! the next root by Newton's method
+      s = (-1.6_wp, 4.7_wp)
+      do i = 1, 50
+         s = s - (s + exp(-0.5_wp*pi*s))/(1.0_wp - 0.5_wp*pi*exp(-0.5_wp*pi*s))
+      end do
+      call expect_between(error, real(s), -3.0_wp, -0.5_wp, "real part of the next root")
+      call expect_close(error, minval(abs(found%values - exp(2.0_wp*pi*s))), 0.0_wp, 1.0e-7_wp, &
+                        "multiplier of the next root")
+   end subroutine test_near_hopf
+
+   !> ln |mu|/T of the paper's "torus", a cycle, is its second Lyapunov exponent.
+   subroutine test_exponents(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(growth_settings_type) :: settings
+      type(growth_type) :: measured
+      type(multipliers_type) :: multipliers
+      type(periodic_orbit_type) :: orbit
+      type(spring_block_type) :: block
+      real(wp) :: exponents(4)
+
+      block = build_block(tau=10.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp)
+      call cycle_of_block(block, 1500.0_wp, 5, gauss_points, 40, orbit, multipliers, error)
+      if (allocated(error)) return
+      call expect_close(error, multipliers%trivial_error, 0.0_wp, 1.0e-9_wp, "trivial multiplier")
+      settings = growth_settings_type(exponents=4, t_begin=1000.0_wp, t_end=3000.0_wp, &
+                                      t_turning=500.0_wp, interval=5.0_wp, blocks=10)
+      call measure_growth(block, settings, at_tolerance(1.0e-8_wp), measured, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      exponents = sum(measured%growth, dim=2)/sum(measured%length)
+      call expect_close(error, log(abs(multipliers%values(1)))/orbit%period, exponents(2), &
+                        5.0e-4_wp, "second exponent")
+      call expect_close(error, log(abs(multipliers%values(2)))/orbit%period, &
+                        0.5_wp*(exponents(3) + exponents(4)), 5.0e-4_wp, "third and fourth")
+   end subroutine test_exponents
+
+   !> Without delay the product of all multipliers is exp(integral of the divergence) (Liouville).
+   subroutine test_no_delay(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(multipliers_type) :: multipliers
+      type(periodic_orbit_type) :: orbit
+      type(spring_block_type) :: block
+      real(wp) :: by_y(3, 3), by_z(3, 0), divergence, y(3), z(0)
+      integer :: i, k, l
+
+      block = build_block(tau=0.0_wp, epsilon=0.6_wp, xi=0.5_wp, gamma=0.8_wp, v=1.1_wp)
+      call cycle_of_block(block, 500.0_wp, 6, gauss_points, 40, orbit, multipliers, error)
+      if (allocated(error)) return
+      call expect(error, size(multipliers%values) == 2, "two multipliers beside the trivial one")
+      divergence = 0.0_wp
+      do i = 1, orbit%intervals()
+         associate (h => orbit%mesh(i + 1) - orbit%mesh(i), basis => orbit%basis)
+            do k = 1, basis%degree
+               y = orbit%at(orbit%mesh(i) + h*basis%point(k))
+               call block%jacobian(0.0_wp, y, z, by_y, by_z)
+               divergence = divergence + h*basis%weight(k)*orbit%period*sum([(by_y(l, l), l=1, 3)])
+            end do
+         end associate
+      end do
+      call expect_close(error, abs(product(multipliers%values)), exp(divergence), &
+                        1.0e-8_wp, "product of the multipliers")
+      call expect(error, multipliers%unstable() == 0, "a stable cycle")
+   end subroutine test_no_delay
+
+   !> v over four decades: periods on two meshes agree.
+   subroutine test_relaxation(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(multipliers_type) :: multipliers
+      type(periodic_orbit_type) :: fine, orbit
+      type(spring_block_type) :: block
+      real(wp) :: range(2)
+
+      block = build_block(tau=0.1_wp, epsilon=2.0_wp, xi=0.5_wp, gamma=1.0e4_wp, v=1.1_wp)
+      call cycle_of_block(block, 400.0_wp, 6, radau_points, 120, orbit, multipliers, error)
+      if (allocated(error)) return
+      range = orbit%range_of(index_of_ln_v)
+      call expect(error, range(2) - range(1) > log(1.0e4_wp), "four decades of v")
+      call expect_close(error, multipliers%trivial_error, 0.0_wp, 1.0e-3_wp, "trivial multiplier")
+      call cycle_of_block(block, 400.0_wp, 7, gauss_points, 150, fine, multipliers, error)
+      call expect_close(error, orbit%period, fine%period, 1.0e-7_wp, "period")
+   end subroutine test_relaxation
+
+   !> At the gamma of stiff faults a component is in balance: Radau points, and an odd number of
+   !> Gauss points, give the same cycle.
+   subroutine test_stiff(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(multipliers_type) :: multipliers
+      type(periodic_orbit_type) :: gauss, radau
+      type(spring_block_type) :: block
+
+      block = build_block(tau=1.0_wp, epsilon=0.9_wp, xi=0.5_wp, gamma=1.0e6_wp, v=1.1_wp)
+      call cycle_of_block(block, 1000.0_wp, 6, radau_points, 40, radau, multipliers, error)
+      if (allocated(error)) return
+      call expect_close(error, multipliers%trivial_error, 0.0_wp, 1.0e-8_wp, "trivial multiplier")
+      call cycle_of_block(block, 1000.0_wp, 7, gauss_points, 41, gauss, multipliers, error)
+      call expect_close(error, radau%period, gauss%period, 1.0e-8_wp, "period")
+   end subroutine test_stiff
+
+   !> An adapted mesh follows a front, and its orbit has the same values.
+   subroutine test_meshes(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(periodic_orbit_type) :: moved, orbit
+      real(wp) :: mesh(31), place, state(1)
+      integer :: interval
+
+      orbit%basis = collocation_basis_type(5, gauss_points)
+      orbit%mesh = uniform_mesh(200)
+      orbit%period = 1.0_wp
+      orbit%parameters = [0.0_wp]
+      orbit%nodes = reshape(tanh(100.0_wp*(orbit%node_times() - 0.3_wp)) &
+                            - tanh(100.0_wp*(orbit%node_times() - 0.7_wp)), [1, 1001])
+      mesh = adapted_mesh(orbit, 30)
+      call expect(error, all(mesh(2:) > mesh(:30)), "an ascending mesh")
+      call expect_close(error, mesh([1, 31]), [0.0_wp, 1.0_wp], 0.0_wp, "ends")
+      call expect(error, count(abs(mesh - 0.3_wp) < 0.05_wp) >= 10, "intervals in the first front")
+      call expect(error, count(abs(mesh - 0.7_wp) < 0.05_wp) >= 10, "intervals in the second front")
+      moved = orbit%on_mesh(mesh)
+      state = moved%at(0.31_wp)
+      call expect_close(error, state(1), tanh(1.0_wp) - tanh(-39.0_wp), 1.0e-3_wp, "value there")
+      call moved%locate(1.0_wp, interval, place)
+      call expect(error, interval == 30, "the last interval")
+      call expect_close(error, orbit%range_of(1), [0.0_wp, 2.0_wp*tanh(20.0_wp)], 1.0e-10_wp, &
+                        "range")
+   end subroutine test_meshes
+
+   !> What is no orbit is refused.
+   subroutine test_refusals(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(continuation_type) :: arrived
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      type(newton_type) :: newton
+      type(periodic_orbit_type) :: orbit
+      type(spring_block_type) :: block
+
+      orbit%basis = collocation_basis_type(4, gauss_points)
+      orbit%mesh = uniform_mesh(10)
+      orbit%parameters = [-0.5_wp]
+      orbit%period = 6.0_wp
+      orbit%nodes = reshape(sin(2.0_wp*pi*orbit%node_times()), [1, 41])
+      newton%most_iterations = 4
+      call correct(known_family(equation=delayed_sine), orbit, newton, failure)
+      call expect_failure(error, failure, "Newton's method")
+      block = build_block(tau=0.0_wp, epsilon=0.1_wp, xi=0.5_wp, gamma=0.8_wp, v=1.1_wp)
+      call integrate(block, 0.0_wp, 10.0_wp, at_tolerance(1.0e-9_wp, "auto"), outcome, failure, &
+                     continuation=arrived)
+      call expect_success(error, failure)
+      call orbit_of_trajectory(block, at_tolerance(1.0e-9_wp), arrived, index_of_ln_v, 1.0_wp, &
+                               collocation_basis_type(4, gauss_points), 10, orbit, failure)
+      call expect_failure(error, failure, "maxima")
+   end subroutine test_refusals
+end module test_periodic_orbits

@@ -1,0 +1,44 @@
+# Cycles followed along lines of one parameter, one file a line, and their special points.
+
+
+rule cycles_namelist:
+    input:
+        code=code_of("namelists/write_namelist.py"),
+    output:
+        "results/namelists/cycles/{cycle_line}.nml",
+    log:
+        "results/logs/namelists/cycles/{cycle_line}.log",
+    params:
+        group="cycles",
+        values=cycles_values,
+    script:
+        "../scripts/namelists/write_namelist.py"
+
+
+rule cycles:
+    input:
+        program="build/release/bin/cycles",
+        namelist="results/namelists/cycles/{cycle_line}.nml",
+    output:
+        "results/cycles/{cycle_line}.nc",
+    log:
+        "results/logs/cycles/{cycle_line}.log",
+    benchmark:
+        "results/benchmarks/cycles/{cycle_line}.tsv"
+    params:
+        values=cycles_values,
+        sources=digest_of("cycles"),
+    shell:
+        "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
+
+
+rule cycle_points:
+    input:
+        cycles=expand("results/cycles/{line}.nc", line=config["cycles"]["lines"]),
+        code=code_of("tables/cycle_points_table.py"),
+    output:
+        "results/tables/cycle-points.tsv",
+    log:
+        "results/logs/tables/cycle-points.log",
+    script:
+        "../scripts/tables/cycle_points_table.py"
