@@ -32,6 +32,7 @@ RULES_FOR = {
     "friction": {"build", "velocity_step_namelist", "velocity_step"},
     "exponents": {"build", "exponents_namelist", "exponents_runs"},
     "attractors": ATTRACTORS,
+    "cycles": {"build", "cycles_namelist", "cycles_runs"},
     "exponents.tsv": {"build", "exponents_namelist", "exponents_runs", "exponents_table"},
     "stability.tsv": {
         "build",
@@ -66,6 +67,7 @@ PROGRAMS_FOR = {
     "friction": ["velocity_step"],
     "exponents": ["exponents"],
     "attractors": ["attractors"],
+    "cycles": ["cycles"],
     "exponents.tsv": ["exponents"],
     "stability.tsv": ["measure", "reference"],
     "work-precision.tsv": ["measure", "reference"],
