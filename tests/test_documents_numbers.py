@@ -173,7 +173,7 @@ def cycle_points(of: str, kind: str, column: str) -> list[float]:
 
 
 def torus_starts(of: str, number: int = 0) -> list:
-    """Where a cycle turns into a torus, the angle of its pair, and the first torus of the sweep up."""
+    """Where a cycle turns into a torus, the angle of its pair, the first torus of the sweep up."""
     along = settings("cycles", "lines", of, "along")
     found = [cycle_points(of, "torus", column)[number] for column in (along, "angle")]
     return [*found, *begins(of, ("torus", number))]

@@ -135,11 +135,16 @@ def draw_curves(axes: Axes, curves: xr.Dataset) -> None:
 
 def draw_curves_of_cycles(axes: Axes, cycles: xr.Dataset) -> set[str]:
     """Curves of special points of cycles, with a white edge; their kinds."""
-    kinds = words_of(cycles.curve_kind) if "curve_kind" in cycles else []
-    for number, kind in enumerate(kinds, start=1):
+    drawn = set()
+    for number, kind in enumerate(words_of(cycles.curve_kind), start=1):
         line = cycles.isel(curve_point=cycles.curve.values == number)
-        axes.plot(line.curve_epsilon, line.curve_tau, path_effects=EDGE, zorder=3, **CURVES[kind])
-    return set(kinds)
+        # a curve that could not be followed has one point
+        if line.sizes["curve_point"] > 1:
+            axes.plot(
+                line.curve_epsilon, line.curve_tau, path_effects=EDGE, zorder=3, **CURVES[kind]
+            )
+            drawn.add(kind)
+    return drawn
 
 
 def mark_scenes(axes: Axes, scenes: dict[str, dict], named: bool) -> None:

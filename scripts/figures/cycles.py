@@ -57,7 +57,8 @@ def draw(lines: dict[str, xr.Dataset], sweeps: Sweeps, scenes: dict[str, dict]) 
             xlabel=f"{NAMES[along]} ${SYMBOLS[along]}$" + " (units of $L/v_0$)" * (along == "tau"),
             ylabel="maxima of $v$ (units of $v_0$)",
         )
-        axes.margins(x=0.01)
+        # the names of scenes stand above the dots
+        axes.margins(x=0.01, y=0.12)
         axes.set_ylim(bottom=0)
         mark_scenes(axes, scenes, cycles.attrs, along)
         words = f"{fixed_in_words(cycles.attrs, along)}: {count_in_words(cycles)}"
