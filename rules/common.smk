@@ -163,7 +163,10 @@ def plane_values(wildcards):
 def cycles_values(wildcards):
     """The line on which cycles are followed, and how, as namelist group."""
     cycles = config["cycles"]
-    shared = {key: value for key, value in cycles.items() if key != "lines"}
+    shared = {
+        **{key: value for key, value in cycles.items() if key not in ("lines", "curves")},
+        **cycles.get("curves", {}),
+    }
     line = cycles["lines"][wildcards.cycle_line]
     # a namelist has no empty lists
     return {**shared, **{key: value for key, value in line.items() if value != []}}

@@ -345,7 +345,7 @@ def good_inputs(filled_config, trajectory_file) -> dict[str, dict]:
         "spectrum": {"trajectory": str(trajectory_file), **config["spectra"]},
         "hopf": config["hopf_curves"]["tau_of_epsilon"] | {"cells": 20},
         "cycles": {
-            **{key: value for key, value in config["cycles"].items() if key != "lines"},
+            **{key: config["cycles"][key] for key in ("v", "degree", "longest_period")},
             **config["cycles"]["lines"]["torus_in_epsilon"],
             **{"t_transient": 500.0, "intervals": 20, "most_orbits": 5},
         },

@@ -74,7 +74,8 @@ def test_namelists_hold_the_config(smoke, smoke_config):
         "velocity_step": {"velocity_step": smoke_config["velocity_step"]},
     }
     cycles = smoke_config["cycles"]
-    shared = {key: value for key, value in cycles.items() if key != "lines"}
+    shared = {key: value for key, value in cycles.items() if key not in ("lines", "curves")}
+    shared |= cycles["curves"]
     for name, line in cycles["lines"].items():
         given = {key: value for key, value in line.items() if value != []}
         # a list of one is read as its item

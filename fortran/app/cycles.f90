@@ -1,6 +1,8 @@
-!> Cycles along a line of parameters: stable and unstable branches and their special points.
+!> Cycles along a line of parameters: stable and unstable branches, their special points, and curves
+!> of these over epsilon and tau.
 program cycles_program
    use block_cycles, only: cycle_settings_type, cycles_type, find_cycles
+   use cycle_curves, only: cycle_curve_type, find_curves
    use cycle_lines, only: hopf_start_type
    use cycles_input, only: read_cycles
    use cycles_output, only: write_cycles
@@ -9,6 +11,7 @@ program cycles_program
    implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
    type(cycle_settings_type) :: settings
+   type(cycle_curve_type), allocatable :: curves(:)
    type(cycles_type), allocatable :: found(:)
    type(error_type), allocatable :: error
    type(hopf_start_type), allocatable :: hopf(:)
@@ -19,6 +22,8 @@ program cycles_program
    call stop_on(error)
    call find_cycles(settings, hopf, found, error)
    call stop_on(error)
-   call write_cycles(output_path, settings, hopf, found, error)
+   call find_curves(settings, found, curves, error)
+   call stop_on(error)
+   call write_cycles(output_path, settings, hopf, found, curves, error)
    call stop_on(error)
 end program cycles_program

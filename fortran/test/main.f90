@@ -6,6 +6,7 @@ program tester
    use test_attractor_sweep, only: collect_attractor_sweep
    use test_attractors, only: collect_attractors
    use test_base_frequencies, only: collect_base_frequencies
+   use test_block_cycles, only: collect_block_cycles
    use test_block_parameters, only: collect_block_parameters
    use test_dde_extremes, only: collect_dde_extremes
    use test_dde_gsl, only: collect_dde_gsl
@@ -53,6 +54,7 @@ program tester
                              new_testsuite("attractor_sweep", collect_attractor_sweep), &
                              new_testsuite("attractors", collect_attractors), &
                              new_testsuite("base_frequencies", collect_base_frequencies), &
+                             new_testsuite("block_cycles", collect_block_cycles), &
                              new_testsuite("block_parameters", collect_block_parameters), &
                              new_testsuite("dde_extremes", collect_dde_extremes), &
                              new_testsuite("dde_gsl", collect_dde_gsl), &

@@ -465,7 +465,8 @@ contains
       call follow_curve(family, curve_settings, special(i), direction, curve, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
-      call expect(error, curve%ending == "hopf", "a Hopf point at its end, not "//curve%ending)
+      call expect(error, curve%ending == trim(merge("generalised_hopf", "double_hopf     ", &
+                                                    kind == fold)), "a Hopf point at its end")
    end subroutine curve_of_duffing
 
    !> "minimal_demo" of DDE-BIFTOOL: torus curves start at the double Hopf points b = 0.354445,

@@ -75,6 +75,9 @@ def _of_line(inside: str, line: dict) -> Iterator[str]:
 
 def _of_cycles(cycles: dict) -> Iterator[str]:
     """Lines along which cycles are followed, and starts on them."""
+    for key in ("epsilon", "tau") if "curves" in cycles else ():
+        values = cycles["curves"][f"{key}_window"]
+        yield from window("config cycles curves", f"{key}_window", values, **range_of(key))
     for name, line in cycles["lines"].items():
         inside = f"config cycles lines {name}"
         yield from _of_line(inside, line)

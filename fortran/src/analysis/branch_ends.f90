@@ -29,13 +29,15 @@ module branch_ends
 contains
 
    !> Whether a branch ends at its last orbit, and why.
-   logical function has_ended(settings, orbits, step, reason) result(value)
+   logical function has_ended(settings, orbits, step, same_direction, reason) result(value)
       !> Its limits
       type(branch_settings_type), intent(in) :: settings
       !> Its orbits
       type(periodic_orbit_type), intent(in) :: orbits(:)
       !> Length of the last step
       real(wp), intent(in) :: step
+      !> Whether the parameter changes in the same direction as at the first orbit
+      logical, intent(in) :: same_direction
       !> Why, where it ends
       character(len=:), allocatable, intent(inout) :: reason
 
@@ -48,7 +50,7 @@ contains
             reason = "amplitude"
          else if (orbit%period > settings%longest_period) then
             reason = "period"
-         else if (is_closed(settings, orbits, step)) then
+         else if (same_direction .and. is_closed(settings, orbits, step)) then
             reason = "closed"
          else
             value = .false.
@@ -64,15 +66,21 @@ contains
       type(periodic_orbit_type), intent(in) :: orbits(:)
       !> Length of the last step
       real(wp), intent(in) :: step
-      real(wp) :: distance(size(orbits))
+      real(wp) :: distance(size(orbits)), ends(size(orbits(1)%nodes, 1), 2), range
       integer :: i
 
       associate (first => orbits(1), p => settings%scale%free(1))
+         ends(:, 1) = minval(first%nodes, dim=2)
+         ends(:, 2) = maxval(first%nodes, dim=2)
+         range = maxval(ends(:, 2) - ends(:, 1))
          do i = 1, size(orbits)
-            distance(i) = maxval(abs([(orbits(i)%parameters(p) - first%parameters(p)) &
-                                      /settings%scale%unit(1), &
-                                      orbits(i)%period/first%period - 1.0_wp, &
-                                      orbits(i)%amplitude()/first%amplitude() - 1.0_wp]))
+            associate (x => orbits(i)%nodes)
+               distance(i) = max(maxval(abs(minval(x, dim=2) - ends(:, 1)))/range, &
+                                 maxval(abs(maxval(x, dim=2) - ends(:, 2)))/range, &
+                                 abs(orbits(i)%parameters(p) - first%parameters(p)) &
+                                 /settings%scale%unit(1), &
+                                 abs(orbits(i)%period/first%period - 1.0_wp))
+            end associate
          end do
       end associate
       value = distance(size(orbits)) < 0.5_wp*min(step, maxval(distance))

@@ -109,7 +109,7 @@ contains
    pure function points_of(degree, share) result(points)
       !> Degree m
       integer, intent(in) :: degree
-      !> 0: Gauss, 1: Radau IIA
+      !> 0 for Gauss points, 1 for those of Radau IIA
       real(wp), intent(in) :: share
       real(wp) :: points(degree)
       real(wp) :: move, p(0:degree), slope(0:degree), x
@@ -140,8 +140,9 @@ contains
       if (share > 0.0_wp) points(degree) = 1.0_wp
    end function points_of
 
-   !> Weights w with which polynomials up to degree 2m - 2 are integrated exactly. So 1, ..., P_{m-1}
-   !> are orthogonal also as sums over the points: w = 1/(sum of (2j + 1) P_j^2 over j = 0..m-1).
+   !> Weights w with which polynomials up to degree 2m - 2 are integrated exactly. So 1, ...,
+   !> P_{m-1} are orthogonal also as sums over the points: w = 1/(sum of (2j + 1) P_j^2 over j =
+   !> 0..m-1).
    pure function weights_of(points) result(weights)
       !> The points, shape (m)
       real(wp), intent(in) :: points(:)

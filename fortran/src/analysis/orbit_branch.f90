@@ -23,7 +23,8 @@ module orbit_branch
       type(orbit_change_type), allocatable :: tangents(:)
       !> Multipliers
       type(multipliers_type), allocatable :: multipliers(:)
-      !> Why it ends: 'window', 'amplitude', 'period', 'closed', 'orbits', 'convergence'
+      !> Why it ends: 'window', 'amplitude', 'period', 'closed', 'shorter_period' (at a cycle of a
+      !> part of its period), 'orbits', 'convergence'
       character(len=:), allocatable :: ending
       !> Iterations of Newton's method, also of steps that failed
       integer :: iterations = 0
@@ -41,6 +42,9 @@ module orbit_branch
    real(wp), parameter :: remaining_share = 0.1_wp
    !> Orbits between two adaptions of an accurate mesh
    integer, parameter :: adapt_every = 5
+
+   !> Message of a step that is too long
+   character(len=*), parameter :: passes_through = "the step passes through a shorter cycle"
 
 contains
 
@@ -66,6 +70,7 @@ contains
       type(periodic_orbit_type) :: orbit
       real(wp) :: step
       integer :: i
+      logical :: passed
 
       associate (scale => settings%scale)
          call first_orbit(family, scale, start, orbit, along(1), newton, error, tangent)
@@ -93,6 +98,7 @@ contains
          step = settings%first_step
          i = 1
          branch%ending = "orbits"
+         passed = .false.
          do while (i < settings%most_orbits)
             call take_step(family, settings, branch, i, step, newton, failure)
             branch%iterations = branch%iterations + newton%iterations
@@ -103,12 +109,15 @@ contains
             end if
             if (allocated(failure)) then
                step = shorter*step
+               passed = passed .or. failure%message == passes_through
                if (step >= settings%least_step) cycle
-               branch%ending = "convergence"
+               branch%ending = trim(merge("shorter_period", "convergence   ", passed))
                exit
             end if
+            passed = .false.
             i = i + 1
-            if (has_ended(settings, branch%orbits(:i), step, branch%ending)) exit
+            if (has_ended(settings, branch%orbits(:i), step, branch%tangents(1)%parameters(1) &
+                          *branch%tangents(i)%parameters(1) > 0.0_wp, branch%ending)) exit
             if (newton%iterations <= easy) step = min(longer*step, settings%longest_step)
             if (newton%iterations >= hard) step = shorter*step
          end do
@@ -184,8 +193,8 @@ contains
          move = along(1)
          call turn_to_tangent(family, scale, orbit, along(1), error)
          if (allocated(error)) return
-         if (orbit%is_opposite(before)) then
-            call raise(error, "the step passes through a Hopf point")
+         if (orbit%opposite_parts(before) > 0) then
+            call raise(error, passes_through)
          else if (inner_product(orbit, along(1), move) < least_cosine &
                   .and. step > settings%least_step/shorter) then
             call raise(error, "the branch turns")

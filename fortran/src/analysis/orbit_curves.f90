@@ -38,8 +38,9 @@ module orbit_curves
    type :: curve_type
       !> Its points; the first is the one it starts at
       type(special_point_type), allocatable :: points(:)
-      !> Why it ends: 'window', 'hopf' (a generalised or double Hopf point), '1:1' or '1:2'
-      !> (resonances), 'closed', 'period', 'points', 'convergence'
+      !> Why it ends: 'window', 'generalised_hopf' (folds) or 'double_hopf' (others), '1:1' or
+      !> '1:2' (resonances), 'closed', 'shorter_period' (at a cycle of a part of the period),
+      !> 'period', 'points', 'convergence'
       character(len=:), allocatable :: ending
       !> Points of a curve of folds before which it turns back in both parameters: cusps
       integer, allocatable :: cusps(:)
@@ -60,6 +61,9 @@ module orbit_curves
    real(wp), parameter :: resonant = 0.004_wp
    !> How the intervals grow where the mesh is not accurate
    real(wp), parameter :: growth = 1.3_wp
+
+   !> Message of a step that is too long
+   character(len=*), parameter :: passes_through = "the step passes through a shorter cycle"
 
 contains
 
@@ -82,6 +86,7 @@ contains
       type(special_point_type) :: next
       real(wp) :: step
       integer :: evaluations, i
+      logical :: passed
 
       allocate (curve%points(settings%most_points), curve%cusps(0))
       curve%points(1) = start
@@ -93,6 +98,7 @@ contains
          if (along%parameters(2)*direction < 0.0_wp) along = along%times(-1.0_wp)
       end associate
       curve%ending = "points"
+      passed = .false.
       step = settings%first_step
       i = 1
       do while (i < settings%most_points)
@@ -101,10 +107,12 @@ contains
          call take_step(family, settings, step, next, next_frame, evaluations, failure)
          if (allocated(failure)) then
             step = shorter*step
+            passed = passed .or. failure%message == passes_through
             if (step >= settings%least_step) cycle
-            curve%ending = "convergence"
+            curve%ending = trim(merge("shorter_period", "convergence   ", passed))
             exit
          end if
+         passed = .false.
          if (sum(frame%directions(1)%parameters*next_frame%directions(1)%parameters) < 0.0_wp &
              .and. next%kind == fold) curve%cusps = [curve%cusps, i + 1]
          frame = next_frame
@@ -147,8 +155,8 @@ contains
          end do
          call find_beside(family, settings, before, frame, step, point, evaluations, error)
          if (allocated(error)) return
-         if (point%orbit%is_opposite(before)) then
-            call raise(error, "the step passes through a Hopf point")
+         if (point%orbit%opposite_parts(before) > 0) then
+            call raise(error, passes_through)
             return
          end if
          move = difference_of(point%orbit, before, scale)
@@ -222,31 +230,48 @@ contains
       real(wp), intent(in) :: step
       !> Why, where it ends
       character(len=:), allocatable, intent(inout) :: reason
-      real(wp) :: far(2)
 
       value = .true.
       associate (point => points(last), free => settings%scale%free)
-         far = abs(point%orbit%parameters(free) - points(1)%orbit%parameters(free)) &
-               /settings%scale%unit
          if (any(point%orbit%parameters(free) < settings%window(1, :)) &
              .or. any(point%orbit%parameters(free) > settings%window(2, :))) then
             reason = "window"
          else if (point%orbit%amplitude() < settings%least_amplitude) then
-            reason = "hopf"
+            reason = trim(merge("generalised_hopf", "double_hopf     ", point%kind == fold))
          else if (point%kind == torus_bifurcation .and. abs(point%angle()) < resonant) then
             reason = "1:1"
          else if (point%kind == torus_bifurcation .and. abs(point%angle()) > 0.5_wp - resonant) then
             reason = "1:2"
          else if (point%orbit%period > settings%longest_period) then
             reason = "period"
-         else if (last > 5 .and. maxval(far) < 0.5_wp*step .and. &
-                  abs(point%orbit%amplitude() - points(1)%orbit%amplitude()) < step) then
+         else if (is_closed(settings, points(:last), step)) then
             reason = "closed"
          else
             value = .false.
          end if
       end associate
    end function has_ended
+
+   !> Whether a curve comes back to its first point.
+   pure logical function is_closed(settings, points, step) result(value)
+      !> How the curve is followed
+      type(curve_settings_type), intent(in) :: settings
+      !> Its points
+      type(special_point_type), intent(in) :: points(:)
+      !> Length of the last step
+      real(wp), intent(in) :: step
+      real(wp) :: distance(size(points))
+      integer :: i
+
+      do i = 1, size(points)
+         associate (first => points(1)%orbit, now => points(i)%orbit, scale => settings%scale)
+            distance(i) = maxval(abs([(now%parameters(scale%free) - first%parameters(scale%free)) &
+                                      /scale%unit, now%period/first%period - 1.0_wp, &
+                                      now%amplitude()/first%amplitude() - 1.0_wp]))
+         end associate
+      end do
+      value = distance(size(points)) < 0.5_wp*min(step, maxval(distance))
+   end function is_closed
 
    !> Keep the first points.
    subroutine cut(points, count)

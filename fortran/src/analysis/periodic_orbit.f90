@@ -32,8 +32,8 @@ module periodic_orbit
       procedure :: on_mesh
       !> Largest range of a component
       procedure :: amplitude
-      !> Whether another orbit on the same mesh swings against it
-      procedure :: is_opposite
+      !> Whether a part of another orbit on the same mesh is opposite
+      procedure :: opposite_parts
       !> Least and greatest value of a component
       procedure :: range_of
       !> Weights of an inner product
@@ -140,25 +140,47 @@ contains
       value = maxval(maxval(self%nodes, dim=2) - minval(self%nodes, dim=2))
    end function amplitude
 
-   !> Whether two orbits on the same mesh swing against each other: so do the orbits on both sides
-   !> of a Hopf point on a branch that passes through it.
-   pure logical function is_opposite(self, other) result(value)
+   !> Number k of turns after which the mean of an orbit is taken if the parts of two orbits on the
+   !> same mesh beside these means are opposite, or 0. With k = 1 they lie on both sides of a Hopf
+   !> point, otherwise on both sides of a cycle of 1/k of their period, on a branch that passes
+   !> through it.
+   pure integer function opposite_parts(self, other) result(turns)
       !> The orbit
       class(periodic_orbit_type), intent(in) :: self
       !> The other one
       type(periodic_orbit_type), intent(in) :: other
-      real(wp) :: product_of_swings
-      integer :: i
+      integer, parameter :: most_turns = 3
 
-      product_of_swings = 0.0_wp
-      do i = 1, size(self%nodes, 1)
-         associate (x => self%nodes(i, :), y => other%nodes(i, :))
-            product_of_swings = product_of_swings &
-                                + sum((x - sum(x)/size(x))*(y - sum(y)/size(y)))
-         end associate
+      do turns = 1, most_turns
+         if (sum(part_beside(self, turns)*part_beside(other, turns)) < 0.0_wp) return
       end do
-      value = product_of_swings < 0.0_wp
-   end function is_opposite
+      turns = 0
+   end function opposite_parts
+
+   !> What is left of an orbit at its nodes without its mean or, for k > 1, without the mean of its
+   !> values after 0, 1/k, ... of the period.
+   pure function part_beside(orbit, turns) result(part)
+      !> The orbit
+      class(periodic_orbit_type), intent(in) :: orbit
+      !> k
+      integer, intent(in) :: turns
+      real(wp) :: part(size(orbit%nodes, 1), size(orbit%nodes, 2))
+      real(wp) :: times(size(orbit%nodes, 2))
+      integer :: i, k
+
+      part = orbit%nodes
+      if (turns == 1) then
+         part = part - spread(sum(part, dim=2)/size(part, 2), 2, size(part, 2))
+         return
+      end if
+      part = part*(1.0_wp - 1.0_wp/turns)
+      times = orbit%node_times()
+      do i = 1, size(times)
+         do k = 1, turns - 1
+            part(:, i) = part(:, i) - orbit%at(times(i) + real(k, wp)/turns)/turns
+         end do
+      end do
+   end function part_beside
 
    !> Least and greatest value of a component. Each extreme at a node is made better by the extreme
    !> of its polynomial, found by golden section between the neighbouring nodes.

@@ -61,8 +61,9 @@ contains
       end do
    end function nearest_resonance
 
-   !> Test function of a kind of point by multipliers: m + 1, m - 1 or |m| - 1 for the one nearest
-   !> to -1, to 1, or to the unit circle off the real axis.
+   !> Test function of a kind of point by multipliers: m - 1 or |m| - 1 for the one nearest to 1, or
+   !> to the unit circle off the real axis; for a period doubling the product of all m + 1, of which
+   !> those greater than 1 count with modulus 1.
    pure subroutine test_value(kind, multipliers, critical, g)
       !> Kind of the point
       character(len=*), intent(in) :: kind
@@ -84,8 +85,9 @@ contains
             end if
             g = abs(critical) - 1.0_wp
          case (period_doubling)
-            if (any(real_ones)) critical = m(minloc(abs(m + 1.0_wp), dim=1, mask=real_ones))
-            g = real(critical) + 1.0_wp
+            critical = m(minloc(abs(m + 1.0_wp), dim=1))
+            ! it stays smooth where another multiplier comes to -1
+            g = real(product((m + 1.0_wp)/max(abs(m + 1.0_wp), 1.0_wp)))
          case default
             critical = m(minloc(abs(m - 1.0_wp), dim=1))
             g = real(critical) - 1.0_wp

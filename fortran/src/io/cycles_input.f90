@@ -53,6 +53,14 @@ contains
       call check_count(error, path, "intervals", settings%intervals, 10, at_most=1000)
       call check_number(error, path, "longest_period", settings%longest_period, above=0.0_wp)
       call check_count(error, path, "most_orbits", settings%most_orbits, 2, at_most=100000)
+      if (allocated(settings%curve_window)) then
+         associate (window => settings%curve_window)
+            call check_quantity(error, path, "epsilon", window(1, 1), "epsilon_window(1)")
+            call check_number(error, path, "epsilon_window(2)", window(2, 1), above=window(1, 1))
+            call check_quantity(error, path, "tau", window(1, 2), "tau_window(1)")
+            call check_number(error, path, "tau_window(2)", window(2, 2), above=window(1, 2))
+         end associate
+      end if
       allocate (settings%start_v(size(settings%starts)), source=v)
    end subroutine read_cycles
 
@@ -71,10 +79,10 @@ contains
       character(len=word_length) :: along
       character(len=256) :: reason
       real(wp) :: tau, epsilon, xi, gamma, v, window(2), starts(most_starts), t_transient
-      real(wp) :: longest_period
+      real(wp) :: longest_period, epsilon_window(2), tau_window(2)
       integer :: degree, intervals, most_orbits, status, unit
       namelist /cycles/ along, window, tau, epsilon, xi, gamma, starts, v, t_transient, degree, &
-         intervals, longest_period, most_orbits
+         intervals, longest_period, most_orbits, epsilon_window, tau_window
 
       along = ""
       tau = not_given()
@@ -86,6 +94,8 @@ contains
       starts = tau
       t_transient = tau
       longest_period = tau
+      epsilon_window = tau
+      tau_window = tau
       degree = 0
       intervals = 0
       most_orbits = 0
@@ -107,5 +117,8 @@ contains
       settings%degree = degree
       settings%intervals = intervals
       settings%most_orbits = most_orbits
+      if (.not. all(ieee_is_nan([epsilon_window, tau_window]))) then
+         settings%curve_window = reshape([epsilon_window, tau_window], [2, 2])
+      end if
    end subroutine read_group
 end module cycles_input

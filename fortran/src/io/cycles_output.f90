@@ -1,6 +1,7 @@
 !> Files of cycles along a line of parameters.
 module cycles_output
    use block_cycles, only: cycle_settings_type, cycles_type
+   use cycle_curves, only: cycle_curve_type
    use cycle_lines, only: along_epsilon, along_tau, hopf_start_type
    use cycles_input, only: names_along
    use dde_errors, only: error_type
@@ -19,9 +20,9 @@ module cycles_output
 
 contains
 
-   !> Write the orbits of all branches one after another, the branches, the special points and the
-   !> Hopf points.
-   subroutine write_cycles(path, settings, hopf, found, error)
+   !> Write the orbits of all branches one after another, the branches, the special points, the Hopf
+   !> points, and the points of all curves one after another.
+   subroutine write_cycles(path, settings, hopf, found, curves, error)
       !> Path of the file
       character(len=*), intent(in) :: path
       !> What was asked
@@ -30,6 +31,8 @@ contains
       type(hopf_start_type), intent(in) :: hopf(:)
       !> Branches
       type(cycles_type), intent(in) :: found(:)
+      !> Curves of special points
+      type(cycle_curve_type), intent(in) :: curves(:)
       !> It could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
@@ -46,6 +49,7 @@ contains
       call put_orbits(file, settings%line%along, found)
       call put_points(file, found)
       call put_hopf(file, hopf)
+      call put_curves(file, curves)
       call file%finish(error)
    end subroutine write_cycles
 
@@ -172,6 +176,57 @@ contains
          call file%put(id, numbers(:, i))
       end do
    end subroutine put_points
+
+   !> Curves, each from one end to the other.
+   subroutine put_curves(file, curves)
+      !> The file
+      type(output_file_type), intent(inout) :: file
+      !> The curves
+      type(cycle_curve_type), intent(in) :: curves(:)
+      character(len=kind_length) :: words(size(curves), 3)
+      real(wp), allocatable :: columns(:, :)
+      integer, allocatable :: number(:)
+      integer :: all, i, id(5), j, k, row, rows
+
+      all = 0
+      do i = 1, size(curves)
+         words(i, 1) = curves(i)%parts(1)%points(1)%kind
+         do k = 1, 2
+            words(i, 1 + k) = curves(i)%parts(k)%ending
+            all = all + size(curves(i)%parts(k)%points)
+         end do
+         ! both directions have the first point
+         all = all - 1
+      end do
+      allocate (columns(all, 5), number(all))
+      row = 0
+      do i = 1, size(curves)
+         do j = size(curves(i)%parts(1)%points), 2 - size(curves(i)%parts(2)%points), -1
+            row = row + 1
+            number(row) = i
+            associate (point => curves(i)%parts(merge(1, 2, j > 0))%points(merge(j, 2 - j, j > 0)))
+               columns(row, :) = [point%orbit%parameters(2), point%orbit%parameters(1), &
+                                  point%orbit%period, abs(point%angle()), point%trivial_error]
+            end associate
+         end do
+      end do
+      rows = file%dimension("curve_point", all)
+      id(1) = file%real_variable("curve_epsilon", rows, "epsilon of a point of a curve", "1")
+      id(2) = file%real_variable("curve_tau", rows, "its tau", "1")
+      id(3) = file%real_variable("curve_period", rows, "its period", "1")
+      id(4) = file%real_variable("curve_angle", rows, &
+                                 "angle of the critical multiplier over a full turn", "1")
+      id(5) = file%real_variable("curve_multiplier_error", rows, &
+                                 "distance of the trivial multiplier from 1", "1")
+      do i = 1, size(id)
+         call file%put(id(i), columns(:, i))
+      end do
+      call file%put(file%integer_variable("curve", rows, "number of the curve, from 1"), number)
+      rows = file%dimension("curves", size(curves))
+      call file%words("curve_kind", rows, words(:, 1), "kind of its points")
+      call file%words("curve_first_end", rows, words(:, 2), "why it ends at its first point")
+      call file%words("curve_last_end", rows, words(:, 3), "why it ends at its last point")
+   end subroutine put_curves
 
    !> Hopf points.
    subroutine put_hopf(file, hopf)

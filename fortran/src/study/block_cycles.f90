@@ -35,6 +35,9 @@ module block_cycles
       !> Longest period, most orbits of a branch
       real(wp) :: longest_period = 100.0_wp
       integer :: most_orbits = 200
+      !> Window on epsilon and on tau in which curves of special points are followed, shape (2, 2);
+      !> no curves where it is not allocated
+      real(wp), allocatable :: curve_window(:, :)
    end type cycle_settings_type
 
    !> A branch and what is on it.

@@ -1,0 +1,200 @@
+!> Cycles of the block along lines, against its Hopf points and their kinds.
+module test_block_cycles
+   use block_cycles, only: cycle_settings_type, cycles_type, find_cycles
+   use block_parameters, only: block_parameters_type
+   use characteristic_function, only: relative_residual
+   use cycle_curves, only: cycle_curve_type, find_curves
+   use cycle_lines, only: along_epsilon, along_tau, cycle_line_type, find_hopf_starts, &
+                          hopf_start_type
+   use dde_errors, only: failure_type => error_type
+   use dde_kinds, only: wp
+   use expectations, only: expect, expect_close, expect_success
+   use hopf_curves, only: curve_point_type, trace_curves
+   use hopf_planes, only: tau_plane_type
+   use hopf_points, only: find_hopf_points, hopf_point_type, judge_points
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use special_points, only: fold, torus_bifurcation
+   implicit none (type, external)
+   private
+   public :: collect_block_cycles
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_block_cycles(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("Hopf points on lines", test_hopf_starts), &
+                   new_unittest("folds start at a generalised Hopf point", test_folds), &
+                   new_unittest("tori start at a double Hopf point", test_tori), &
+                   new_unittest("a closed branch", test_closed)]
+   end subroutine collect_block_cycles
+
+   !> They fulfil (5) and lie on the line; a line in tau through one along epsilon meets it.
+   subroutine test_hopf_starts(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(cycle_line_type) :: line
+      type(failure_type), allocatable :: failure
+      type(hopf_start_type), allocatable :: across(:), starts(:)
+      integer :: i
+
+      line%along = along_epsilon
+      line%parameters = block_parameters_type(tau=10.0_wp, xi=0.8_wp, gamma=0.8_wp)
+      line%window = [0.0_wp, 1.0_wp]
+      call find_hopf_starts(line, starts, failure)
+      call expect_success(error, failure)
+      call expect(error, size(starts) == 2, "two Hopf points")
+      if (allocated(error)) return
+      do i = 1, 2
+         associate (p => starts(i)%parameters)
+            call expect_close(error, p%tau, 10.0_wp, 1.0e-9_wp, "tau")
+            call expect_close(error, relative_residual(p, cmplx(0.0_wp, starts(i)%omega, wp)), &
+                              0.0_wp, 1.0e-10_wp, "residual of (5)")
+            line%along = along_tau
+            line%parameters = p
+            line%window = [0.0_wp, 20.0_wp]
+            call find_hopf_starts(line, across, failure)
+            call expect_success(error, failure)
+            call expect_close(error, minval(abs(across%parameters%tau - 10.0_wp)), 0.0_wp, &
+                              1.0e-9_wp, "tau of the line across")
+         end associate
+      end do
+   end subroutine test_hopf_starts
+
+   !> The Hopf point of a kind in the plane of epsilon and tau that is nearest to a place.
+   subroutine nearest_hopf_point(xi, window, kind, place, nearest, error)
+      !> Spring constant
+      real(wp), intent(in) :: xi
+      !> Window on epsilon, window on tau
+      real(wp), intent(in) :: window(4)
+      !> Kind
+      character(len=*), intent(in) :: kind
+      !> epsilon, tau
+      real(wp), intent(in) :: place(2)
+      !> epsilon, tau of the point
+      real(wp), intent(out) :: nearest(2)
+      type(error_type), allocatable, intent(inout) :: error
+      type(curve_point_type), allocatable :: points(:)
+      type(failure_type), allocatable :: failure
+      type(hopf_point_type), allocatable :: found(:)
+      type(tau_plane_type) :: plane
+      integer :: i
+
+      nearest = 1000.0_wp
+      plane = tau_plane_type(gamma=0.8_wp, epsilon_window=window(:2), ordinate_window=window(3:), &
+                             xi=xi)
+      call trace_curves(plane, points, failure)
+      call expect_success(error, failure)
+      call judge_points(points, failure)
+      call expect_success(error, failure)
+      call find_hopf_points(plane, points, found, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      do i = 1, size(found)
+         associate (p => found(i)%parameters)
+            if (found(i)%kind == kind .and. norm2([p%epsilon, p%tau] - place) &
+                < norm2(nearest - place)) nearest = [p%epsilon, p%tau]
+         end associate
+      end do
+   end subroutine nearest_hopf_point
+
+   !> The curves of a kind that start on a line end at the Hopf point of another kind.
+   subroutine expect_end(settings, kind, ending, window, within, error)
+      !> The line, and the window of the curves
+      type(cycle_settings_type), intent(in) :: settings
+      !> Kind of the curve and of the Hopf point
+      character(len=*), intent(in) :: kind, ending
+      !> Window in which Hopf points are looked for
+      real(wp), intent(in) :: window(4)
+      !> Distance allowed
+      real(wp), intent(in) :: within
+      type(error_type), allocatable, intent(inout) :: error
+      type(cycle_curve_type), allocatable :: curves(:)
+      type(cycles_type), allocatable :: found(:)
+      type(failure_type), allocatable :: failure
+      type(hopf_start_type), allocatable :: hopf(:)
+      real(wp) :: known(2)
+      integer :: ends, i, k
+
+      call find_cycles(settings, hopf, found, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call find_curves(settings, found, curves, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      ends = 0
+      do i = 1, size(curves)
+         do k = 1, 2
+            associate (part => curves(i)%parts(k))
+               if (part%points(1)%kind /= kind .or. part%ending /= ending) cycle
+               ends = ends + 1
+               associate (last => part%points(size(part%points))%orbit%parameters)
+                  call nearest_hopf_point(last(3), window, ending, [last(2), last(1)], known, error)
+                  call expect_close(error, [last(2), last(1)], known, within, "end of the curve")
+               end associate
+            end associate
+         end do
+      end do
+      call expect(error, ends > 0, "a curve of kind "//kind//" with the end "//ending)
+   end subroutine expect_end
+
+   !> Where the first Lyapunov coefficient vanishes, a curve of folds of cycles begins.
+   subroutine test_folds(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(cycle_settings_type) :: settings
+
+      settings%line%along = along_epsilon
+      settings%line%parameters = block_parameters_type(tau=5.9_wp, xi=0.8_wp, gamma=0.8_wp)
+      settings%line%window = [0.3_wp, 0.6_wp]
+      allocate (settings%starts(0), settings%start_v(0))
+      settings%degree = 5
+      settings%intervals = 20
+      settings%most_orbits = 40
+      settings%curve_window = reshape([0.3_wp, 0.6_wp, 5.0_wp, 6.0_wp], [2, 2])
+      call expect_end(settings, fold, "generalised_hopf", [0.3_wp, 0.6_wp, 5.0_wp, 6.0_wp], &
+                      1.0e-4_wp, error)
+   end subroutine test_folds
+
+   !> Where two pairs of roots are imaginary, a curve of torus points begins.
+   subroutine test_tori(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(cycle_settings_type) :: settings
+
+      settings%line%along = along_tau
+      settings%line%parameters = block_parameters_type(epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp)
+      settings%line%window = [12.0_wp, 12.8_wp]
+      allocate (settings%starts(0), settings%start_v(0))
+      settings%degree = 5
+      settings%intervals = 20
+      settings%most_orbits = 40
+      settings%curve_window = reshape([0.4_wp, 0.6_wp, 11.5_wp, 12.8_wp], [2, 2])
+      call expect_end(settings, torus_bifurcation, "double_hopf", &
+                      [0.4_wp, 0.6_wp, 11.5_wp, 12.8_wp], 1.0e-4_wp, error)
+   end subroutine test_tori
+
+   !> Cycles of three maxima exist between two folds: their branch is closed and is found once.
+   subroutine test_closed(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(cycle_settings_type) :: settings
+      type(cycles_type), allocatable :: found(:)
+      type(failure_type), allocatable :: failure
+      type(hopf_start_type), allocatable :: hopf(:)
+
+      settings%line%along = along_tau
+      settings%line%parameters = block_parameters_type(epsilon=0.7_wp, xi=0.5_wp, gamma=0.8_wp)
+      settings%line%window = [4.8_wp, 5.2_wp]
+      settings%starts = [5.0_wp, 5.0_wp]
+      settings%start_v = [1.1_wp, 1.1_wp]
+      settings%most_orbits = 100
+      call find_cycles(settings, hopf, found, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect(error, size(hopf) == 0, "no Hopf point")
+      call expect(error, size(found) == 1, "one branch")
+      if (allocated(error)) return
+      call expect(error, found(1)%branch%ending == "closed", "a closed branch")
+      call expect(error, size(found(1)%points) == 2, "two special points")
+      if (allocated(error)) return
+      call expect(error, all(found(1)%points%kind == fold), "two folds")
+   end subroutine test_closed
+end module test_block_cycles
