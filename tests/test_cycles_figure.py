@@ -169,11 +169,11 @@ def test_sweeps_are_those_of_routes_on_the_same_line(config):
 
 
 def test_atlas_needs_cycles_of_its_planes(config):
-    """A line at another gamma, or along xi, lies in no plane."""
+    """A line at another gamma or xi lies in no plane."""
     at = {"along": "tau", "epsilon": 0.7, "xi": 0.5, "gamma": 0.8}
     config["cycles"]["lines"] = {
         "mine": at,
         "elsewhere": {**at, "gamma": 0.9},
-        "across": {"along": "xi", "tau": 7.0, "epsilon": 0.7, "gamma": 0.8},
+        "beside": {**at, "xi": 0.6},
     }
     assert result_files.cycles_in_atlas(config) == ["results/cycles/mine.nc"]

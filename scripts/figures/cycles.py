@@ -83,12 +83,15 @@ def draw_sweep(axes: Axes, run: str, swept: xr.Dataset, along: str) -> None:
 
 
 def draw_branches(axes: Axes, cycles: xr.Dataset, along: str) -> None:
-    """The branches, cut where the number of unstable multipliers changes; sweeps lie
-    over the stable parts and below the others."""
+    """The branches, cut where the number of unstable multipliers changes.
+
+    Dots of sweeps lie over the stable parts and below the others.
+    """
     for number in range(cycles.sizes["branches"]):
         x, y, unstable = branch_of(cycles, number + 1, along)
         cuts = np.flatnonzero(np.diff(unstable)) + 1
-        for part in np.split(np.arange(unstable.size), cuts):
+        # a branch of one orbit has no part
+        for part in filter(len, np.split(np.arange(unstable.size), cuts)):
             count = int(unstable[part[0]])
             ends = slice(part[0], part[-1] + 2)
             axes.plot(x[ends], y[ends], **LINES[min(count, 3)], zorder=3 if count else 1)
