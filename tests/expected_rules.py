@@ -19,6 +19,7 @@ FAMILIES = settings("stability", "families")
 WORK_SCENES = [*settings("work_precision", "scenes"), *settings("work_precision", "cases")]
 PLANES = settings("atlas", "planes")
 LINES = settings("routes", "lines")
+CYCLE_LINES = settings("cycles", "lines")
 RUNS = [*settings("routes", "histories"), "up", "down"]
 SCENES = ["oscillation", "torus", "chaos", "true_torus"]
 """Scenes that move."""
