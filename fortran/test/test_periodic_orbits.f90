@@ -42,6 +42,7 @@ contains
                    new_unittest("relaxation cycles", test_relaxation), &
                    new_unittest("gamma = 1e6", test_stiff), &
                    new_unittest("adapted meshes", test_meshes), &
+                   new_unittest("shorter cycles", test_shorter), &
                    new_unittest("refusals", test_refusals)]
    end subroutine collect_periodic_orbits
 
@@ -391,6 +392,38 @@ contains
       call expect_close(error, orbit%range_of(1), [0.0_wp, 2.0_wp*tanh(20.0_wp)], 1.0e-10_wp, &
                         "range")
    end subroutine test_meshes
+
+   !> A cycle of a third of the period plus a small part of the whole period: with the part
+   !> negative, or shifted by a sixth of the period, it lies on the other side of the short cycle.
+   subroutine test_shorter(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(periodic_orbit_type) :: large, negative, shifted, small
+
+      large = wave(0.3_wp, 0.0_wp)
+      small = wave(0.01_wp, 0.0_wp)
+      negative = wave(-0.01_wp, 0.0_wp)
+      shifted = wave(0.01_wp, 1.0_wp/6)
+      call expect(error, large%opposite_parts(small) == 0, "on one side")
+      call expect(error, negative%opposite_parts(small) == 3, "opposite beside thirds")
+      call expect(error, shifted%opposite_parts(small) == 3, "shifted beside thirds")
+      call expect(error, small%comes_to_shorter(large), "towards the short cycle")
+      call expect(error, .not. large%comes_to_shorter(small), "away from it")
+      call expect(error, .not. large%comes_to_shorter(large), "far from it")
+   end subroutine test_shorter
+
+   !> cos(6 pi s) + a cos(2 pi (s + shift)).
+   type(periodic_orbit_type) function wave(a, shift) result(orbit)
+      !> The part of the whole period, and its shift
+      real(wp), intent(in) :: a, shift
+
+      orbit%basis = collocation_basis_type(5, gauss_points)
+      orbit%mesh = uniform_mesh(30)
+      orbit%period = 1.0_wp
+      orbit%parameters = [0.0_wp]
+      associate (s => orbit%node_times())
+         orbit%nodes = reshape(cos(6.0_wp*pi*s) + a*cos(2.0_wp*pi*(s + shift)), [1, size(s)])
+      end associate
+   end function wave
 
    !> What is no orbit is refused.
    subroutine test_refusals(error)

@@ -50,6 +50,8 @@ contains
             reason = "amplitude"
          else if (orbit%period > settings%longest_period) then
             reason = "period"
+         else if (orbit%comes_to_shorter(orbits(size(orbits) - 1))) then
+            reason = "shorter_period"
          else if (same_direction .and. is_closed(settings, orbits, step)) then
             reason = "closed"
          else

@@ -244,6 +244,8 @@ contains
             reason = "1:2"
          else if (point%orbit%period > settings%longest_period) then
             reason = "period"
+         else if (point%orbit%comes_to_shorter(points(last - 1)%orbit)) then
+            reason = "shorter_period"
          else if (is_closed(settings, points(:last), step)) then
             reason = "closed"
          else

@@ -38,7 +38,7 @@ module orbit_equations
    type, extends(linear_map_type) :: orbit_map_type
       !> Collocation equations
       type(orbit_passes_type) :: linear
-      !> Conditions: the phase condition, then one for each free parameter
+      !> The phase condition, then a condition for each free parameter
       type(orbit_change_type), allocatable :: conditions(:)
       !> Nodes and delayed components of the last vector
       real(wp), allocatable :: nodes(:), delayed(:, :)

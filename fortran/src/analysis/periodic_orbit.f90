@@ -34,11 +34,16 @@ module periodic_orbit
       procedure :: amplitude
       !> Whether a part of another orbit on the same mesh is opposite
       procedure :: opposite_parts
+      !> Whether it is almost one of a part of its period, more so than the orbit before it
+      procedure :: comes_to_shorter
       !> Least and greatest value of a component
       procedure :: range_of
       !> Weights of an inner product
       procedure :: functional
    end type periodic_orbit_type
+
+   !> Most turns of a shorter cycle that an orbit is compared with.
+   integer, parameter :: most_turns = 3
 
 contains
 
@@ -143,19 +148,49 @@ contains
    !> Number k of turns after which the mean of an orbit is taken if the parts of two orbits on the
    !> same mesh beside these means are opposite, or 0. With k = 1 they lie on both sides of a Hopf
    !> point, otherwise on both sides of a cycle of 1/k of their period, on a branch that passes
-   !> through it.
+   !> through it. There the parts may also be shifted: then they are neither opposite nor alike.
    pure integer function opposite_parts(self, other) result(turns)
       !> The orbit
       class(periodic_orbit_type), intent(in) :: self
       !> The other one
       type(periodic_orbit_type), intent(in) :: other
-      integer, parameter :: most_turns = 3
+      real(wp), parameter :: alike = 0.7_wp
+      real(wp), dimension(size(self%nodes, 1), size(self%nodes, 2)) :: mine, theirs
 
       do turns = 1, most_turns
-         if (sum(part_beside(self, turns)*part_beside(other, turns)) < 0.0_wp) return
+         mine = part_beside(self, turns)
+         theirs = part_beside(other, turns)
+         if (sum(mine*theirs) < merge(0.0_wp, alike, turns == 1)*norm2(mine)*norm2(theirs)) return
       end do
       turns = 0
    end function opposite_parts
+
+   !> Whether a branch comes to an orbit of a part of its period.
+   pure logical function comes_to_shorter(self, last) result(value)
+      !> The orbit
+      class(periodic_orbit_type), intent(in) :: self
+      !> The orbit before it
+      type(periodic_orbit_type), intent(in) :: last
+      real(wp), parameter :: least_share = 0.02_wp
+      real(wp) :: share
+
+      share = part_share(self)
+      value = .false.
+      if (share < least_share) value = share < part_share(last)
+   end function comes_to_shorter
+
+   !> Least share of an orbit beside its means after 1/k of the period, k > 1: it is 0 where the
+   !> orbit is one of 1/k of its period.
+   pure real(wp) function part_share(self) result(share)
+      !> The orbit
+      class(periodic_orbit_type), intent(in) :: self
+      integer :: turns
+
+      share = 1.0_wp
+      do turns = 2, most_turns
+         share = min(share, norm2(part_beside(self, turns))/norm2(part_beside(self, 1)))
+      end do
+   end function part_share
 
    !> What is left of an orbit at its nodes without its mean or, for k > 1, without the mean of its
    !> values after 0, 1/k, ... of the period.
