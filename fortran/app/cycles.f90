@@ -7,6 +7,7 @@ program cycles_program
    use cycles_input, only: read_cycles
    use cycles_output, only: write_cycles
    use dde_errors, only: error_type
+   use progress, only: progress_type
    use program_arguments, only: get_paths, stop_on
    implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
@@ -15,15 +16,20 @@ program cycles_program
    type(cycles_type), allocatable :: found(:)
    type(error_type), allocatable :: error
    type(hopf_start_type), allocatable :: hopf(:)
+   type(progress_type) :: report
 
    call get_paths(namelist_path, output_path, error)
    call stop_on(error)
    call read_cycles(namelist_path, settings, error)
    call stop_on(error)
-   call find_cycles(settings, hopf, found, error)
+   report = progress_type("branches of cycles")
+   call find_cycles(settings, hopf, found, error, report)
    call stop_on(error)
-   call find_curves(settings, found, curves, error)
+   call report%finish()
+   report = progress_type("curves of their special points")
+   call find_curves(settings, found, curves, error, report)
    call stop_on(error)
+   call report%finish()
    call write_cycles(output_path, settings, hopf, found, curves, error)
    call stop_on(error)
 end program cycles_program

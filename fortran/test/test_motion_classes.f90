@@ -120,7 +120,7 @@ contains
 
       exponents%value = [0.05_wp, 0.0_wp, -0.1_wp]
       do sharp = 0, 1
-         exponents%error = merge(1.0e-3_wp, 2.0e-2_wp, sharp == 1)*[1, 0, 1]
+         exponents%error = merge(1.0e-3_wp, 1.0e-2_wp, sharp == 1)*[1, 0, 1]
          call expect(error, clear(exponents) .eqv. sharp == 1, "clear")
          do by_exponents = undecided, chaos
             do by_section = undecided, chaos

@@ -32,6 +32,10 @@ module motion_classes
                                                         "unstable rest        ", &
                                                         "not stationary       "]
 
+   !> An exponent so many standard errors from zero is far from it: during an approach those of a
+   !> cycle may be three, by chance.
+   real(wp), parameter :: far = 6.0_wp
+
 contains
 
    !> The class by leading exponents: all negative, a fixed point; one zero, the others negative, a
@@ -101,18 +105,18 @@ contains
       end associate
    end subroutine agree
 
-   !> Whether one exponent is the flow's and all others have a sign: then they need no confirmation.
-   !> If all of them are negative, the attractor is a cycle. Two equal ones that are positive may be
-   !> those of an unstable cycle that the motion has not left yet.
+   !> Whether one exponent is the flow's and all others are far from zero: then they need no
+   !> confirmation. If all of them are negative, the attractor is a cycle. Two equal ones that are
+   !> positive may be those of an unstable cycle that the motion has not left yet.
    pure logical function clear(exponents) result(value)
       !> Exponents, descending
       type(exponent_type), intent(in) :: exponents(:)
 
-      value = count(abs(exponents%value) <= error_bars*exponents%error) == 1
+      value = count(abs(exponents%value) <= far*exponents%error) == 1
       if (.not. value .or. size(exponents) < 2) return
       associate (first => exponents(1), second => exponents(2))
          value = first%value <= 0.0_wp &
-                 .or. first%value - second%value > error_bars*max(first%error, second%error)
+                 .or. first%value - second%value > far*max(first%error, second%error)
       end associate
    end function clear
 end module motion_classes

@@ -16,6 +16,7 @@ module block_cycles
    use orbit_start, only: orbit_at_hopf_point, orbit_of_trajectory
    use orbit_switch, only: orbit_of_double_period
    use periodic_orbit, only: periodic_orbit_type
+   use progress_receiver, only: progress_receiver_type
    use special_points, only: period_doubling, special_point_type
    use spring_block, only: index_of_ln_v, spring_block_type
    implicit none (type, external)
@@ -66,7 +67,7 @@ module block_cycles
 contains
 
    !> All branches along a line that the settings lead to.
-   subroutine find_cycles(settings, hopf, found, error)
+   subroutine find_cycles(settings, hopf, found, error, progress)
       !> What is computed
       type(cycle_settings_type), intent(in) :: settings
       !> Hopf points on the line
@@ -75,6 +76,8 @@ contains
       type(cycles_type), allocatable, intent(out) :: found(:)
       !> A search failed
       type(error_type), allocatable, intent(out) :: error
+      !> Receiver of the number of starts done
+      class(progress_receiver_type), intent(inout), optional :: progress
       type(branch_settings_type) :: how
       type(collocation_basis_type) :: basis
       type(error_type), allocatable :: failure
@@ -95,6 +98,7 @@ contains
       end associate
       allocate (found(0))
       do i = 1, size(hopf)
+         if (present(progress)) call progress%advance(i - 1, size(hopf) + size(settings%starts))
          if (is_end(settings, found, hopf(i))) cycle
          call orbit_at_hopf_point(block_family_type(), vector_of(hopf(i)%parameters), &
                                   [0.0_wp, 0.0_wp, 0.0_wp], hopf(i)%omega, &
@@ -104,6 +108,9 @@ contains
          if (allocated(error)) return
       end do
       do i = 1, size(settings%starts)
+         if (present(progress)) then
+            call progress%advance(size(hopf) + i - 1, size(hopf) + size(settings%starts))
+         end if
          call orbit_at(settings, i, basis, orbit, failure)
          if (allocated(failure)) cycle
          if (orbit%amplitude() < first_amplitude .or. is_known(settings, found, orbit)) cycle

@@ -8,6 +8,7 @@ module cycle_curves
    use orbit_curves, only: curve_settings_type, curve_type, follow_curve
    use orbit_mesh, only: adapted_mesh
    use orbit_passes, only: orbit_scale_type
+   use progress_receiver, only: progress_receiver_type
    use special_points, only: branching, special_point_type
    implicit none (type, external)
    private
@@ -32,7 +33,7 @@ module cycle_curves
 contains
 
    !> Follow the curves of all special points on the branches of a line, each once.
-   subroutine find_curves(settings, found, curves, error)
+   subroutine find_curves(settings, found, curves, error, progress)
       !> What is computed
       type(cycle_settings_type), intent(in) :: settings
       !> Branches with their points
@@ -41,6 +42,8 @@ contains
       type(cycle_curve_type), allocatable, intent(out) :: curves(:)
       !> A point has no curve
       type(error_type), allocatable, intent(out) :: error
+      !> Receiver of the number of branches done
+      class(progress_receiver_type), intent(inout), optional :: progress
       type(curve_settings_type) :: how
       type(cycle_curve_type), allocatable :: all(:)
       type(special_point_type) :: start
@@ -58,6 +61,7 @@ contains
          how%refinement%accuracy = accuracy
          how%refinement%most_intervals = most_intervals
          do i = 1, size(found)
+            if (present(progress)) call progress%advance(i - 1, size(found))
             do j = 1, size(found(i)%points)
                associate (point => found(i)%points(j))
                   if (point%kind == branching) cycle
