@@ -96,6 +96,14 @@ def test_a_change_without_a_point_is_drawn_between_orbits():
     assert unstable.tolist() == [2, 2, 2, 3, 3, 3]
 
 
+def test_a_branch_of_one_orbit_has_no_line():
+    """The other branch is drawn as before."""
+    found = followed_cycles().isel(orbit=[5, 6, 7, 8, 9])
+    (axes,) = cycles.draw({"one": found}, {"one": []}, {}).axes
+    assert labelled(axes, "2 unstable multipliers") == []
+    assert len(labelled(axes, "stable cycle")) == 2
+
+
 def test_stable_cycles_are_thick(drawn):
     """At least twice as thick as the unstable ones, which lie on top."""
     (stable, *_), (unstable, *_) = (
