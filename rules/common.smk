@@ -43,7 +43,7 @@ MEASURED = study_cases.measured_study(config)
 WORK_SCENES = list(MEASURED["cases"])
 LONG_RULES = {
     "attractors_runs",
-    "cycles",
+    "cycles_runs",
     "exponents_runs",
     "reference",
     "work_precision_runs",

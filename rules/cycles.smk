@@ -15,7 +15,7 @@ rule cycles_namelist:
         "../scripts/namelists/write_namelist.py"
 
 
-rule cycles:
+rule cycles_runs:
     input:
         program="build/release/bin/cycles",
         namelist="results/namelists/cycles/{cycle_line}.nml",
@@ -34,7 +34,7 @@ rule cycles:
 
 rule cycle_points:
     input:
-        cycles=expand("results/cycles/{line}.nc", line=config["cycles"]["lines"]),
+        cycles=result_files.cycles_of_lines(config),
         code=code_of("tables/cycle_points_table.py"),
     output:
         "results/tables/cycle-points.tsv",

@@ -19,6 +19,7 @@ FAMILIES = settings("stability", "families")
 WORK_SCENES = [*settings("work_precision", "scenes"), *settings("work_precision", "cases")]
 PLANES = settings("atlas", "planes")
 LINES = settings("routes", "lines")
+CYCLE_LINES = settings("cycles", "lines")
 RUNS = [*settings("routes", "histories"), "up", "down"]
 SCENES = ["oscillation", "torus", "chaos", "true_torus"]
 """Scenes that move."""
@@ -32,6 +33,7 @@ RULES_FOR = {
     "friction": {"build", "velocity_step_namelist", "velocity_step"},
     "exponents": {"build", "exponents_namelist", "exponents_runs"},
     "attractors": ATTRACTORS,
+    "cycles": {"build", "cycles_namelist", "cycles_runs"},
     "exponents.tsv": {"build", "exponents_namelist", "exponents_runs", "exponents_table"},
     "stability.tsv": {
         "build",
@@ -66,6 +68,7 @@ PROGRAMS_FOR = {
     "friction": ["velocity_step"],
     "exponents": ["exponents"],
     "attractors": ["attractors"],
+    "cycles": ["cycles"],
     "exponents.tsv": ["exponents"],
     "stability.tsv": ["measure", "reference"],
     "work-precision.tsv": ["measure", "reference"],

@@ -8,6 +8,8 @@ import xarray as xr
 from scripts.claims.claims_results import Results
 
 CLASSES = ["fixed point", "cycle", "torus", "chaos", "undecided"]
+PLACE = {"tau": 10.0, "epsilon": 0.5, "xi": 0.8, "gamma": 0.8}
+"""Parameters of a line, but for the one along it."""
 
 
 def hopf_curve(gamma: float = 0.8, xi: float = 0.5, k: int = 1, ordinate: str = "tau"):
@@ -91,12 +93,11 @@ def attractor_row(met: str, scene: str = "mine", history: int = 1, **given) -> d
 
 def route_rows(*classes: str, name: str = "mine", run: str = "near", along: str = "tau"):
     """Rows of a route: classes, with a period behind a /, at 0.1, 0.2 and so on, last first."""
-    place = {"tau": 10.0, "epsilon": 0.5, "xi": 0.8, "gamma": 0.8}
     rows = [
         {
             "route": name,
             "run": run,
-            **place,
+            **PLACE,
             along: 0.1 * (i + 1),
             "class": met.split("/")[0],
             "period": float(met.split("/")[1]) if "/" in met else math.nan,
@@ -104,6 +105,49 @@ def route_rows(*classes: str, name: str = "mine", run: str = "near", along: str 
         for i, met in enumerate(classes)
     ]
     return rows[::-1]
+
+
+def followed_cycles(along: str = "tau", **fixed: float) -> xr.Dataset:
+    """Two branches along a parameter with a special point of each of three kinds.
+
+    The first starts at a Hopf point, turns at a fold at 0.45 and is stable behind a torus
+    bifurcation at 0.3. The second is closed and doubles its period at 0.7, in both directions.
+    The curve of the period doubling has one point.
+    """
+    place = {key: value for key, value in {**PLACE, **fixed}.items() if key != along}
+    other = "epsilon" if along == "tau" else "tau"
+    orbits = {
+        along: [0.1, 0.3, 0.4, 0.4, 0.35, 0.2, *(0.6, 0.8, 0.8, 0.6)],
+        "v_most": [1.1, 1.5, 2.0, 2.5, 2.8, 3.5, *(2.0, 2.0, 2.5, 2.5)],
+        "branch": [1] * 6 + [2] * 4,
+        "unstable": [2, 2, 2, 3, 3, 1, *(0, 1, 1, 0)],
+    }
+    points = {
+        "kind": ["fold".ljust(20), "torus".ljust(20), *["period_doubling".ljust(20)] * 2],
+        along: [0.45, 0.3, 0.7, 0.7],
+        "v_most": [2.2, 3.0, 2.1, 2.6],
+        "branch": [1, 1, 2, 2],
+        "unstable_before": [2, 3, 0, 1],
+        "unstable_behind": [3, 1, 1, 0],
+    }
+    curves = {
+        "epsilon": [0.2, 0.4, 0.4, 0.2, 0.6, 1.0, 0.9],
+        "tau": [1.0, 2.0, 3.0, 4.0, 12.0, 13.0, 5.0],
+    }
+    return xr.Dataset(
+        {
+            **{name: ("orbit", values) for name, values in orbits.items()},
+            **{f"special_{name}": ("special", values) for name, values in points.items()},
+            "branch_origin": ("branches", ["hopf".ljust(16), "trajectory".ljust(16)]),
+            "branch_ending": ("branches", ["window".ljust(16), "closed".ljust(16)]),
+            f"hopf_{along}": ("hopf", [0.1]),
+            f"hopf_{other}": ("hopf", [place[other]]),
+            **{f"curve_{name}": ("curve_point", values) for name, values in curves.items()},
+            "curve": ("curve_point", [1, 1, 1, 1, 2, 2, 3]),
+            "curve_kind": ("curves", [points["kind"][i] for i in (0, 1, 2)]),
+        },
+        attrs={"along": along, **place},
+    )
 
 
 def spectrum(kind: str = "one base", **heights: float) -> xr.Dataset:

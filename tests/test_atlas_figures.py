@@ -7,13 +7,14 @@ import pytest
 import xarray as xr
 from config_refusals import line_about, refusal
 from figure_contents import points_in, title_of, words_in
-from made_up_results import attractor_row, hopf_curve
+from made_up_results import attractor_row, followed_cycles, hopf_curve
 from matplotlib import pyplot as plt
 from matplotlib.collections import PatchCollection, QuadMesh
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 
 from scripts.drawing import class_map
+from scripts.drawing.special_points import STYLES
 from scripts.drawing.spectrum_rows import BASE, COMBINATION, HARMONIC, SECOND_BASE
 from scripts.drawing.style import STYLE
 from scripts.figures import atlas, routes, true_torus
@@ -63,7 +64,7 @@ def curves_at(xi: float) -> xr.Dataset:
 def drawn() -> Figure:
     """The atlas of two planes."""
     rows = grid_of(0.8) + grid_of(0.5)
-    figure = atlas.draw(rows, [curves_at(0.5), curves_at(0.8)], PLACES)
+    figure = atlas.draw(rows, [curves_at(0.5), curves_at(0.8)], [], PLACES)
     figure.canvas.draw()
     return figure
 
@@ -96,7 +97,7 @@ def test_atlas_has_a_row_for_each_plane(drawn):
 def test_planes_may_have_delays_of_their_own():
     """Each map ends where its points end."""
     later = [row | {"gamma": 1e8, "tau": row["tau"] + 1} for row in grid_of(0.5)]
-    figure = atlas.draw(grid_of(0.5) + later, [], {})
+    figure = atlas.draw(grid_of(0.5) + later, [], [], {})
     assert [axes.get_ylim() for axes in figure.axes[:4]] == [(0, 20)] * 2 + [(1, 21)] * 2
 
 
@@ -150,7 +151,7 @@ def test_points_not_computed_have_the_exponent_of_the_nearest_of_their_kind():
         assert rows[i]["class"] == rows[nearest]["class"]
     for i in (6, 7):
         rows[i] |= {"computed": "no", "exponent_1": math.nan}
-    figure = atlas.draw(rows, [], {})
+    figure = atlas.draw(rows, [], [], {})
     assert "12 points, 10 computed, 1 undecided, 1 failed" in title_of(figure.axes[0])
     values = figure.axes[1].collections[0].get_array().ravel()
     assert (values[6], values[7]) == (-0.5, -0.01)
@@ -165,6 +166,48 @@ def test_scenes_stand_in_their_own_plane(drawn):
     assert names == [{"elsewhere"}, set(), {"first", "at zero", "first neighbour"}, set()]
     styles = {line.get_linestyle() for line in drawn.axes[2].lines if line.get_marker() == "None"}
     assert styles == {"-", "--"}
+
+
+def curves_over(axes) -> list[tuple[str, list[tuple[float, float]]]]:
+    """Colours and points of the curves of cycles."""
+    colours = {style.colour for style in STYLES.values()}
+    lines = [line for line in axes.lines if line.get_color() in colours]
+    return [(line.get_color(), [tuple(point) for point in line.get_xydata()]) for line in lines]
+
+
+def test_curves_of_cycles_lie_over_the_classes_of_their_plane():
+    """A line for each, by kind, not over the exponents; the legend names the kinds drawn."""
+    cycles = [followed_cycles(xi=0.8), followed_cycles(xi=0.8, gamma=1e8)]
+    figure = atlas.draw(grid_of(0.5) + grid_of(0.8), [curves_at(0.8)], cycles, {})
+    assert_on_page(figure)
+    assert [curves_over(axes) for axes in figure.axes[:4]] == [
+        *([], []),
+        [
+            (STYLES["fold"].colour, [(0.2, 1.0), (0.4, 2.0), (0.4, 3.0), (0.2, 4.0)]),
+            (STYLES["torus"].colour, [(0.6, 12.0), (1.0, 13.0)]),
+        ],
+        [],
+    ]
+    (legend,) = figure.legends
+    named = {line.get_label(): line.get_color() for line in legend.get_lines()}
+    assert named["fold of a cycle"] == STYLES["fold"].colour
+    assert named["torus bifurcation of a cycle"] == STYLES["torus"].colour
+    assert "period doubling of a cycle" not in named
+
+
+def test_cells_are_seen_beside_curves_of_cycles():
+    """The curves are thin and leave the window as it is."""
+    cycles = followed_cycles(xi=0.8)
+    cycles = cycles.assign(curve_tau=2 * cycles.curve_tau)
+    plain, drawn = (atlas.draw(grid_of(0.8), [], lines, {}).axes[0] for lines in ([], [cycles]))
+    assert (drawn.get_xlim(), drawn.get_ylim()) == (plain.get_xlim(), plain.get_ylim())
+    assert {line.get_linewidth() for line in drawn.lines if line.get_marker() == "None"} == {0.9}
+
+
+def test_an_atlas_without_curves_of_cycles_names_none(drawn):
+    """Nothing is drawn, nothing named."""
+    assert all(curves_over(axes) == [] for axes in drawn.axes[:4])
+    assert "of a cycle" not in words_in(drawn)
 
 
 def test_names_of_scenes_keep_clear_of_each_other(drawn):

@@ -142,7 +142,7 @@ def test_points_not_computed_reach_table_figure_and_page(programs, tiny):
     assert 0 < len(taken) < len(rows) == 99
     assert all(row["class"] in ("fixed point", "cycle", "torus", "chaos") for row in taken)
     assert all(np.isnan(row[key]) for row in taken for key in ("exponent_1", "time", "reason"))
-    figure = atlas.draw(rows, [], {})
+    figure = atlas.draw(rows, [], [], {})
     assert f"99 points, {99 - len(taken)} computed, " in title_of(figure.axes[0])
     known = np.array([row["class"] != "undecided" for row in rows])
     exponents = figure.axes[1].collections[0].get_array().filled(np.nan).ravel()

@@ -165,6 +165,27 @@ def last_small_cycle() -> list[float]:
     return [row["epsilon"] for row in rows if row["largest_maximum"] == small]
 
 
+def cycle_points(of: str, kind: str, column: str) -> list[float]:
+    """A column of the special points of the cycles on a line, ascending along it."""
+    along = settings("cycles", "lines", of, "along")
+    rows = [row for row in table("cycle-points.tsv") if (row["of"], row["kind"]) == (of, kind)]
+    return [float(row[column]) for row in sorted(rows, key=lambda row: float(row[along]))]
+
+
+def torus_starts(of: str, number: int = 0) -> list:
+    """Where a cycle turns into a torus, the angle of its pair, the first torus of the sweep up."""
+    along = settings("cycles", "lines", of, "along")
+    found = [cycle_points(of, "torus", column)[number] for column in (along, "angle")]
+    return [*found, *begins(of, ("torus", number))]
+
+
+def doublings_of_unstable_cycles() -> int:
+    """How many period doublings there are; none if one of them is that of a stable cycle."""
+    rows = [row for row in table("cycle-points.tsv") if row["kind"] == "period_doubling"]
+    unstable = all(row[f"unstable_{side}"] != "0" for row in rows for side in ("before", "behind"))
+    return len(rows) if unstable else 0
+
+
 def basin(place: str, motion: int) -> list[float]:
     """Largest maximum of v, share in per cent and its standard error."""
     (row,) = [
@@ -416,6 +437,37 @@ SAID = [
     Said(
         "docs/findings.md", "{} of the {} points are undecided",
         lambda: [sum(row["class"] == "undecided" for row in routes()), len(routes())],
+    ),
+    Said(
+        "docs/findings.md", "in a fold at epsilon = {:.4f}, where it meets",
+        lambda: cycle_points("torus_in_epsilon", "fold", "epsilon")[:1],
+    ),
+    Said(
+        "docs/findings.md", "the cycle has {} torus bifurcation. It becomes unstable",
+        lambda: [len(cycle_points("torus_in_epsilon", "torus", "tau")) or "no"],
+    ),
+    Said(
+        "docs/findings.md", "| `chaos_in_tau` | tau = {:.3f} | {:.3f} | {} |",
+        lambda: torus_starts("chaos_in_tau"),
+    ),
+    *(
+        Said(
+            "docs/findings.md", f"| `torus_in_tau`{again} | tau = {{:.3f}} | {{:.3f}} | {{}} |",
+            lambda number=number: torus_starts("torus_in_tau", number),
+        )
+        for number, again in enumerate(("", ", again"))
+    ),
+    Said(
+        "docs/findings.md", "| `chaos_in_epsilon` | epsilon = {:.4f} | {:.3f} | {} |",
+        lambda: torus_starts("chaos_in_epsilon"),
+    ),
+    Said(
+        "docs/findings.md", "fold at epsilon = {1:.4f}, the large one at epsilon = {0:.4f}",
+        lambda: cycle_points("chaos_in_epsilon", "fold", "epsilon"),
+    ),
+    Said(
+        "docs/findings.md", "The {} period doublings found are those of unstable cycles",
+        lambda: [doublings_of_unstable_cycles()],
     ),
     Said("docs/findings.md", "small cycle to epsilon = {:g}. Beyond", last_small_cycle),
     Said("docs/findings.md", "maxima of v jump from {:.1f} to {:.1f}", jump_of_maxima),

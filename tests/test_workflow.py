@@ -8,6 +8,7 @@ import pytest
 from conftest import ROOT, SMOKE, rules_in
 from dry_runs import Job, data_of_jobs, jobs_in, needed_for, rules_of
 from expected_rules import (
+    CYCLE_LINES,
     FAMILIES,
     OF_OTHERS,
     RULES_OF_ATTRACTORS,
@@ -46,7 +47,7 @@ def test_every_job_has_a_log_and_every_computation_a_benchmark(smoke):
     results = smoke.folder / "results"
     computed = {path.relative_to(results) for path in results.rglob("*.nc")}
     computed |= {path.relative_to(results) for path in (results / "references").rglob("*.tsv")}
-    assert len(computed) == 60 + 2 * len(FAMILIES) - 2 + 3 * len(WORK_SCENES)
+    assert len(computed) == 60 + len(CYCLE_LINES) + 2 * len(FAMILIES) - 2 + 3 * len(WORK_SCENES)
     for path in computed:
         assert (results / "logs" / path).with_suffix(".log").is_file()
         assert (results / "benchmarks" / path).with_suffix(".tsv").is_file()
@@ -190,7 +191,7 @@ def test_figures_and_files_can_be_asked_for(fresh, planned):
 
 def test_everything_from_one_command(planned):
     """Without a target: all figures and no computation that none of them needs."""
-    tables = {"hopf_points", "linear_stability_namelist", "linear_stability"}
+    tables = {"cycle_points", "hopf_points", "linear_stability_namelist", "linear_stability"}
     tables |= {"linear_stability_table", "claims", "page", *RULES_OF_ATTRACTORS}
     everything = set.union({"all", *tables, *FIGURES}, *map(expected_rules_of, FIGURES))
     assert rules_of(planned) == everything

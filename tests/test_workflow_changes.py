@@ -12,8 +12,8 @@ from snakemake_records import records_of
 from scripts.figures.entries import FIGURES
 
 COMPUTE = {
-    *("attractors_runs", "exponents_runs", "hopf_curves", "linear_stability", "measurement"),
-    *("reference", "spectrum", "slip_events", "trajectory", "velocity_step"),
+    *("attractors_runs", "cycles_runs", "exponents_runs", "hopf_curves", "linear_stability"),
+    *("measurement", "reference", "spectrum", "slip_events", "trajectory", "velocity_step"),
     "work_precision_runs",
 }
 """Rules that run a program."""

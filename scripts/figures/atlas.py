@@ -20,6 +20,7 @@ from scripts.drawing.class_map import (
     table_of,
 )
 from scripts.drawing.hopf_plane import SUBCRITICAL, draw_piece
+from scripts.drawing.special_points import STYLES, in_words, words_of
 from scripts.drawing.style import INK, logged, save
 from scripts.files.inputs import read
 from scripts.files.tsv import read_table
@@ -29,10 +30,22 @@ LINEAR, LARGEST = 1e-3, 0.1
 """Exponents closer to zero are coloured on a linear scale, larger ones all alike."""
 NEAR = 0.25
 """A scene this close at the right, as a share of the axis, sends a name above its dot."""
+CURVES = {kind: {"color": style.colour, "lw": 0.9} for kind, style in STYLES.items()}
+"""Of special points of cycles, by their kind."""
+EDGE = [withStroke(linewidth=1.7, foreground="white")]
+"""Around curves of cycles, so that they are seen over dark cells."""
 
 
-def draw(rows: list[dict], curves: list[xr.Dataset], scenes: dict[str, dict]) -> Figure:
-    """One plane a row: classes, and the largest exponent beside them; Hopf curves over both."""
+def draw(
+    rows: list[dict],
+    curves: list[xr.Dataset],
+    cycles: list[xr.Dataset],
+    scenes: dict[str, dict],
+) -> Figure:
+    """One plane a row: classes, and the largest exponent beside them; Hopf curves over both.
+
+    Curves of folds, period doublings and torus bifurcations of cycles are over the classes.
+    """
     planes = planes_of(rows)
     figure, panels = plt.subplots(
         len(planes),
@@ -43,6 +56,7 @@ def draw(rows: list[dict], curves: list[xr.Dataset], scenes: dict[str, dict]) ->
         squeeze=False,
     )
     letters = iter(ascii_lowercase)
+    drawn: set[str] = set()
     for (at, shown), (left, right) in zip(planes.items(), panels, strict=True):
         inside = {
             name: scene for name, scene in scenes.items() if (scene["gamma"], scene["xi"]) == at
@@ -54,6 +68,9 @@ def draw(rows: list[dict], curves: list[xr.Dataset], scenes: dict[str, dict]) ->
                 if (plane.attrs["gamma"], plane.attrs["xi"]) == at:
                     draw_curves(axes, plane)
             mark_scenes(axes, inside, named=axes is left)
+        for line in cycles:
+            if (line.attrs["gamma"], line.attrs["xi"]) == at:
+                drawn |= draw_curves_of_cycles(left, line)
         symbols = rf"$\xi$ = {at[1]:g}, $\gamma$ = {at[0]:g}"
         left.set_title(f"$\\bf{{{next(letters)}}}$  {symbols}\n{count_in_words(shown)}")
         right.set_title(f"$\\bf{{{next(letters)}}}$  the same: largest Lyapunov exponent")
@@ -75,6 +92,11 @@ def draw(rows: list[dict], curves: list[xr.Dataset], scenes: dict[str, dict]) ->
         *legend_of(rows),
         Line2D([], [], color=INK, label="Hopf curve, supercritical"),
         Line2D([], [], color=INK, ls=SUBCRITICAL, label="Hopf curve, subcritical"),
+        *(
+            Line2D([], [], label=f"{in_words(kind)} of a cycle", **CURVES[kind])
+            for kind in CURVES
+            if kind in drawn
+        ),
         Line2D([], [], ls="", marker="o", color=INK, mfc="white", label="scene"),
     ]
     figure.legend(handles=handles, loc="outside lower center", ncols=4)
@@ -111,6 +133,20 @@ def draw_curves(axes: Axes, curves: xr.Dataset) -> None:
         draw_piece(axes, line.epsilon.values, line.tau.values, line.l1.values, INK)
 
 
+def draw_curves_of_cycles(axes: Axes, cycles: xr.Dataset) -> set[str]:
+    """Curves of special points of cycles, with a white edge; their kinds."""
+    drawn = set()
+    for number, kind in enumerate(words_of(cycles.curve_kind), start=1):
+        line = cycles.isel(curve_point=cycles.curve.values == number)
+        # a curve that could not be followed has one point
+        if line.sizes["curve_point"] > 1:
+            axes.plot(
+                line.curve_epsilon, line.curve_tau, path_effects=EDGE, zorder=3, **CURVES[kind]
+            )
+            drawn.add(kind)
+    return drawn
+
+
 def mark_scenes(axes: Axes, scenes: dict[str, dict], named: bool) -> None:
     """A dot for each scene, its name beside it where nothing is in the way."""
     near = NEAR * np.ptp(axes.get_xlim())
@@ -142,6 +178,7 @@ if __name__ == "__main__":
         figure = draw(
             read_table(snakemake.input.table),
             [read(path) for path in snakemake.input.curves],
+            [read(path) for path in snakemake.input.cycles],
             snakemake.params.scenes,
         )
         save(figure, snakemake.output)

@@ -8,12 +8,16 @@ from dataclasses import dataclass, field
 
 from scripts.workflow.result_files import (
     curves_of_atlas,
+    cycles_in_atlas,
+    cycles_of_lines,
     exponents_of_scenes,
     paths_of_scenes,
     places_in_atlas,
     places_of_scenes,
     runs_of_routes,
     scenes_of,
+    sweeps_beside_cycles,
+    sweeps_on_lines,
     tables_of_others,
     tables_of_routes,
 )
@@ -66,7 +70,11 @@ ENTRIES = {
     ),
     "atlas": Entry(
         category="Atlas",
-        inputs={"table": "results/tables/atlas.tsv", "curves": curves_of_atlas},
+        inputs={
+            "table": "results/tables/atlas.tsv",
+            "curves": curves_of_atlas,
+            "cycles": cycles_in_atlas,
+        },
         params={"scenes": places_in_atlas},
     ),
     "true_torus": Entry(
@@ -79,6 +87,11 @@ ENTRIES = {
         category="Atlas",
         inputs={"tables": tables_of_routes, "runs": runs_of_routes},
         params={"scenes": places_in_atlas},
+    ),
+    "cycles": Entry(
+        category="Atlas",
+        inputs={"cycles": cycles_of_lines, "sweeps": sweeps_beside_cycles},
+        params={"scenes": places_in_atlas, "sweeps": sweeps_on_lines},
     ),
 }
 """In the order of the page."""

@@ -9,19 +9,19 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from scripts.drawing.along_parameter import (
+    NAMES,
+    SYMBOLS,
+    fixed_in_words,
+    mark_scenes,
+    maxima_of,
+)
 from scripts.drawing.class_map import draw_strips, legend_of
 from scripts.drawing.style import FAINT, logged, save
 from scripts.files.inputs import read
 from scripts.files.tsv import read_table
 from scripts.tables.motion_rows import count_in_words, parameter_of
 
-SYMBOLS = {"tau": r"\tau", "epsilon": r"\varepsilon", "xi": r"\xi", "gamma": r"\gamma"}
-NAMES = {
-    "tau": "delay",
-    "epsilon": "sensitivity of the velocity relaxation",
-    "xi": "spring constant",
-    "gamma": "frequency",
-}
 HEIGHT = 2.3
 """Of a route, in inches."""
 COLOURS = ("C6", "C2", "C3", "C7")
@@ -56,7 +56,8 @@ def draw(
         draw_strips(strips, by_run, along)
         label(above, strips, below, along)
         mark_scenes(above, scenes, of_route[0], along)
-        above.set_title(f"$\\bf{{{'abcdefgh'[i % 8]}}}$  {words(of_route, along)}")
+        words = f"{fixed_in_words(of_route[0], along)}: {count_in_words(of_route)}"
+        above.set_title(f"$\\bf{{{'abcdefgh'[i % 8]}}}$  {words}")
     dots = [
         Line2D([], [], ls="", marker="o", ms=3, color=colour, label=run)
         for run, colour in colours.items()
@@ -70,36 +71,10 @@ def names_of(rows: list[dict]) -> list[str]:
     return list(dict.fromkeys(row["run"] for row in rows))
 
 
-def words(rows: list[dict], along: str) -> str:
-    """The parameters that stay the same, and how many points there are."""
-    fixed = [f"${SYMBOLS[key]}$ = {rows[0][key]:g}" for key in SYMBOLS if key != along]
-    return f"{', '.join(fixed)}: {count_in_words(rows)}"
-
-
 def distance(rows: list[dict], along: str) -> float:
     """Between neighbouring places of a run; 0 where there is one."""
     places = [row[along] for row in rows]
     return (max(places) - min(places)) / max(1, len(places) - 1)
-
-
-def mark_scenes(axes: Axes, scenes: dict[str, dict], row: dict, along: str) -> None:
-    """A line with its name at each scene on the route."""
-    first, last = axes.get_xlim()
-    middle = 0.5 * (first + last)
-    for name, scene in scenes.items():
-        fixed = all(scene[key] == row[key] for key in SYMBOLS if key != along)
-        if fixed and first <= scene[along] <= last:
-            axes.axvline(scene[along], color=FAINT, lw=0.6, zorder=0)
-            axes.annotate(
-                name.replace("_", " "),
-                (scene[along], 1),
-                xycoords=("data", "axes fraction"),
-                xytext=(2 if scene[along] < middle else -2, -1),
-                textcoords="offset points",
-                ha="left" if scene[along] < middle else "right",
-                va="top",
-                fontsize=6,
-            )
 
 
 def label(above: Axes, strips: Axes, below: Axes, along: str) -> None:
@@ -125,17 +100,8 @@ def label(above: Axes, strips: Axes, below: Axes, along: str) -> None:
 
 def draw_maxima(axes: Axes, run: xr.Dataset, along: str, shift: float, colour: str) -> None:
     """A dot for each maximum kept."""
-    places = np.broadcast_to(run[along].values[:, None] + shift, run.maximum.shape)
-    there = run.maximum.values > 0
-    axes.plot(
-        places[there],
-        run.maximum.values[there],
-        ".",
-        color=colour,
-        ms=1.8,
-        mew=0,
-        rasterized=True,
-    )
+    places, maxima = maxima_of(run, along)
+    axes.plot(places + shift, maxima, ".", color=colour, ms=1.8, mew=0, rasterized=True)
 
 
 def draw_exponent(axes: Axes, rows: list[dict], along: str, shift: float, colour: str) -> None:

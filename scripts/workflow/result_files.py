@@ -44,6 +44,33 @@ def tables_of_routes(config: dict) -> list[str]:
     return [f"results/tables/routes/{line}.tsv" for line in config["routes"]["lines"]]
 
 
+def cycles_of_lines(config: dict) -> list[str]:
+    """Cycles followed along all lines."""
+    return [f"results/cycles/{line}.nc" for line in config["cycles"]["lines"]]
+
+
+def sweeps_on_lines(config: dict) -> dict[str, list[str]]:
+    """Sweeps of the routes that lie on each line of cycles."""
+    keys = ("along", "tau", "epsilon", "xi", "gamma")
+    places = {
+        name: [route.get(key) for key in keys] for name, route in config["routes"]["lines"].items()
+    }
+    return {
+        line: [
+            f"results/attractors/routes/{name}/{run}.nc"
+            for name, place in places.items()
+            if place == [settings.get(key) for key in keys]
+            for run in config["routes"]["sweeps"]
+        ]
+        for line, settings in config["cycles"]["lines"].items()
+    }
+
+
+def sweeps_beside_cycles(config: dict) -> list[str]:
+    """The same as one list."""
+    return [path for paths in sweeps_on_lines(config).values() for path in paths]
+
+
 def runs_of_basins(config: dict) -> list[str]:
     """Runs at the places where motions coexist."""
     return [f"results/attractors/basins/{place}.nc" for place in config["basins"]["places"]]
@@ -67,6 +94,16 @@ def curves_of_atlas(config: dict) -> list[str]:
         f"results/hopf/{name}.nc"
         for name, plane in config["hopf_curves"].items()
         if plane["ordinate"] == "tau" and (plane["fixed"], plane["gamma"]) in planes
+    ]
+
+
+def cycles_in_atlas(config: dict) -> list[str]:
+    """Cycles followed along lines that lie in planes of the atlas."""
+    planes = [(plane["xi"], plane["gamma"]) for plane in config["atlas"]["planes"].values()]
+    return [
+        f"results/cycles/{name}.nc"
+        for name, line in config["cycles"]["lines"].items()
+        if (line["xi"], line["gamma"]) in planes
     ]
 
 

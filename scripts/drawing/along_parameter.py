@@ -1,0 +1,47 @@
+"""What figures along one parameter share: names of parameters, and the scenes on a line."""
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+
+from scripts.drawing.style import FAINT
+
+SYMBOLS = {"tau": r"\tau", "epsilon": r"\varepsilon", "xi": r"\xi", "gamma": r"\gamma"}
+NAMES = {
+    "tau": "delay",
+    "epsilon": "sensitivity of the velocity relaxation",
+    "xi": "spring constant",
+    "gamma": "frequency",
+}
+
+
+def fixed_in_words(place: dict, along: str) -> str:
+    """The parameters that stay the same."""
+    return ", ".join(f"${SYMBOLS[key]}$ = {place[key]:g}" for key in SYMBOLS if key != along)
+
+
+def mark_scenes(axes: Axes, scenes: dict[str, dict], place: dict, along: str) -> None:
+    """A line with its name at each scene whose fixed parameters are those of a place."""
+    first, last = axes.get_xlim()
+    middle = 0.5 * (first + last)
+    for name, scene in scenes.items():
+        fixed = all(scene[key] == place[key] for key in SYMBOLS if key != along)
+        if fixed and first <= scene[along] <= last:
+            axes.axvline(scene[along], color=FAINT, lw=0.6, zorder=0)
+            axes.annotate(
+                name.replace("_", " "),
+                (scene[along], 1),
+                xycoords=("data", "axes fraction"),
+                xytext=(2 if scene[along] < middle else -2, -1),
+                textcoords="offset points",
+                ha="left" if scene[along] < middle else "right",
+                va="top",
+                fontsize=6,
+            )
+
+
+def maxima_of(run: xr.Dataset, along: str) -> tuple[np.ndarray, np.ndarray]:
+    """Places and values of all maxima of v that a run has kept."""
+    places = np.broadcast_to(run[along].values[:, None], run.maximum.shape)
+    there = run.maximum.values > 0
+    return places[there], run.maximum.values[there]

@@ -1,0 +1,183 @@
+"""Figure of the cycles followed: their greatest v along a parameter, stable or not."""
+
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from matplotlib import pyplot as plt
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from scripts.drawing.along_parameter import (
+    NAMES,
+    SYMBOLS,
+    fixed_in_words,
+    mark_scenes,
+    maxima_of,
+)
+from scripts.drawing.special_points import STYLES, in_words, words_of
+from scripts.drawing.style import FAINT, INK, logged, save
+from scripts.files.inputs import read
+
+HEIGHT = 2.1
+"""Of a line, in inches."""
+LINES = (
+    {"color": INK, "lw": 2.4, "label": "stable cycle"},
+    {"color": "C1", "lw": 0.8, "label": "1 unstable multiplier"},
+    {"color": "C0", "lw": 0.8, "label": "2 unstable multipliers"},
+    {"color": "C2", "lw": 0.8, "label": "3 or more unstable multipliers"},
+)
+"""How cycles are drawn, by the number of their unstable multipliers."""
+HOPF = {"ls": "", "marker": "o", "ms": 3, "mfc": "white", "color": INK, "label": "Hopf point"}
+SWEEPS = {
+    "up": {"color": "C3", "ms": 4.2, "zorder": 2},
+    "down": {"color": "C5", "ms": 2.6, "zorder": 2.5},
+}
+"""Dots of a sweep. Those of the second are smaller and on top: both show where they agree."""
+SLIDING = {"color": FAINT, "lw": 0.8, "label": "steady sliding", "zorder": 0}
+Sweeps = dict[str, list[tuple[str, xr.Dataset]]]
+
+
+def draw(lines: dict[str, xr.Dataset], sweeps: Sweeps, scenes: dict[str, dict]) -> Figure:
+    """One line below the other; `sweeps` are the files by line, with their directions."""
+    figure, panels = plt.subplots(
+        len(lines), 1, figsize=(6.7, HEIGHT * len(lines) + 0.6), squeeze=False
+    )
+    drawn: dict[str, Artist] = {}
+    for i, (axes, (name, cycles)) in enumerate(zip(panels[:, 0], lines.items(), strict=True)):
+        along = cycles.attrs["along"]
+        axes.axhline(1, **SLIDING)
+        for run, swept in sweeps[name]:
+            draw_sweep(axes, run, swept, along)
+        draw_branches(axes, cycles, along)
+        draw_points(axes, cycles, along)
+        drawn |= {str(line.get_label()): line for line in axes.lines}
+        axes.set(
+            xlabel=f"{NAMES[along]} ${SYMBOLS[along]}$" + " (units of $L/v_0$)" * (along == "tau"),
+            ylabel="maxima of $v$ (units of $v_0$)",
+        )
+        # the names of scenes stand above the dots
+        axes.margins(x=0.01, y=0.12)
+        axes.set_ylim(bottom=0)
+        mark_scenes(axes, scenes, cycles.attrs, along)
+        words = f"{fixed_in_words(cycles.attrs, along)}: {count_in_words(cycles)}"
+        axes.set_title(f"$\\bf{{{'abcdefgh'[i % 8]}}}$  {words}")
+    figure.legend(handles=legend_of(drawn), loc="outside lower center", ncols=3)
+    return figure
+
+
+def count_in_words(cycles: xr.Dataset) -> str:
+    """How many branches and special points there are."""
+    counts = {"branch": cycles.sizes["branches"], "special point": cycles.sizes["special"]}
+    plurals = {"branch": "branches", "special point": "special points"}
+    return ", ".join(
+        f"{count} {name if count == 1 else plurals[name]}" for name, count in counts.items()
+    )
+
+
+def draw_sweep(axes: Axes, run: str, swept: xr.Dataset, along: str) -> None:
+    """A dot for each maximum kept."""
+    style = {"ls": "", "marker": ".", "mew": 0, "rasterized": True, "label": f"sweep {run}"}
+    axes.plot(*maxima_of(swept, along), **style, **SWEEPS[run])
+
+
+def draw_branches(axes: Axes, cycles: xr.Dataset, along: str) -> None:
+    """The branches, cut where the number of unstable multipliers changes.
+
+    Dots of sweeps lie over the stable parts and below the others.
+    """
+    for number in range(cycles.sizes["branches"]):
+        x, y, unstable = branch_of(cycles, number + 1, along)
+        cuts = np.flatnonzero(np.diff(unstable)) + 1
+        # a branch of one orbit has no part
+        for part in filter(len, np.split(np.arange(unstable.size), cuts)):
+            count = int(unstable[part[0]])
+            ends = slice(part[0], part[-1] + 2)
+            axes.plot(x[ends], y[ends], **LINES[min(count, 3)], zorder=3 if count else 1)
+
+
+def branch_of(cycles: xr.Dataset, number: int, along: str) -> tuple[np.ndarray, ...]:
+    """Parameter, greatest v, and between each two points the number of unstable multipliers.
+
+    Special points stand between the orbits where this number changes, so that each part of the
+    branch ends at its special point.
+    """
+    orbits = cycles.isel(orbit=cycles.branch.values == number)
+    points = cycles.isel(special=cycles.special_branch.values == number)
+    x, y = orbits[along].values, orbits.v_most.values
+    unstable = orbits.unstable.values
+    if branch_word(cycles, "ending", number) == "closed":
+        x, y, unstable = (np.append(values, values[0]) for values in (x, y, unstable))
+    between = unstable[:-1].copy()
+    inserted = []
+    for point in range(points.sizes["special"]):
+        here = points.isel(special=point)
+        changes = np.flatnonzero(
+            (unstable[:-1] == int(here.special_unstable_before))
+            & (unstable[1:] == int(here.special_unstable_behind))
+        )
+        if changes.size:
+            place = float(here[f"special_{along}"]), float(here.special_v_most)
+            away = np.hypot(
+                (x[changes] - place[0]) / np.ptp(x), (y[changes] - place[1]) / np.ptp(y)
+            )
+            inserted.append((changes[away.argmin()] + 1, *place, unstable[changes[0] + 1]))
+    for before, point_x, point_y, behind in sorted(inserted, reverse=True):
+        x, y = np.insert(x, before, point_x), np.insert(y, before, point_y)
+        between = np.insert(between, before, behind)
+    return x, y, between
+
+
+def branch_word(cycles: xr.Dataset, kind: str, number: int) -> str:
+    """The origin or the ending of a branch."""
+    return words_of(cycles[f"branch_{kind}"])[number - 1]
+
+
+def draw_points(axes: Axes, cycles: xr.Dataset, along: str) -> None:
+    """Special points by their kind, and Hopf points, where a cycle starts from steady sliding."""
+    kinds = np.array(words_of(cycles.special_kind))
+    for kind, style in STYLES.items():
+        these = cycles.isel(special=kinds == kind)
+        if these.sizes["special"]:
+            axes.plot(
+                these[f"special_{along}"],
+                these.special_v_most,
+                ls="",
+                marker=style.marker,
+                ms=3.6,
+                mfc="white",
+                mec=style.colour,
+                mew=0.9,
+                label=in_words(kind),
+                zorder=5,
+            )
+    if cycles.sizes["hopf"]:
+        places = cycles[f"hopf_{along}"]
+        axes.plot(places, np.ones(places.size), clip_on=False, zorder=4, **HOPF)
+
+
+def legend_of(drawn: dict[str, Artist]) -> list[Artist]:
+    """What is drawn somewhere, in the order of the lists above."""
+    names = [
+        *(str(style["label"]) for style in LINES),
+        *(f"sweep {run}" for run in SWEEPS),
+        *("steady sliding", "Hopf point", *map(in_words, STYLES)),
+    ]
+    return [drawn[name] for name in names if name in drawn]
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        swept = {path: read(path) for path in snakemake.input.sweeps}
+        save(
+            draw(
+                {Path(path).stem: read(path) for path in snakemake.input.cycles},
+                {
+                    line: [(Path(path).stem, swept[path]) for path in paths]
+                    for line, paths in snakemake.params.sweeps.items()
+                },
+                snakemake.params.scenes,
+            ),
+            snakemake.output,
+        )
