@@ -165,7 +165,11 @@ def cycles_values(wildcards):
     """The line on which cycles are followed, and how, as namelist group."""
     cycles = config["cycles"]
     shared = {
-        **{key: value for key, value in cycles.items() if key not in ("lines", "curves")},
+        **{
+            key: value
+            for key, value in cycles.items()
+            if key not in ("lines", "curves")
+        },
         **cycles.get("curves", {}),
     }
     line = cycles["lines"][wildcards.cycle_line]
