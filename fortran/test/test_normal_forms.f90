@@ -189,7 +189,8 @@ contains
    end subroutine test_unfolding
 
    !> On both sides of the line of a cycle of r_j' = 2 r_j (mu_j + sum_k p_jk r_k): whether the
-   !> fixed point of both pairs exists where the other pair grows along the cycle, and its eigenvalues.
+   !> fixed point of both pairs exists where the other pair grows along the cycle, and its
+   !> eigenvalues.
    subroutine test_amplitudes(error)
       type(error_type), allocatable, intent(out) :: error
       type(double_hopf_type) :: form
