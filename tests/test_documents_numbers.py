@@ -481,7 +481,7 @@ SAID = [
     ),
     Said(
         "docs/findings.md", "large cycle, v up to {:.1f} | {:.0f} ± {:.0f} %",
-        lambda: basin("three_cycles", 3),
+        lambda: basin("three_cycles", 2),
     ),
     Said(
         "docs/findings.md", "another cycle, v up to {:.1f} | {:.0f} ± {:.0f} %",

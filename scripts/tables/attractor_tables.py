@@ -9,8 +9,9 @@ from scripts.files.inputs import read
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
 
-SAME_MAXIMUM = 0.01
-"""Maxima of v on one and the same cycle or torus differ by no more than this share."""
+SAME_MAXIMUM = 0.02
+"""Maxima of v on one and the same cycle or torus differ by no more than this share: near a fold a
+cycle is approached slowly."""
 ERROR_BARS = 3.0
 """Exponents of one and the same chaotic attractor differ by no more error bars than this."""
 
