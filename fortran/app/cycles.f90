@@ -1,7 +1,7 @@
 !> Cycles along a line of parameters: stable and unstable branches, their special points, and curves
 !> of these over epsilon and tau.
 program cycles_program
-   use block_cycles, only: cycle_settings_type, cycles_type, find_cycles
+   use block_cycles, only: cycle_settings_type, cycles_type, find_cycles, left_out_type
    use cycle_curves, only: cycle_curve_type, find_curves
    use cycle_lines, only: hopf_start_type
    use cycles_input, only: read_cycles
@@ -16,6 +16,7 @@ program cycles_program
    type(cycles_type), allocatable :: found(:)
    type(error_type), allocatable :: error
    type(hopf_start_type), allocatable :: hopf(:)
+   type(left_out_type), allocatable :: left_out(:)
    type(progress_type) :: report
 
    call get_paths(namelist_path, output_path, error)
@@ -23,13 +24,13 @@ program cycles_program
    call read_cycles(namelist_path, settings, error)
    call stop_on(error)
    report = progress_type("branches of cycles")
-   call find_cycles(settings, hopf, found, error, report)
+   call find_cycles(settings, hopf, found, left_out, error, report)
    call stop_on(error)
    call report%finish()
    report = progress_type("curves of their special points")
    call find_curves(settings, found, curves, error, report)
    call stop_on(error)
    call report%finish()
-   call write_cycles(output_path, settings, hopf, found, curves, error)
+   call write_cycles(output_path, settings, hopf, found, left_out, curves, error)
    call stop_on(error)
 end program cycles_program

@@ -18,6 +18,7 @@ program tester
    use test_dde_taylor, only: collect_dde_taylor
    use test_exponents, only: collect_exponents
    use test_extreme_gamma, only: collect_extreme_gamma
+   use test_floquet_multipliers, only: collect_floquet_multipliers
    use test_friction_law, only: collect_friction_law
    use test_gsl_roots, only: collect_gsl_roots
    use test_hopf_condition, only: collect_hopf_condition
@@ -30,6 +31,7 @@ program tester
    use test_motion_classes, only: collect_motion_classes
    use test_normal_forms, only: collect_normal_forms
    use test_orbit_branches, only: collect_orbit_branches
+   use test_orbit_curves, only: collect_orbit_curves
    use test_periodic_orbits, only: collect_periodic_orbits
    use test_progress, only: collect_progress
    use test_refined_grid, only: collect_refined_grid
@@ -66,6 +68,7 @@ program tester
                              new_testsuite("dde_taylor", collect_dde_taylor), &
                              new_testsuite("exponents", collect_exponents), &
                              new_testsuite("extreme_gamma", collect_extreme_gamma), &
+                             new_testsuite("floquet_multipliers", collect_floquet_multipliers), &
                              new_testsuite("friction_law", collect_friction_law), &
                              new_testsuite("gsl_roots", collect_gsl_roots), &
                              new_testsuite("hopf_condition", collect_hopf_condition), &
@@ -78,6 +81,7 @@ program tester
                              new_testsuite("motion_classes", collect_motion_classes), &
                              new_testsuite("normal_forms", collect_normal_forms), &
                              new_testsuite("orbit_branches", collect_orbit_branches), &
+                             new_testsuite("orbit_curves", collect_orbit_curves), &
                              new_testsuite("periodic_orbits", collect_periodic_orbits), &
                              new_testsuite("progress", collect_progress), &
                              new_testsuite("refined_grid", collect_refined_grid), &

@@ -1,6 +1,6 @@
 !> Cycles of the block along lines, against its Hopf points and their kinds.
 module test_block_cycles
-   use block_cycles, only: cycle_settings_type, cycles_type, find_cycles
+   use block_cycles, only: cycle_settings_type, cycles_type, find_cycles, left_out_type
    use block_parameters, only: block_parameters_type
    use characteristic_function, only: relative_residual
    use cycle_curves, only: cycle_curve_type, find_curves
@@ -111,12 +111,13 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       type(cycle_curve_type), allocatable :: curves(:)
       type(cycles_type), allocatable :: found(:)
+      type(left_out_type), allocatable :: left_out(:)
       type(failure_type), allocatable :: failure
       type(hopf_start_type), allocatable :: hopf(:)
       real(wp) :: known(2)
       integer :: ends, i, k
 
-      call find_cycles(settings, hopf, found, failure)
+      call find_cycles(settings, hopf, found, left_out, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
       call find_curves(settings, found, curves, failure)
@@ -177,6 +178,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(cycle_settings_type) :: settings
       type(cycles_type), allocatable :: found(:)
+      type(left_out_type), allocatable :: left_out(:)
       type(failure_type), allocatable :: failure
       type(hopf_start_type), allocatable :: hopf(:)
 
@@ -186,7 +188,7 @@ contains
       settings%starts = [5.0_wp, 5.0_wp]
       settings%start_v = [1.1_wp, 1.1_wp]
       settings%most_orbits = 100
-      call find_cycles(settings, hopf, found, failure)
+      call find_cycles(settings, hopf, found, left_out, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
       call expect(error, size(hopf) == 0, "no Hopf point")
@@ -196,5 +198,9 @@ contains
       call expect(error, size(found(1)%points) == 2, "two special points")
       if (allocated(error)) return
       call expect(error, all(found(1)%points%kind == fold), "two folds")
+      call expect(error, size(left_out) == 1, "the second start is named")
+      if (allocated(error)) return
+      call expect(error, left_out(1)%reason == "its cycle is on a branch", "and why")
+      call expect_close(error, left_out(1)%at, 5.0_wp, 0.0_wp, "and where")
    end subroutine test_closed
 end module test_block_cycles

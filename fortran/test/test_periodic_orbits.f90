@@ -1,24 +1,19 @@
-!> Single periodic orbits and their multipliers, against exact solutions, exponents and other
-!> discretisations.
+!> Single periodic orbits, against exact solutions and other discretisations.
 module test_periodic_orbits
    use block_builder, only: build_block
-   use block_family, only: block_family_type, vector_of
    use collocation_basis, only: collocation_basis_type, gauss_points, radau_points
-   use cycle_families, only: delayed_sine, driven_growth, known_family
+   use cycle_families, only: delayed_sine, known_family
    use dde, only: continuation_type, integrate, integration_result
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
-   use floquet_multipliers, only: find_multipliers, multipliers_type
-   use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
+   use floquet_multipliers, only: multipliers_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use orbit_change, only: orbit_change_type
-   use orbit_equations, only: correct_orbit, newton_type
+   use orbit_equations, only: newton_type
    use orbit_mesh, only: adapted_mesh, uniform_mesh
-   use orbit_passes, only: orbit_scale_type
+   use orbit_runs, only: correct, cycle_of_block
    use orbit_start, only: orbit_of_trajectory
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: problem_family_type
    use solving, only: at_tolerance
    use spring_block, only: index_of_ln_v, spring_block_type
    implicit none (type, external)
@@ -35,9 +30,6 @@ contains
 
       testsuite = [new_unittest("points and weights", test_points), &
                    new_unittest("order of an exact orbit", test_order), &
-                   new_unittest("exact multipliers, delays of one and two periods", test_exact), &
-                   new_unittest("multipliers near a Hopf point", test_near_hopf), &
-                   new_unittest("multipliers and exponents", test_exponents), &
                    new_unittest("without delay", test_no_delay), &
                    new_unittest("relaxation cycles", test_relaxation), &
                    new_unittest("gamma = 1e6", test_stiff), &
@@ -45,66 +37,6 @@ contains
                    new_unittest("shorter cycles", test_shorter), &
                    new_unittest("refusals", test_refusals)]
    end subroutine collect_periodic_orbits
-
-   !> Correct an orbit at fixed parameters.
-   subroutine correct(family, orbit, newton, failure)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> The orbit
-      type(periodic_orbit_type), intent(inout) :: orbit
-      !> The method
-      type(newton_type), intent(inout) :: newton
-      !> No convergence
-      type(failure_type), allocatable, intent(out) :: failure
-      type(orbit_change_type) :: no_direction(0)
-      type(orbit_scale_type) :: none
-      type(periodic_orbit_type) :: reference
-      real(wp) :: no_distance(0)
-
-      allocate (none%free(0), none%unit(0))
-      reference = orbit
-      call correct_orbit(family, none, reference, no_direction, no_distance, orbit, newton, failure)
-   end subroutine correct
-
-   !> The orbit of a block that a trajectory has come to, with its multipliers.
-   subroutine cycle_of_block(block, t_end, degree, points, intervals, orbit, multipliers, error)
-      !> The block
-      type(spring_block_type), intent(in) :: block
-      !> Time of the trajectory
-      real(wp), intent(in) :: t_end
-      !> Degree, kind of points and intervals
-      integer, intent(in) :: degree, points, intervals
-      !> The orbit
-      type(periodic_orbit_type), intent(out) :: orbit
-      !> Its multipliers
-      type(multipliers_type), intent(out) :: multipliers
-      type(error_type), allocatable, intent(inout) :: error
-      type(block_family_type) :: family
-      type(continuation_type) :: arrived
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
-      type(newton_type) :: newton
-      integer :: i
-
-      call integrate(block, 0.0_wp, t_end, at_tolerance(1.0e-9_wp, "auto"), outcome, failure, &
-                     continuation=arrived)
-      call expect_success(error, failure)
-      if (allocated(error)) return
-      call orbit_of_trajectory(block, at_tolerance(1.0e-9_wp, "auto"), arrived, index_of_ln_v, &
-                               100.0_wp, collocation_basis_type(degree, points), intervals, orbit, &
-                               failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
-      orbit%parameters = vector_of(block%parameters)
-      do i = 1, 2
-         call correct(family, orbit, newton, failure)
-         call expect_success(error, failure)
-         if (allocated(error)) return
-         if (i == 1) orbit = orbit%on_mesh(adapted_mesh(orbit, intervals))
-      end do
-      call find_multipliers(family, orbit, 6, multipliers, failure)
-      call expect_success(error, failure)
-   end subroutine cycle_of_block
 
    !> Gauss points integrate polynomials up to degree 2m - 1 exactly, those of Radau to 2m - 2; the
    !> Lagrange polynomials reproduce polynomials and their slopes.
@@ -184,125 +116,6 @@ contains
       end do
       value = atan2(part(2), part(1))
    end function phase_of
-
-   !> Where the delay is k periods, x(t - k) = x(t)/mu^k: the multipliers solve mu = exp(a/mu^k),
-   !> and exp(-2) is that of the circle. Both signs of a: a growing and an oscillating disturbance.
-   subroutine test_exact(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(known_family) :: family
-      type(multipliers_type) :: found
-      type(newton_type) :: newton
-      type(periodic_orbit_type) :: orbit
-      real(wp), parameter :: rates(2) = [0.5_wp, -1.8_wp]
-      real(wp) :: times(20*6 + 1)
-      complex(wp) :: mu
-      integer :: i, j, k, others
-
-      family = known_family(equation=driven_growth)
-      orbit%basis = collocation_basis_type(6, gauss_points)
-      orbit%mesh = uniform_mesh(20)
-      times = orbit%node_times()
-      do k = 1, 2
-         do i = 1, 2
-            orbit%parameters = [rates(i), 0.7_wp, real(k, wp)]
-            orbit%period = 1.0_wp
-            allocate (orbit%nodes(3, size(times)))
-            orbit%nodes(1, :) = cos(2.0_wp*pi*times)
-            orbit%nodes(2, :) = sin(2.0_wp*pi*times)
-            orbit%nodes(3, :) = 0.0_wp
-            call correct(family, orbit, newton, failure)
-            call expect_success(error, failure)
-            call find_multipliers(family, orbit, 6, found, failure)
-            call expect_success(error, failure)
-            if (allocated(error)) return
-            call expect_close(error, orbit%period, 1.0_wp, 1.0e-12_wp, "period")
-            call expect_close(error, found%trivial_error, 0.0_wp, 1.0e-9_wp, "trivial multiplier")
-            others = 0
-            do j = 1, size(found%values)
-               mu = found%values(j)
-               if (abs(mu - exp(-2.0_wp)) < 1.0e-8_wp) cycle
-               others = others + 1
-               call expect_close(error, abs(exp(rates(i)/mu**k) - mu), 0.0_wp, 2.0e-8_wp, &
-                                 "multiplier "//text(j)//" of "//text(k)//" periods")
-            end do
-            call expect(error, others >= 5, "multipliers of the delayed equation")
-            if (i == 1) then
-               ! the real root by iteration of mu = exp(a/mu^k) with averaging
-               mu = (1.3_wp, 0.0_wp)
-               do j = 1, 200
-                  mu = 0.5_wp*(mu + exp(rates(1)/mu**k))
-               end do
-               call expect_close(error, abs(found%values(1) - mu), 0.0_wp, 1.0e-9_wp, &
-                                 "the growing disturbance")
-               call expect(error, found%unstable() == 1, "one unstable multiplier")
-            else
-               call expect(error, abs(aimag(found%values(1))) > 0.1_wp, "an oscillation")
-            end if
-            deallocate (orbit%nodes)
-         end do
-      end do
-   end subroutine test_exact
-
-   !> A small orbit about a stationary state has the multipliers exp(T s), s the roots of
-   !> s = -(1 + rho) exp(-s pi/2).
-   subroutine test_near_hopf(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(multipliers_type) :: found
-      type(newton_type) :: newton
-      type(periodic_orbit_type) :: orbit
-      complex(wp) :: s
-      real(wp), parameter :: rho = 1.0e-8_wp
-      integer :: i
-
-      orbit%basis = collocation_basis_type(6, gauss_points)
-      orbit%mesh = uniform_mesh(20)
-      orbit%parameters = [rho]
-      orbit%period = 2.0_wp*pi
-      orbit%nodes = reshape(sqrt(rho)*sin(2.0_wp*pi*orbit%node_times()), [1, 121])
-      call correct(known_family(equation=delayed_sine), orbit, newton, failure)
-      call expect_success(error, failure)
-      call find_multipliers(known_family(equation=delayed_sine), orbit, 5, found, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
-      call expect_close(error, abs(found%values(1)), 1.0_wp, 1.0e-6_wp, "the pair on the axis")
-      ! the next root by Newton's method
-      s = (-1.6_wp, 4.7_wp)
-      do i = 1, 50
-         s = s - (s + exp(-0.5_wp*pi*s))/(1.0_wp - 0.5_wp*pi*exp(-0.5_wp*pi*s))
-      end do
-      call expect_between(error, real(s), -3.0_wp, -0.5_wp, "real part of the next root")
-      call expect_close(error, minval(abs(found%values - exp(2.0_wp*pi*s))), 0.0_wp, 1.0e-7_wp, &
-                        "multiplier of the next root")
-   end subroutine test_near_hopf
-
-   !> ln |mu|/T of the paper's "torus", a cycle, is its second Lyapunov exponent.
-   subroutine test_exponents(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(growth_settings_type) :: settings
-      type(growth_type) :: measured
-      type(multipliers_type) :: multipliers
-      type(periodic_orbit_type) :: orbit
-      type(spring_block_type) :: block
-      real(wp) :: exponents(4)
-
-      block = build_block(tau=10.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp)
-      call cycle_of_block(block, 1500.0_wp, 5, gauss_points, 40, orbit, multipliers, error)
-      if (allocated(error)) return
-      call expect_close(error, multipliers%trivial_error, 0.0_wp, 1.0e-9_wp, "trivial multiplier")
-      settings = growth_settings_type(exponents=4, t_begin=1000.0_wp, t_end=3000.0_wp, &
-                                      t_turning=500.0_wp, interval=5.0_wp, blocks=10)
-      call measure_growth(block, settings, at_tolerance(1.0e-8_wp), measured, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
-      exponents = sum(measured%growth, dim=2)/sum(measured%length)
-      call expect_close(error, log(abs(multipliers%values(1)))/orbit%period, exponents(2), &
-                        5.0e-4_wp, "second exponent")
-      call expect_close(error, log(abs(multipliers%values(2)))/orbit%period, &
-                        0.5_wp*(exponents(3) + exponents(4)), 5.0e-4_wp, "third and fourth")
-   end subroutine test_exponents
 
    !> Without delay the product of all multipliers is exp(integral of the divergence) (Liouville).
    subroutine test_no_delay(error)

@@ -1,4 +1,4 @@
-!> How far a branch of periodic orbits is followed.
+!> How far a branch or a curve of periodic orbits is followed.
 module branch_ends
    use dde_kinds, only: wp
    use orbit_passes, only: orbit_scale_type
@@ -6,7 +6,10 @@ module branch_ends
    use periodic_orbit, only: periodic_orbit_type
    implicit none (type, external)
    private
-   public :: branch_settings_type, has_ended
+   public :: branch_settings_type, has_ended, is_closed, longer, shorter
+
+   !> Factors of the step after one that was easy, or hard
+   real(wp), parameter :: longer = 1.5_wp, shorter = 0.5_wp
 
    !> How far a branch is followed, and how.
    type :: branch_settings_type
@@ -52,7 +55,7 @@ contains
             reason = "period"
          else if (orbit%comes_to_shorter(orbits(size(orbits) - 1))) then
             reason = "shorter_period"
-         else if (same_direction .and. is_closed(settings, orbits, step)) then
+         else if (same_direction .and. is_closed(settings%scale, orbits, step)) then
             reason = "closed"
          else
             value = .false.
@@ -60,10 +63,10 @@ contains
       end associate
    end function has_ended
 
-   !> Whether a branch comes back to its first orbit.
-   pure logical function is_closed(settings, orbits, step) result(value)
-      !> How the branch is followed
-      type(branch_settings_type), intent(in) :: settings
+   !> Whether a branch or a curve comes back to its first orbit.
+   pure logical function is_closed(scale, orbits, step) result(value)
+      !> The free parameters and their units
+      type(orbit_scale_type), intent(in) :: scale
       !> Its orbits
       type(periodic_orbit_type), intent(in) :: orbits(:)
       !> Length of the last step
@@ -71,7 +74,7 @@ contains
       real(wp) :: distance(size(orbits)), ends(size(orbits(1)%nodes, 1), 2), range
       integer :: i
 
-      associate (first => orbits(1), p => settings%scale%free(1))
+      associate (first => orbits(1), free => scale%free)
          ends(:, 1) = minval(first%nodes, dim=2)
          ends(:, 2) = maxval(first%nodes, dim=2)
          range = maxval(ends(:, 2) - ends(:, 1))
@@ -79,8 +82,8 @@ contains
             associate (x => orbits(i)%nodes)
                distance(i) = max(maxval(abs(minval(x, dim=2) - ends(:, 1)))/range, &
                                  maxval(abs(maxval(x, dim=2) - ends(:, 2)))/range, &
-                                 abs(orbits(i)%parameters(p) - first%parameters(p)) &
-                                 /settings%scale%unit(1), &
+                                 maxval(abs(orbits(i)%parameters(free) &
+                                            - first%parameters(free))/scale%unit), &
                                  abs(orbits(i)%period/first%period - 1.0_wp))
             end associate
          end do

@@ -1,7 +1,7 @@
 !> Branches of periodic orbits in one parameter by pseudo-arclength continuation, through folds. The
 !> step is controlled by the effort of Newton's method.
 module orbit_branch
-   use branch_ends, only: branch_settings_type, has_ended
+   use branch_ends, only: branch_settings_type, has_ended, longer, shorter
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use floquet_multipliers, only: find_multipliers, multipliers_type
@@ -34,17 +34,12 @@ module orbit_branch
    integer, parameter :: easy = 3, hard = 6
    !> Iterations after which a step has failed
    integer, parameter :: most_iterations = 8
-   !> Factors of the step
-   real(wp), parameter :: longer = 1.5_wp, shorter = 0.5_wp
    !> Least cosine of the angle between tangents of neighbours
    real(wp), parameter :: least_cosine = 0.8_wp
    !> Least share of its amplitude that an orbit has after its correction
    real(wp), parameter :: remaining_share = 0.1_wp
    !> Orbits between two adaptions of an accurate mesh
    integer, parameter :: adapt_every = 5
-
-   !> Message of a step that is too long
-   character(len=*), parameter :: passes_through = "the step passes through a shorter cycle"
 
 contains
 
@@ -70,7 +65,7 @@ contains
       type(periodic_orbit_type) :: orbit
       real(wp) :: step
       integer :: i
-      logical :: passed
+      logical :: passed, passes
 
       associate (scale => settings%scale)
          call first_orbit(family, scale, start, orbit, along(1), newton, error, tangent)
@@ -100,7 +95,7 @@ contains
          branch%ending = "orbits"
          passed = .false.
          do while (i < settings%most_orbits)
-            call take_step(family, settings, branch, i, step, newton, failure)
+            call take_step(family, settings, branch, i, step, newton, passes, failure)
             branch%iterations = branch%iterations + newton%iterations
             if (.not. allocated(failure)) then
                call make_accurate(family, scale, settings%refinement, branch%orbits(i + 1), &
@@ -109,7 +104,7 @@ contains
             end if
             if (allocated(failure)) then
                step = shorter*step
-               passed = passed .or. failure%message == passes_through
+               passed = passed .or. passes
                if (step >= settings%least_step) cycle
                branch%ending = trim(merge("shorter_period", "convergence   ", passed))
                exit
@@ -164,7 +159,7 @@ contains
    end subroutine first_orbit
 
    !> The next orbit of a branch.
-   subroutine take_step(family, settings, branch, i, step, newton, error)
+   subroutine take_step(family, settings, branch, i, step, newton, passes, error)
       !> The problems
       class(problem_family_type), intent(in) :: family
       !> How far and how
@@ -177,11 +172,14 @@ contains
       real(wp), intent(in) :: step
       !> Effort
       type(newton_type), intent(out) :: newton
+      !> Whether it passes through a shorter cycle
+      logical, intent(out) :: passes
       !> The step is too long
       type(error_type), allocatable, intent(out) :: error
       type(orbit_change_type) :: along(1), move
       type(periodic_orbit_type) :: orbit
 
+      passes = .false.
       associate (before => branch%orbits(i), scale => settings%scale)
          newton%most_iterations = most_iterations
          along(1) = branch%tangents(i)
@@ -193,8 +191,9 @@ contains
          move = along(1)
          call turn_to_tangent(family, scale, orbit, along(1), error)
          if (allocated(error)) return
-         if (orbit%opposite_parts(before) > 0) then
-            call raise(error, passes_through)
+         passes = orbit%opposite_parts(before) > 0
+         if (passes) then
+            call raise(error, "the step passes through a shorter cycle")
          else if (inner_product(orbit, along(1), move) < least_cosine &
                   .and. step > settings%least_step/shorter) then
             call raise(error, "the branch turns")

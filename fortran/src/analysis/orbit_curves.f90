@@ -2,6 +2,7 @@
 !> surface over its tangent plane. The curve is where a test function of the point is 0 on it: an
 !> orbit is sought beside the direction of the curve, by the secant method.
 module orbit_curves
+   use branch_ends, only: is_closed, longer, shorter
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use orbit_change, only: difference_of, inner_product, orbit_change_type
@@ -52,18 +53,14 @@ module orbit_curves
    real(wp), parameter :: share = 1.0e-9_wp
    !> Distance of two evaluations from which the slope of the test function is known
    real(wp), parameter :: resolved = 1.0e-6_wp
-   !> Evaluations after which the next step is longer, and factors of the step
+   !> Evaluations after which the next step is longer
    integer, parameter :: easy = 4
-   real(wp), parameter :: longer = 1.5_wp, shorter = 0.5_wp
    !> Most that a point may lie beside its prediction, in steps
    real(wp), parameter :: most_bend = 0.5_wp
    !> Angle of a pair, in turns, so close to 0 or 1/2 that the curve ends in a resonance
    real(wp), parameter :: resonant = 0.004_wp
    !> How the intervals grow where the mesh is not accurate
    real(wp), parameter :: growth = 1.3_wp
-
-   !> Message of a step that is too long
-   character(len=*), parameter :: passes_through = "the step passes through a shorter cycle"
 
 contains
 
@@ -86,7 +83,7 @@ contains
       type(special_point_type) :: next
       real(wp) :: step
       integer :: evaluations, i
-      logical :: passed
+      logical :: passed, passes
 
       allocate (curve%points(settings%most_points), curve%cusps(0))
       curve%points(1) = start
@@ -104,10 +101,10 @@ contains
       do while (i < settings%most_points)
          next = curve%points(i)
          next_frame = frame
-         call take_step(family, settings, step, next, next_frame, evaluations, failure)
+         call take_step(family, settings, step, next, next_frame, evaluations, passes, failure)
          if (allocated(failure)) then
             step = shorter*step
-            passed = passed .or. failure%message == passes_through
+            passed = passed .or. passes
             if (step >= settings%least_step) cycle
             curve%ending = trim(merge("shorter_period", "convergence   ", passed))
             exit
@@ -125,7 +122,7 @@ contains
    end subroutine follow_curve
 
    !> The next point of a curve.
-   subroutine take_step(family, settings, step, point, frame, evaluations, error)
+   subroutine take_step(family, settings, step, point, frame, evaluations, passes, error)
       !> The problems
       class(problem_family_type), intent(in) :: family
       !> How far and how
@@ -138,12 +135,15 @@ contains
       type(frame_type), intent(inout) :: frame
       !> Evaluations of the test function
       integer, intent(out) :: evaluations
+      !> Whether it passes through a shorter cycle
+      logical, intent(out) :: passes
       !> The step is too long
       type(error_type), allocatable, intent(out) :: error
       type(orbit_change_type) :: move
       type(periodic_orbit_type) :: before
       integer :: i, intervals
 
+      passes = .false.
       associate (scale => settings%scale, refinement => settings%refinement)
          intervals = point%orbit%intervals()
          if (.not. accurate(point, refinement)) then
@@ -155,8 +155,9 @@ contains
          end do
          call find_beside(family, settings, before, frame, step, point, evaluations, error)
          if (allocated(error)) return
-         if (point%orbit%opposite_parts(before) > 0) then
-            call raise(error, passes_through)
+         passes = point%orbit%opposite_parts(before) > 0
+         if (passes) then
+            call raise(error, "the step passes through a shorter cycle")
             return
          end if
          move = difference_of(point%orbit, before, scale)
@@ -246,34 +247,13 @@ contains
             reason = "period"
          else if (point%orbit%comes_to_shorter(points(last - 1)%orbit)) then
             reason = "shorter_period"
-         else if (is_closed(settings, points(:last), step)) then
+         else if (is_closed(settings%scale, points(:last)%orbit, step)) then
             reason = "closed"
          else
             value = .false.
          end if
       end associate
    end function has_ended
-
-   !> Whether a curve comes back to its first point.
-   pure logical function is_closed(settings, points, step) result(value)
-      !> How the curve is followed
-      type(curve_settings_type), intent(in) :: settings
-      !> Its points
-      type(special_point_type), intent(in) :: points(:)
-      !> Length of the last step
-      real(wp), intent(in) :: step
-      real(wp) :: distance(size(points))
-      integer :: i
-
-      do i = 1, size(points)
-         associate (first => points(1)%orbit, now => points(i)%orbit, scale => settings%scale)
-            distance(i) = maxval(abs([(now%parameters(scale%free) - first%parameters(scale%free)) &
-                                      /scale%unit, now%period/first%period - 1.0_wp, &
-                                      now%amplitude()/first%amplitude() - 1.0_wp]))
-         end associate
-      end do
-      value = distance(size(points)) < 0.5_wp*min(step, maxval(distance))
-   end function is_closed
 
    !> Keep the first points.
    subroutine cut(points, count)

@@ -1,6 +1,6 @@
 !> Files of cycles along a line of parameters.
 module cycles_output
-   use block_cycles, only: cycle_settings_type, cycles_type
+   use block_cycles, only: cycle_settings_type, cycles_type, left_out_type
    use cycle_curves, only: cycle_curve_type
    use cycle_lines, only: along_epsilon, along_tau, hopf_start_type
    use cycles_input, only: names_along
@@ -20,9 +20,9 @@ module cycles_output
 
 contains
 
-   !> Write the orbits of all branches one after another, the branches, the special points, the Hopf
-   !> points, and the points of all curves one after another.
-   subroutine write_cycles(path, settings, hopf, found, curves, error)
+   !> Write the orbits of all branches one after another, the branches, the starts left out, the
+   !> special points, the Hopf points, and the points of all curves one after another.
+   subroutine write_cycles(path, settings, hopf, found, left_out, curves, error)
       !> Path of the file
       character(len=*), intent(in) :: path
       !> What was asked
@@ -31,6 +31,8 @@ contains
       type(hopf_start_type), intent(in) :: hopf(:)
       !> Branches
       type(cycles_type), intent(in) :: found(:)
+      !> Starts without a branch of their own
+      type(left_out_type), intent(in) :: left_out(:)
       !> Curves of special points
       type(cycle_curve_type), intent(in) :: curves(:)
       !> It could not be written
@@ -47,6 +49,7 @@ contains
          call file%attribute("degree", int(settings%degree, int64))
       end associate
       call put_orbits(file, settings%line%along, found)
+      call put_left_out(file, settings%line%along, left_out)
       call put_points(file, found)
       call put_hopf(file, hopf)
       call put_curves(file, curves)
@@ -113,6 +116,23 @@ contains
       call file%words("branch_origin", rows, words(:, 1), "where the branch starts")
       call file%words("branch_ending", rows, words(:, 2), "why it ends")
    end subroutine put_orbits
+
+   !> Starts from which no branch was followed.
+   subroutine put_left_out(file, along, left_out)
+      !> The file
+      type(output_file_type), intent(inout) :: file
+      !> Number of the parameter along the line
+      integer, intent(in) :: along
+      !> These starts
+      type(left_out_type), intent(in) :: left_out(:)
+      integer :: rows
+
+      rows = file%dimension("left_out", size(left_out))
+      call file%words("left_out_origin", rows, left_out%origin, "where it starts")
+      call file%put(file%real_variable("left_out_"//trim(names_along(along)), rows, &
+                                       "parameter along the line", "1"), left_out%at)
+      call file%words("left_out_reason", rows, left_out%reason, "why no branch was followed")
+   end subroutine put_left_out
 
    !> Special points.
    subroutine put_points(file, found)

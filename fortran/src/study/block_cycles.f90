@@ -21,7 +21,7 @@ module block_cycles
    use spring_block, only: index_of_ln_v, spring_block_type
    implicit none (type, external)
    private
-   public :: cycle_settings_type, cycles_type, find_cycles
+   public :: cycle_settings_type, cycles_type, find_cycles, left_out_type
 
    !> What is computed.
    type :: cycle_settings_type
@@ -51,6 +51,16 @@ module block_cycles
       type(special_point_type), allocatable :: points(:)
    end type cycles_type
 
+   !> A start from which no branch was followed.
+   type :: left_out_type
+      !> 'hopf', 'trajectory' or 'period_doubling'
+      character(len=16) :: origin = ""
+      !> Parameter along the line
+      real(wp) :: at = 0.0_wp
+      !> Why
+      character(len=120) :: reason = ""
+   end type left_out_type
+
    !> From this gamma on w = ln v is in balance but for slip: the points are those of Radau.
    real(wp), parameter :: stiff_gamma = 100.0_wp
    !> Amplitude of the first orbit at a Hopf point and at a period doubling
@@ -61,19 +71,19 @@ module block_cycles
    !> trajectory comes to an orbit of a branch if period and amplitude differ by less than the
    !> second share: near a bifurcation it comes to it slowly.
    real(wp), parameter :: same = 1.0e-3_wp, alike = 0.05_wp
-   !> Most branches of double periods
-   integer, parameter :: most_doublings = 4
 
 contains
 
    !> All branches along a line that the settings lead to.
-   subroutine find_cycles(settings, hopf, found, error, progress)
+   subroutine find_cycles(settings, hopf, found, left_out, error, progress)
       !> What is computed
       type(cycle_settings_type), intent(in) :: settings
       !> Hopf points on the line
       type(hopf_start_type), allocatable, intent(out) :: hopf(:)
       !> The branches
       type(cycles_type), allocatable, intent(out) :: found(:)
+      !> Starts without a branch of their own
+      type(left_out_type), allocatable, intent(out) :: left_out(:)
       !> A search failed
       type(error_type), allocatable, intent(out) :: error
       !> Receiver of the number of starts done
@@ -83,7 +93,8 @@ contains
       type(error_type), allocatable :: failure
       type(orbit_change_type) :: tangent
       type(periodic_orbit_type) :: orbit
-      integer :: direction, i, j
+      real(wp) :: at(4)
+      integer :: branches, direction, i, j
 
       associate (line => settings%line)
          call find_hopf_starts(line, hopf, error)
@@ -96,7 +107,7 @@ contains
          basis = collocation_basis_type(settings%degree, merge(radau_points, gauss_points, &
                                                                line%parameters%gamma > stiff_gamma))
       end associate
-      allocate (found(0))
+      allocate (found(0), left_out(0))
       do i = 1, size(hopf)
          if (present(progress)) call progress%advance(i - 1, size(hopf) + size(settings%starts))
          if (is_end(settings, found, hopf(i))) cycle
@@ -104,7 +115,9 @@ contains
                                   [0.0_wp, 0.0_wp, 0.0_wp], hopf(i)%omega, &
                                   first_amplitude, basis, settings%intervals, orbit, tangent, error)
          if (allocated(error)) return
-         call append(how, orbit, 1, "hopf", found, error, tangent)
+         at = vector_of(hopf(i)%parameters)
+         call append(how, orbit, 1, "hopf", at(settings%line%along), found, left_out, error, &
+                     tangent)
          if (allocated(error)) return
       end do
       do i = 1, size(settings%starts)
@@ -112,30 +125,42 @@ contains
             call progress%advance(size(hopf) + i - 1, size(hopf) + size(settings%starts))
          end if
          call orbit_at(settings, i, basis, orbit, failure)
-         if (allocated(failure)) cycle
-         if (orbit%amplitude() < first_amplitude .or. is_known(settings, found, orbit)) cycle
+         if (allocated(failure)) then
+            call leave_out("trajectory", settings%starts(i), failure%message, left_out)
+            cycle
+         else if (orbit%amplitude() < first_amplitude) then
+            call leave_out("trajectory", settings%starts(i), "it comes to rest", left_out)
+            cycle
+         else if (is_known(settings, found, orbit)) then
+            call leave_out("trajectory", settings%starts(i), "its cycle is on a branch", left_out)
+            cycle
+         end if
          do direction = -1, 1, 2
-            call append(how, orbit, direction, "trajectory", found, error)
+            branches = size(found)
+            call append(how, orbit, direction, "trajectory", settings%starts(i), found, left_out, &
+                        error)
             if (allocated(error)) return
-            if (size(found) == 0) cycle
+            if (size(found) == branches) exit
             if (found(size(found))%branch%ending == "closed") exit
          end do
       end do
       j = size(found)
       do i = 1, j
-         call follow_doublings(how, found(i)%points, found, error)
+         call follow_doublings(how, found(i)%points, found, left_out, error)
          if (allocated(error)) return
       end do
    end subroutine find_cycles
 
    !> Follow the branches of double period that start on a branch.
-   subroutine follow_doublings(how, points, found, error)
+   subroutine follow_doublings(how, points, found, left_out, error)
       !> How branches are followed
       type(branch_settings_type), intent(in) :: how
       !> Special points of the branch
       type(special_point_type), intent(in) :: points(:)
       !> Branches so far
       type(cycles_type), allocatable, intent(inout) :: found(:)
+      !> Starts without a branch
+      type(left_out_type), allocatable, intent(inout) :: left_out(:)
       !> A search failed
       type(error_type), allocatable, intent(out) :: error
       type(special_point_type) :: here(size(points))
@@ -144,19 +169,20 @@ contains
       integer :: i
 
       here = points
-      do i = 1, min(size(here), most_doublings)
+      do i = 1, size(here)
          if (here(i)%kind /= period_doubling) cycle
          call orbit_of_double_period(block_family_type(), here(i), first_amplitude, orbit, &
                                      tangent, error)
          if (allocated(error)) return
-         call append(how, orbit, 1, "period_doubling", found, error, tangent)
+         call append(how, orbit, 1, "period_doubling", &
+                     here(i)%orbit%parameters(how%scale%free(1)), found, left_out, error, tangent)
          if (allocated(error)) return
       end do
    end subroutine follow_doublings
 
-   !> Follow a branch and append it with its special points. A branch that cannot be started is left
-   !> out.
-   subroutine append(how, orbit, direction, origin, found, error, tangent)
+   !> Follow a branch and append it with its special points, or to what is left out if it cannot be
+   !> started.
+   subroutine append(how, orbit, direction, origin, at, found, left_out, error, tangent)
       !> How branches are followed
       type(branch_settings_type), intent(in) :: how
       !> Approximation of the first orbit
@@ -165,8 +191,12 @@ contains
       integer, intent(in) :: direction
       !> Where the branch starts
       character(len=*), intent(in) :: origin
+      !> Parameter along the line there
+      real(wp), intent(in) :: at
       !> Branches so far
       type(cycles_type), allocatable, intent(inout) :: found(:)
+      !> Starts without a branch
+      type(left_out_type), allocatable, intent(inout) :: left_out(:)
       !> A special point was not found
       type(error_type), allocatable, intent(out) :: error
       !> Tangent at the start
@@ -183,11 +213,28 @@ contains
          last%origin = origin
          call follow_branch(block_family_type(), how, orbit, direction, last%branch, failure, &
                             tangent)
-         if (allocated(failure)) return
+         if (allocated(failure)) then
+            call leave_out(origin, at, failure%message, left_out)
+            return
+         end if
          call find_special_points(block_family_type(), how, last%branch, last%points, error)
       end associate
       call move_alloc(longer, found)
    end subroutine append
+
+   !> Note a start without a branch.
+   pure subroutine leave_out(origin, at, reason, left_out)
+      !> Origin
+      character(len=*), intent(in) :: origin
+      !> Parameter along the line
+      real(wp), intent(in) :: at
+      !> Why
+      character(len=*), intent(in) :: reason
+      !> Those before, then this one, too
+      type(left_out_type), allocatable, intent(inout) :: left_out(:)
+
+      left_out = [left_out, left_out_type(origin, at, reason)]
+   end subroutine leave_out
 
    !> The cycle that a trajectory comes to.
    subroutine orbit_at(settings, i, basis, orbit, error)

@@ -23,11 +23,10 @@ module cycle_curves
    !> A point is on a curve if it is so near in the parameter along the line, in units of the
    !> window, and in the period, as a share.
    real(wp), parameter :: near = 1.0e-2_wp
-   !> Trivial multipliers are accurate to this, with at most so many intervals: curves are drawn,
-   !> not tabulated. A curve starts with a third of the intervals of its point, but not with less
-   !> than
-   !> the first number.
+   !> Trivial multipliers are accurate to this: curves are drawn, not tabulated.
    real(wp), parameter :: accuracy = 1.0e-5_wp
+   !> A curve starts with a third of the intervals of its point, but not with less than the first of
+   !> these; most intervals, and most points
    integer, parameter :: first_intervals = 50, most_intervals = 120, most_points = 200
 
 contains
