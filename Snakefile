@@ -15,6 +15,7 @@ include: "rules/common.smk"
 
 
 rule all:
+    """All figures, the tables of results and the page with the verdicts on the paper's claims."""
     default_target: True
     input:
         expand(

@@ -5,6 +5,7 @@
 
 
 rule attractors_namelist:
+    """Input of one part of a survey of attractors."""
     input:
         code=code_of("namelists/write_study_namelists.py"),
     output:
@@ -18,6 +19,7 @@ rule attractors_namelist:
 
 
 rule attractors_runs:
+    """Motions at many parameters and their classes: one part of a survey of attractors."""
     input:
         program="build/release/bin/attractors",
         namelist="results/namelists/attractors/{survey}/{part}.nml",
@@ -37,6 +39,7 @@ rule attractors_runs:
 
 
 rule attractors_table:
+    """Table of the attractors of the scenes, with their classes."""
     input:
         runs=result_files.paths_of_scenes(
             "attractors/scenes", result_files.scenes_with(config, "attractors")
@@ -53,6 +56,7 @@ rule attractors_table:
 
 
 rule route_table:
+    """Table of the attractors along a route: one parameter changes, all others are fixed."""
     input:
         runs=runs_of_route,
         code=code_of("tables/attractor_tables.py"),
@@ -67,6 +71,7 @@ rule route_table:
 
 
 rule basins_table:
+    """Table of the attractors that are reached from random histories."""
     input:
         runs=result_files.runs_of_basins(config),
         routes=result_files.tables_of_routes(config),
@@ -80,6 +85,7 @@ rule basins_table:
 
 
 rule atlas_table:
+    """Table of the atlas: the class of motion at points of epsilon and tau."""
     input:
         runs=result_files.parts_of_atlas(config),
         code=code_of("tables/attractor_tables.py"),

@@ -2,6 +2,7 @@
 
 
 rule build:
+    """A Fortran program, built from its sources."""
     input:
         sources_of,
     output:

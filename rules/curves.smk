@@ -2,6 +2,7 @@
 
 
 rule hopf_namelist:
+    """Input of the Hopf curves in a plane."""
     input:
         code=code_of("namelists/write_namelist.py"),
     output:
@@ -16,6 +17,7 @@ rule hopf_namelist:
 
 
 rule hopf_curves:
+    """Hopf curves of steady sliding in a plane of two parameters."""
     input:
         program="build/release/bin/hopf",
         namelist="results/namelists/hopf/{plane}.nml",
@@ -33,6 +35,7 @@ rule hopf_curves:
 
 
 rule hopf_points:
+    """Table of the special points on the Hopf curves."""
     input:
         curves=expand("results/hopf/{plane}.nc", plane=config["hopf_curves"]),
         scenes=expand("results/linear_stability/{scene}.nc", scene=config["scenes"]),

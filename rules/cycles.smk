@@ -2,6 +2,7 @@
 
 
 rule cycles_namelist:
+    """Input of the cycles along a line."""
     input:
         code=code_of("namelists/write_namelist.py"),
     output:
@@ -16,6 +17,7 @@ rule cycles_namelist:
 
 
 rule cycles_runs:
+    """Cycles along one parameter, stable and unstable, by continuation."""
     input:
         program="build/release/bin/cycles",
         namelist="results/namelists/cycles/{cycle_line}.nml",
@@ -33,6 +35,7 @@ rule cycles_runs:
 
 
 rule cycle_points:
+    """Table of the points where cycles bifurcate."""
     input:
         cycles=result_files.cycles_of_lines(config),
         code=code_of("tables/cycle_points_table.py"),

@@ -6,6 +6,7 @@
 # check for missing comments is off, since it wants one for each local variable and knows neither
 # enumerators nor names that a facade passes on; tests/test_documents_made.py checks instead.
 rule docs:
+    """Pages about the Fortran code, in results/docs/."""
     input:
         documented_sources(),
         project="docs/ford.md",

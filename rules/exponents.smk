@@ -2,6 +2,7 @@
 
 
 rule exponents_namelist:
+    """Input of the Lyapunov exponents of a scene."""
     input:
         code=code_of("namelists/write_study_namelists.py"),
     output:
@@ -15,6 +16,7 @@ rule exponents_namelist:
 
 
 rule exponents_runs:
+    """Lyapunov exponents of a scene."""
     input:
         program="build/release/bin/exponents",
         namelist="results/namelists/exponents/{scene}.nml",
@@ -33,6 +35,7 @@ rule exponents_runs:
 
 
 rule exponents_table:
+    """Table of the Lyapunov exponents of the scenes."""
     input:
         runs=result_files.exponents_of_scenes(config),
         code=code_of("tables/exponents_table.py"),

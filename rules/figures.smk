@@ -24,3 +24,8 @@ for figure in FIGURES:
             script=figure,
         script:
             "../scripts/figures/{params.script}.py"
+
+
+snakemake_internals.describe(
+    workflow, {figure: entries.title_of(figure) for figure in FIGURES}
+)

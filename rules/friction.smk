@@ -1,5 +1,6 @@
 # Response of friction to a velocity step.
 rule velocity_step_namelist:
+    """Input of the friction after a velocity step."""
     input:
         code=code_of("namelists/write_namelist.py"),
     output:
@@ -14,6 +15,7 @@ rule velocity_step_namelist:
 
 
 rule velocity_step:
+    """Friction after a step of the velocity, from (1.1) and (1.2)."""
     input:
         program="build/release/bin/velocity_step",
         namelist="results/namelists/velocity_step.nml",

@@ -2,6 +2,7 @@
 
 
 rule claims:
+    """Verdicts on all claims of the paper, in results/tables/claims.tsv."""
     input:
         **LEDGER_TABLES,
         curves=expand("results/hopf/{plane}.nc", plane=config["hopf_curves"]),

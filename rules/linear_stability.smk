@@ -2,6 +2,7 @@
 
 
 rule linear_stability_namelist:
+    """Input of the linear stability of steady sliding in a scene."""
     input:
         code=code_of("namelists/write_namelist.py"),
     output:
@@ -16,6 +17,7 @@ rule linear_stability_namelist:
 
 
 rule linear_stability:
+    """Characteristic roots of steady sliding at the parameters of a scene."""
     input:
         program="build/release/bin/linear_stability",
         namelist="results/namelists/linear_stability/{scene}.nml",
@@ -33,6 +35,7 @@ rule linear_stability:
 
 
 rule linear_stability_table:
+    """Table of the linear stability of steady sliding in the scenes."""
     input:
         scenes=expand("results/linear_stability/{scene}.nc", scene=config["scenes"]),
         code=code_of("tables/linear_stability_table.py"),

@@ -2,6 +2,7 @@
 
 
 rule page:
+    """The page with figures, claims and verdicts: results/index.html."""
     input:
         figures=expand("results/figures/{figure}.svg", figure=FIGURES),
         claims="results/tables/claims.json",

@@ -2,6 +2,7 @@
 
 
 rule slip_events:
+    """Slip events of a scene: their times, slips and recurrence times."""
     input:
         program="build/release/bin/slip_events",
         namelist="results/namelists/trajectories/{scene}.nml",

@@ -2,6 +2,7 @@
 
 
 rule spectrum_namelist:
+    """Input of the power spectrum of a scene."""
     input:
         code=code_of("namelists/write_namelist.py"),
     output:
@@ -16,6 +17,7 @@ rule spectrum_namelist:
 
 
 rule spectrum:
+    """Power spectrum of the velocity of a scene, with its peaks and base frequencies."""
     input:
         program="build/release/bin/spectrum",
         namelist="results/namelists/spectra/{scene}.nml",

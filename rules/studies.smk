@@ -3,6 +3,7 @@
 
 
 rule stability_namelists:
+    """Inputs of the runs of a family of stiff and extreme cases, and of its reference."""
     input:
         code=code_of("namelists/write_study_namelists.py"),
     output:
@@ -17,6 +18,7 @@ rule stability_namelists:
 
 
 rule trust_namelists:
+    """Inputs of the runs that find up to which time a scene can be compared."""
     input:
         code=code_of("namelists/write_study_namelists.py"),
     output:
@@ -31,6 +33,7 @@ rule trust_namelists:
 
 
 rule reference:
+    """Solution of the same cases in quadruple precision."""
     input:
         program="build/release/bin/reference",
         namelist="results/namelists/references/{study}/{family}.nml",
@@ -49,6 +52,7 @@ rule reference:
 
 
 rule measurement:
+    """Runs of the solver on test cases, by several methods and tolerances."""
     input:
         program="build/release/bin/measure",
         namelist="results/namelists/measurements/{study}/{family}.nml",
@@ -66,6 +70,7 @@ rule measurement:
 
 
 rule stability_table:
+    """Table of the errors of the solver on stiff and extreme cases."""
     input:
         measurements=expand(
             "results/measurements/stability/{family}.nc", family=FAMILIES
@@ -86,6 +91,7 @@ rule stability_table:
 
 
 rule trusted_horizons:
+    """Table of the times up to which runs of the scenes can be compared."""
     input:
         measurements=expand("results/measurements/trust/{scene}.nc", scene=WORK_SCENES),
         references=expand("results/references/trust/{scene}.tsv", scene=WORK_SCENES),
@@ -101,6 +107,7 @@ rule trusted_horizons:
 
 
 rule work_precision_namelist:
+    """Input of the runs that compare error and run time on a scene."""
     input:
         horizons="results/tables/trusted-horizons.tsv",
         code=code_of("namelists/write_measured_scene.py"),
@@ -116,6 +123,7 @@ rule work_precision_namelist:
 
 # The runs of a scene take turns, so that what else the machine does hits all methods alike.
 rule work_precision_runs:
+    """Errors and run times of all methods of the solver on a scene."""
     input:
         program="build/release/bin/measure",
         namelist="results/namelists/measurements/work_precision/{work_scene}.nml",
@@ -134,6 +142,7 @@ rule work_precision_runs:
 
 
 rule work_precision_table:
+    """Tables of error against run time, and of error against tolerance."""
     input:
         measurements=expand(
             "results/measurements/work_precision/{scene}.nc", scene=WORK_SCENES

@@ -2,6 +2,7 @@
 
 
 rule scene_namelist:
+    """Input of the trajectory of a scene."""
     input:
         code=code_of("namelists/write_namelist.py"),
     output:
@@ -16,6 +17,7 @@ rule scene_namelist:
 
 
 rule trajectory:
+    """Trajectory of a scene: theta, u and v over time."""
     input:
         program="build/release/bin/trajectory",
         namelist="results/namelists/trajectories/{scene}.nml",

@@ -19,8 +19,8 @@ def made_up_workflow() -> SimpleNamespace:
             configfiles=["mine.yaml"], config_args=None, replace_workflow_config=False
         ),
         rules=[
-            SimpleNamespace(name="long", benchmark=None),
-            SimpleNamespace(name="short", benchmark="{scene,a|b}.tsv"),
+            SimpleNamespace(name="long", benchmark=None, docstring=None),
+            SimpleNamespace(name="short", benchmark="{scene,a|b}.tsv", docstring="Short."),
         ],
         here=here,
         localrules=lambda *names: here.extend(names),
@@ -36,6 +36,11 @@ def benchmarks_of(workflow: SimpleNamespace) -> dict[str, str]:
     """Of its rules."""
     rules = SimpleNamespace(short=SimpleNamespace(benchmark="{scene}.tsv"))
     return internals.benchmarks_of(workflow, rules)
+
+
+def describe(workflow: SimpleNamespace) -> None:
+    """One of its rules."""
+    internals.describe(workflow, {"long": "Long."})
 
 
 @pytest.mark.parametrize(
@@ -63,6 +68,8 @@ def test_snakemake_that_judges_otherwise_is_refused(monkeypatch, holder, gone, n
         (internals.config_sources, "config_settings.configfiles"),
         (internals.config_sources, "config_settings.config_args"),
         (internals.config_sources, "config_settings.replace_workflow_config"),
+        (describe, "rules"),
+        (describe, "rules.docstring"),
         (run_here, "rules"),
         (run_here, "localrules"),
         (benchmarks_of, "rules"),
@@ -86,6 +93,8 @@ def test_names_that_are_there_are_used():
     internals.start_jobs_at_once(workflow)
     assert workflow.scheduling_settings.max_jobs_per_timespan is None
     assert internals.config_sources(workflow) == (["config.yaml", "mine.yaml"], [])
+    describe(workflow)
+    assert [rule.docstring for rule in workflow.rules] == ["Long.", "Short."]
     run_here(workflow)
     assert workflow.here == ["short"]
     assert benchmarks_of(workflow) == {"short": "{scene}.tsv"}

@@ -3,8 +3,10 @@
 A new figure is a script NAME.py and a caption NAME.rst in this folder, and an entry here.
 """
 
+import ast
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from scripts.workflow.result_files import (
     curves_of_atlas,
@@ -101,6 +103,12 @@ FIGURES = list(ENTRIES)
 def caption_of(figure: str) -> str:
     """Its caption, in the project's folder."""
     return f"{FOLDER}/{figure}.rst"
+
+
+def title_of(figure: str) -> str:
+    """The first line of its script, which says what is drawn."""
+    script = Path(__file__).with_name(f"{figure}.py").read_text(encoding="utf-8")
+    return ast.get_docstring(ast.parse(script)).splitlines()[0]
 
 
 def inputs_of(figure: str, config: dict) -> dict[str, str | list[str]]:

@@ -75,6 +75,15 @@ def config_sources(workflow) -> tuple[list, list[str]]:
     return [*defaults, *overlays], given.config_args or []
 
 
+def describe(workflow, docstrings: dict[str, str]) -> None:
+    """Set docstrings of rules by their names: Snakemake takes only literal ones from a rule."""
+    use = "by which rules of figures explain themselves"
+    expect(workflow, "rules", use)
+    for rule in workflow.rules:
+        expect(rule, "docstring", use)
+        rule.docstring = docstrings.get(rule.name, rule.docstring)
+
+
 def run_here_all_but(workflow, long_rules: set[str]) -> None:
     """On a cluster run these rules as its jobs, and all others where Snakemake runs."""
     for name in ("rules", "localrules"):
