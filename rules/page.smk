@@ -12,6 +12,7 @@ rule page:
         captions=[figure["caption"] for figure in on_page()],
         readme="README.md",
         template="page/index.html.jinja",
+        parts=page_assets.PARTS,
         assets=assets_of_page,
         code=code_of("page/write_page.py"),
     output:

@@ -2,6 +2,10 @@
 
 from pathlib import Path
 
+PARTS = sorted(
+    f"page/parts/{path.name}" for path in Path(__file__).parents[2].glob("page/parts/*.jinja")
+)
+"""Parts of the page's template."""
 LIBRARY = "/usr/share/javascript/dygraphs"
 """Where Debian's libjs-dygraphs is."""
 ASSETS = {
