@@ -235,6 +235,7 @@ def on_page():
             "name": name,
             "category": entries.ENTRIES[name].category,
             "caption": entries.caption_of(name),
+            "drawing": f"results/figures/{name}.svg",
             "data": entries.files_of(name, config),
         }
         for name in FIGURES

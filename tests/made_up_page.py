@@ -12,6 +12,7 @@ from scripts.page import page_content, page_views, write_page
 from scripts.tables.motion_rows import COLOURS
 
 TEMPLATE = ROOT / "page" / "index.html.jinja"
+EQUATIONS = ROOT / "page" / "equations.yaml"
 PICTURE = (
     '<svg xmlns="http://www.w3.org/2000/svg" width="60" height="40"><path d="M0 0h9v9"/></svg>'
 )
@@ -20,7 +21,7 @@ PICTURE = (
 def claim(name: str, verdict: str = VERDICTS[0], **given) -> dict:
     """A row of the ledger."""
     row = {"id": name, "place": "section 1", "claim": f"It is {name}.", "verdict": verdict}
-    return {**row, "evidence": "0 < 1 & so on", "look_at": "", **given}
+    return {**row, "evidence": "0 < 1 & so on", "instead": "", "look_at": "", **given}
 
 
 def figure(name: str, category: str = "Figures", *data: str) -> dict:
@@ -51,6 +52,10 @@ def content(**given) -> dict:
     figures = [figure("figure_1"), figure("atlas", "Atlas", "results/tables/a.tsv")]
     claims = [claim(f"claim {i}", verdict) for i, verdict in enumerate(VERDICTS)]
     claims.append(claim("beside", look_at="results/figures/figure_1.png"))
+    claims.append(claim("folded", VERDICTS[2], look_at="results/figures/atlas.png"))
+    claims.append(claim("equation_8", VERDICTS[1], instead="It is gamma^2."))
+    equations = page_content.equations(EQUATIONS, claims)
+    others = page_content.beside_figures(claims, equations)
     cells = [attractor(0.1 * i, float(j)) for j in range(3) for i in range(4)]
     own = [
         {**attractor(0.5, 10.0), "scene": scene, "history": 1.0}
@@ -59,8 +64,12 @@ def content(**given) -> dict:
     runs = [run(), run().drop_vars("u").assign_attrs(scene="without_u", tau=11.0)]
     return {
         "opening": "What it is about.",
-        "figures": page_content.sections(figures, claims),
-        "unplaced": page_content.claims_by_figure(figures, claims)[""],
+        "findings": [{"title": "Found.", "words": "At tau = 2.", "claims": claims[:1]}],
+        "block": None,
+        "hero": page_content.sections([figure("hero")], [])["Figures"][0],
+        "equations": equations,
+        "figures": page_content.sections(figures, others),
+        "unplaced": page_content.claims_by_figure(figures, others)[""],
         "verdicts": page_content.tally(claims),
         "trajectories": [page_views.trajectory(one, own) for one in runs],
         "atlas": page_views.atlas(cells),
@@ -68,6 +77,7 @@ def content(**given) -> dict:
         "commit": "unknown",
         "programs": [{"version": "1.0", "compiler": "a compiler", "files": 2}],
         "packages": {"Python": "3.11"},
+        "cited": {"licence": "MIT", "works": ["One (2020). A work."]},
         "seconds": [{"rule": "one", "jobs": 2, "seconds": 3.0, "longest": 2.0, "memory": None}],
         **given,
     }
@@ -79,7 +89,7 @@ def written_to(folder: Path, assets: Path) -> Path:
     index.write_text(write_page.rendered(TEMPLATE, **content()))
     shutil.copytree(assets, folder / "page")
     (folder / "figures").mkdir()
-    for name in ("figure_1", "atlas"):
+    for name in ("figure_1", "atlas", "hero"):
         for ending in ("svg", "pdf", "png"):
             (folder / "figures" / f"{name}.{ending}").write_text(PICTURE)
     (folder / "tables").mkdir()

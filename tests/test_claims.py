@@ -17,6 +17,7 @@ from made_up_results import (
 from scripts.claims import ledger
 from scripts.claims.claims_config import listed
 from scripts.claims.claims_results import (
+    CORRECTED,
     NOT_REPRODUCED,
     NOT_TESTABLE,
     REPRODUCED,
@@ -135,6 +136,8 @@ def test_ledger_of_the_workflow(smoke):
         assert row["verdict"] in VERDICTS
         assert row["evidence"].endswith(".")
         assert "nan" not in row["evidence"].split()
+        assert not row["instead"] or row["verdict"] in (CORRECTED, NOT_REPRODUCED)
+        assert row["instead"].endswith(".") or row["verdict"] != CORRECTED
         assert row["verdict"] == NOT_TESTABLE or (smoke.folder / row["look_at"]).is_file()
 
 

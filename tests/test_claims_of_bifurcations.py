@@ -159,7 +159,7 @@ def test_hopf_depends_on(with_tau, with_xi, verdict):
     test = TESTS["hopf_depends_on"]
     found = test(results(curves=curves), at_fixed_xi="a", at_fixed_tau="b", limit=1e-3)
     assert found.verdict == verdict
-    assert found.evidence.endswith("also depends on tau.") == (verdict == CORRECTED)
+    assert found.instead.endswith("also depends on tau.") == (verdict == CORRECTED)
     nowhere = {name: changed(curve, unstable_pairs=1) for name, curve in curves.items()}
     found = test(results(curves=nowhere), at_fixed_xi="a", at_fixed_tau="b", limit=1e-3)
     assert found.verdict == NOT_REPRODUCED

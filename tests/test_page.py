@@ -15,9 +15,18 @@ from docutils.utils import SystemMessage
 from jinja2 import UndefinedError
 from made_up_page import attractor, claim, content, figure, run
 
-from scripts.claims.claims_results import VERDICTS
+from scripts.claims.claims_config import listed
+from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, NOT_TESTABLE, VERDICTS
 from scripts.figures.entries import FIGURES, caption_of
-from scripts.page import captions, page_content, page_provenance, page_views, write_page
+from scripts.page import (
+    captions,
+    findings,
+    mathematics,
+    page_content,
+    page_provenance,
+    page_views,
+    write_page,
+)
 
 
 class Elements(HTMLParser):
@@ -26,7 +35,8 @@ class Elements(HTMLParser):
     def __init__(self, text: str):
         super().__init__()
         self.found, self.text = [], ""
-        self.feed(text)
+        self.feed(str(text))
+        self.close()
 
     def handle_starttag(self, tag, attrs):
         self.found.append((tag, dict(attrs)))
@@ -86,6 +96,118 @@ def test_claim_stands_beside_one_figure(given, expected):
     figures.append(figure("to_chaos", "Supplement"))
     placed = page_content.claims_by_figure(figures, [claim("it", **given)])
     assert [name for name, claims in placed.items() if claims] == [expected]
+
+
+def test_claims_that_fail_stand_first():
+    """In each group, the others in their order."""
+    verdicts = [VERDICTS[0], NOT_TESTABLE, CORRECTED, NOT_REPRODUCED, VERDICTS[0]]
+    claims = [claim(str(i), verdict) for i, verdict in enumerate(verdicts)]
+    assert [one["id"] for one in page_content.failing_first(claims)] == ["3", "2", "0", "1", "4"]
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        ("gamma^2 xi/(xi + gamma^2)", "γ2 ξ/(ξ + γ2)"),
+        ("0.0174 +- 0.0029 v0/L", "0.0174 ± 0.0029 v0/L"),
+        (
+            "by -8.3e-07, at 1e4 to 1e+12",
+            "by −8.3\N{NO-BREAK SPACE}×\N{NO-BREAK SPACE}10−7, at 104 to 1012",
+        ),
+        ("d theta/dt = -x ln x <= 1", "dθ/dt\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}−x ln x ≤ 1"),
+        (
+            "(B - A)/A of a spring-block at A larger mu0",
+            "(B − A)/A of a spring-block at A larger μ0",
+        ),
+        ("tau_of_epsilon and fixed_point", "τ(ε) and fixed point"),
+        ("1e-06 m/s, the paper's, 1 < 2", "10−6 m/s, the paper’s, 1 < 2"),
+        ("1/s^b", "1/sb"),
+    ],
+)
+def test_words_become_mathematics(words, expected):
+    """Greek letters, powers, signs and minus; the article `a` and hyphens stay."""
+    assert Elements(mathematics.of_words(words)).text == expected
+
+
+def test_powers_and_indices_are_raised_and_lowered():
+    """As elements, so that they are read as such."""
+    assert mathematics.of_words("gamma^2 < v0") == (
+        "<var>γ</var><sup>2</sup> &lt; <var>v</var><sub>0</sub>"
+    )
+
+
+def test_equations_mark_what_differs_from_the_print():
+    """A framed part, and what is printed there; the claims beside them exist."""
+    shown = page_content.equations(
+        made_up_page.EQUATIONS, [claim(name) for name in listed()["claims"]]
+    )
+    equations = shown["model"] + shown["hopf"]
+    assert [one["number"] for one in equations] == ["(4)", "(5)", "(6)", "(7), (8)", "(9)", "(10)"]
+    for one in equations:
+        assert one["correct"].startswith("<math")
+        assert ('class="boxed"' in one["correct"]) == bool(one["printed"])
+    beside = {one["id"] for one in shown["model_claims"] + shown["hopf_claims"]}
+    assert beside == {f"equation_{number}" for number in (3, 4, 6, 8, 9, 10)}
+
+
+def motion(scene: str, kind: str, exponents: list[float], f2: float) -> dict:
+    """A row of attractors.tsv with errors of 0.001."""
+    row = {"scene": scene, "history": 1.0, "tau": 10.0, "class": kind, "f1": 0.1, "f2": f2}
+    row |= {f"exponent_{i}": value for i, value in enumerate(exponents, 1)}
+    return row | {f"error_{i}": 0.001 for i in (1, 2, 3)}
+
+
+def test_findings_follow_the_tables():
+    """Their titles, too."""
+    torus = motion("torus", "cycle", [0.0, -0.01, -0.02], np.nan)
+    true_torus = motion("true_torus", "torus", [0.002, -0.002, -0.02], 0.3) | {"tau": 12.5}
+    point = {"kind": "hopf_without_delay", "epsilon": 0.25, "xi": 0.5, "gamma": 0.8}
+    runs = [
+        {"gamma": gamma, "method": method, "status": status, "steps": 7.0}
+        for gamma, method, status in (
+            (1e4, "auto", "ok"),
+            (1e12, "explicit", "stopped"),
+            (0.8, "auto", "stopped"),
+        )
+    ]
+    tables = {"attractors": [torus, true_torus], "hopf_points": [point], "stability": runs}
+    one, two, three = findings.findings([claim("figure_5a")], tables)
+    assert one["title"] == "The paper's torus is a limit cycle."
+    assert (
+        "At tau = 10 it has one zero Lyapunov exponent and the base frequency f1 = 0.1."
+        in (one["words"])
+    )
+    assert (
+        "a torus: it has two zero Lyapunov exponents and the base frequencies f1 = 0.1 and"
+        in (one["words"])
+    )
+    assert [given["id"] for given in one["claims"]] == ["figure_5a"]
+    assert "at epsilon = 0.25" in two["words"]
+    assert "All 1 runs there reach their end, each in at most 7 steps." in three["words"]
+    assert three["words"].endswith("none do.")
+    changed = {"attractors": [true_torus | {"scene": "torus"}, true_torus], "hopf_points": []}
+    one, two, three = findings.findings([], changed | {"stability": runs[1:]})
+    assert [one["title"], two["title"], three["title"]] == [
+        "The paper's torus is a torus.",
+        "Steady sliding becomes unstable by a delay only.",
+        "The values of real faults cannot be computed.",
+    ]
+
+
+def test_citation_names_this_work_and_the_paper():
+    """By CITATION.cff."""
+    cited = page_provenance.citation(ROOT / "CITATION.cff")
+    assert cited["licence"] == "GPL-3.0-or-later"
+    own, paper = cited["works"]
+    assert own.startswith("The maintainers of this reproduction")
+    assert "Kostic, S., Vasovic, N., Franovic, I., Todorovic, K." in paper
+    assert "Time-delay in spring-block model for aperiodicity in earthquakes" in paper
+
+
+def test_size_of_a_drawing(tmp_path):
+    """A point of the drawing is 1.3 pixels of the page."""
+    (tmp_path / "a.svg").write_text('<svg viewBox="0 0 100 50.5">')
+    assert page_content.size_of(tmp_path / "a.svg") == (130, 66)
 
 
 def test_figures_of_the_solver_come_last():
@@ -231,7 +353,9 @@ def test_every_claim_stands_in_the_page_once(smoke, smoke_page):
     assert len(claims) > 40
     for row in claims:
         assert ids[f"claim-{row['id']}"] == 1
-        assert " ".join(f"{row['claim']} {row['verdict']} {row['evidence']}".split()) in text
+        for words in (f"{row['claim']} {row['verdict']}", row["instead"], row["evidence"]):
+            said = Elements(mathematics.of_words(words)).text
+            assert " ".join(said.split()) in text
     for verdict in VERDICTS:
         count = sum(row["verdict"] == verdict for row in claims)
         assert f"{verdict} {count} claim" in text

@@ -1,6 +1,7 @@
 """The page in a real browser: nothing fails, nothing is asked of elsewhere, all can be used."""
 
 import json
+import re
 import shutil
 import subprocess
 from itertools import pairwise
@@ -10,6 +11,8 @@ from urllib.parse import unquote, urlsplit
 import made_up_page
 import pytest
 from conftest import ROOT
+
+from scripts.claims.claims_results import VERDICTS
 
 BROWSER = ROOT / "tests" / "browser"
 PYTHON = BROWSER / ".venv" / "bin" / "python"
@@ -141,3 +144,38 @@ def test_atlas_is_pointed_at_and_zoomed(seen):
     whole, closer, back = ([float(x) for x in box.split()] for box in atlas["boxes"])
     assert whole == back
     assert closer[2] == pytest.approx(whole[2] / 1.5)
+
+
+def test_claims_are_chosen_by_verdict_and_words(seen):
+    """By keyboard; a button says that it is pressed, and the page how many claims it shows."""
+    claims = seen["claims"]
+    assert set(claims["verdicts"]) == set(VERDICTS)
+    for met in claims["verdicts"].values():
+        assert met["pressed"] == "true"
+        assert met["shown"] == met["listed"]
+        assert met["said"] == f"{met['listed']} of {claims['all']} claims are shown."
+    assert 1 <= claims["searched"] < claims["all"]
+    assert claims["said"] == f"{claims['searched']} of {claims['all']} claims are shown."
+
+
+def test_link_to_a_claim_leads_there(seen):
+    """Even if the claim is folded away or is not among the chosen ones."""
+    assert seen["claims"]["linked"]
+    assert seen["claims"]["cleared"]
+
+
+def test_screen_reader_meets_the_page_from_top_to_bottom(seen):
+    """By the tree of accessibility, in one column; every heading and image has a name."""
+    read = seen["reading"]
+    tops = [one["top"] for one in read]
+    assert tops == sorted(tops)
+    assert all(one["name"] for one in read)
+    assert len([one for one in read if one["role"] == "image"]) >= len(seen["images"])
+
+
+def test_text_of_figures_is_nine_pixels_high_on_a_phone(seen):
+    """The smallest text of the style, at the width that the page gives a figure there."""
+    style = (ROOT / "scripts" / "drawing" / "paper.mplstyle").read_text()
+    least = min(float(size) for size in re.findall(r"(?:size|fontsize): (\d+)\n", style))
+    pixels = [least * 96 / 72 * scale for scale in seen["scales"]]
+    assert min(pixels) >= 9

@@ -14,6 +14,8 @@ from scripts.claims.claims_results import (
     short,
 )
 
+MOTIONS = {"fixed point": "rest", "cycle": "a limit cycle", "torus": "a torus"}
+"""Classes in a sentence, where the word alone is none."""
 ERRORS = 3
 """Standard errors beyond which an exponent is not zero."""
 
@@ -33,7 +35,8 @@ def attractor_class(results: Results, *, scene: str, expected: str) -> Finding:
     if own["class"] == expected:
         return Finding(REPRODUCED, evidence)
     elsewhere = any(row["class"] == expected for row in others)
-    return Finding(CORRECTED if elsewhere else NOT_REPRODUCED, evidence)
+    instead = f"The motion is {MOTIONS.get(in_words(own), in_words(own))}{exponents_of(own)}."
+    return Finding(CORRECTED if elsewhere else NOT_REPRODUCED, evidence, instead)
 
 
 def positive_exponent(results: Results, *, scene: str) -> Finding:

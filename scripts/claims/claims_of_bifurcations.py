@@ -60,6 +60,7 @@ def hopf_only_by_delay(results: Results, *, plane: str) -> Finding:
         f" epsilon = {short(epsilon, 9)}. The Routh-Hurwitz criterion gives the same value,"
         f" gamma^2 xi/(xi + gamma^2) = {short(expected, 9)}. The bifurcation is {kind}: the first"
         f" Lyapunov coefficient is {short(point['l1_1'])}.",
+        f"At tau = 0 there is one at epsilon = gamma^2 xi/(xi + gamma^2) = {short(expected)}.",
     )
 
 
@@ -84,8 +85,9 @@ def hopf_depends_on(
         )
     ]
     verdict = (CORRECTED if wide[0] else REPRODUCED) if wide[1] else NOT_REPRODUCED
-    end = " So it also depends on tau." if wide[0] and wide[1] else ""
-    return Finding(verdict, " ".join(parts) + end)
+    if wide[0] and wide[1]:
+        return Finding(verdict, " ".join(parts), "It also depends on tau.")
+    return Finding(verdict, " ".join(parts))
 
 
 def boundary(curves) -> dict[str, list[float]]:
@@ -106,9 +108,10 @@ def kinds_of_hopf(results: Results, *, planes: list[str], expected: list[str]) -
         l1 += list(curves.l1.values[at_boundary])
         everywhere += list(curves.l1.values)
     epsilon, signs = np.array(epsilon), np.sign(l1)
-    parts = []
+    parts, counts = [], []
     for kind, sign in KINDS.items():
         these = epsilon[signs == sign]
+        counts.append(f"{these.size} {kind} points")
         spread = f" (epsilon {short(these.min())} to {short(these.max())})" if these.size else ""
         parts.append(f"{these.size} {kind}{spread}")
     met = {kind for kind, sign in KINDS.items() if (signs == sign).any()}
@@ -119,7 +122,8 @@ def kinds_of_hopf(results: Results, *, planes: list[str], expected: list[str]) -
     )
     if met == set(expected):
         return Finding(REPRODUCED, evidence)
-    return Finding(CORRECTED if met > set(expected) else NOT_REPRODUCED, evidence)
+    instead = f"Both kinds occur: {' and '.join(counts)}." if len(met) > 1 else ""
+    return Finding(CORRECTED if met > set(expected) else NOT_REPRODUCED, evidence, instead)
 
 
 def delay_destabilises(results: Results, *, scenes: list[str]) -> Finding:
@@ -202,6 +206,7 @@ def independent_of_spring(results: Results, *, plane: str, limit: float) -> Find
         f"At tau = {delay} and gamma = {short(curves.attrs['gamma'])} steady sliding changes"
         f" its stability at epsilon from {short(epsilon.min())} to {short(epsilon.max())}. There"
         f" xi = k L/A ranges from {short(xi.min())} to {short(xi.max())}.",
+        "The critical epsilon changes with xi = k L/A.",
     )
 
 

@@ -65,6 +65,8 @@ def power_law_of_sizes(results: Results, *, scene: str, spread: float) -> Findin
         f" {short(slip[-1])} L. By the law the number of events with at least a slip s is"
         f" proportional to 1/s^b with one b. Here b is {listed(fits)}. The law is known from models"
         " of many blocks; this model has one.",
+        f"The slope b changes with the slip, from {short(powers.min(), 2)} to"
+        f" {short(powers.max(), 2)}.",
     )
 
 

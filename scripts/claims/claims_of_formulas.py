@@ -34,6 +34,7 @@ def equation_3(results: Results, *, plane: str, limit: float) -> Finding:
         f"The linearisation of (3) is compared with (5) at tau = 0, at {points.omega.size} points."
         f" As printed, it differs by up to {short(printed)} of the largest term. With theta +"
         f" (1 + epsilon) ln v it differs by up to {short(corrected)}.",
+        "It has theta + (1 + epsilon) log v.",
     )
 
 
@@ -54,6 +55,7 @@ def equation_4(results: Results, *, plane: str, limit: float) -> Finding:
         f"The linearisation of (4) as printed has no value at {printed.size - there.size} of"
         f" {printed.size} points, where v - tau <= 0.{elsewhere} With theta + (1 + epsilon)"
         f" ln v(t - tau) it differs by up to {short(corrected)}.",
+        "It has theta + (1 + epsilon) log v(t - tau).",
     )
 
 
@@ -80,6 +82,7 @@ def equation_8(results: Results, *, plane: str, limit: float) -> Finding:
         f"Largest residual of (5) with the delay that fits best: {short(printed)} with gamma^1 as"
         f" printed, {short(corrected)} with gamma^2. With gamma^1 the error of epsilon is up to"
         f" {short(off)}.",
+        "The power in (8) is gamma^2.",
     )
 
 
@@ -117,6 +120,7 @@ def equation_10(results: Results, *, plane: str, limit: float) -> Finding:
         f"Largest residual of (5): {short(printed)} with (10) as printed, {short(corrected)} with"
         " + gamma^2 and the two-argument arctangent. The error of tau by (10) as printed is up to"
         f" {short(off)}.",
+        "The numerator has + gamma^2, and the arctangent takes two arguments.",
     )
 
 
@@ -137,6 +141,8 @@ def hopf_curves(results: Results, *, planes: list[str], limit: float) -> Finding
         corrected <= limit,
         f"Largest residual of (5) at {points} points of {branches} branches: {short(printed)} with"
         f" the formulas as printed, {short(corrected)} with the corrected formulas.",
+        f"Residual of (5): up to {short(printed, 2)} as printed, {short(corrected, 2)} after"
+        " correction.",
     )
 
 

@@ -22,6 +22,7 @@ def mu0_is_steady_friction(results: Results, *, limit: float) -> Finding:
         f" mu0 is {short(mu0)}. The difference is {short(off)} = -A ln 2 + B ln(theta/b + 1) with"
         f" -A ln 2 = {short(of_v)} and B ln(theta/b + 1) = {short(of_theta)}. Without the 1 in both"
         f" logarithms it is B ln(theta/b) = {short(without)}.",
+        "Steady friction at v0 also contains the 1 in both logarithms.",
     )
 
 
@@ -40,6 +41,7 @@ def same_state_law(results: Results, *, limit: float) -> Finding:
         f" {short(x.max())}. The forms differ most at x = {short(x[largest])}: d theta/dt ="
         f" {short(ageing[largest])} by (1.2) and {short(slip[largest])} by (2). Near steady sliding"
         " (x = 1) they agree in first order.",
+        "(2) has another state law than (1.2): the slip form, not the ageing form.",
     )
 
 
@@ -70,6 +72,8 @@ def friction_falls_with_epsilon(results: Results) -> Finding:
         " per unit by which A becomes smaller. A positive number is more friction. The change of"
         f" friction over the slip after the step up is another quantity: {short(change)} per unit"
         " of B.",
+        f"Friction grows with epsilon in {int(((by_b > 0) & (by_a > 0)).sum())} of {by_b.size}"
+        " states.",
     )
 
 

@@ -55,7 +55,9 @@ def leads_to(results: Results, *, routes: list[str], before: list[str], after: s
     holds = [any(met.values()) for met in found]
     if all(holds):
         return Finding(REPRODUCED, evidence)
-    return Finding(CORRECTED if any(holds) else NOT_REPRODUCED, evidence)
+    if any(holds):
+        return Finding(CORRECTED, evidence, f"It does along {sum(holds)} of {len(holds)} lines.")
+    return decided(False, evidence)
 
 
 def delays_in_turn(
@@ -75,7 +77,8 @@ def delays_in_turn(
     )
     if grow and [row["class"] for row in own] == expected:
         return Finding(REPRODUCED, evidence)
-    return Finding(CORRECTED if any(found.values()) else NOT_REPRODUCED, evidence)
+    instead = "At fixed parameters a longer delay gives this order." if any(found.values()) else ""
+    return Finding(CORRECTED if instead else NOT_REPRODUCED, evidence, instead)
 
 
 def second_zero(results: Results, *, scene: str, route: str) -> Finding:
@@ -93,7 +96,11 @@ def second_zero(results: Results, *, scene: str, route: str) -> Finding:
     )
     if own["by_exponents"] == "torus":
         return Finding(REPRODUCED, evidence)
-    return Finding(CORRECTED if any(beyond.values()) else NOT_REPRODUCED, evidence)
+    first = [turns[0][1].first for turns in beyond.values() if turns]
+    if not first:
+        return decided(False, evidence)
+    instead = f"It has occurred from {parameter_of(rows)} = {short(min(first))} on."
+    return Finding(CORRECTED, evidence, instead)
 
 
 def sequences(rows: list[dict], expected: list[str]) -> Turns:

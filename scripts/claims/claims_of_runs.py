@@ -5,7 +5,6 @@ import numpy as np
 from scripts.claims.claims_results import (
     CORRECTED,
     NOT_REPRODUCED,
-    REPRODUCED,
     Finding,
     Results,
     decided,
@@ -48,8 +47,8 @@ def stiffness_forbids(results: Results, *, method: str, least: float, most: floa
         " precision."
     )
     if runs and solved == len(runs):
-        return Finding(NOT_REPRODUCED, f"{evidence} So stiffness does not prevent a solution.")
-    return Finding(CORRECTED if solved else REPRODUCED, evidence)
+        return Finding(NOT_REPRODUCED, evidence, "Stiffness does not prevent a solution.")
+    return Finding(CORRECTED, evidence, "Some are solved.") if solved else decided(True, evidence)
 
 
 def runs_between(results: Results, method: str, least: float, most: float) -> list[dict]:

@@ -19,13 +19,32 @@ def single_peak(results: Results, *, scene: str) -> Finding:
     periodic = spectrum.attrs["spectrum_kind"] == "one base"
     alone = spectrum.sizes["peak"] == 1
     verdict = (REPRODUCED if alone else CORRECTED) if periodic else NOT_REPRODUCED
-    return Finding(verdict, in_words(scene, spectrum))
+    instead = second_peak(spectrum) if not (periodic and alone) else ""
+    return Finding(verdict, in_words(scene, spectrum), instead)
 
 
 def spectrum_class(results: Results, *, scene: str, expected: str) -> Finding:
     """Whether the spectrum is of this kind."""
     spectrum = results.spectrum_of(scene)
-    return decided(spectrum.attrs["spectrum_kind"] == expected, in_words(scene, spectrum))
+    return decided(
+        spectrum.attrs["spectrum_kind"] == expected,
+        in_words(scene, spectrum),
+        second_peak(spectrum),
+    )
+
+
+def second_peak(spectrum: xr.Dataset) -> str:
+    """What the second highest peak is, in a sentence."""
+    kind, count = spectrum.attrs["spectrum_kind"], spectrum.sizes["peak"]
+    if kind != "one base" or count < 2:
+        return f"The spectrum is of the kind {kind}, with {count} peaks."
+    first, second = (-spectrum.peak_power.values).argsort()[:2]
+    share = 100 * float(spectrum.peak_power[second] / spectrum.peak_power[first])
+    multiple = int(spectrum.peak_multiple[second])
+    return (
+        f"The second peak is a harmonic of periodic motion, at {multiple} f1, with"
+        f" {short(share, 2)} % of the height of the first."
+    )
 
 
 def in_words(scene: str, spectrum: xr.Dataset) -> str:

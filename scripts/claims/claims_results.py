@@ -21,6 +21,8 @@ class Finding:
 
     verdict: str
     evidence: str
+    instead: str = ""
+    """What is true instead, in one sentence, where the claim does not hold as printed."""
 
 
 @dataclass
@@ -114,13 +116,15 @@ def listed(words: list[str]) -> str:
     return ", ".join(words) if words else "none"
 
 
-def decided(holds: bool, evidence: str) -> Finding:
+def decided(holds: bool, evidence: str, instead: str = "") -> Finding:
     """A claim that holds or does not."""
-    return Finding(REPRODUCED if holds else NOT_REPRODUCED, evidence)
+    return Finding(REPRODUCED, evidence) if holds else Finding(NOT_REPRODUCED, evidence, instead)
 
 
-def decided_after_correction(printed: bool, corrected: bool, evidence: str) -> Finding:
+def decided_after_correction(
+    printed: bool, corrected: bool, evidence: str, instead: str
+) -> Finding:
     """A claim that may hold as printed, or only as corrected, or not at all."""
     if printed:
         return Finding(REPRODUCED, evidence)
-    return Finding(CORRECTED if corrected else NOT_REPRODUCED, evidence)
+    return Finding(CORRECTED, evidence, instead) if corrected else decided(False, evidence)

@@ -45,6 +45,7 @@ def row_of(name: str, claim: dict, results: Results) -> dict:
         "claim": claim["claim"],
         "verdict": finding.verdict,
         "evidence": finding.evidence,
+        "instead": finding.instead,
         "look_at": path_of(claim.get("look_at", "")),
     }
 

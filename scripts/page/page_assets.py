@@ -11,6 +11,13 @@ LIBRARY = "/usr/share/javascript/dygraphs"
 ASSETS = {
     "style.css": "page/style.css",
     "views.js": "page/views.js",
+    "claims.js": "page/claims.js",
+    "licence.txt": "LICENSE",
+    "citation.txt": "CITATION.cff",
+    "readme.txt": "README.md",
+    "findings.txt": "docs/findings.md",
+    "methods.txt": "docs/method.md",
+    "verification.txt": "docs/verification.md",
     "dygraph.min.js": f"{LIBRARY}/dygraph.min.js",
     "dygraph.min.css": f"{LIBRARY}/dygraph.min.css",
     "dygraph-licence.txt": "/usr/share/doc/libjs-dygraphs/copyright",

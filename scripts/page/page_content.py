@@ -1,12 +1,20 @@
-"""What the page says of each figure: its caption, its files, and the claims it is about."""
+"""What the page says: figures, equations and claims, each claim in one place."""
 
 import re
 from collections.abc import Iterable
 from pathlib import Path
 
-from scripts.claims.claims_results import VERDICTS
-from scripts.page import captions
+import yaml
 
+from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, VERDICTS
+from scripts.page import captions, mathematics
+
+BLOCK, HERO = "figure_1", "true_torus"
+"""The figures of the model and of the findings, at the top of the page."""
+FIRST = [NOT_REPRODUCED, CORRECTED]
+"""Verdicts of claims that stand first in their group."""
+PIXELS = 1.3
+"""Pixels of the page for a point of a figure: 7 points are 9 pixels."""
 LAST = "Solver"
 """The category of figures that stands at the end: it is not about the paper."""
 
@@ -24,7 +32,8 @@ def title_of(figure: str) -> str:
 def sections(figures: list[dict], claims: list[dict]) -> dict[str, list[dict]]:
     """Figures by category, in order but for the last, each with all that stands beside it.
 
-    A figure is given by its `name`, `category`, `caption` (a file) and `data` (files).
+    A figure is given by its `name`, `category`, `caption` (a file) and `data` (files), and by its
+    `drawing` (a file) where its size is to be known.
     """
     grouped = {}
     placed = claims_by_figure(figures, claims)
@@ -37,17 +46,70 @@ def sections(figures: list[dict], claims: list[dict]) -> dict[str, list[dict]]:
             "alternative": captions.first_sentence(caption),
             "claims": placed[figure["name"]],
             "data": [relative(path) for path in figure["data"]],
+            "size": size_of(figure.get("drawing", "")),
         }
         grouped.setdefault(figure["category"], []).append(section)
     return dict(sorted(grouped.items(), key=lambda item: item[0] == LAST))
 
 
+def taken_out(sections: dict[str, list[dict]], name: str) -> dict | None:
+    """The figure of this name, which is no longer in its category."""
+    for shown in sections.values():
+        for figure in shown:
+            if figure["name"] == name and not figure["claims"]:
+                shown.remove(figure)
+                return figure
+    return None
+
+
 def claims_by_figure(figures: list[dict], claims: list[dict]) -> dict[str, list[dict]]:
     """Each claim beside one figure; those that no figure shows under the empty name."""
     placed = {figure["name"]: [] for figure in figures} | {"": []}
-    for claim in claims:
+    for claim in failing_first(claims):
         placed[figure_of(claim, figures)].append(as_shown(claim))
     return placed
+
+
+def failing_first(claims: list[dict]) -> list[dict]:
+    """The claims in their order, but those that do not hold as printed before the others."""
+    return sorted(claims, key=lambda claim: (*FIRST, claim["verdict"]).index(claim["verdict"]))
+
+
+def size_of(drawing: str | Path) -> tuple[int, int] | None:
+    """Width and height of an SVG file on the page, in pixels."""
+    if not drawing:
+        return None
+    found = re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', Path(drawing).read_text())
+    return tuple(round(PIXELS * float(points)) for points in found.groups())
+
+
+def equations(path: str | Path, claims: list[dict]) -> dict:
+    """Groups of equations as MathML, and under `NAME_claims` the claims about them."""
+    found = {}
+    for group, listed in yaml.safe_load(Path(path).read_text()).items():
+        about = [name for equation in listed for name in equation.get("claims", [])]
+        found[f"{group}_claims"] = [
+            as_shown(claim) for claim in failing_first(claims) if claim["id"] in about
+        ]
+        found[group] = [
+            {
+                "number": equation["number"],
+                "correct": mathematics.of_latex(equation["correct"], block=True),
+                "printed": mathematics.of_latex(equation["printed"], block=True)
+                if "printed" in equation
+                else "",
+            }
+            for equation in listed
+        ]
+    return found
+
+
+def beside_figures(claims: list[dict], shown: dict) -> list[dict]:
+    """The claims that do not stand beside an equation."""
+    placed = {
+        claim["id"] for name, ones in shown.items() if name.endswith("_claims") for claim in ones
+    }
+    return [claim for claim in claims if claim["id"] not in placed]
 
 
 def figure_of(claim: dict, figures: list[dict]) -> str:

@@ -5,6 +5,7 @@ import platform
 from collections import Counter
 from pathlib import Path
 
+import yaml
 from snakemake.io import glob_wildcards
 
 from scripts.files.inputs import read
@@ -21,6 +22,33 @@ def programs(files: list[str]) -> list[dict]:
         {"version": version, "compiler": compiler, "files": count}
         for (version, compiler), count in sorted(made.items())
     ]
+
+
+def citation(path: str | Path) -> dict:
+    """How to cite this work and the paper, by CITATION.cff."""
+    given = yaml.safe_load(Path(path).read_text())
+    return {
+        "licence": given["license"],
+        "works": [reference(given), *(reference(one) for one in given.get("references", []))],
+    }
+
+
+def reference(given: dict) -> str:
+    """One work in a line: authors, year, title, and where it is found."""
+    year = given.get("year") or str(given.get("date-released", ""))[:4]
+    dated = f" ({year})" if year else ""
+    journal = f"{given['journal']} {given.get('volume', '')}".strip() if "journal" in given else ""
+    version = f"Version {given['version']}" if "version" in given else ""
+    doi = f"doi:{given['doi']}" if "doi" in given else ""
+    rest = [part for part in (given["title"], journal, version, doi) if part]
+    return f"{', '.join(map(author, given['authors']))}{dated}. {'. '.join(rest)}."
+
+
+def author(given: dict) -> str:
+    """A person or a group by name."""
+    if "name" in given:
+        return given["name"]
+    return f"{given['family-names']}, {given['given-names']}"
 
 
 def python_packages() -> dict[str, str]:

@@ -26,6 +26,12 @@ return {
 """
 
 
+DRAWN = "const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(done))"
+"""Waits until what follows an event or the size of the window has been drawn."""
+SCALES = "return [...document.images].map((i) => i.clientWidth / i.naturalWidth)"
+"""Of images, against the size that they are drawn for."""
+
+
 def browser() -> Chrome:
     """Debian's Chromium without a window, that keeps what it says and asks for."""
     options = ChromeOptions()
@@ -46,9 +52,7 @@ def emulate(chrome: Chrome, width: int, **media: str) -> None:
         "features": [{"name": "prefers-color-scheme", "value": media.get("scheme", "light")}],
     }
     chrome.execute_cdp_cmd("Emulation.setEmulatedMedia", wishes)
-    # until what follows the size of the window has done so
-    drawn = "const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(done))"
-    chrome.execute_async_script(drawn)
+    chrome.execute_async_script(DRAWN)
 
 
 def photograph(chrome: Chrome, path: Path) -> None:
@@ -142,6 +146,54 @@ def of_atlas(chrome: Chrome) -> dict | None:
     return {**said, "boxes": boxes}
 
 
+def of_claims(chrome: Chrome) -> dict:
+    """What the filter shows for each verdict by keyboard and for words, and where a link leads."""
+    shown = (
+        "return [...document.querySelectorAll('.claim')].filter((c) => c.checkVisibility()).length"
+    )
+    status = chrome.find_element(By.CSS_SELECTOR, ".filter .read")
+    met = {"all": len(chrome.find_elements(By.CSS_SELECTOR, ".claim")), "verdicts": {}}
+    for button in chrome.find_elements(By.CSS_SELECTOR, ".filter button"):
+        chrome.execute_script("arguments[0].focus()", button)
+        ActionChains(chrome).send_keys(Keys.SPACE).perform()
+        verdict = button.get_dom_attribute("data-verdict")
+        met["verdicts"][verdict] = {
+            "pressed": button.get_dom_attribute("aria-pressed"),
+            "listed": len(
+                chrome.find_elements(By.CSS_SELECTOR, f"[data-verdict='{verdict}'].claim")
+            ),
+            "shown": chrome.execute_script(shown),
+            "said": status.text,
+        }
+        ActionChains(chrome).send_keys(Keys.SPACE).perform()
+    search = chrome.find_element(By.CSS_SELECTOR, ".filter input")
+    search.send_keys(chrome.find_element(By.CLASS_NAME, "claim").get_dom_attribute("id")[6:])
+    met |= {"searched": chrome.execute_script(shown), "said": status.text}
+    place = chrome.find_elements(By.CSS_SELECTOR, ".appendix .claim")[-1].get_dom_attribute("id")
+    chrome.execute_script("location.hash = arguments[0]", place)
+    chrome.execute_async_script(DRAWN)
+    met["linked"] = chrome.find_element(By.ID, place).is_displayed()
+    met["cleared"] = search.get_property("value") == "" and status.text == ""
+    return met
+
+
+def reading(chrome: Chrome) -> list[dict]:
+    """Headings and images in the order in which a screen reader meets them, with their places."""
+    chrome.execute_cdp_cmd("DOM.enable", {})
+    nodes = chrome.execute_cdp_cmd("Accessibility.getFullAXTree", {})["nodes"]
+    by_id = {node["nodeId"]: node for node in nodes}
+    waiting, met = [nodes[0]], []
+    while waiting:
+        node = waiting.pop()
+        waiting += [by_id[child] for child in reversed(node.get("childIds", [])) if child in by_id]
+        role = node.get("role", {}).get("value")
+        if role in ("heading", "image") and not node["ignored"]:
+            wanted = {"backendNodeId": node["backendDOMNodeId"]}
+            box = chrome.execute_cdp_cmd("DOM.getBoxModel", wanted)["model"]["border"]
+            met.append({"role": role, "name": node["name"]["value"], "top": box[1]})
+    return met
+
+
 def network(chrome: Chrome) -> dict:
     """Addresses asked for, and requests that failed."""
     events = [json.loads(entry["message"])["message"] for entry in chrome.get_log("performance")]
@@ -159,14 +211,20 @@ def visit(chrome: Chrome, page: Path, folder: Path) -> dict:
     chrome.get(page.resolve().as_uri())
     seen = {**chrome.execute_script(FACTS), "too_wide": {}, "axe": {}}
     seen |= {"keyboard": by_keyboard(chrome)}
-    seen |= {"trajectories": of_trajectories(chrome), "atlas": of_atlas(chrome)}
-    for details in chrome.find_elements(By.TAG_NAME, "summary"):
+    seen |= {"claims": of_claims(chrome)}
+    chrome.get(page.resolve().as_uri())
+    for details in chrome.find_elements(By.CSS_SELECTOR, "details.appendix:not([open]) > summary"):
         details.click()
+    seen |= {"trajectories": of_trajectories(chrome), "atlas": of_atlas(chrome)}
+    for details in chrome.find_elements(By.CSS_SELECTOR, "details:not([open]) > summary"):
+        chrome.execute_script("arguments[0].parentElement.open = true", details)
     for scheme in SCHEMES:
         for width in WIDTHS:
             emulate(chrome, width, scheme=scheme)
             seen["too_wide"][f"{scheme} {width}"] = too_wide(chrome)
             photograph(chrome, folder / f"{scheme}-{width}.png")
+            if width == WIDTHS[0]:
+                seen |= {"reading": reading(chrome), "scales": chrome.execute_script(SCALES)}
         seen["axe"][scheme] = violations(chrome)
     emulate(chrome, 700, media="print")
     seen["too_wide"]["print"] = too_wide(chrome)

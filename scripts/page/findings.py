@@ -1,0 +1,101 @@
+"""The three findings at the top of the page, with numbers from the tables."""
+
+from collections.abc import Callable
+
+from scripts.claims.claims_results import short
+
+TORUS, TRUE_TORUS = "torus", "true_torus"
+"""The scene that the paper calls a torus, and one that has a longer delay."""
+REAL_GAMMA = (1e4, 1e12)
+"""The range of gamma of real faults in the paper."""
+COUNTS = {0: "no", 1: "one", 2: "two", 3: "three"}
+ZERO = 3
+"""Standard errors within which an exponent is zero."""
+
+
+def findings(claims: list[dict], tables: dict[str, list[dict]]) -> list[dict]:
+    """Each with its title, a sentence or two, and the claims that it is about."""
+    by_id = {claim["id"]: claim for claim in claims}
+    return [
+        {**find(tables), "claims": [by_id[name] for name in names if name in by_id]}
+        for find, names in FINDINGS.items()
+    ]
+
+
+def of_the_torus(tables: dict[str, list[dict]]) -> dict:
+    """What the paper's torus is, and whether a longer delay gives one."""
+    paper, longer = (first_motion(tables["attractors"], name) for name in (TORUS, TRUE_TORUS))
+    return {
+        "title": f"The paper's torus is a {named(paper)}.",
+        "words": f"At tau = {short(paper['tau'])} it has {described(paper)}. At tau ="
+        f" {short(longer['tau'])}, with all else the same, the motion is a {named(longer)}: it has"
+        f" {described(longer)}.",
+    }
+
+
+def of_the_hopf_points(tables: dict[str, list[dict]]) -> dict:
+    """Whether steady sliding needs a delay to become unstable, and in which ways it does."""
+    points = [row for row in tables["hopf_points"] if row["kind"] == "hopf_without_delay"]
+    turns = sum(row["kind"] == "generalised_hopf" for row in tables["hopf_points"])
+    both = (
+        f"Along the curves the bifurcation changes between supercritical and subcritical at {turns}"
+        " points."
+    )
+    if not points:
+        return {"title": "Steady sliding becomes unstable by a delay only.", "words": both}
+    point = points[0]
+    return {
+        "title": "Steady sliding becomes unstable without a delay, too.",
+        "words": f"At tau = 0, xi = {short(point['xi'])} and gamma = {short(point['gamma'])} there"
+        f" is a Hopf point at epsilon = {short(point['epsilon'])}. {both}",
+    }
+
+
+def of_real_faults(tables: dict[str, list[dict]]) -> dict:
+    """Whether the stiff equations of real faults can be solved."""
+    least, most = REAL_GAMMA
+    runs = [row for row in tables["stability"] if least <= row["gamma"] <= most]
+    done = {
+        method: [row for row in runs if row["method"] == method and row["status"] == "ok"]
+        for method in ("auto", "explicit")
+    }
+    count = sum(row["method"] == "auto" for row in runs)
+    steps = max((row["steps"] for row in done["auto"]), default=0)
+    share = "All" if len(done["auto"]) == count else f"{len(done['auto'])} of"
+    return {
+        "title": "The values of real faults can be computed."
+        if done["auto"]
+        else "The values of real faults cannot be computed.",
+        "words": f"The paper leaves out gamma = {least:.0e} to {most:.0e}. {share} {count} runs"
+        f" there reach their end, each in at most {steps:.0f} steps. With explicit steps alone"
+        f" {len(done['explicit']) or 'none'} do.",
+    }
+
+
+def first_motion(rows: list[dict], scene: str) -> dict:
+    """Where a scene's own history leads."""
+    return next(row for row in rows if row["scene"] == scene and row["history"] == 1)
+
+
+def named(row: dict) -> str:
+    """The class in the words of the page."""
+    return "limit cycle" if row["class"] == "cycle" else row["class"]
+
+
+def described(row: dict) -> str:
+    """How many exponents are zero, and the base frequencies."""
+    pairs = [(row[f"exponent_{i}"], row[f"error_{i}"]) for i in (1, 2, 3)]
+    zeros = sum(abs(value) <= ZERO * error for value, error in pairs)
+    bases = [f"f{i} = {short(row[f'f{i}'])}" for i in (1, 2) if row[f"f{i}"] > 0]
+    frequency = "base frequency" if len(bases) == 1 else "base frequencies"
+    exponents = "Lyapunov exponent" if zeros == 1 else "Lyapunov exponents"
+    found = f"{COUNTS[zeros]} zero {exponents}"
+    return f"{found} and the {frequency} {' and '.join(bases)}" if bases else found
+
+
+FINDINGS: dict[Callable, list[str]] = {
+    of_the_torus: ["figure_5a", "figure_6b", "second_hopf"],
+    of_the_hopf_points: ["hopf_only_by_delay", "hopf_is_supercritical", "both_kinds_of_hopf"],
+    of_real_faults: ["real_gamma_left_out", "very_stiff_at_real_gamma"],
+}
+"""What finds each, and its claims."""
