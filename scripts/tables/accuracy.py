@@ -49,7 +49,7 @@ def read_runs(path: str | Path) -> list[dict]:
         run = {name: str(row[name].values).strip() for name in WORDS}
         run |= {
             name: float(row[name])
-            for name, values in data.data_vars.items()
+            for name, values in data.variables.items()
             if values.dims == ("run",) and name not in WORDS
         }
         there = np.isfinite(row.time.values)

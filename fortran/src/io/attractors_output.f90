@@ -39,7 +39,7 @@ contains
       call file%attribute("sweep", trim(asked%sweep))
       call file%attribute("refinements", int(asked%refinements, int64))
       call put_settings(file, settings, options)
-      rows = file%dimension("point", size(findings))
+      rows = file%dimension("point", size(findings), coordinates="epsilon tau xi gamma")
       associate (points => asked%points, found => findings%attractor)
          call put("epsilon", points%parameters%epsilon, "sensitivity of the velocity relaxation")
          call put("tau", points%parameters%tau, "delay")
@@ -126,11 +126,9 @@ contains
          character(len=*), intent(in) :: words(:)
          !> What it is
          character(len=*), intent(in) :: long_name
-         integer :: id
+         integer :: i
 
-         id = file%integer_variable(name, rows, long_name)
-         call file%attribute("flag_meanings", meanings(words), id)
-         call file%put(id, values)
+         call file%flags(name, rows, values, [(i, i=0, size(words) - 1)], words, long_name)
       end subroutine put_flags
 
       !> Exponents and their errors.
@@ -155,25 +153,6 @@ contains
                          "absolute value up to which an exponent has no sign")
       end subroutine put_exponents
    end subroutine write_attractors
-
-   !> Words joined, each without blanks of its own.
-   pure function meanings(words) result(line)
-      !> Words
-      character(len=*), intent(in) :: words(:)
-      character(len=:), allocatable :: line
-      character(len=len(words)) :: name
-      integer :: i, j
-
-      line = ""
-      do i = 1, size(words)
-         name = words(i)
-         do j = 1, len_trim(name)
-            if (name(j:j) == " ") name(j:j) = "_"
-         end do
-         line = line//" "//trim(name)
-      end do
-      line = line(2:)
-   end function meanings
 
    !> How attractors were found.
    subroutine put_settings(file, settings, options)

@@ -94,7 +94,7 @@ contains
             end associate
          end do
       end do
-      rows = file%dimension("orbit", all)
+      rows = file%dimension("orbit", all, coordinates=trim(names_along(along))//" branch")
       id(1) = file%real_variable(trim(names_along(along)), rows, "parameter along the line", "1")
       id(2) = file%real_variable("period", rows, "period", "1")
       id(3) = file%real_variable("v_least", rows, "least velocity", "1")
@@ -185,7 +185,7 @@ contains
             end associate
          end do
       end do
-      rows = file%dimension("special", all)
+      rows = file%dimension("special", all, coordinates="special_tau special_epsilon")
       call file%words("special_kind", rows, kinds, "kind of the special point")
       do i = 1, size(names)
          id = file%real_variable("special_"//trim(names(i)), rows, trim(meanings(i)), "1")
@@ -230,7 +230,7 @@ contains
             end associate
          end do
       end do
-      rows = file%dimension("curve_point", all)
+      rows = file%dimension("curve_point", all, coordinates="curve_tau curve_epsilon")
       id(1) = file%real_variable("curve_epsilon", rows, "epsilon of a point of a curve", "1")
       id(2) = file%real_variable("curve_tau", rows, "its tau", "1")
       id(3) = file%real_variable("curve_period", rows, "its period", "1")
@@ -256,7 +256,7 @@ contains
       type(hopf_start_type), intent(in) :: hopf(:)
       integer :: id(3), rows
 
-      rows = file%dimension("hopf", size(hopf))
+      rows = file%dimension("hopf", size(hopf), coordinates="hopf_tau hopf_epsilon")
       id(1) = file%real_variable("hopf_tau", rows, "tau of the Hopf point", "1")
       id(2) = file%real_variable("hopf_epsilon", rows, "its epsilon", "1")
       id(3) = file%real_variable("hopf_omega", rows, "angular frequency of its pair", "1")

@@ -59,7 +59,7 @@ contains
                                averages)
          call file%create(path, "Lyapunov exponents of the spring block with delayed friction")
          ids = [file%dimension("exponent", settings%exponents), &
-                file%dimension("run", size(options)), &
+                file%dimension("run", size(options), coordinates="tolerance longest_step"), &
                 file%dimension("time", size(time)), file%dimension("block", settings%blocks)]
          id = file%real_variable("tolerance", ids(2), "tolerance, the scene's own first", "1")
          call file%put(id, options%relative)

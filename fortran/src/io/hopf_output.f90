@@ -33,7 +33,7 @@ contains
       integer :: printed_tau, residual, rows, tau, xi
 
       call file%create(path, "Hopf curves: where a pair of characteristic roots is imaginary")
-      rows = file%dimension("point", size(points))
+      rows = file%dimension("point", size(points), coordinates="epsilon tau xi")
       epsilon = file%real_variable("epsilon", rows, "sensitivity of the velocity relaxation", "1")
       tau = file%real_variable("tau", rows, "delay", "1")
       xi = file%real_variable("xi", rows, "spring constant", "1")
@@ -62,7 +62,8 @@ contains
       call file%put(printed_residual, points%printed_residual)
       call file%put(l1, points%l1)
       call file%put(others, points%unstable_pairs)
-      rows = file%dimension("special", size(special))
+      rows = file%dimension("special", size(special), &
+                            coordinates="special_epsilon special_tau special_xi")
       call put_special(file, rows, special)
       call put_unfoldings(file, settings, rows, special)
       call put_map(file, settings, pairs)

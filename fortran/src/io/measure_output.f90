@@ -53,8 +53,8 @@ contains
       most_samples = maxval([(size(runs(i)%samples, 2), i=1, size(runs))])
 
       call file%create(path, "Measured runs of the spring block with delayed friction")
-      run = file%dimension("run", size(runs))
-      sample = file%dimension("sample", most_samples)
+      run = file%dimension("run", size(runs), coordinates="case method setting")
+      sample = file%dimension("sample", most_samples, coordinates="time")
       call file%words("case", run, cases%name, "name of the case")
       call file%words("method", run, runs%method, "method")
       call file%words("status", run, runs%status, "ok, or why the run ended before t_end")

@@ -7,7 +7,7 @@ module program_arguments
    use unfinished_file, only: check_place
    implicit none (type, external)
    private
-   public :: get_paths, refuse_input, stop_on
+   public :: get_paths, program_name, refuse_input, stop_on
 
 contains
 
@@ -44,6 +44,14 @@ contains
                     //"; expected another path")
       end if
    end subroutine refuse_input
+
+   !> Name of this program, without its folder.
+   function program_name() result(name)
+      character(len=:), allocatable :: name
+
+      name = argument(0)
+      name = name(index(name, "/", back=.true.) + 1:)
+   end function program_name
 
    !> One word of the command line.
    function argument(i) result(word)

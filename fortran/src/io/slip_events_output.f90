@@ -25,7 +25,7 @@ contains
       integer :: duration, least, onset, peak, recurrence, rows, slip
 
       call file%create(path, "Slip events of the spring block: times in which v > 1")
-      rows = file%dimension("event", size(events%onset))
+      rows = file%dimension("event", size(events%onset), coordinates="onset")
       onset = file%real_variable("onset", rows, "time at which v rises through 1", "1")
       recurrence = file%real_variable("recurrence_time", rows, "time to the next onset", "1")
       duration = file%real_variable("duration", rows, "time in which v > 1", "1")

@@ -12,6 +12,13 @@ module spectrum_output
    private
    public :: write_spectrum
 
+   !> Kinds of peaks
+   integer, parameter :: kinds(5) = [base_peak, harmonic_peak, second_base_peak, &
+                                     combination_peak, other_peak]
+   !> Their names
+   character(len=*), parameter :: kind_names(5) = [character(len=12) :: "base", "harmonic", &
+                                                   "second_base", "combination", "other"]
+
 contains
 
    !> Write a spectrum with its labelled peaks and what it is.
@@ -35,18 +42,16 @@ contains
       !> It could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
-      integer :: b, bins, f, k, m(2), p, pf, pp, rows
+      integer :: b, bins, f, m(2), p, pf, pp, rows
 
       call file%create(path, "Power spectrum of the velocity v")
       bins = file%dimension("frequency", size(frequency))
-      rows = file%dimension("peak", size(peaks))
+      rows = file%dimension("peak", size(peaks), coordinates="peak_frequency")
       f = file%real_variable("frequency", bins, "frequency, cycles per unit of time", "1")
       p = file%real_variable("power", bins, "one-sided power spectral density of v", "1")
       pf = file%real_variable("peak_frequency", rows, "interpolated frequency of the peak", "1")
       pp = file%real_variable("peak_power", rows, "interpolated height of the peak", "1")
-      k = file%integer_variable("peak_kind", rows, "what the peak is")
-      call file%attribute("flag_values", flag_text(), k)
-      call file%attribute("flag_meanings", "base harmonic second_base combination other", k)
+      call file%flags("peak_kind", rows, peaks%kind, kinds, kind_names, "what the peak is")
       m(1) = file%integer_variable("peak_multiple", rows, "multiple of the first base frequency")
       m(2) = file%integer_variable("peak_second_multiple", rows, &
                                    "multiple of the second base frequency, added to the first's")
@@ -72,18 +77,9 @@ contains
       call file%put(p, power)
       call file%put(pf, peaks%frequency)
       call file%put(pp, peaks%power)
-      call file%put(k, peaks%kind)
       call file%put(m(1), peaks%multiple(1))
       call file%put(m(2), peaks%multiple(2))
       call file%put(b, pack(bases%frequency, bases%frequency > 0.0_wp))
       call file%finish(error)
    end subroutine write_spectrum
-
-   !> The kinds as numbers in words, in the order of their meanings.
-   pure function flag_text() result(flags)
-      character(len=9) :: flags
-
-      write (flags, "(*(i0,:,1x))") base_peak, harmonic_peak, second_base_peak, combination_peak, &
-         other_peak
-   end function flag_text
 end module spectrum_output

@@ -24,7 +24,7 @@ contains
       integer :: mu, rows, slip, theta, time, velocity
 
       call file%create(path, "Response of friction to steps of the imposed velocity")
-      rows = file%dimension("sample", size(response%time))
+      rows = file%dimension("sample", size(response%time), coordinates="time")
       time = file%real_variable("time", rows, "time", "s")
       slip = file%real_variable("slip", rows, "slip", "m")
       velocity = file%real_variable("velocity", rows, "imposed velocity", "m s-1")
