@@ -90,7 +90,9 @@ contains
       type(failure_type), allocatable :: failure
       type(prescribed_type) :: problem
 
-      problem = prescribed_type(n=3, a=a, b=b)
+      problem%n = 3
+      problem%a = a
+      problem%b = b
       allocate (problem%lag(0), problem%component(0))
       call find_slip_events(problem, t_transient, t_end, at_tolerance(tolerance), events, failure)
       call expect_success(error, failure)
