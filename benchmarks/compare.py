@@ -2,6 +2,7 @@
 
 import argparse
 import csv
+import datetime
 import math
 import platform
 import statistics
@@ -202,6 +203,7 @@ def machine() -> list[str]:
             cpu = line.partition(":")[2].strip()
             break
     return [
+        f"date: {datetime.date.today()}",
         f"machine: {cpu}, {platform.system()} {platform.release()}",
         f"compilers: {first_line('gfortran', '--version')}; {first_line('gcc', '--version')}",
         f"{first_line('R', '--version')}; Python {platform.python_version()}",
@@ -256,7 +258,7 @@ def main(given: list[str]) -> None:
     meaning = "columns of solvers: their time over ours, at equal error; empty where not reached"
     columns = ["scene", "error", "our_seconds", *others]
     write_table(options.output / "benchmark-ratios.tsv", columns, ratios, [*header, meaning])
-    write_table(options.output / "long-runs.tsv", list(LONG_RUN_COLUMNS), long_runs, header[:2])
+    write_table(options.output / "long-runs.tsv", list(LONG_RUN_COLUMNS), long_runs, header[:3])
     print(printed(ratios, others))
 
 

@@ -236,7 +236,11 @@ def on_page():
             "category": entries.ENTRIES[name].category,
             "caption": entries.caption_of(name),
             "drawing": f"results/figures/{name}.svg",
-            "data": entries.files_of(name, config),
+            "data": [
+                path
+                for path in entries.files_of(name, config)
+                if path.startswith("results/")
+            ],
         }
         for name in FIGURES
     ]

@@ -55,7 +55,6 @@ RULES_FOR = {
     "atlas.tsv": {*ATTRACTORS, "atlas_table"},
     "attractors.tsv": {*ATTRACTORS, "attractors_table"},
     **{f"{line}.tsv": {*ATTRACTORS, "route_table"} for line in LINES},
-    "benchmarks.tsv": set(),
 }
 """Rules that make a result: data by their folder, tables by their name."""
 RULES_OF_ATTRACTORS = {*ATTRACTORS, "attractors_table", "route_table", "basins_table"}
@@ -75,7 +74,6 @@ PROGRAMS_FOR = {
     "atlas.tsv": ["attractors"],
     "attractors.tsv": ["attractors"],
     **{f"{line}.tsv": ["attractors"] for line in LINES},
-    "benchmarks.tsv": [],
 }
 """Programs that make a result, named in the same way."""
 DATA_OF_TABLES = {
@@ -91,7 +89,6 @@ DATA_OF_TABLES = {
     },
     "attractors.tsv": {f"scenes/{scene}.nc" for scene in ["fixed_point", *SCENES]},
     **{f"{line}.tsv": {f"{line}/{run}.nc" for run in RUNS} for line in LINES},
-    "benchmarks.tsv": set(),
 }
 """Data behind each table, by folder and name."""
 
@@ -102,15 +99,20 @@ def kind_of(path: str) -> str:
     return name if folder == "tables" else folder
 
 
+def results_for(figure: str) -> list[str]:
+    """Results that a figure needs; other solvers were measured before."""
+    return [path for path in files_of(figure, CONFIG) if path != "benchmarks/measured.tsv"]
+
+
 def expected_rules_of(figure: str) -> set[str]:
     """Rules that a figure needs besides its own."""
-    return set().union(*(RULES_FOR[kind_of(path)] for path in files_of(figure, CONFIG)))
+    return set().union(*(RULES_FOR[kind_of(path)] for path in results_for(figure)))
 
 
 def expected_outputs_of(figure: str) -> set[str]:
     """Programs and data that a figure needs."""
     found = set()
-    for path in files_of(figure, CONFIG):
+    for path in results_for(figure):
         kind, ending = kind_of(path), "/".join(path.split("/")[-2:])
         found |= {f"bin/{program}" for program in PROGRAMS_FOR[kind]}
         found |= DATA_OF_TABLES.get(kind, {ending})

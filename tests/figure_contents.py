@@ -1,5 +1,7 @@
 """What the tests of figures read off them."""
 
+import re
+
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
@@ -7,6 +9,12 @@ from matplotlib.text import Text
 def words_in(figure: Figure) -> str:
     """All text of a figure."""
     return "\n".join(text.get_text() for text in figure.findobj(Text))
+
+
+def hyphens_before_numbers(figure: Figure) -> list[str]:
+    """Texts, without their formulas, that have a hyphen in the place of a minus sign."""
+    plain = ["".join(text.get_text().split("$")[::2]) for text in figure.findobj(Text)]
+    return [text for text in plain if re.search(r"(?<!\w)-\d", text)]
 
 
 def title_of(axes) -> str:

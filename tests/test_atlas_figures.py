@@ -247,9 +247,9 @@ def test_routes_show_maxima_classes_and_exponents(routes_drawn):
     shown = np.array([point for line in above.lines for point in line.get_xydata()])
     np.testing.assert_allclose(np.unique(shown[:, 1]), [1, 2, 2.5, 3, 3.5, 4, 4.5])
     title = title_of(above)
-    assert r"$\tau$ = 7, $\xi$ = 0.5, $\gamma$ = 0.8: 8 points, 1 undecided, 1 failed" in title
+    assert r"$\tau = 7$, $\xi = 0.5$, $\gamma = 0.8$: 8 points, 1 undecided, 1 failed" in title
     assert below.get_xlabel() == r"sensitivity of the velocity relaxation $\varepsilon$"
-    assert routes_drawn.axes[5].get_xlabel() == r"delay $\tau$"
+    assert routes_drawn.axes[5].get_xlabel() == r"delay $\tau$ (units of $L/v_0$)"
     assert [text.get_text() for text in strips.get_yticklabels()] == ["near", "up"]
     meshes = [item for item in strips.collections if isinstance(item, QuadMesh)]
     expected = [COLOURS[name] for name in ("cycle", "torus", "torus", "chaos")]
@@ -328,7 +328,7 @@ def test_true_torus_is_drawn_beside_the_papers():
     assert "scene true torus (" in second
     assert "torus, two zero exponents\n" in second
     words = words_in(figure)
-    assert "one base frequency, $f_1$ = 0.1000, and its harmonics" in words
+    assert "one base frequency $f_1$ = 0.1000 and its harmonics" in words
     assert "two base frequencies, $f_1$ = 0.1000 and $f_2$ = 0.2600" in words
     assert all(label in words for label in ("base $f_1$", "base $f_2$", "$f_1 + f_2$"))
     by_label = dict(zip(("va", "ma", "pa", "sa", "vb", "mb", "pb", "sb"), figure.axes, strict=True))
@@ -345,10 +345,11 @@ def test_true_torus_is_drawn_beside_the_papers():
 @pytest.mark.parametrize(
     ("value", "error", "words"),
     [
-        (-0.014042, 3e-5, r"(-1.404 ± 0.003)$\cdot 10^{-2}$"),
+        (-0.014042, 3e-5, r"(−1.404 ± 0.003)$\cdot 10^{-2}$"),
         (1.2e-5, 2.1e-5, r"(1.2 ± 2.1)$\cdot 10^{-5}$"),
         (-1e-9, 6.5e-7, r"(0.0 ± 6.5)$\cdot 10^{-7}$"),
-        (-1.77753, 0.0, "-1.78 ± 0.00"),
+        (-1.77753, 0.0, "−1.78 ± 0.00"),
+        (0.0, 0.0, "0"),
     ],
 )
 def test_numbers_have_the_digits_that_their_error_lets_count(value, error, words):

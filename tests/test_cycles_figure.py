@@ -61,10 +61,10 @@ def test_figure_is_on_its_page(drawn):
 def test_each_line_has_a_panel(drawn):
     """Its title has what is fixed and the counts, its axes name what varies, with units."""
     in_tau, in_epsilon = drawn.axes
-    assert r"$\varepsilon$ = 0.5, $\xi$ = 0.8, $\gamma$ = 0.8: 2 branches, 4 special points" in (
+    assert r"$\varepsilon = 0.5$, $\xi = 0.8$, $\gamma = 0.8$: 2 branches, 4 special points" in (
         title_of(in_tau)
     )
-    assert r"$\tau$ = 10, $\xi$ = 0.8" in title_of(in_epsilon)
+    assert r"$\tau = 10$, $\xi = 0.8$" in title_of(in_epsilon)
     assert in_tau.get_xlabel() == r"delay $\tau$ (units of $L/v_0$)"
     assert in_epsilon.get_xlabel() == r"sensitivity of the velocity relaxation $\varepsilon$"
     assert {axes.get_ylabel() for axes in drawn.axes} == {"maxima of $v$ (units of $v_0$)"}

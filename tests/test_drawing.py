@@ -10,9 +10,11 @@ import xarray as xr
 from figure_contents import points_in, title_of, words_in
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
+from test_page_contrast import luminance
 
 from scripts.drawing import hopf_plane, spectrum_rows, trajectory_rows
-from scripts.drawing.style import METADATA, logged, save
+from scripts.drawing.parameters import number, true_minus
+from scripts.drawing.style import METADATA, STYLE, logged, save
 
 
 @pytest.fixture(autouse=True)
@@ -76,7 +78,7 @@ def test_titles_hold_parameters_and_words(spiral_and_circle):
     """As given."""
     title = title_of(spiral_and_circle.axes[3])
     assert r"$\tau = 3$, $\varepsilon = 0.25$, $\xi = 0.5$, $\gamma = 0.75$" in title
-    assert title.endswith("second")
+    assert ": second\n" in title
 
 
 def a_spectrum(kind: str, *peaks: tuple[float, float, int, int, int], **attributes) -> xr.Dataset:
@@ -192,12 +194,14 @@ def test_what_a_spectrum_shows_is_said_beside_the_paper():
 def test_why_a_spectrum_is_undecided_is_said():
     """Power off the lines, peaks not explained, and a ratio that may be chance."""
     spectrum = a_spectrum("undecided", BASE, SECOND, bases_told_apart="yes", ratio_of_bases="7/2")
-    assert spectrum_rows.seen(spectrum, "").startswith(
-        "undecided: 25 % of the power off the lines explained\n"
+    words = spectrum_rows.seen(spectrum, "a torus")
+    assert words == (
+        "scene made up; the paper: “a torus”; seen: undecided: 25 % of the power off the lines"
+        " explained"
     )
     spectrum = a_spectrum("undecided", OTHER, bases_told_apart="no", ratio_of_bases="7/2")
     words = spectrum_rows.seen(spectrum, "")
-    assert "explained, 1 other peak, $f_2/f_1$ not distinguished from 7/2\n" in words
+    assert "explained, 1 other peak, $f_2/f_1$ not distinguished from 7/2" in words
 
 
 def a_plane(ordinate: str, fixed: str) -> xr.Dataset:
@@ -238,22 +242,24 @@ def test_curves_are_dashed_where_subcritical(ordinate, fixed):
 
 
 @pytest.mark.parametrize(
-    ("scene", "lies_in"),
+    ("scene", "words"),
     [
-        ({"xi": 0.5, "gamma": 0.8}, True),
-        ({"xi": 0.8, "gamma": 0.8}, False),
-        ({"xi": 0.5, "gamma": 0.9}, False),
+        ({"xi": 0.5, "gamma": 0.8}, "scene in this plane"),
+        ({"xi": 0.8, "gamma": 0.8}, r"scene at another $\xi$"),
+        ({"xi": 0.5, "gamma": 0.9}, r"scene at another $\gamma$"),
+        ({"xi": 0.8, "gamma": 0.9}, r"scene at another $\xi$ and $\gamma$"),
     ],
 )
-def test_scene_is_filled_where_it_lies_in_the_plane(scene, lies_in):
-    """The fixed parameter and gamma decide; the legend says so."""
+def test_scene_is_filled_where_it_lies_in_the_plane(scene, words):
+    """The fixed parameter and gamma decide; the legend names those that differ."""
     places = {"my_scene": {"tau": 2.0, "epsilon": 0.4, **scene}}
     figure = hopf_plane.draw(a_plane("tau", "xi"), places)
     ((x, y, filling),) = points_in(figure.axes[0])
     assert (x, y) == (0.4, 2.0)
-    assert (filling != "white") is lies_in
-    assert ("scene in this plane" in words_in(figure)) is lies_in
-    assert ("scene at another" in words_in(figure)) is not lies_in
+    assert (filling != "white") is (words == "scene in this plane")
+    (legend,) = figure.legends
+    named = [text.get_text() for text in legend.get_texts()]
+    assert [name for name in named if name.startswith("scene")] == [words]
     assert "my scene" in words_in(figure)
 
 
@@ -262,6 +268,37 @@ def test_scenes_at_one_place_share_a_label():
     place = {"tau": 2.0, "epsilon": 0.4, "xi": 0.5, "gamma": 0.8}
     figure = hopf_plane.draw(a_plane("tau", "xi"), {"one": place, "two": place})
     assert "one, two" in words_in(figure)
+
+
+@pytest.mark.parametrize(
+    ("value", "words"),
+    [
+        (0.0, "0"),
+        (12.5, "12.5"),
+        (-0.01, "-0.01"),
+        (1e8, "10^{8}"),
+        (1e4, "10^{4}"),
+        (1e-9, "10^{-9}"),
+        (-2.5e-7, r"-2.5 \cdot 10^{-7}"),
+    ],
+)
+def test_numbers_of_formulas(value, words):
+    """Large and small ones with a power of ten."""
+    assert number(value) == words
+
+
+def test_minus_signs_are_no_hyphens():
+    """U+2212."""
+    assert true_minus("-0.1") == "\u22120.1"
+
+
+def test_colours_are_seen_on_white():
+    """Contrast of at least 4.5 to 1, as WCAG 2 asks for text; names of branches have them."""
+    with plt.style.context(STYLE):
+        colours = plt.rcParams["axes.prop_cycle"].by_key()["color"]
+    assert len(set(colours)) == 8
+    for colour in colours:
+        assert 1.05 / (luminance(f"#{colour.removeprefix('#')}") + 0.05) >= 4.5, colour
 
 
 def test_saved_figures_have_the_same_bytes_each_time(tmp_path):

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 import xarray as xr
 from conftest import ROOT
-from figure_contents import points_in, title_of, words_in
+from figure_contents import hyphens_before_numbers, points_in, title_of, words_in
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from scripts.drawing import style
-from scripts.drawing.spectrum_rows import IN_WORDS
+from scripts.files.tsv import read_table
 
 NUMBERS = range(1, 9)
 SCENES = ["fixed_point", "oscillation", "torus", "chaos"]
@@ -34,6 +34,7 @@ def script_inputs(smoke, config: dict, number: int) -> SimpleNamespace:
             trajectories=[results / "trajectories" / f"{scene}.nc" for scene in shown],
             spectra=[results / "spectra" / f"{scene}.nc" for scene in shown],
             response=results / "friction" / "velocity_step.nc",
+            table=results / "tables" / "attractors.tsv",
         ),
         params=SimpleNamespace(settings=settings, scenes=scenes),
     )
@@ -113,6 +114,7 @@ def test_no_formula_is_left_as_source(figure):
     for text in figure.findobj(Text):
         assert text.get_text().count("$") % 2 == 0
         assert "_" not in "".join(text.get_text().split("$")[::2])
+    assert hyphens_before_numbers(figure) == []
 
 
 @these(1)
@@ -156,6 +158,33 @@ def test_figure_2_fills_the_scene_in_its_plane(figure):
     assert "scene in this plane" in words_in(figure)
 
 
+@these(2, 3)
+def test_names_of_scenes_are_free(figure):
+    """No curve, marker or other name is on them, and none is nearer to another scene."""
+    axes = figure.axes[0]
+    paths = [line.get_path().transformed(line.get_transform()) for line in axes.lines]
+    markers = np.vstack(
+        [
+            path.vertices
+            for line, path in zip(axes.lines, paths, strict=True)
+            if line.get_marker() != "None"
+        ]
+    )
+    dots = {(x, y): axes.transData.transform((x, y)) for x, y, _ in points_in(axes)}
+    names = [text for text in axes.texts if "$" not in text.get_text()]
+    assert len(names) == len(dots) == 4
+    boxes = [Text.get_window_extent(name) for name in names]
+    for name, box in zip(names, boxes, strict=True):
+        assert not any(path.intersects_bbox(box, filled=False) for path in paths)
+        assert not any(box.contains(*marker) for marker in markers)
+        assert sum(box.overlaps(other) for other in boxes) == 1
+        gaps = {
+            place: np.hypot(*(np.clip(dot, box.min, box.max) - dot)) for place, dot in dots.items()
+        }
+        tied = name.arrow_patch is not None
+        assert tied or min(gaps, key=gaps.get) == name.xy
+
+
 @these(3)
 def test_figure_3_leaves_all_scenes_open(figure):
     """None has tau = 12."""
@@ -175,6 +204,8 @@ def test_rows_show_velocity_twice_and_portrait(figure):
         assert (row[2].get_xlabel(), row[2].get_ylabel()) == ("displacement $u$", "velocity $v$")
         title = title_of(row[0])
         assert f"{{{letter}}}" in title
+        assert title.endswith("\nfrom the start")
+        assert [title_of(axes) for axes in row[1:]] == ["at the end", "phase portrait"]
         assert all(symbol in title for symbol in (r"\tau", r"\varepsilon", r"\xi", r"\gamma"))
     assert "transient" in words_in(figure)
     assert "attractor" in words_in(figure)
@@ -195,27 +226,38 @@ def test_rows_show_velocity_twice_and_portrait(figure):
 )
 def test_titles_quote_the_paper(figure, row, paper):
     """So that nobody takes its word for what is seen."""
-    title = [title_of(axes) for axes in figure.axes if title_of(axes)][row]
-    assert f"the paper: “{paper}”" in title
+    title = [title_of(axes) for axes in figure.axes if "\n" in title_of(axes)][row]
+    assert f"the paper: “{paper}”; seen: " in title
 
 
-@these(5)
-def test_figure_5_says_what_is_seen(figure, smoke):
-    """By the spectra."""
-    for axes, scene in zip(figure.axes[::3], ("torus", "chaos"), strict=True):
-        spectrum = xr.load_dataset(smoke.folder / "results/spectra" / f"{scene}.nc")
-        assert f"seen: {IN_WORDS[spectrum.attrs['spectrum_kind']]}" in title_of(axes)
+@pytest.mark.parametrize(
+    ("figure", "scenes"),
+    [(4, ["fixed_point", "oscillation"]), (5, ["torus", "chaos"])],
+    indirect=["figure"],
+)
+def test_titles_say_what_is_seen(figure, scenes, smoke):
+    """The class from the scene's own history."""
+    rows = read_table(smoke.folder / "results/tables/attractors.tsv")
+    for axes, scene in zip(figure.axes[::3], scenes, strict=True):
+        (met,) = [r["class"] for r in rows if (r["scene"], r["history"]) == (scene, 1)]
+        words = {"cycle": "limit cycle"}.get(met, met)
+        assert f"; seen: {words}\n" in title_of(axes)
 
 
 @pytest.mark.parametrize(("figure", "rows"), [(6, 2), (7, 1)], indirect=["figure"])
-def test_spectra_are_logarithmic(figure, rows):
-    """One panel a row, the frequency axis from zero."""
-    assert len(figure.axes) == rows
-    for axes in figure.axes:
-        assert axes.get_yscale() == "log"
-        assert axes.get_xlim()[0] == 0
-        assert "power spectral density" in axes.get_ylabel()
-    assert "frequency" in figure.axes[-1].get_xlabel()
+def test_spectra_are_shown_on_both_scales(figure, rows):
+    """The same frequencies and powers; all rows have the same logarithmic axes."""
+    assert len(figure.axes) == 2 * rows
+    logarithmic, linear = figure.axes[::2], figure.axes[1::2]
+    assert {axes.get_yscale() for axes in logarithmic} == {"log"}
+    assert {axes.get_yscale() for axes in linear} == {"linear"}
+    assert len({axes.get_ylim() for axes in logarithmic}) == 1
+    assert len({axes.get_xlim() for axes in figure.axes}) == 1
+    assert figure.axes[0].get_xlim()[0] == 0
+    assert all("power spectral density" in axes.get_ylabel() for axes in logarithmic)
+    assert all("frequency" in axes.get_xlabel() for axes in figure.axes[-2:])
+    for one, other in zip(logarithmic, linear, strict=True):
+        np.testing.assert_array_equal(one.lines[0].get_xydata(), other.lines[0].get_xydata())
 
 
 @these(8)

@@ -221,9 +221,17 @@ def test_stability_figure(tables, style):
     figure = stability.draw(tables["stability"])
     figure.canvas.draw()
     titles = [axes.get_title(loc="left") for axes in figure.axes[:3]]
-    assert [title.split()[-1] for title in titles] == ["auto", "explicit", "reference"]
+    words = ["auto", "explicit", "all cases with a reference"]
+    assert [title.split("  ")[1] for title in titles] == [
+        f"{word}, tolerance $10^{{-9}}$" for word in words
+    ]
     frequencies = [label.get_text() for label in figure.axes[0].get_yticklabels()]
-    assert frequencies == ["0.01", "0.8", "100", *(f"$10^{{{k}}}$" for k in (4, 6, 8, 10, 12))]
+    assert frequencies == [
+        "$0.01$",
+        "$0.8$",
+        "$100$",
+        *(f"$10^{{{k}}}$" for k in (4, 6, 8, 10, 12)),
+    ]
     crosses = [line for line in figure.axes[1].get_lines() if line.get_marker() == "x"]
     ended = [
         row
@@ -235,20 +243,23 @@ def test_stability_figure(tables, style):
 
 
 def test_work_precision_figure(tables, style):
-    """A panel a scene; other solvers are laid over where they were measured, ours is not again."""
+    """A panel a scene; over it the other solvers, where their runs are as long, and their date."""
     rows = tables["work-precision"]
-    other = {"scene": "torus", "solver": "other", "tolerance": 1e-6, "error_max": 1e-5}
-    others = [{**other, "seconds": 0.1}, {**other, "solver": "ours", "seconds": 0.2}]
-    figure = work_precision.draw(rows, others)
+    t_end = next(row["t_end"] for row in rows if row["scene"] == "torus")
+    other = {"scene": "torus", "solver": "other", "version": 1.5, "t_end": t_end, "seconds": 0.1}
+    other |= {"tolerance": 1e-6, "error_max": 1e-5}
+    others = [other, {**other, "solver": "ours"}, {**other, "t_end": t_end + 1, "seconds": 0.2}]
+    figure = work_precision.draw(rows, others, "2026-11-22")
     figure.canvas.draw()
     scenes = list(dict.fromkeys(row["scene"] for row in rows))
     titles = [axes.get_title(loc="left").split(",")[0] for axes in figure.axes]
     assert titles == [scene.replace("_", " ") for scene in scenes]
     words = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert {"auto", "rk4 cubic", "other"} <= set(words)
-    assert "ours" not in words
+    assert {"auto", "rk4 cubic", "other 1.5"} <= set(words)
+    assert not any("ours" in word for word in words)
+    assert "measured on 2026-11-22" in figure.legends[0].get_title().get_text()
     drawn = {line.get_label(): line for line in figure.axes[scenes.index("torus")].get_lines()}
-    assert drawn["other"].get_ydata().tolist() == [1e-5]
+    assert drawn["other 1.5"].get_xdata().tolist() == [0.1]
     looks = [(line.get_color(), line.get_linestyle(), line.get_marker()) for line in drawn.values()]
     assert len(set(looks)) == len(looks)
 

@@ -149,16 +149,6 @@ def test_changed_family_computes_no_other(smoke, tmp_path):
     assert data_of_jobs(set(jobs_in(run.stdout))) == {"stability/spring.nc"}
 
 
-def test_table_of_other_solvers_is_drawn_where_there_is_one(scratch):
-    """It redraws one figure and is needed for none."""
-    table = scratch.folder / "results" / "tables" / "benchmarks.tsv"
-    table.write_text("scene\tsolver\ttolerance\terror_max\tseconds\ntorus\tother\t1\t1\t1\n")
-    run = scratch.snakemake("--dry-run", *SMOKE)
-    assert rules_in(run.stdout) == {"all", "work_precision", "page"}
-    run = scratch.snakemake("work_precision", *SMOKE)
-    assert run.returncode == 0, run.stdout
-
-
 def test_changed_setting_of_a_figure_redraws_only_that_figure(smoke, tmp_path):
     """Another length of an axis computes nothing."""
     (tmp_path / "mine.yaml").write_text("figures: { figure_7: { frequency_shown: 0.9 } }")

@@ -1,23 +1,11 @@
-"""What figures along one parameter share: names of parameters, and the scenes on a line."""
+"""What figures along one parameter share: the scenes on a line, and the maxima of a run."""
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
+from scripts.drawing.parameters import SYMBOLS
 from scripts.drawing.style import FAINT
-
-SYMBOLS = {"tau": r"\tau", "epsilon": r"\varepsilon", "xi": r"\xi", "gamma": r"\gamma"}
-NAMES = {
-    "tau": "delay",
-    "epsilon": "sensitivity of the velocity relaxation",
-    "xi": "spring constant",
-    "gamma": "frequency",
-}
-
-
-def fixed_in_words(place: dict, along: str) -> str:
-    """The parameters that stay the same."""
-    return ", ".join(f"${SYMBOLS[key]}$ = {place[key]:g}" for key in SYMBOLS if key != along)
 
 
 def mark_scenes(axes: Axes, scenes: dict[str, dict], place: dict, along: str) -> None:

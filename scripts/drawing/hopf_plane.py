@@ -10,23 +10,24 @@ from matplotlib.colors import ListedColormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from scripts.drawing.free_labels import label_points
+from scripts.drawing.parameters import SYMBOLS, axis_of, in_words
 from scripts.drawing.style import INK
 
-SYMBOLS = {"tau": r"$\tau$", "xi": r"$\xi$"}
 SUBCRITICAL = (0, (3, 1.5))
 """Dashes."""
+DARKEST = 0.3
+"""How much darker than white the most unstable pairs are."""
 MARKERS = {
     "generalised_hopf": ("D", "generalised Hopf point"),
     "double_hopf": ("s", "double Hopf point"),
     "hopf_without_delay": ("^", "Hopf point without delay"),
 }
-NAMES = {"tau": r"delay $\tau$", "xi": r"spring constant $\xi$"}
 
 
 def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
     """Curves by branch, solid where supercritical, over the number of unstable pairs; scenes."""
     ordinate = curves.attrs["ordinate"]
-    fixed = "xi" if ordinate == "tau" else "tau"
     figure, axes = plt.subplots(figsize=(5.2, 4.4))
     axes.set(xlim=(0, float(curves.epsilon.max())), ylim=(0, float(curves[ordinate].max())))
     shades = shade(axes, curves)
@@ -41,22 +42,9 @@ def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
         ends.append((float(y[last]), float(x[last]), branch, colour))
     points = mark_special_points(axes, curves)
     label_branches(axes, ends)
-    marked = mark_scenes(
-        axes,
-        scenes,
-        ordinate=ordinate,
-        fixed=fixed,
-        fixed_value=curves.attrs[fixed],
-        gamma=curves.attrs["gamma"],
-    )
-    axes.set_title(
-        rf"{SYMBOLS[fixed]} = {curves.attrs[fixed]:g}, $\gamma$ = {curves.attrs['gamma']:g}",
-        pad=14,
-    )
-    axes.set(
-        xlabel=r"sensitivity of the velocity relaxation $\varepsilon$",
-        ylabel=NAMES[ordinate],
-    )
+    marked = mark_scenes(axes, scenes, curves)
+    axes.set_title(in_words(curves.attrs, "epsilon", ordinate), pad=14)
+    axes.set(xlabel=axis_of("epsilon"), ylabel=axis_of(ordinate))
     handles = [
         Line2D([], [], color=INK, label="supercritical"),
         Line2D([], [], color=INK, ls=SUBCRITICAL, label="subcritical"),
@@ -64,6 +52,10 @@ def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
     bar = figure.colorbar(shades, ax=axes, label="unstable pairs", pad=0.03)
     bar.set_ticks(range(round(shades.norm.vmax - 0.5) + 1))
     figure.legend(handles=handles + points + marked, loc="outside lower center", ncols=2)
+    places: dict[tuple[float, float], list[str]] = {}
+    for name, scene in scenes.items():
+        places.setdefault((scene["epsilon"], scene[ordinate]), []).append(name.replace("_", " "))
+    label_points(axes, {place: ", ".join(names) for place, names in places.items()})
     return figure
 
 
@@ -71,7 +63,7 @@ def shade(axes: Axes, curves: xr.Dataset):
     """The number of unstable pairs, white where there is none."""
     pairs = curves.map_unstable_pairs.values
     most = max(int(pairs.max()), 1)
-    greys = ListedColormap([str(1 - 0.45 * i / most) for i in range(most + 1)])
+    greys = ListedColormap([str(1 - DARKEST * i / most) for i in range(most + 1)])
     return axes.pcolormesh(
         curves.map_epsilon,
         curves.map_ordinate,
@@ -132,45 +124,19 @@ def label_branches(axes: Axes, ends: list[tuple[float, float, int, str]]) -> Non
 def mark_scenes(
     axes: Axes,
     scenes: dict[str, dict[str, float]],
-    *,
-    ordinate: str,
-    fixed: str,
-    fixed_value: float,
-    gamma: float,
+    curves: xr.Dataset,
 ) -> list[Line2D]:
     """Mark scenes: filled where they lie in the plane, open where they are projected on it."""
-    kinds = {}
-    places: dict[tuple[float, float], list[str]] = {}
-    for name, scene in scenes.items():
-        place = (scene["epsilon"], scene[ordinate])
-        lies_in = math.isclose(scene[fixed], fixed_value) and math.isclose(scene["gamma"], gamma)
-        kinds[lies_in] = Line2D(
-            [],
-            [],
-            ls="",
-            marker="o",
-            color=INK,
-            mfc=INK if lies_in else "white",
-            label="scene in this plane" if lies_in else f"scene at another {SYMBOLS[fixed]}",
-        )
-        axes.plot(
-            *place,
-            "o",
-            color=INK,
-            mfc=INK if lies_in else "white",
-            clip_on=False,
-            zorder=5,
-        )
-        places.setdefault(place, []).append(name.replace("_", " "))
-    for i, (place, names) in enumerate(sorted(places.items())):
-        above = i % 2 == 0
-        axes.annotate(
-            ", ".join(names),
-            place,
-            xytext=(-2, 5) if above else (2, -5),
-            textcoords="offset points",
-            ha="right" if above and place[0] > 0.15 * axes.get_xlim()[1] else "left",
-            va="bottom" if above else "top",
-            fontsize=7,
-        )
-    return [kinds[key] for key in sorted(kinds, reverse=True)]
+    ordinate = curves.attrs["ordinate"]
+    kinds: dict[str, Line2D] = {}
+    for scene in scenes.values():
+        others = [
+            f"${SYMBOLS[key]}$"
+            for key in SYMBOLS
+            if key in curves.attrs and not math.isclose(scene[key], curves.attrs[key])
+        ]
+        label = f"scene at another {' and '.join(others)}" if others else "scene in this plane"
+        style = {"ls": "", "marker": "o", "color": INK, "mfc": "white" if others else INK}
+        axes.plot(scene["epsilon"], scene[ordinate], clip_on=False, zorder=5, **style)
+        kinds.setdefault(label, Line2D([], [], label=label, **style))
+    return [kinds[label] for label in sorted(kinds, reverse=True)]

@@ -5,45 +5,60 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
+from matplotlib.ticker import MaxNLocator
 
 from scripts.drawing.style import INK
+from scripts.drawing.trajectory_rows import title_columns
 
 BASE, HARMONIC, SECOND_BASE, COMBINATION, OTHER = range(5)
 """Values of peak_kind."""
-WIDTH_OF_A_CHARACTER = 0.0125
-"""Of a label, as a share of an axis as wide as a page."""
-IN_WORDS = {
-    "one base": "one base frequency",
-    "two bases": "two base frequencies",
-    "continuum": "a continuous spectrum",
-    "undecided": "a spectrum of undecided kind",
-    "none": "no motion",
-}
-"""What the kinds of spectra say of a motion."""
+WIDTH_OF_A_CHARACTER = 0.0150
+"""Of a label, as a share of the wider axis."""
+LEAST_SHOWN = 1e-10
+"""Power below this share of the highest peak is not shown."""
+COLUMNS = ("logarithmic scale", "the same on a linear scale")
 
 
 def draw(rows: dict[str, xr.Dataset], paper: dict[str, str], frequency_shown: float) -> Figure:
-    """Rows a, b, ...: power spectral density of v over frequency."""
+    """Rows a, b, ...: power spectral density of v over frequency, and the same on a linear scale.
+
+    All rows have the same frequencies and, on the logarithmic scale, the same powers.
+    """
     figure, grid = plt.subplots(
-        len(rows), 1, figsize=(6.0, 0.5 + 2.3 * len(rows)), sharex=True, squeeze=False
+        len(rows),
+        2,
+        figsize=(6.7, 0.4 + 2.2 * len(rows)),
+        width_ratios=[2.4, 1],
+        sharex="col",
+        squeeze=False,
     )
-    for (label, spectrum), axes in zip(rows.items(), grid[:, 0], strict=True):
-        shown = spectrum.sel(frequency=slice(spectrum.frequency[1], frequency_shown))
-        axes.semilogy(shown.frequency, shown.power, color="C0", lw=0.7)
-        label_peaks(axes, spectrum, frequency_shown)
-        axes.set(ylabel="power spectral density of $v$", xlim=(0, frequency_shown))
-        bottom = max(shown.power.min(), 1e-10 * shown.power.max())
-        axes.set_ylim(0.3 * bottom, 100 * shown.power.max())
-        scene = spectrum.attrs["scene"].replace("_", " ")
-        row = f"$\\bf{{{label}}}$  " if len(rows) > 1 else ""
-        axes.set_title(f"{row}scene {scene}: {seen(spectrum, paper[label])}")
+    shown = {
+        label: spectrum.sel(frequency=slice(spectrum.frequency[1], frequency_shown))
+        for label, spectrum in rows.items()
+    }
+    highest = max(float(spectrum.power.max()) for spectrum in shown.values())
+    least = min(float(spectrum.power.min()) for spectrum in shown.values())
+    for (label, spectrum), (left, right) in zip(rows.items(), grid, strict=True):
+        draw_power(left, shown[label], frequency_shown)
+        left.set(yscale="log", ylim=(max(0.3 * least, LEAST_SHOWN * highest), 100 * highest))
+        label_peaks(left, spectrum, frequency_shown, WIDTH_OF_A_CHARACTER)
+        draw_power(right, shown[label], frequency_shown)
+        right.set(ylabel="", ylim=(0, None))
+        right.xaxis.set_major_locator(MaxNLocator(4))
+        letter = f"$\\bf{{{label}}}$  " if len(rows) > 1 else ""
+        title_columns((left, right), COLUMNS, f"{letter}{seen(spectrum, paper[label])}")
     grid[-1, 0].set_xlabel("frequency (cycles per unit of time)")
+    grid[-1, 1].set_xlabel("frequency")
     return figure
 
 
-def label_peaks(
-    axes: Axes, spectrum: xr.Dataset, frequency_shown: float, letter: float = WIDTH_OF_A_CHARACTER
-) -> None:
+def draw_power(axes: Axes, spectrum: xr.Dataset, frequency_shown: float) -> None:
+    """Power spectral density over frequency."""
+    axes.plot(spectrum.frequency, spectrum.power, color="C0", lw=0.7)
+    axes.set(ylabel="power spectral density of $v$", xlim=(0, frequency_shown))
+
+
+def label_peaks(axes: Axes, spectrum: xr.Dataset, frequency_shown: float, letter: float) -> None:
     """A dot on each peak; its name and frequency where no higher one's are in the way.
 
     Labels begin right of the axis. A letter is as wide as this share of the axis.
@@ -98,8 +113,9 @@ def characters(label: str) -> int:
 
 
 def seen(spectrum: xr.Dataset, paper: str) -> str:
-    """What the spectrum shows above what the paper says."""
-    return f"{lines_in_words(spectrum)}\n(the paper: “{paper}”)"
+    """What the paper says, and what the spectrum shows."""
+    scene = spectrum.attrs["scene"].replace("_", " ")
+    return f"scene {scene}; the paper: “{paper}”; seen: {lines_in_words(spectrum)}"
 
 
 def lines_in_words(spectrum: xr.Dataset) -> str:
@@ -107,12 +123,12 @@ def lines_in_words(spectrum: xr.Dataset) -> str:
     kind = spectrum.attrs["spectrum_kind"]
     bases = [f"$f_{i}$ = {f:.4f}" for i, f in enumerate(spectrum.base_frequency.values, start=1)]
     if kind == "one base":
-        words = f"one base frequency, {bases[0]}, and its harmonics"
+        words = f"one base frequency {bases[0]} and its harmonics"
     elif kind == "two bases":
         words = f"two base frequencies, {' and '.join(bases)}"
     elif kind == "continuum":
         off = 100 * spectrum.attrs["continuum_share"]
-        words = f"continuum: {off:.0f} % of the power off the lines"
+        words = f"a continuum, {off:.0f} % of the power off the lines"
     elif kind == "undecided":
         words = f"undecided: {reason(spectrum)}"
     else:

@@ -1,11 +1,18 @@
 """Velocity over time and phase portrait, one scene a row, for figures 4 and 5."""
 
+from collections.abc import Sequence
+
 import xarray as xr
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from scripts.drawing import parameters
 from scripts.drawing.style import FAINT, INK
+
+COLUMNS = ("from the start", "at the end", "phase portrait")
+WORDS = {"cycle": "limit cycle"}
+"""Of classes of motion, where those of the tables are shorter."""
 
 
 def draw(rows: dict[str, xr.Dataset], titles: dict[str, str], settings: dict) -> Figure:
@@ -13,7 +20,7 @@ def draw(rows: dict[str, xr.Dataset], titles: dict[str, str], settings: dict) ->
     figure, grid = plt.subplots(
         len(rows),
         3,
-        figsize=(6.7, 2.1 * len(rows)),
+        figsize=(6.7, 2.2 * len(rows)),
         width_ratios=[1.5, 1, 1],
         squeeze=False,
     )
@@ -24,9 +31,32 @@ def draw(rows: dict[str, xr.Dataset], titles: dict[str, str], settings: dict) ->
         draw_portrait(right, trajectory, settings["attractor_shown"])
         middle.sharey(left)
         middle.set(ylabel="")
-        left.set_title(f"$\\bf{{{label}}}$  {parameters(trajectory)}\n{titles[label]}")
+        row = f"$\\bf{{{label}}}$  {parameters.in_words(trajectory.attrs)}: {titles[label]}"
+        title_columns((left, middle, right), COLUMNS, row)
     figure.legend(*right.get_legend_handles_labels(), loc="outside lower right", ncols=3)
     return figure
+
+
+def title_columns(panels: Sequence[Axes], columns: Sequence[str], row: str) -> None:
+    """A title over each panel of a row, and that of the row above them."""
+    for axes, words in zip(panels, columns, strict=True):
+        axes.set_title(words)
+    panels[0].set_title(f"{row}\n{columns[0]}")
+
+
+def titles_of(settings: dict, table: list[dict]) -> dict[str, str]:
+    """For each row the paper's words and the class of its motion, where attractors are known.
+
+    `table` is attractors.tsv; the class is that of the motion from the scene's own history.
+    """
+    seen = {row["scene"]: row["class"] for row in table if row["history"] == 1}
+    titles = {}
+    for label, row in settings["rows"].items():
+        titles[label] = f"the paper: “{row['paper']}”"
+        if row["scene"] in seen:
+            met = seen[row["scene"]]
+            titles[label] += f"; seen: {WORDS.get(met, met)}"
+    return titles
 
 
 def draw_velocity(axes: Axes, trajectory: xr.Dataset, start: float, end: float) -> None:
@@ -63,14 +93,3 @@ def draw_portrait(axes: Axes, trajectory: xr.Dataset, shown: float) -> None:
     if attractor.v.max() - attractor.v.min() < 0.01 * extent:
         axes.plot(attractor.u[-1], attractor.v[-1], "o", color="C1")
     axes.set(xlabel="displacement $u$", ylabel="velocity $v$")
-
-
-def parameters(trajectory: xr.Dataset) -> str:
-    """The parameters of a trajectory as a line of mathematics."""
-    symbols = {
-        "tau": r"\tau",
-        "epsilon": r"\varepsilon",
-        "xi": r"\xi",
-        "gamma": r"\gamma",
-    }
-    return ", ".join(f"${symbols[key]} = {trajectory.attrs[key]:g}$" for key in symbols)

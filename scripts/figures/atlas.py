@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
+from scripts.drawing import parameters
 from scripts.drawing.class_map import (
     CELLS,
     KINDS,
@@ -71,12 +72,12 @@ def draw(
         for line in cycles:
             if (line.attrs["gamma"], line.attrs["xi"]) == at:
                 drawn |= draw_curves_of_cycles(left, line)
-        symbols = rf"$\xi$ = {at[1]:g}, $\gamma$ = {at[0]:g}"
+        symbols = parameters.in_words({"gamma": at[0], "xi": at[1]}, "tau", "epsilon")
         left.set_title(f"$\\bf{{{next(letters)}}}$  {symbols}\n{count_in_words(shown)}")
         right.set_title(f"$\\bf{{{next(letters)}}}$  the same: largest Lyapunov exponent")
-        left.set_ylabel(r"delay $\tau$ (units of $L/v_0$)")
+        left.set_ylabel(parameters.axis_of("tau"))
     for axes in panels[-1]:
-        axes.set_xlabel(r"sensitivity of the velocity relaxation $\varepsilon$")
+        axes.set_xlabel(parameters.axis_of("epsilon"))
     ticks = [-LARGEST, -0.01, -LINEAR, 0, LINEAR, 0.01, LARGEST]
     figure.colorbar(
         mesh,
@@ -86,7 +87,7 @@ def draw(
         pad=0.02,
         aspect=40,
         ticks=ticks,
-        format=lambda value, _: f"{value:g}",
+        format=lambda value, _: parameters.true_minus(f"{value:g}"),
     )
     handles = [
         *legend_of(rows),

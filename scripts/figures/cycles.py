@@ -9,13 +9,8 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from scripts.drawing.along_parameter import (
-    NAMES,
-    SYMBOLS,
-    fixed_in_words,
-    mark_scenes,
-    maxima_of,
-)
+from scripts.drawing import parameters
+from scripts.drawing.along_parameter import mark_scenes, maxima_of
 from scripts.drawing.special_points import STYLES, in_words, words_of
 from scripts.drawing.style import FAINT, INK, logged, save
 from scripts.files.inputs import read
@@ -31,10 +26,11 @@ LINES = (
 """How cycles are drawn, by the number of their unstable multipliers."""
 HOPF = {"ls": "", "marker": "o", "ms": 3, "mfc": "white", "color": INK, "label": "Hopf point"}
 SWEEPS = {
-    "up": {"color": "C3", "ms": 4.2, "zorder": 2},
-    "down": {"color": "C5", "ms": 2.6, "zorder": 2.5},
+    "up": {"color": "#cc79a7", "ms": 4.2, "zorder": 2},
+    "down": {"color": "#56b4e9", "ms": 2.6, "zorder": 2.5},
 }
-"""Dots of a sweep. Those of the second are smaller and on top: both show where they agree."""
+"""Dots of a sweep, lighter than the lines over them. Those of the second are smaller and
+on top: both show where they agree."""
 SLIDING = {"color": FAINT, "lw": 0.8, "label": "steady sliding", "zorder": 0}
 Sweeps = dict[str, list[tuple[str, xr.Dataset]]]
 
@@ -54,14 +50,14 @@ def draw(lines: dict[str, xr.Dataset], sweeps: Sweeps, scenes: dict[str, dict]) 
         draw_points(axes, cycles, along)
         drawn |= {str(line.get_label()): line for line in axes.lines}
         axes.set(
-            xlabel=f"{NAMES[along]} ${SYMBOLS[along]}$" + " (units of $L/v_0$)" * (along == "tau"),
+            xlabel=parameters.axis_of(along),
             ylabel="maxima of $v$ (units of $v_0$)",
         )
         # the names of scenes stand above the dots
         axes.margins(x=0.01, y=0.12)
         axes.set_ylim(bottom=0)
         mark_scenes(axes, scenes, cycles.attrs, along)
-        words = f"{fixed_in_words(cycles.attrs, along)}: {count_in_words(cycles)}"
+        words = f"{parameters.in_words(cycles.attrs, along)}: {count_in_words(cycles)}"
         axes.set_title(f"$\\bf{{{'abcdefgh'[i % 8]}}}$  {words}")
     figure.legend(handles=legend_of(drawn), loc="outside lower center", ncols=3)
     return figure

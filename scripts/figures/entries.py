@@ -20,7 +20,6 @@ from scripts.workflow.result_files import (
     scenes_of,
     sweeps_beside_cycles,
     sweeps_on_lines,
-    tables_of_others,
     tables_of_routes,
 )
 
@@ -55,8 +54,18 @@ ENTRIES = {
         inputs={"curves": "results/hopf/xi_of_epsilon.nc"},
         params={"scenes": places_of_scenes},
     ),
-    "figure_4": Entry(category="Figures", rows=("trajectories",), variables=("u", "v")),
-    "figure_5": Entry(category="Figures", rows=("trajectories", "spectra"), variables=("u", "v")),
+    "figure_4": Entry(
+        category="Figures",
+        inputs={"table": "results/tables/attractors.tsv"},
+        rows=("trajectories",),
+        variables=("u", "v"),
+    ),
+    "figure_5": Entry(
+        category="Figures",
+        inputs={"table": "results/tables/attractors.tsv"},
+        rows=("trajectories",),
+        variables=("u", "v"),
+    ),
     "figure_6": Entry(category="Figures", rows=("spectra",)),
     "figure_7": Entry(category="Figures", rows=("spectra",)),
     "figure_8": Entry(category="Figures", inputs={"response": "results/friction/velocity_step.nc"}),
@@ -68,7 +77,10 @@ ENTRIES = {
     "stability": Entry(category="Solver", inputs={"table": "results/tables/stability.tsv"}),
     "work_precision": Entry(
         category="Solver",
-        inputs={"table": "results/tables/work-precision.tsv", "others": tables_of_others},
+        inputs={
+            "table": "results/tables/work-precision.tsv",
+            "others": "benchmarks/measured.tsv",
+        },
     ),
     "atlas": Entry(
         category="Atlas",

@@ -6,8 +6,8 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from scripts.drawing import parameters
 from scripts.drawing.style import logged, save
-from scripts.drawing.trajectory_rows import parameters
 from scripts.files.inputs import read
 
 EVENTS_SHOWN = 120
@@ -24,7 +24,9 @@ def draw(rows: dict[str, xr.Dataset]) -> Figure:
     ends = (0.5 * slips.min(initial=1.0), 2 * slips.max(initial=1.0))
     for (label, events), panels in zip(rows.items(), grid, strict=True):
         scene = events.attrs["scene"].replace("_", " ")
-        title = f"scene {scene} ({parameters(events)}): {events.sizes['event']} events"
+        title = (
+            f"scene {scene} ({parameters.in_words(events.attrs)}): {events.sizes['event']} events"
+        )
         panels[0].set_title(f"$\\bf{{{label}}}$  {title}")
         if events.sizes["event"] > 0:
             draw_turns(panels[0], events)

@@ -5,6 +5,7 @@ import xarray as xr
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from scripts.drawing.style import FAINT, logged, save
@@ -32,10 +33,20 @@ def draw(runs: list[xr.Dataset], table: list[dict]) -> Figure:
         scene = run.attrs["scene"]
         rows = [row for row in table if row["scene"] == scene]
         left.set_title(f"$\\bf{{{letter}}}$  scene {scene.replace('_', ' ')}: {words(rows)}")
+    handles = legend_of(max(run.sizes["exponent"] for run in runs))
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
     grid[-1, 0].set_xlabel("time averaged over")
     grid[-1, 1].set_xlabel("tolerance of one step")
     grid[-1, 2].set_xlabel("mean step")
     return figure
+
+
+def legend_of(exponents: int) -> list[Line2D]:
+    """The exponents by their colours, the largest first."""
+    return [
+        Line2D([], [], marker="o", ms=2.5, lw=0.8, color=f"C{i % 8}", label=rf"$\lambda_{i + 1}$")
+        for i in range(exponents)
+    ]
 
 
 def words(rows: list[dict]) -> str:

@@ -9,13 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from scripts.drawing.along_parameter import (
-    NAMES,
-    SYMBOLS,
-    fixed_in_words,
-    mark_scenes,
-    maxima_of,
-)
+from scripts.drawing import parameters
+from scripts.drawing.along_parameter import mark_scenes, maxima_of
 from scripts.drawing.class_map import draw_strips, legend_of
 from scripts.drawing.style import FAINT, logged, save
 from scripts.files.inputs import read
@@ -56,7 +51,7 @@ def draw(
         draw_strips(strips, by_run, along)
         label(above, strips, below, along)
         mark_scenes(above, scenes, of_route[0], along)
-        words = f"{fixed_in_words(of_route[0], along)}: {count_in_words(of_route)}"
+        words = f"{parameters.in_words(of_route[0], along)}: {count_in_words(of_route)}"
         above.set_title(f"$\\bf{{{'abcdefgh'[i % 8]}}}$  {words}")
     dots = [
         Line2D([], [], ls="", marker="o", ms=3, color=colour, label=run)
@@ -88,14 +83,16 @@ def label(above: Axes, strips: Axes, below: Axes, along: str) -> None:
     strips.tick_params(left=False, bottom=False, pad=1, labelsize=6)
     for side in ("left", "bottom"):
         strips.spines[side].set_visible(False)
+    # the names of scenes stand above the dots
+    above.margins(y=0.15)
     above.set_ylim(bottom=0)
     above.set_ylabel("maxima of $v$")
     below.axhline(0, color=FAINT, lw=0.6, zorder=0)
     below.set_yscale("symlog", linthresh=LEAST_SCALE)
-    below.set_yticks([-0.1, 0, 0.1], ["-0.1", "0", "0.1"])
+    below.set_yticks([-0.1, 0, 0.1], ["$-0.1$", "$0$", "$0.1$"])
     below.set_yticks([-0.01, -LEAST_SCALE, LEAST_SCALE, 0.01], minor=True)
     below.tick_params(axis="y", which="minor", labelleft=False)
-    below.set(xlabel=f"{NAMES[along]} ${SYMBOLS[along]}$", ylabel=r"exponent $\lambda_1$")
+    below.set(xlabel=parameters.axis_of(along), ylabel=r"exponent $\lambda_1$")
 
 
 def draw_maxima(axes: Axes, run: xr.Dataset, along: str, shift: float, colour: str) -> None:

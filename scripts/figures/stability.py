@@ -6,6 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
 
+from scripts.drawing.parameters import number
 from scripts.drawing.style import FAINT, INK, logged, save
 from scripts.files.tsv import read_table
 
@@ -24,13 +25,13 @@ def draw(rows: list[dict]) -> Figure:
     for label, method in zip("ab", methods, strict=False):
         shown = [row for row in rows if row["method"] == method and row["family"].startswith(GRID)]
         mesh = draw_map(axes[label], shown)
-        axes[label].set_title(f"$\\bf{{{label}}}$  {method}")
+        axes[label].set_title(f"$\\bf{{{label}}}$  {method}, {tolerances(shown)}")
     axes["b"].set_ylabel("")
     bar = figure.colorbar(mesh, ax=[axes["a"], axes["b"]], pad=0.02)
     bar.set_label("largest error")
     bar.set_ticks(10.0**LEVELS, labels=[f"$10^{{{level}}}$" for level in LEVELS])
     draw_errors(axes["c"], rows, methods)
-    axes["c"].set_title(r"$\bf{c}$  all cases with a reference")
+    axes["c"].set_title(rf"$\bf{{c}}$  all cases with a reference, {tolerances(rows)}")
     return figure
 
 
@@ -57,17 +58,16 @@ def draw_map(axes: Axes, rows: list[dict]):
         edgecolors="white",
         lw=0.5,
     )
-    axes.set_xticks(range(len(delays)), [power(delay) for delay in delays])
-    axes.set_yticks(range(len(frequencies)), [power(value) for value in frequencies])
+    axes.set_xticks(range(len(delays)), [f"${number(delay)}$" for delay in delays])
+    axes.set_yticks(range(len(frequencies)), [f"${number(value)}$" for value in frequencies])
     axes.set(xlabel=r"delay $\tau$", ylabel=r"frequency $\gamma$")
     return mesh
 
 
-def power(value: float) -> str:
-    """A large or small power of ten as such, another number plainly."""
-    if 1e-2 <= value <= 100 or value == 0:
-        return f"{value:g}"
-    return f"$10^{{{np.log10(value):.0f}}}$"
+def tolerances(rows: list[dict]) -> str:
+    """The tolerance of these runs, or all that they have."""
+    values = sorted({row["tolerance"] for row in rows})
+    return f"tolerance {', '.join(f'${number(value)}$' for value in values)}"
 
 
 def draw_errors(axes: Axes, rows: list[dict], methods: list[str]) -> None:
@@ -82,6 +82,8 @@ def draw_errors(axes: Axes, rows: list[dict], methods: list[str]) -> None:
                 and row["error"] > 0
                 and row["amplification"] > 0
             ]
+            if not shown:
+                continue
             axes.plot(
                 [max(row["error_expected"], row["tolerance"]) for row in shown],
                 [row["error"] for row in shown],
@@ -94,14 +96,15 @@ def draw_errors(axes: Axes, rows: list[dict], methods: list[str]) -> None:
                 label=f"{method}{'' if ended else ', ended early'}",
             )
     ends = np.array([1e-10, 1e6])
-    axes.plot(ends, ends, color=FAINT, lw=0.8, zorder=0, label="equal")
-    axes.plot(ends, 100 * ends, color=FAINT, lw=0.8, ls=":", zorder=0, label="100 times")
+    for factor, style, words in ((1, "-", ""), (100, ":", r"100 $\times$ ")):
+        label = f"error = {words}expected error"
+        axes.plot(ends, factor * ends, color=FAINT, lw=0.8, ls=style, zorder=0, label=label)
     axes.set(
         xscale="log",
         yscale="log",
         xlim=(4e-10, None),
         ylim=(1e-16, 1e3),
-        xlabel=r"tolerance $\times$ amplification of a disturbance",
+        xlabel=r"expected error = tolerance $\times$ amplification of a disturbance",
         ylabel="largest error",
     )
     axes.legend(loc="lower right", ncols=2)

@@ -8,9 +8,10 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from scripts.drawing import parameters
 from scripts.drawing.spectrum_rows import label_peaks, lines_in_words
 from scripts.drawing.style import logged, save
-from scripts.drawing.trajectory_rows import draw_velocity, parameters
+from scripts.drawing.trajectory_rows import draw_velocity
 from scripts.files.inputs import read
 from scripts.files.tsv import read_table
 from scripts.tables.exponents_table import sign
@@ -67,22 +68,27 @@ def words(scene: Scene) -> str:
     there = [i for i in EXPONENTS if not math.isnan(row[f"exponent_{i}"])]
     pairs = [(row[f"exponent_{i}"], row[f"error_{i}"]) for i in there]
     zeros = sum(sign(row[f"exponent_{i}"], bounds[i - 1]) == "zero" for i in there)
-    told = [f"$\\lambda_{i}$ = {with_error(*pair)}" for i, pair in zip(there, pairs, strict=True)]
+    each = [f"$\\lambda_{i}$ = {with_error(*pair)}" for i, pair in zip(there, pairs, strict=True)]
     name = row["scene"].replace("_", " ")
     return (
-        f"scene {name} ({parameters(scene.trajectory)}): {row['class']},"
-        f" {NUMBERS[zeros]} zero exponent{'' if zeros == 1 else 's'}\n{', '.join(told)}"
+        f"scene {name} ({parameters.in_words(scene.trajectory.attrs)}): {row['class']},"
+        f" {NUMBERS[zeros]} zero exponent{'' if zeros == 1 else 's'}\n{', '.join(each)}"
     )
 
 
 def with_error(value: float, error: float) -> str:
-    """A number with its error, in the same power of ten, to the first digits of the error."""
+    """A number with its error, in the same power of ten, to the first digits of the error.
+
+    The zero exponent of a flow has no error.
+    """
+    if value == error == 0:
+        return "0"
     largest = max(abs(value), error)
     power = math.floor(math.log10(largest)) if largest > 0 else 0
     finest = math.floor(math.log10(error)) if error > 0 else power - 2
     digits = power - finest + (1 if power == finest else 0)
     number, bar = (round(x / 10.0**power, digits) + 0.0 for x in (value, error))
-    scaled = f"{number:.{digits}f} ± {bar:.{digits}f}"
+    scaled = parameters.true_minus(f"{number:.{digits}f} ± {bar:.{digits}f}")
     return f"({scaled})$\\cdot 10^{{{power}}}$" if power else scaled
 
 

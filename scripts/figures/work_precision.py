@@ -1,5 +1,8 @@
 """Figure of work against precision: one panel a scene, one line a solver."""
 
+import re
+from pathlib import Path
+
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
@@ -11,6 +14,8 @@ ENOUGH = 1e-15
 """Errors below this are rounding and not drawn lower."""
 GREYS = ("0.0", "0.4", "0.65")
 """Colours of other solvers."""
+NAMES = {"jitcdde": "JiTCDDE", "desolve": "deSolve", "desolve_interpol_2": "deSolve (interpol 2)"}
+"""Of other solvers, as their authors write them."""
 AUTO_AGAIN = "ours"
 """Name of method auto in the table of other solvers."""
 
@@ -25,10 +30,18 @@ def styles_of(solvers: list[str], others: list[str]) -> dict[str, dict]:
     return styles
 
 
-def draw(rows: list[dict], others: list[dict]) -> Figure:
-    """Small multiples, three in a row; solvers look the same in all of them."""
-    others = [row for row in others if row["solver"] != AUTO_AGAIN]
-    scenes = list(dict.fromkeys(row["scene"] for row in rows))
+def draw(rows: list[dict], others: list[dict], date: str) -> Figure:
+    """Small multiples, three in a row; solvers look the same in all of them.
+
+    Others were measured on a date, and count where their runs are as long.
+    """
+    until = {row["scene"]: row["t_end"] for row in rows}
+    others = [
+        {**row, "solver": f"{NAMES.get(row['solver'], row['solver'])} {row['version']}"}
+        for row in others
+        if row["solver"] != AUTO_AGAIN and until.get(row["scene"]) == row["t_end"]
+    ]
+    scenes = list(until)
     names = [list(dict.fromkeys(row["solver"] for row in table)) for table in (rows, others)]
     styles = styles_of(*names)
     lines = -(-len(scenes) // 3)
@@ -53,8 +66,7 @@ def draw(rows: list[dict], others: list[dict]) -> Figure:
                 **style,
                 label=solver.replace("_", " "),
             )
-        until = next(row["t_end"] for row in rows if row["scene"] == scene)
-        axes.set_title(f"{scene.replace('_', ' ')}, $t$ up to {until:g}")
+        axes.set_title(f"{scene.replace('_', ' ')}, $t$ up to {until[scene]:g}")
         axes.set(xscale="log", yscale="log")
     for axes in grid[:, 0]:
         axes.set_ylabel("largest error")
@@ -63,13 +75,25 @@ def draw(rows: list[dict], others: list[dict]) -> Figure:
     handles = {}
     for axes in grid.flat[: len(scenes)]:
         handles |= {line.get_label(): line for line in axes.get_lines()}
-    columns = len(handles) if len(handles) <= 7 else -(-len(handles) // 2)
-    figure.legend(handles.values(), handles, loc="outside lower center", ncols=columns)
+    columns = len(handles) if len(handles) <= 6 else -(-len(handles) // 2)
+    figure.legend(
+        handles.values(),
+        handles,
+        loc="outside lower center",
+        ncols=columns,
+        title=f"dashed: other solvers, measured on {date}" if others else None,
+        title_fontsize="small",
+    )
     return figure
+
+
+def date_of(table: str | Path) -> str:
+    """The date in the first lines of a table of measurements."""
+    return re.search(r"^# date: (\S+)$", Path(table).read_text(), re.MULTILINE)[1]
 
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        others = [row for table in snakemake.input.others for row in read_table(table)]
-        figure = draw(read_table(snakemake.input.table), others)
-        save(figure, snakemake.output)
+        measured = snakemake.input.others
+        rows = read_table(snakemake.input.table)
+        save(draw(rows, read_table(measured), date_of(measured)), snakemake.output)

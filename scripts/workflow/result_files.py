@@ -1,7 +1,5 @@
 """Paths of results, and what figures mark of scenes, by the configuration."""
 
-from pathlib import Path
-
 
 def scenes_of(config: dict, figure: str) -> list[str]:
     """Scenes of a figure's rows, in order."""
@@ -105,12 +103,6 @@ def cycles_in_atlas(config: dict) -> list[str]:
         for name, line in config["cycles"]["lines"].items()
         if (line["xi"], line["gamma"]) in planes
     ]
-
-
-def tables_of_others(_config: dict) -> list[str]:
-    """The table of other solvers, which benchmarks/run measures, where there is one."""
-    table = Path("results/tables/benchmarks.tsv")
-    return [str(table)] if table.exists() else []
 
 
 def places_of_scenes(config: dict) -> dict[str, dict[str, float]]:

@@ -1,0 +1,41 @@
+"""Parameters and numbers as figures write them, with true minus signs."""
+
+SYMBOLS = {"tau": r"\tau", "epsilon": r"\varepsilon", "xi": r"\xi", "gamma": r"\gamma"}
+NAMES = {
+    "tau": "delay",
+    "epsilon": "sensitivity of the velocity relaxation",
+    "xi": "spring constant",
+    "gamma": "frequency",
+}
+LEAST_PLAIN, LEAST_POWER = 1e-3, 1e4
+"""Numbers between these are written plainly, others with a power of ten."""
+
+
+def number(value: float) -> str:
+    """A number with up to six digits, for a formula."""
+    if value == 0 or LEAST_PLAIN <= abs(value) < LEAST_POWER:
+        return f"{value:g}"
+    digits, exponent = f"{value:.5e}".split("e")
+    power = f"10^{{{int(exponent)}}}"
+    digits = digits.rstrip("0").rstrip(".")
+    return power if digits == "1" else rf"{digits} \cdot {power}"
+
+
+def true_minus(text: str) -> str:
+    """The text with minus signs in the place of hyphens."""
+    return text.replace("-", "\N{MINUS SIGN}")
+
+
+def in_words(place: dict, *left_out: str) -> str:
+    """The parameters of a place as formulas, without some of them."""
+    return ", ".join(
+        f"${symbol} = {number(place[key])}$"
+        for key, symbol in SYMBOLS.items()
+        if key not in left_out
+    )
+
+
+def axis_of(parameter: str) -> str:
+    """Name and symbol of a parameter, the delay with its unit."""
+    unit = " (units of $L/v_0$)" if parameter == "tau" else ""
+    return f"{NAMES[parameter]} ${SYMBOLS[parameter]}${unit}"
