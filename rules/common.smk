@@ -228,6 +228,19 @@ def data_for_claims(kind):
     return result_files.paths_of_scenes(kind, scenes)
 
 
+def to_caption():
+    """What the caption of each figure is filled from."""
+    return [
+        {
+            "name": name,
+            "template": entries.template_of(name),
+            "inputs": entries.inputs_of(name, config),
+            "params": entries.params_of(name, config),
+        }
+        for name in FIGURES
+    ]
+
+
 def on_page():
     """What the page shows of each figure beside its files."""
     return [

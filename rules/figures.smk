@@ -13,7 +13,7 @@ for figure in FIGURES:
             pdf=f"results/figures/{figure}.pdf",
             png=report(
                 f"results/figures/{figure}.png",
-                caption=f"../{entries.caption_of(figure)}",
+                caption=Path.cwd() / entries.caption_of(figure),
                 category=entries.ENTRIES[figure].category,
             ),
             svg=f"results/figures/{figure}.svg",
@@ -24,6 +24,23 @@ for figure in FIGURES:
             script=figure,
         script:
             "../scripts/figures/{params.script}.py"
+
+
+rule captions:
+    """Captions of all figures, filled with their numbers and the verdicts."""
+    input:
+        data=[path for figure in FIGURES for path in entries.files_of(figure, config)],
+        templates=[entries.template_of(figure) for figure in FIGURES],
+        claims="results/tables/claims.json",
+        code=code_of("captions/write_captions.py"),
+    output:
+        [entries.caption_of(figure) for figure in FIGURES],
+    log:
+        "results/logs/figures/captions.log",
+    params:
+        figures=to_caption(),
+    script:
+        "../scripts/captions/write_captions.py"
 
 
 snakemake_internals.describe(

@@ -26,7 +26,7 @@ def claim(name: str, verdict: str = VERDICTS[0], **given) -> dict:
 
 def figure(name: str, category: str = "Figures", *data: str) -> dict:
     """A figure as the rule describes it."""
-    caption = str(ROOT / "scripts" / "figures" / "figure_2.rst")
+    caption = str(ROOT / "scripts" / "figures" / "figure_1.rst")
     return {"name": name, "category": category, "caption": caption, "data": list(data)}
 
 

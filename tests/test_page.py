@@ -10,7 +10,7 @@ import made_up_page
 import numpy as np
 import pytest
 import xarray as xr
-from conftest import ROOT, SMOKE, rules_in
+from conftest import SMOKE, rules_in
 from docutils.utils import SystemMessage
 from jinja2 import UndefinedError
 from made_up_page import attractor, claim, content, figure, run
@@ -56,9 +56,9 @@ def smoke_page(smoke) -> Elements:
 
 
 @pytest.mark.parametrize("name", FIGURES)
-def test_caption_has_a_first_sentence_in_plain_signs(name):
+def test_caption_has_a_first_sentence_in_plain_signs(name, smoke):
     """For those who do not see the figure."""
-    sentence = captions.first_sentence(captions.as_html(ROOT / caption_of(name)))
+    sentence = captions.first_sentence(captions.as_html(smoke.folder / caption_of(name)))
     assert len(sentence.split()) >= 4
     assert sentence.endswith(".")
     assert not re.search(r"[\\<>`:]{2}|\\", sentence)
@@ -361,13 +361,13 @@ def test_every_claim_stands_in_the_page_once(smoke, smoke_page):
         assert f"{verdict} {count} claim" in text
 
 
-def test_every_figure_stands_in_the_page(smoke_page):
+def test_every_figure_stands_in_the_page(smoke, smoke_page):
     """With its caption, its rule, and words for those who do not see it."""
     images = {given["src"]: given["alt"] for tag, given in smoke_page.found if tag == "img"}
     text = " ".join(smoke_page.text.split())
     assert set(images) == {f"figures/{name}.svg" for name in FIGURES}
     for name in FIGURES:
-        markup = captions.as_html(ROOT / caption_of(name))
+        markup = captions.as_html(smoke.folder / caption_of(name))
         assert images[f"figures/{name}.svg"] == captions.first_sentence(markup)
         assert f"Rule {name}." in text
 

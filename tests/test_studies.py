@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from conftest import ROOT
 from matplotlib import pyplot as plt
 
 from scripts.drawing.style import STYLE
@@ -262,9 +261,3 @@ def test_work_precision_figure(tables, style):
     assert drawn["other 1.5"].get_xdata().tolist() == [0.1]
     looks = [(line.get_color(), line.get_linestyle(), line.get_marker()) for line in drawn.values()]
     assert len(set(looks)) == len(looks)
-
-
-@pytest.mark.parametrize("name", ["stability", "work_precision"])
-def test_caption_is_there(name):
-    """In whole sentences."""
-    assert (ROOT / "scripts" / "figures" / f"{name}.rst").read_text().rstrip().endswith(".")

@@ -67,7 +67,7 @@ def test_changed_norm_of_errors_makes_three_tables_anew(scratch):
     run = scratch.snakemake("--dry-run", *SMOKE)
     tables = {"stability_table", "trusted_horizons", "work_precision_table"}
     runs = {"work_precision_namelist", "work_precision_runs"}
-    shown = {"stability", "work_precision", "claims", "page", "all"}
+    shown = {"stability", "work_precision", "claims", "captions", "page", "all"}
     assert rules_in(run.stdout) == tables | runs | shown
 
 
@@ -103,13 +103,13 @@ def test_what_was_removed_is_made_again(scratch):
     """By a plain run or one for what depends on it, to the same bytes; programs where needed."""
     before = scratch.outputs()
     results = scratch.folder / "results"
-    for name in ("spectra/chaos.nc", "namelists/trajectories/torus.nml", "tables/claims.json"):
+    for name in ("spectra/torus.nc", "namelists/trajectories/torus.nml", "tables/claims.json"):
         (results / name).unlink()
     (results / "page" / "style.css").unlink()
     (scratch.folder / "build" / "release" / "bin" / "measure").unlink()
-    run = scratch.snakemake("figure_5", *SMOKE)
+    run = scratch.snakemake("figure_6", *SMOKE)
     assert run.returncode == 0, run.stdout
-    assert rules_in(run.stdout) == {"scene_namelist", "trajectory", "spectrum", "figure_5"}
+    assert rules_in(run.stdout) == {"scene_namelist", "trajectory", "spectrum", "figure_6"}
     run = scratch.snakemake(*SMOKE)
     assert run.returncode == 0, run.stdout
     assert {"claims", "page"} <= rules_in(run.stdout)
@@ -124,7 +124,7 @@ def test_changed_scene_reruns_only_what_depends_on_it(scratch):
     run = scratch.snakemake(*SMOKE, "mine.yaml")
     assert run.returncode == 0, run.stdout
     expected = {"all", "scene_namelist", "trajectory", "spectrum", "figure_5", "figure_6"}
-    expected |= {"true_torus", "claims", "page"}
+    expected |= {"true_torus", "claims", "captions", "page"}
     expected |= {"exponents_namelist", "exponents_runs", "exponents_table", "exponents"}
     assert rules_in(run.stdout) == expected
     after = scratch.outputs()
@@ -145,7 +145,9 @@ def test_changed_family_computes_no_other(smoke, tmp_path):
     (tmp_path / "mine.yaml").write_text(text)
     run = smoke.snakemake("--dry-run", *SMOKE, str(tmp_path / "mine.yaml"))
     expected = {"all", "stability_namelists", "reference", "measurement"}
-    assert rules_in(run.stdout) == expected | {"stability_table", "stability", "claims", "page"}
+    assert rules_in(run.stdout) == expected | {
+        *("stability_table", "stability", "claims", "captions", "page")
+    }
     assert data_of_jobs(set(jobs_in(run.stdout))) == {"stability/spring.nc"}
 
 
@@ -153,7 +155,7 @@ def test_changed_setting_of_a_figure_redraws_only_that_figure(smoke, tmp_path):
     """Another length of an axis computes nothing."""
     (tmp_path / "mine.yaml").write_text("figures: { figure_7: { frequency_shown: 0.9 } }")
     run = smoke.snakemake("--dry-run", *SMOKE, str(tmp_path / "mine.yaml"))
-    assert rules_in(run.stdout) == {"all", "figure_7", "page"}
+    assert rules_in(run.stdout) == {"all", "figure_7", "captions", "page"}
 
 
 def test_changed_style_redraws_and_computes_nothing(scratch):

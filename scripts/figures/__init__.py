@@ -1,1 +1,1 @@
-"""One script and one caption for each figure."""
+"""One script and one template of a caption for each figure."""

@@ -1,6 +1,7 @@
 """All figures, each in one entry: its category, the results it needs, what its script is given.
 
-A new figure is a script NAME.py and a caption NAME.rst in this folder, and an entry here.
+A new figure is a script NAME.py and a template NAME.rst of its caption in this folder, and an entry
+here.
 """
 
 import ast
@@ -112,9 +113,14 @@ ENTRIES = {
 FIGURES = list(ENTRIES)
 
 
-def caption_of(figure: str) -> str:
-    """Its caption, in the project's folder."""
+def template_of(figure: str) -> str:
+    """Its caption before numbers and verdicts are filled in, in the project's folder."""
     return f"{FOLDER}/{figure}.rst"
+
+
+def caption_of(figure: str) -> str:
+    """Its caption."""
+    return f"results/figures/{figure}.rst"
 
 
 def title_of(figure: str) -> str:

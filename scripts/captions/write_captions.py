@@ -1,0 +1,45 @@
+"""All captions: templates of scripts/figures/ filled with the numbers of what is drawn."""
+
+import json
+from pathlib import Path
+
+from jinja2 import Environment, StrictUndefined
+
+from scripts.captions import numbers_of_motions, numbers_of_planes, numbers_of_solver
+from scripts.captions.wording import FILTERS
+from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, NOT_TESTABLE, REPRODUCED
+from scripts.files.outputs import logged, written
+
+NUMBERS = {
+    **numbers_of_planes.NUMBERS,
+    **numbers_of_motions.NUMBERS,
+    **numbers_of_solver.NUMBERS,
+}
+"""For each figure a function of its input files and settings; a figure without has no numbers."""
+IN_WORDS = {
+    REPRODUCED: "**holds**",
+    CORRECTED: "**holds with a correction**",
+    NOT_REPRODUCED: "**does not hold**",
+    NOT_TESTABLE: "**cannot be tested**",
+}
+
+
+def caption_of(figure: dict, claims: list[dict]) -> str:
+    """The caption of a figure, given by its name, template, inputs and params."""
+    verdicts = {claim["id"]: IN_WORDS[claim["verdict"]] for claim in claims}
+    environment = Environment(
+        undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True
+    )
+    environment.filters |= FILTERS
+    numbers = NUMBERS.get(figure["name"], lambda *_: {})(figure["inputs"], figure["params"])
+    template = environment.from_string(Path(figure["template"]).read_text(encoding="utf-8"))
+    return template.render(**numbers, verdict=verdicts.__getitem__)
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        ledger = json.loads(Path(snakemake.input.claims).read_text())
+        for shown, target in zip(snakemake.params.figures, snakemake.output, strict=True):
+            caption = caption_of(shown, ledger)
+            with written(target) as path:
+                path.write_text(caption, encoding="utf-8")
