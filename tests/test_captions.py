@@ -143,7 +143,7 @@ def test_numbers_of_cycles(tmp_path):
     (line,) = numbers_of_planes.of_cycles({"cycles": [tmp_path / "cycles.nc"]}, {})["lines"]
     assert line["branches"] == 2
     assert line["points"] == ["one fold", "one torus bifurcation", "two period doublings"]
-    assert line["stable"] == ["0.6"]
+    assert line["stable"] == ["0.6 to 0.7"]
 
 
 def test_numbers_of_the_solver(tmp_path):

@@ -10,6 +10,7 @@ import xarray as xr
 
 from scripts.captions.wording import count, joined, short
 from scripts.drawing.special_points import in_words, words_of
+from scripts.figures.cycles import branch_of
 from scripts.files.inputs import read
 from scripts.files.tsv import read_table
 from scripts.tables.motion_rows import UNDECIDED, parameter_of, planes_of
@@ -113,15 +114,14 @@ def of_cycles(given: dict, _params: dict) -> dict:
 
 def stable_stretches(cycles: xr.Dataset, along: str) -> list[str]:
     """Intervals of the parameter with stable cycles, branch by branch."""
-    found = []
+    found = set()
     for number in range(1, cycles.sizes["branches"] + 1):
-        orbits = cycles.isel(orbit=cycles.branch.values == number)
-        for stable, places in groupby(
-            range(orbits.sizes["orbit"]), key=lambda i: int(orbits.unstable[i]) == 0
-        ):
-            values = orbits[along].values[list(places)]
-            if stable:
-                found.append((float(values.min()), float(values.max())))
+        x, _, unstable = branch_of(cycles, number, along)
+        for multipliers, parts in groupby(range(unstable.size), key=unstable.__getitem__):
+            pieces = list(parts)
+            if multipliers == 0:
+                values = x[pieces[0] : pieces[-1] + 2]
+                found.add((float(values.min()), float(values.max())))
     words = [(short(first), short(last)) for first, last in sorted(found)]
     return [first if first == last else f"{first} to {last}" for first, last in words]
 
