@@ -29,7 +29,7 @@ rule attractors_runs:
         "results/logs/attractors/{survey}/{part}.log",
     benchmark:
         "results/benchmarks/attractors/{survey}/{part}.tsv"
-    priority: 1
+    priority: OF_LONG
     params:
         groups=survey_groups,
         sources=digest_of("attractors"),

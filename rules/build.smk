@@ -9,7 +9,7 @@ rule build:
         "build/release/bin/{program}",
     log:
         "results/logs/build/{program}.log",
-    priority: 2
+    priority: OF_PROGRAMS
     threads: 2
     # two builds must not write one build folder at the same time
     shell:

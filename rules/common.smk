@@ -48,6 +48,11 @@ LONG_RULES = {
     "reference",
     "work_precision_runs",
 }
+# Priorities: the paper's figures can be looked at while long runs go on. Long runs start before short
+# ones, so that no core is idle at the end.
+OF_PROGRAMS = 3
+OF_PAPER = 2
+OF_LONG = 1
 LEDGER_TABLES = {
     "hopf_points": "results/tables/hopf-points.tsv",
     "linear_stability": "results/tables/linear-stability.tsv",

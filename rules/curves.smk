@@ -9,6 +9,7 @@ rule hopf_namelist:
         "results/namelists/hopf/{plane}.nml",
     log:
         "results/logs/namelists/hopf/{plane}.log",
+    priority: OF_PAPER
     params:
         group="hopf_curves",
         values=plane_values,
@@ -27,6 +28,7 @@ rule hopf_curves:
         "results/logs/hopf/{plane}.log",
     benchmark:
         "results/benchmarks/hopf/{plane}.tsv"
+    priority: OF_PAPER
     params:
         values=plane_values,
         sources=digest_of("hopf"),

@@ -27,6 +27,7 @@ rule cycles_runs:
         "results/logs/cycles/{cycle_line}.log",
     benchmark:
         "results/benchmarks/cycles/{cycle_line}.tsv"
+    priority: OF_LONG
     params:
         values=cycles_values,
         sources=digest_of("cycles"),

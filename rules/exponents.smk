@@ -26,7 +26,7 @@ rule exponents_runs:
         "results/logs/exponents/{scene}.log",
     benchmark:
         "results/benchmarks/exponents/{scene}.tsv"
-    priority: 1
+    priority: OF_LONG
     params:
         groups=exponents_groups,
         sources=digest_of("exponents"),

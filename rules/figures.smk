@@ -19,6 +19,7 @@ for figure in FIGURES:
             svg=f"results/figures/{figure}.svg",
         log:
             f"results/logs/figures/{figure}.log",
+        priority: OF_PAPER if entries.ENTRIES[figure].category == "Figures" else 0
         params:
             **entries.params_of(figure, config),
             script=figure,

@@ -7,6 +7,7 @@ rule velocity_step_namelist:
         "results/namelists/velocity_step.nml",
     log:
         "results/logs/namelists/velocity_step.log",
+    priority: OF_PAPER
     params:
         group="velocity_step",
         values=config["velocity_step"],
@@ -25,6 +26,7 @@ rule velocity_step:
         "results/logs/friction/velocity_step.log",
     benchmark:
         "results/benchmarks/friction/velocity_step.tsv"
+    priority: OF_PAPER
     params:
         values=config["velocity_step"],
         sources=digest_of("velocity_step"),

@@ -9,6 +9,7 @@ rule spectrum_namelist:
         "results/namelists/spectra/{scene}.nml",
     log:
         "results/logs/namelists/spectra/{scene}.log",
+    priority: OF_PAPER
     params:
         group="spectrum",
         values=spectrum_values,
@@ -28,6 +29,7 @@ rule spectrum:
         "results/logs/spectra/{scene}.log",
     benchmark:
         "results/benchmarks/spectra/{scene}.tsv"
+    priority: OF_PAPER
     params:
         values=spectrum_values,
         sources=digest_of("spectrum"),

@@ -43,7 +43,7 @@ rule reference:
         "results/logs/references/{study}/{family}.log",
     benchmark:
         "results/benchmarks/references/{study}/{family}.tsv"
-    priority: 1
+    priority: OF_LONG
     params:
         groups=study_groups,
         sources=digest_of("reference"),
@@ -133,7 +133,7 @@ rule work_precision_runs:
         "results/logs/measurements/work_precision/{work_scene}.log",
     benchmark:
         "results/benchmarks/measurements/work_precision/{work_scene}.tsv"
-    priority: 1
+    priority: OF_LONG
     params:
         study=MEASURED,
         sources=digest_of("measure"),

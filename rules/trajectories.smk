@@ -9,6 +9,7 @@ rule scene_namelist:
         "results/namelists/trajectories/{scene}.nml",
     log:
         "results/logs/namelists/trajectories/{scene}.log",
+    priority: OF_PAPER
     params:
         group="scene",
         values=scene_values,
@@ -27,6 +28,7 @@ rule trajectory:
         "results/logs/trajectories/{scene}.log",
     benchmark:
         "results/benchmarks/trajectories/{scene}.tsv"
+    priority: OF_PAPER
     params:
         values=scene_values,
         sources=digest_of("trajectory"),

@@ -12,6 +12,7 @@ import pytest
 from conftest import ROOT, copy_of_project, rules_in
 
 TOOLS = ["ruff", "snakefmt", "fortitude", "snakemake", "cmake", "ctest", "pytest"]
+"""Tools that ./test runs."""
 
 
 def write_script(path: Path, text: str) -> None:
@@ -32,7 +33,7 @@ def set_up(tmp_path) -> Path:
 @pytest.fixture
 def recording(set_up) -> Path:
     """The same with tools that only write down how they were called."""
-    for tool in TOOLS:
+    for tool in [*TOOLS, "python"]:
         write_script(set_up / ".venv" / "bin" / tool, 'echo "${0##*/} $*" >>"$CALLS"')
     return set_up
 
@@ -60,8 +61,9 @@ def test_reproduce_hands_its_arguments_on(recording, tmp_path, arguments, passed
     """Two cores unless said otherwise, from any folder."""
     status, calls = calls_of(recording / "reproduce", *arguments, cwd=tmp_path)
     assert status == 0
+    command = f"python {recording}/scripts/console/reproduce.py"
     assert calls == [
-        f"snakemake --snakefile {recording}/Snakefile --directory {recording} {passed}"
+        f"{command} --snakefile {recording}/Snakefile --directory {recording} {passed}"
     ]
 
 
@@ -75,8 +77,7 @@ def test_reproduce_works_through_a_link(recording, tmp_path):
 
 def test_reproduce_takes_files_from_the_current_folder(set_up, tmp_path):
     """A scene file beside the user, results in the project."""
-    snakemake = Path(sys.executable).parent / "snakemake"
-    write_script(set_up / ".venv" / "bin" / "snakemake", f"exec '{snakemake}' \"$@\"")
+    write_script(set_up / ".venv" / "bin" / "python", f"exec '{sys.executable}' \"$@\"")
     (tmp_path / "mine.yaml").write_text(
         "scenes: { mine: { tau: 1.0, epsilon: 0.5, xi: 1.0, gamma: 1.0, t_end: 9.0 } }"
     )

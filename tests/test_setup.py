@@ -125,7 +125,7 @@ def test_reproduce_says_how_it_is_used(option, tmp_path):
     """From any folder, before anything is set up."""
     result = run(str(ROOT / "reproduce"), option, cwd=tmp_path)
     assert result.returncode == 0
-    assert "./reproduce [SNAKEMAKE ARGUMENTS]" in result.stdout
+    assert "./reproduce [TARGET...]" in result.stdout
     assert "./test" in result.stdout
 
 

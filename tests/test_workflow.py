@@ -1,6 +1,7 @@
 """The workflow in smoke size: everything once, nothing twice, and only what is asked for."""
 
 import re
+import subprocess
 
 import f90nml
 import numpy as np
@@ -29,6 +30,25 @@ def test_every_rule_ran(smoke_run):
     listed = dict(re.findall(r"^(\w+)(?: \((.*)\))?$", said, flags=re.MULTILINE))
     assert rules_in(log) == set(listed) - {"docs"}
     assert [name for name, docstring in listed.items() if not docstring.endswith(".")] == []
+
+
+def test_help_names_all_targets(fresh):
+    """Those that Snakemake lists, which are rules without wildcards."""
+    said = fresh.snakemake("--list-target-rules").stdout
+    listed = re.findall(r"^(\w+) \(.*\.\)$", said, flags=re.MULTILINE)
+    usage = subprocess.run([ROOT / "reproduce", "--help"], stdout=subprocess.PIPE, text=True).stdout
+    targets = usage.partition("\nTargets\n")[2].partition("\n\n")[0]
+    kinds = {"figures", "tables", "others"}
+    assert sorted(set(targets.split()) - kinds) == sorted(listed)
+
+
+def test_figures_of_the_paper_come_first(smoke_run):
+    """A reader can look at them while the long runs go on."""
+    started = re.findall(r"^(?:local)?rule (\w+):", smoke_run[1], flags=re.MULTILINE)
+    last = max(started.index(f"figure_{number}") for number in range(1, 9))
+    long = {"attractors_runs", "cycles_runs", "exponents_runs", "work_precision_runs"}
+    before = [rule for rule in started[:last] if rule in long]
+    assert len(before) < sum(rule in long for rule in started) / 5
 
 
 def test_every_figure_is_there_three_times(smoke):

@@ -6,7 +6,10 @@ docs/workflow-internals.md lists what each is for.
 import snakemake.api  # first: the workflow and it import each other
 import snakemake.workflow
 from snakemake.dag import DAG
+from snakemake.exceptions import WorkflowError
+from snakemake.logging import logger
 
+from scripts.workflow import known_targets
 from scripts.workflow.packages import PackageError
 
 PROGRAMS = "build"
@@ -21,12 +24,24 @@ class CompleteDAG(DAG):
     fails leaves its outputs missing, so that figures made from older ones would pass as current.
     """
 
+    def __init__(self, workflow, rules, *arguments, **options) -> None:
+        """Called once all rules are known, those of a workflow around this one too."""
+        super().__init__(workflow, rules, *arguments, **options)
+        for name in ("targetfiles", "rules"):
+            expect(self, name, "by which unknown targets are refused with a suggestion")
+        problem = known_targets.problem_of(self.targetfiles, self.rules)
+        if problem:
+            raise WorkflowError(problem)
+
     async def check_incomplete(self) -> None:
         """Called when all jobs are known, before it is judged which of them run."""
         await super().check_incomplete()
         jobs = [job for job in self.jobs if job.rule.name != PROGRAMS]
         self.targetjobs.update(jobs)
         self.targetfiles.update(file for job in jobs for file in job.output)
+        asked = [str(file) for job in jobs for file in job.output]
+        # Snakemake's own messages leave out a record without words
+        logger.info(None, extra={"asked_for": asked})
 
 
 def expect(holder, name: str, use: str) -> None:

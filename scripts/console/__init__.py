@@ -1,0 +1,1 @@
+"""What a reader sees while ./reproduce runs: one line of progress, and errors of one line."""

@@ -1,0 +1,73 @@
+"""./reproduce behind the set-up: Snakemake with one line of progress; wrong options in one line.
+
+With an option that changes what Snakemake says, its own output is left as it is.
+"""
+
+import argparse
+import logging
+import re
+import signal
+import sys
+from pathlib import Path
+from typing import NoReturn
+
+# the package scripts lies in the project's folder; the logger plugin lies beside this file
+sys.path.insert(1, str(Path(__file__).parents[2]))
+
+from snakemake import cli
+
+from scripts.console.error_words import in_one_line, meant
+
+SAYS_OTHER_THINGS = re.compile(
+    r"-[a-zA-Z]*[npqtDS]|--(dry-?run|quiet|verbose|debug|logger|print|list|lint|report|summary"
+    r"|detailed-summary|dag|rulegraph|filegraph|d3dag|unlock|touch|cleanup|delete|archive|profile"
+    r"|executor|version|help).*"
+)
+"""Options with which Snakemake's own output is wanted."""
+CORES = re.compile(r"(?:--cores=?|-c=?)(.*)")
+
+
+class OneLine(logging.Handler):
+    """Errors of Snakemake before it has set up its own messages."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """The reason alone."""
+        print(in_one_line(record.getMessage()), file=sys.stderr)
+
+
+def refuse(parser: argparse.ArgumentParser, reason: str) -> NoReturn:
+    """Say what is wrong with the options, without the list of all of them."""
+    unknown = re.search(r"unrecognized arguments: (\S+)", reason)
+    options = set(re.findall(r"--[a-z][a-z0-9-]+", parser.format_help()))
+    parser.exit(2, f"error: {reason}{meant(unknown[1], options) if unknown else ''}\n")
+
+
+def wrong_cores(arguments: list[str]) -> str | None:
+    """A number of cores with which Snakemake would wait for ever."""
+    for argument, following in zip(arguments, [*arguments[1:], ""], strict=True):
+        if given := CORES.fullmatch(argument):
+            number = given[1] or following
+            if number != "all" and not re.fullmatch(r"0*[1-9]\d*", number):
+                return number
+    return None
+
+
+def main(arguments: list[str]) -> None:
+    """Check the arguments, then do as Snakemake's own command does."""
+    number = wrong_cores(arguments)
+    if number is not None:
+        raise SystemExit(f"error: --cores is '{number}'; expected 1, 2, ..., or all")
+    arguments = ["--list-target-rules" if each == "--list" else each for each in arguments]
+    argparse.ArgumentParser.error = refuse
+    logging.getLogger("snakemake.logging").addHandler(OneLine())
+    if not any(SAYS_OTHER_THINGS.fullmatch(argument) for argument in arguments):
+        arguments = ["--logger", "progress", *arguments]
+    try:
+        cli.main(arguments)
+    except KeyboardInterrupt:
+        # a second one, while Snakemake ends what the first one stopped
+        sys.exit(128 + signal.SIGINT)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

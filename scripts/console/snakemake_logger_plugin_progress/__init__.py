@@ -1,0 +1,140 @@
+"""Logger plugin of Snakemake: one line of progress instead of several lines for each job.
+
+Snakemake's own messages and the words of jobs are in its log file in .snakemake/log/.
+"""
+
+import atexit
+import logging
+import os
+import threading
+import time
+
+from snakemake_interface_logger_plugins.base import LogHandlerBase
+from snakemake_interface_logger_plugins.common import LogEvent
+
+from scripts.console.error_words import in_one_line
+from scripts.console.run_progress import Job, RunProgress, counted
+from scripts.console.screen import Screen
+
+TICK = 0.5
+"""Seconds between two times at which a terminal's line is rewritten."""
+PAUSE = 30.0
+"""Seconds between two lines of progress where there is no terminal."""
+NOTHING = "Nothing to be done"
+"""Snakemake's first words where all results are up to date."""
+STOPPING = "Terminating processes on user request"
+"""Its first words after Ctrl-C; the jobs that this ends have not failed by themselves."""
+OF_FAILURES = ("RuleException", "WorkflowError: At least one job", "Exiting because a job")
+"""First words of errors that only repeat that a job failed."""
+
+
+def log_file() -> str:
+    """Snakemake's own log file of this run, which it opens after its plugins."""
+    for handler in logging.getLogger("snakemake.logging").handlers:
+        if isinstance(handler, logging.FileHandler):
+            return handler.baseFilename
+    return ""
+
+
+class LogHandler(LogHandlerBase):
+    """Shows progress, the words of failing jobs and how the run ended."""
+
+    writes_to_stream = True
+    writes_to_file = False
+    has_filter = True
+    has_formatter = True
+    needs_rulegraph = False
+
+    def __post_init__(self) -> None:
+        """Before the Snakefile is read."""
+        self.run = RunProgress()
+        self.log = self.log_named = ""
+        self.up_to_date = self.stopping = False
+        self.closed = threading.Event()
+        self.screen = Screen(self.note)
+        self.events = {
+            LogEvent.RUN_INFO: self.on_run,
+            LogEvent.JOB_INFO: self.on_job,
+            LogEvent.JOB_FINISHED: self.on_end_of_job,
+            LogEvent.JOB_ERROR: self.on_failure,
+        }
+        threading.Thread(target=self.tick, daemon=True).start()
+        # a Snakefile that ends the run leaves its handlers open
+        atexit.register(self.close)
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Called for each message of Snakemake's, in turn."""
+        if not self.log and (log := log_file()):
+            # Snakemake leaves the project's folder at the end
+            self.log, self.log_named = log, os.path.relpath(log)
+        asked = getattr(record, "asked_for", None)
+        if asked is not None:
+            self.run.asked = asked
+        elif on_event := self.events.get(getattr(record, "event", None)):
+            on_event(record)
+        elif record.levelno >= logging.WARNING:
+            self.on_problem(record)
+        elif record.getMessage().startswith(NOTHING):
+            self.up_to_date = True
+        elif record.getMessage().startswith(STOPPING):
+            self.stopping = True
+
+    def on_run(self, record: logging.LogRecord) -> None:
+        """Before the first job."""
+        self.run.total = record.stats["total"]
+        self.screen.say(f"{counted(self.run.total, 'job')}; all messages are in {self.log_named}")
+
+    def on_job(self, record: logging.LogRecord) -> None:
+        """A job starts."""
+        self.run.begin(record.jobid, Job(list(record.output), list(record.log)))
+
+    def on_end_of_job(self, record: logging.LogRecord) -> None:
+        """A job is done."""
+        for path in self.run.end(record.job_id):
+            self.screen.say(f"made {path}")
+
+    def on_failure(self, record: logging.LogRecord) -> None:
+        """The job's own words came before, through standard error."""
+        if self.stopping:
+            return
+        self.run.fail(record.jobid)
+        made = record.output[0] if record.output else record.rule_name
+        logs = f"; log: {', '.join(record.log)}" if record.log else ""
+        self.screen.say(f"failed: {made} (rule {record.rule_name}){logs}")
+
+    def on_problem(self, record: logging.LogRecord) -> None:
+        """A warning as it stands, an error in one line."""
+        message = record.getMessage()
+        if record.levelno < logging.ERROR:
+            self.screen.say(message)
+        elif not " ".join(message.split()).startswith(OF_FAILURES):
+            self.screen.say(in_one_line(message))
+
+    def note(self, line: str) -> None:
+        """Keep the words of jobs in the log file too."""
+        if self.log:
+            with open(self.log, "a", encoding="utf-8") as log:
+                log.write(f"{line}\n")
+
+    def tick(self) -> None:
+        """Time goes on while no message comes."""
+        told = time.monotonic()
+        while not self.closed.wait(TICK):
+            if not self.run.total:
+                continue
+            self.screen.show(self.run.line())
+            if not self.screen.rewrites and time.monotonic() - told >= PAUSE:
+                told = time.monotonic()
+                self.screen.say(self.run.sentence())
+
+    def close(self) -> None:
+        """At the end of the run, however that ends; Snakemake calls it more than once."""
+        if not self.closed.is_set():
+            self.closed.set()
+            self.screen.close()
+            lines = self.run.last_lines(self.log_named) if self.run.total else []
+            if self.up_to_date:
+                lines = ["nothing to do: all results are up to date", *self.run.to_open()]
+            for line in lines:
+                self.screen.say(line)
+        super().close()
