@@ -5,6 +5,7 @@ OBSERVATION = {
     "t_observed": 200.0,
     "t_lasting": 50.0,
     "t_turning": 20.0,
+    "t_path": 0.0,
     "interval": 5.0,
     "exponents": 4,
     "zero_level": 1e-4,

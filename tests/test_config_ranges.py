@@ -48,6 +48,7 @@ OBSERVED = {
     "t_observed": POSITIVE,
     "t_lasting": (">= 0", [-1.0]),
     "t_turning": (">= 0", [-1.0]),
+    "t_path": (">= 0", [-1.0, 1.1e5]),
     "interval": ("> 0", [0.0]),
     "exponents": ("a whole number >= 2", [1, 2.5, 65]),
     "zero_level": (">= 0", [-1e-9]),

@@ -29,6 +29,7 @@ program tester
    use test_lyapunov_spectrum, only: collect_lyapunov_spectrum
    use test_measured_run, only: collect_measured_run
    use test_motion_classes, only: collect_motion_classes
+   use test_motion_path, only: collect_motion_path
    use test_normal_forms, only: collect_normal_forms
    use test_orbit_branches, only: collect_orbit_branches
    use test_orbit_curves, only: collect_orbit_curves
@@ -46,6 +47,7 @@ program tester
    use test_tangent_runs, only: collect_tangent_runs
    use test_tangent_series, only: collect_tangent_series
    use test_tangents, only: collect_tangents
+   use test_thinned_line, only: collect_thinned_line
    use test_velocity_step, only: collect_velocity_step
    implicit none (type, external)
    type(testsuite_type), allocatable :: suites(:)
@@ -79,6 +81,7 @@ program tester
                              new_testsuite("lyapunov_spectrum", collect_lyapunov_spectrum), &
                              new_testsuite("measured_run", collect_measured_run), &
                              new_testsuite("motion_classes", collect_motion_classes), &
+                             new_testsuite("motion_path", collect_motion_path), &
                              new_testsuite("normal_forms", collect_normal_forms), &
                              new_testsuite("orbit_branches", collect_orbit_branches), &
                              new_testsuite("orbit_curves", collect_orbit_curves), &
@@ -96,6 +99,7 @@ program tester
                              new_testsuite("tangent_runs", collect_tangent_runs), &
                              new_testsuite("tangent_series", collect_tangent_series), &
                              new_testsuite("tangents", collect_tangents), &
+                             new_testsuite("thinned_line", collect_thinned_line), &
                              new_testsuite("velocity_step", collect_velocity_step)])
    wanted = ""
    if (command_argument_count() > 0) call get_command_argument(1, wanted)

@@ -40,8 +40,8 @@ contains
 
       call expect_refusals(error, observation_reader, "observation", [ &
          character(len=line_length) :: "t_transient = 100.0", "t_observed = 200.0", &
-         "t_lasting = 50.0", "t_turning = 20.0", "interval = 5.0", "exponents = 4", &
-         "zero_level = 1.0e-4", "longest_bar = 1.0e-3", "doublings = 0", &
+         "t_lasting = 50.0", "t_turning = 20.0", "t_path = 5.0", "interval = 5.0", &
+         "exponents = 4", "zero_level = 1.0e-4", "longest_bar = 1.0e-3", "doublings = 0", &
          "sample_interval = 0.1", "window = 'hann'", "segments = 2", "overlap = 0.5", &
          "peak_floor = 1.0e-6", "peak_prominence = 10.0", "tolerance = 1.0e-6", &
          "method = 'auto'", "most_steps = 100000"], [of_tolerance, of_spectrum, &
@@ -49,6 +49,8 @@ contains
          spoiled("t_observed", "0.0", "t_observed = 0.0"//above_0), &
          spoiled("t_lasting", "-1.0", "t_lasting = -1.0"//from_0), &
          spoiled("t_turning", "-1.0", "t_turning = -1.0"//from_0), &
+         spoiled("t_path", "-1.0", "t_path = -1.0"//from_0), &
+         spoiled("t_path", "1.1e5", "t_path = 110000.0"//from_0), &
          spoiled("interval", "0.0", "interval = 0.0"//above_0), &
          spoiled("exponents", "1", "exponents = 1"//from_2), &
          spoiled("exponents", "65", "exponents = 65; expected a whole number <= 64"), &

@@ -74,6 +74,7 @@ contains
          call put("largest_maximum", most, "largest maximum of v")
       end associate
       call put_kept(file, asked%kept, findings, rows)
+      if (settings%t_path > 0.0_wp) call put_paths(file, settings%t_path, findings, rows)
       call put_problems(file, findings, rows)
       call file%finish(error)
 
@@ -232,6 +233,59 @@ contains
       call file%table("section_theta", dimensions, theta, "theta in the section v = 1, v rising")
       call file%table("section_u", dimensions, u, "u in the section v = 1, v rising")
    end subroutine put_kept
+
+   !> Paths one after another, and how many points each has; 0 of steady sliding.
+   subroutine put_paths(file, t_path, findings, rows)
+      !> The file
+      type(output_file_type), intent(inout) :: file
+      !> Time that they take
+      real(wp), intent(in) :: t_path
+      !> What was found
+      type(finding_type), intent(in) :: findings(:)
+      !> Dimension of the points of the grid
+      integer, intent(in) :: rows
+      real(wp), allocatable :: line(:, :)
+      integer :: dimension, i, id, lengths(size(findings))
+
+      call file%attribute("t_path", t_path)
+      lengths = 0
+      do i = 1, size(findings)
+         associate (found => findings(i)%attractor)
+            if (allocated(found%path)) lengths(i) = size(found%path, 2)
+         end associate
+      end do
+      allocate (line(3, sum(lengths)))
+      do i = 1, size(findings)
+         if (lengths(i) == 0) cycle
+         associate (before => sum(lengths(:i - 1)))
+            line(:, before + 1:before + lengths(i)) = findings(i)%attractor%path
+         end associate
+      end do
+      id = file%integer_variable("path_length", rows, "number of points of the path")
+      ! the attribute by which CF 1.8 marks lines of unequal length one after another
+      call file%attribute("sample_dimension", "path_point", id)
+      call file%put(id, lengths)
+      ! a dimension of length zero would be an unlimited one
+      if (sum(lengths) == 0) return
+      dimension = file%dimension("path_point", sum(lengths))
+      call put("path_time", line(1, :), "time from the beginning of the path")
+      call put("path_u", line(2, :), "u along the path")
+      call put("path_ln_v", line(3, :), "ln v along the path")
+
+   contains
+
+      !> A column of the paths.
+      subroutine put(name, values, long_name)
+         !> Its name
+         character(len=*), intent(in) :: name
+         !> Its values
+         real(wp), intent(in) :: values(:)
+         !> What it is
+         character(len=*), intent(in) :: long_name
+
+         call file%put(file%real_variable(name, dimension, long_name, "1"), values)
+      end subroutine put
+   end subroutine put_paths
 
    !> Why no attractor was found, blank where one was.
    subroutine put_problems(file, findings, rows)

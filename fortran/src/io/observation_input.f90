@@ -17,6 +17,8 @@ module observation_input
    integer, parameter :: most_doublings = 10
    !> Most samples at a point.
    real(wp), parameter :: most_samples = 1.0e8_wp
+   !> Longest path kept of a point.
+   real(wp), parameter :: longest_path = 1.0e5_wp
 
 contains
 
@@ -36,6 +38,8 @@ contains
       call check_number(error, path, "t_transient", settings%t_transient, above=0.0_wp)
       call check_number(error, path, "t_observed", settings%t_observed, above=0.0_wp)
       call check_number(error, path, "t_lasting", settings%t_lasting, at_least=0.0_wp)
+      call check_number(error, path, "t_path", settings%t_path, at_least=0.0_wp, &
+                        at_most=longest_path)
       call check_growth(error, path, "exponents", settings%exponents, settings%t_turning, &
                         settings%interval, settings%zero_level)
       call check_number(error, path, "longest_bar", settings%longest_bar, above=0.0_wp)
@@ -74,11 +78,11 @@ contains
       !> They cannot be read
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: interval, longest_bar, overlap, peak_floor, peak_prominence, sample_interval
-      real(wp) :: t_lasting, t_observed, t_transient, t_turning, tolerance, zero_level
+      real(wp) :: t_lasting, t_observed, t_path, t_transient, t_turning, tolerance, zero_level
       character(len=256) :: reason
       integer :: doublings, exponents, segments, status, unit
       integer(int64) :: most_steps
-      namelist /observation/ t_transient, t_observed, t_lasting, t_turning, interval, &
+      namelist /observation/ t_transient, t_observed, t_lasting, t_turning, t_path, interval, &
          exponents, zero_level, longest_bar, doublings, sample_interval, window, segments, &
          overlap, peak_floor, peak_prominence, tolerance, method, most_steps
 
@@ -86,6 +90,7 @@ contains
       t_observed = t_transient
       t_lasting = t_transient
       t_turning = t_transient
+      t_path = t_transient
       interval = t_transient
       zero_level = t_transient
       longest_bar = t_transient
@@ -106,7 +111,7 @@ contains
       call close_namelist(path, "observation", unit, status, reason, error)
       settings = attractor_settings_type( &
                  t_transient=t_transient, t_observed=t_observed, t_lasting=t_lasting, &
-                 t_turning=t_turning, interval=interval, exponents=exponents, &
+                 t_turning=t_turning, t_path=t_path, interval=interval, exponents=exponents, &
                  zero_level=zero_level, longest_bar=longest_bar, doublings=doublings, &
                  sample_interval=sample_interval, &
                  segments=segments, overlap=overlap, peak_floor=peak_floor, &

@@ -27,6 +27,8 @@ module attractor_verdict
       real(wp) :: t_lasting = 0.0_wp
       !> Time in which tangent vectors turn before
       real(wp) :: t_turning = 0.0_wp
+      !> Time on the attractor of which the path is kept; 0: none is
+      real(wp) :: t_path = 0.0_wp
       !> Longest time between orthonormalisations
       real(wp) :: interval = 0.0_wp
       !> Number of exponents; without delay no more are measured than equations
@@ -69,6 +71,8 @@ module attractor_verdict
       real(wp) :: line_share = 0.0_wp
       !> What was seen of it
       type(observed_motion_type) :: motion
+      !> A piece of it to be drawn, see `follow_path`; none of steady sliding
+      real(wp), allocatable :: path(:, :)
    end type attractor_type
 
 contains

@@ -10,7 +10,9 @@ module attractors
    use exponent_averages, only: exponent_type
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, measure_growth
-   use motion_classes, only: chaos, fixed_point, not_stationary, torus, undecided, unstable_rest
+   use motion_classes, only: chaos, cycle_motion, fixed_point, not_stationary, torus, undecided, &
+                             unstable_rest
+   use motion_path, only: follow_path
    use section_motion, only: drifts
    use steady_sliding, only: settles, sliding_exponents
    use spring_block, only: spring_block_type
@@ -20,6 +22,9 @@ module attractors
 
    !> Parts of the approach, after each of which rest and cycles are looked for.
    integer, parameter :: approach_parts = 10
+   !> How close the line that is kept of a path is to it, as a share of its extent: one pixel in a
+   !> plot of 250 pixels, and of 1000 for a cycle.
+   real(wp), parameter :: closeness_of_path = 1.0_wp/250.0_wp, closeness_of_cycle = 1.0e-3_wp
 
 contains
 
@@ -57,9 +62,37 @@ contains
          end if
          attractor%time = now(1) - attractor%time
       end associate
+      if (settings%t_path > 0.0_wp .and. attractor%class /= fixed_point) then
+         call keep_path(block_model, settings, options, attractor)
+      end if
       if (present(arrived)) arrived = attractor%motion%continuation
       call attractor%motion%forget_path()
    end subroutine find_attractor
+
+   !> Keep the path to be drawn, of a cycle no more than one period, but with more points.
+   subroutine keep_path(block_model, settings, options, attractor)
+      !> The block
+      type(spring_block_type), intent(in) :: block_model
+      !> How
+      type(attractor_settings_type), intent(in) :: settings
+      !> Method and tolerances
+      type(integration_options), intent(in) :: options
+      !> The attractor
+      type(attractor_type), intent(inout) :: attractor
+      real(wp) :: closeness, time
+
+      closeness = closeness_of_path
+      time = settings%t_path
+      associate (passage => attractor%motion%section_time, &
+                 n => size(attractor%motion%section_time), turns => attractor%period)
+         if (attractor%class == cycle_motion .and. turns > 0 .and. n > turns) then
+            closeness = closeness_of_cycle
+            time = min(time, passage(n) - passage(n - turns))
+         end if
+      end associate
+      call follow_path(block_model, attractor%motion%continuation, time, closeness, options, &
+                       attractor%path)
+   end subroutine keep_path
 
    !> Wait until the block is at rest or on a cycle, but not longer than the approach may take. Near
    !> unstable steady sliding wait as long as a motion may be observed.

@@ -1,0 +1,111 @@
+!> A piece of a motion to be drawn: v over time, and v over u, as a line through few points.
+module motion_path
+   use dde, only: continuation_type, event_table, integrate, integration_options, &
+                  integration_result, sampler_type
+   use dde_errors, only: error_type
+   use dde_kinds, only: wp
+   use spring_block, only: index_of_ln_v, index_of_u, spring_block_type
+   use thinned_line, only: kept_points
+   implicit none (type, external)
+   private
+   public :: follow_path
+
+   !> Longest time and longest slip between two samples. The mean of v is one: there are about as
+   !> many samples by time as by slip, and slip events of any speed are resolved.
+   real(wp), parameter :: longest_time = 0.05_wp, longest_slip = 0.05_wp
+
+   !> Samples of u and ln v.
+   type, extends(sampler_type) :: path_sampler_type
+      !> Time, u and ln v, shape (3, >= received)
+      real(wp), allocatable :: rows(:, :)
+      !> Number of samples received
+      integer :: received = 0
+      !> Time of the last one
+      real(wp) :: last = 0.0_wp
+   contains
+      procedure :: take
+   end type path_sampler_type
+
+contains
+
+   !> Follow a motion for a time, from its next passage of v = 1 with v rising, if there is one in
+   !> that time. There is no path if the run ends before its time: that of the class of the motion
+   !> was another.
+   subroutine follow_path(block_model, from, time, closeness, options, path)
+      !> The block
+      type(spring_block_type), intent(in) :: block_model
+      !> Where the motion is
+      type(continuation_type), intent(in) :: from
+      !> How long
+      real(wp), intent(in) :: time
+      !> How close the line is to the motion, as a share of its extent in ln v and u. In time it is
+      !> half of that: plots over time are wide.
+      real(wp), intent(in) :: closeness
+      !> Method and tolerances
+      type(integration_options), intent(in) :: options
+      !> Time from the beginning of the piece, u and ln v, shape (3, points)
+      real(wp), allocatable, intent(out) :: path(:, :)
+      type(continuation_type) :: here
+      type(error_type), allocatable :: error
+      type(event_table) :: passage
+      type(integration_result) :: outcome
+      type(path_sampler_type) :: samples
+      real(wp) :: start
+
+      here = from
+      passage = event_table([index_of_ln_v], level=[0.0_wp], direction=[1], terminal=[.true.])
+      call integrate(block_model, here%time(1), here%time(1) + time, options, outcome, error, &
+                     watcher=passage, continuation=here)
+      if (allocated(error)) return
+      start = here%time(1)
+      samples%wanted = [index_of_u, index_of_ln_v]
+      samples%next = start
+      samples%last = start + time
+      allocate (samples%rows(3, ceiling(time/longest_time)))
+      call integrate(block_model, start, samples%last, options, outcome, error, &
+                     sampler=samples, continuation=here)
+      if (allocated(error)) return
+      path = samples%rows(:, :samples%received)
+      path(1, :) = path(1, :) - start
+      path = thinned(path, closeness)
+   end subroutine follow_path
+
+   !> Keep a sample. The next one follows after the longest time or the longest slip at this v.
+   subroutine take(self, y)
+      !> The samples
+      class(path_sampler_type), intent(inout) :: self
+      !> u and ln v
+      real(wp), intent(in) :: y(:)
+
+      if (self%received == size(self%rows, 2)) then
+         self%rows = reshape(self%rows, [3, 2*self%received], pad=[0.0_wp])
+      end if
+      self%received = self%received + 1
+      self%rows(:, self%received) = [self%next, y]
+      if (self%next >= self%last) then
+         self%next = huge(1.0_wp)
+         return
+      end if
+      ! the last term lets time go on however fast the block is
+      self%next = self%next + max(min(longest_time, longest_slip*exp(-y(2))), spacing(self%next))
+      self%next = min(self%next, self%last)
+   end subroutine take
+
+   !> The points of a path that matter in a picture of it.
+   pure function thinned(path, closeness) result(line)
+      !> Time, u and ln v
+      real(wp), intent(in) :: path(:, :)
+      !> How close the line is
+      real(wp), intent(in) :: closeness
+      real(wp), allocatable :: line(:, :)
+      real(wp) :: scaled(size(path, 1), size(path, 2))
+      integer :: i, points(size(path, 2))
+
+      do i = 1, size(path, 1)
+         scaled(i, :) = path(i, :)/max(maxval(path(i, :)) - minval(path(i, :)), tiny(1.0_wp))
+      end do
+      scaled(1, :) = 2.0_wp*scaled(1, :)
+      points = [(i, i=1, size(path, 2))]
+      line = path(:, pack(points, kept_points(scaled, closeness)))
+   end function thinned
+end module motion_path
