@@ -1,5 +1,5 @@
 "use strict";
-// The two views of the page: trajectories to zoom into, drawn by dygraphs, and the atlas by cells.
+// The view of trajectories to zoom into, drawn by dygraphs.
 
 function numbers(text) {
   const bytes = Uint8Array.from(atob(text), (sign) => sign.charCodeAt(0));
@@ -46,65 +46,8 @@ function trajectoryView(view, runs) {
   show(runs[0]);
 }
 
-function atlasView(view) {
-  const read = view.querySelector(".read");
-  let chosen = null;
-
-  function choose(cell) {
-    if (chosen) chosen.classList.remove("chosen");
-    chosen = cell;
-    cell.classList.add("chosen");
-    cell.parentNode.append(cell); // above its neighbours
-    read.textContent = cell.dataset.words;
-  }
-
-  function place(cell) {
-    return { x: Number(cell.getAttribute("x")), y: Number(cell.getAttribute("y")) };
-  }
-
-  function move(map, right, down) {
-    const from = chosen && chosen.parentNode === map ? place(chosen) : null;
-    const wanted = from ? { x: from.x + right, y: from.y + down } : { x: 0, y: 0 };
-    const next = map.querySelector(`[x="${wanted.x}"][y="${wanted.y}"]`);
-    if (next) choose(next);
-  }
-
-  function zoom(factor) {
-    const map = chosen ? chosen.parentNode : view.querySelector(".map svg");
-    const whole = map.dataset.whole || map.getAttribute("viewBox");
-    map.dataset.whole = whole;
-    const [, , width, height] = whole.split(" ").map(Number);
-    const share = Math.min(1, map.viewBox.baseVal.width / width / factor);
-    const centre = chosen ? place(chosen) : { x: width / 2, y: height / 2 };
-    const w = share * width;
-    const h = share * height;
-    const x = Math.max(0, Math.min(width - w, centre.x + 0.5 - w / 2));
-    const y = Math.max(0, Math.min(height - h, centre.y + 0.5 - h / 2));
-    map.setAttribute("viewBox", `${x} ${y} ${w} ${h}`);
-  }
-
-  const steps = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
-  for (const map of view.querySelectorAll(".map svg")) {
-    for (const event of ["pointermove", "click"]) {
-      map.addEventListener(event, ({ target }) => {
-        if (target.dataset.words && target !== chosen) choose(target);
-      });
-    }
-    map.addEventListener("keydown", (event) => {
-      if (!steps[event.key]) return;
-      event.preventDefault();
-      move(map, ...steps[event.key]);
-    });
-  }
-  for (const button of view.querySelectorAll("[data-zoom]")) {
-    button.addEventListener("click", () => zoom(button.dataset.zoom === "in" ? 1.5 : 1 / 1.5));
-  }
-}
-
 document.documentElement.classList.add("scripted");
 const trajectories = document.getElementById("trajectories");
 if (trajectories) {
   trajectoryView(document.getElementById("trajectory-view"), JSON.parse(trajectories.textContent));
 }
-const atlas = document.getElementById("atlas-view");
-if (atlas) atlasView(atlas);

@@ -8,7 +8,7 @@ import xarray as xr
 from conftest import ROOT
 
 from scripts.claims.claims_results import VERDICTS
-from scripts.page import page_content, page_views, write_page
+from scripts.page import page_content, page_views, play_data, write_page
 from scripts.tables.motion_rows import COLOURS
 
 TEMPLATE = ROOT / "page" / "index.html.jinja"
@@ -47,6 +47,48 @@ def run(count: int = 30001, interval: float = 0.05) -> xr.Dataset:
     return xr.Dataset(values, {"time": time}, attributes)
 
 
+def atlas_run(*paths: np.ndarray | None) -> xr.Dataset:
+    """A part of the atlas with these paths, as far as the page reads it."""
+    moving = [path for path in paths if path is not None]
+    lengths = [0 if path is None else path.shape[1] for path in paths]
+    values = {"path_length": ("point", lengths)}
+    if moving:
+        columns = np.concatenate(moving, axis=1)
+        names = ("path_time", "path_u", "path_ln_v")
+        values |= {
+            name: ("path_point", column) for name, column in zip(names, columns, strict=True)
+        }
+    return xr.Dataset(values, attrs={"t_path": 60.0})
+
+
+def turn(period: float, largest: float) -> np.ndarray:
+    """One period of a made-up cycle: time, u and ln v."""
+    time = np.linspace(0, period, 41)
+    phase = 2 * np.pi * time / period
+    return np.array([time, -largest * np.cos(phase), np.log(largest) * np.sin(phase)])
+
+
+def play() -> str:
+    """Two planes: classes change with epsilon; the last point of the first was not computed."""
+    none = {f"exponent_{i}": np.nan for i in (1, 2, 3)}
+    rows, paths = [], []
+    for xi in (0.5, 0.8):
+        for tau in (0.0, 5.0):
+            rows += [
+                attractor(0.1, tau, xi=xi, **{"class": "fixed point"}, f1=np.nan, f2=np.nan),
+                attractor(0.2, tau, xi=xi, f1=0.1, f2=np.nan),
+                attractor(0.3, tau, xi=xi, period=2.0, f1=0.05, f2=np.nan),
+                attractor(0.4, tau, xi=xi, **{"class": "chaos"}, f1=np.nan, f2=np.nan),
+            ]
+            later = np.add(turn(30.0, 90.0), [[30.0], [0.0], [0.0]])
+            longer = np.concatenate([turn(30.0, 40.0), later], axis=1)
+            paths += [None, turn(10.0, 3.0), turn(20.0, 5.0), longer]
+    rows[7] |= {"computed": "no", **none}
+    paths[7] = None
+    scenes = {"my_scene": {"xi": 0.8, "gamma": 0.8, "epsilon": 0.21, "tau": 4.0}}
+    return play_data.script(rows, [atlas_run(*paths[:3]), atlas_run(*paths[3:])], scenes)
+
+
 def content(**given) -> dict:
     """What the template needs, some of it given."""
     figures = [figure("figure_1"), figure("atlas", "Atlas", "results/tables/a.tsv")]
@@ -56,7 +98,6 @@ def content(**given) -> dict:
     claims.append(claim("equation_8", VERDICTS[1], instead="It is gamma^2."))
     equations = page_content.equations(EQUATIONS, claims)
     others = page_content.beside_figures(claims, equations)
-    cells = [attractor(0.1 * i, float(j)) for j in range(3) for i in range(4)]
     own = [
         {**attractor(0.5, 10.0), "scene": scene, "history": 1.0}
         for scene in ("my_scene", "without_u")
@@ -72,7 +113,7 @@ def content(**given) -> dict:
         "unplaced": page_content.claims_by_figure(figures, others)[""],
         "verdicts": page_content.tally(claims),
         "trajectories": [page_views.trajectory(one, own) for one in runs],
-        "atlas": page_views.atlas(cells),
+        "history": {"theta": 0.0, "u": 0.0, "v": 1.5},
         "colours": COLOURS,
         "commit": "unknown",
         "programs": [{"version": "1.0", "compiler": "a compiler", "files": 2}],
@@ -88,6 +129,7 @@ def written_to(folder: Path, assets: Path) -> Path:
     index = folder / "index.html"
     index.write_text(write_page.rendered(TEMPLATE, **content()))
     shutil.copytree(assets, folder / "page")
+    (folder / "page" / "play-data.js").write_text(play())
     (folder / "figures").mkdir()
     for name in ("figure_1", "atlas", "hero"):
         for ending in ("svg", "pdf", "png"):

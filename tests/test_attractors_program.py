@@ -140,6 +140,31 @@ def test_the_last_points_are_kept(programs, groups, kept):
             np.testing.assert_array_equal(found[key][point], last)
 
 
+def test_paths_are_kept_where_the_block_moves(programs, groups):
+    """From v = 1 on for the time that is asked, or a period; nothing else in the file changes."""
+    groups["points"] |= {"theta": [0.0], "u": [0.0], "v": [1.1]}
+    without = programs.made_of("attractors", groups)
+    groups["observation"]["t_path"] = 12.0
+    found = programs.made_of("attractors", groups)
+    assert found.attrs.pop("t_path") == 12.0
+    xr.testing.assert_identical(found.drop_dims("path_point").drop_vars("path_length"), without)
+    lengths = found.path_length.values
+    moving = found["class"].values != 1
+    assert (lengths > 0).tolist() == moving.tolist()
+    assert 0 < moving.sum() < 4
+    assert found.path_length.attrs["sample_dimension"] == "path_point"
+    ends = np.cumsum(lengths)[moving]
+    starts = ends - lengths[moving]
+    assert found.path_time.values[starts].tolist() == [0.0] * len(starts)
+    last = found.path_time.values[ends - 1]
+    assert ((9.0 < last) & (last <= 12.0)).all()
+    np.testing.assert_allclose(found.path_ln_v.values[starts], 0.0, atol=1e-6)
+    groups["points"] |= {"epsilon_part": [2, 2], "tau_part": [1, 1]}
+    at_rest = programs.made_of("attractors", groups)
+    assert at_rest.path_length.values.tolist() == [0]
+    assert "path_time" not in at_rest
+
+
 def test_run_that_cannot_be_finished_is_undecided(programs, groups):
     """It is said why; the others are as they would be without it."""
     groups["points"]["v"] = [1.1, 1e-300]

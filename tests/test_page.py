@@ -265,39 +265,6 @@ def test_scene_whose_attractor_is_unknown_says_so():
     assert words.endswith("γ = 0.8: its attractor was not computed")
 
 
-def test_atlas_has_a_map_for_each_plane():
-    """Epsilon to the right, tau upwards."""
-    rows = [attractor(e, t) for t in (0.0, 5.0) for e in (0.1, 0.2, 0.3)]
-    rows[4] |= {"class": "chaos", "exponent_3": np.nan}
-    rows.append(attractor(0.1, 0.0, xi=0.8, period=4.0))
-    rows.append(attractor(0.2, 0.0, xi=0.8, **{"class": "undecided", "problem": "too stiff"}))
-    unsure = {"class": "undecided", "reason": "not confirmed", "gamma": 1e8}
-    rows.insert(0, attractor(0.1, 0.0, **unsure))
-    first, second, third = page_views.atlas(rows)
-    planes = [one["plane"] for one in (first, second, third)]
-    assert planes == ["ξ = 0.5, γ = 0.8", "ξ = 0.8, γ = 0.8", "ξ = 0.5, γ = 1e+08"]
-    assert (first["columns"], first["lines"]) == ([0.1, 0.2, 0.3], [0.0, 5.0])
-    assert "γ = 1e+08: undecided (not confirmed); exponents" in third["cells"][0]["words"]
-    (chaos,) = [cell for cell in first["cells"] if cell["kind"] == "chaos"]
-    assert (chaos["x"], chaos["y"]) == (1, 0)
-    assert chaos["words"].endswith("chaos; exponents -0.01 ± 0.001, -0.02 ± 0.001")
-    assert [cell["kind"] for cell in second["cells"]] == ["cycle of period > 1", "undecided"]
-    assert "cycle of period 4 in its section" in second["cells"][0]["words"]
-    assert second["cells"][1]["words"].endswith("no result: too stiff")
-
-
-def test_cell_that_was_not_computed_says_so():
-    """With its class, that of its neighbours, and no exponents."""
-    taken = {"computed": "no", **{f"exponent_{i}": np.nan for i in (1, 2, 3)}}
-    rows = [attractor(0.1, 0.0, computed="yes"), attractor(0.2, 0.0, period=3.0, **taken)]
-    (found,) = page_views.atlas(rows)
-    assert "exponents -0.01" in found["cells"][0]["words"]
-    assert found["cells"][1]["kind"] == "cycle of period > 1"
-    assert found["cells"][1]["words"].endswith(
-        "γ = 0.8: cycle of period 3 in its section, as its neighbours; not computed"
-    )
-
-
 def test_programs_are_told_by_version_and_compiler(tmp_path):
     """As the files say."""
     for name, compiler in (("a", "one"), ("b", "one"), ("c", "two")):
@@ -336,13 +303,12 @@ def test_words_of_the_ledger_are_no_markup():
     assert "0 < 1 & so on" in Elements(text).text
 
 
-@pytest.mark.parametrize("part", ["trajectories", "atlas", "unplaced", "seconds"])
+@pytest.mark.parametrize("part", ["trajectories", "unplaced", "seconds"])
 def test_page_without_a_part_has_no_trace_of_it(part):
     """The rest stands."""
     text = write_page.rendered(made_up_page.TEMPLATE, **content(**{part: []}))
     assert text.count("<h1") == 1
-    view = {"trajectories": "trajectory-view", "atlas": "atlas-view"}.get(part)
-    assert view is None or view not in text
+    assert (part == "trajectories") == ("trajectory-view" not in text)
 
 
 def test_every_claim_stands_in_the_page_once(smoke, smoke_page):

@@ -133,19 +133,6 @@ def test_trajectories_are_zoomed_and_read(seen):
     assert all(word in view["values"][0] for word in ("t = ", "v = ", "u = "))
 
 
-def test_atlas_is_pointed_at_and_zoomed(seen):
-    """By pointer, arrow keys and buttons, where there is an atlas."""
-    atlas = seen["atlas"]
-    if atlas is None:
-        pytest.skip("this page has no atlas")
-    assert atlas["by_pointer"] == atlas["cell"]
-    assert atlas["by_keyboard"] == atlas["neighbour"] != atlas["cell"]
-    assert any(words in atlas["cell"] for words in ("; exponents ", "; not computed"))
-    whole, closer, back = ([float(x) for x in box.split()] for box in atlas["boxes"])
-    assert whole == back
-    assert closer[2] == pytest.approx(whole[2] / 1.5)
-
-
 def test_claims_are_chosen_by_verdict_and_words(seen):
     """By keyboard; a button says that it is pressed, and the page how many claims it shows."""
     claims = seen["claims"]
@@ -179,3 +166,31 @@ def test_text_of_figures_is_nine_pixels_high_on_a_phone(seen):
     least = min(float(size) for size in re.findall(r"(?:size|fontsize): (\d+)\n", style))
     pixels = [least * 96 / 72 * scale for scale in seen["scales"]]
     assert min(pixels) >= 9
+
+
+def test_reader_moves_the_parameters(visited):
+    """Of the made-up page each place has its class and its motion, by keyboard, map and button."""
+    page, seen = visited
+    play = seen["play"]
+    if page.parent.name == "unpacked":
+        assert all(met["class"] and met["ticks"] for met in play.values())
+        return
+    assert play["first"] == play["button"]
+    assert play["first"]["class"] == play["touched"]["class"] == "ε = 0.2, τ = 5: cycle"
+    classes = ["fixed point", "cycle", "cycle of period 2 in its section", "chaos"]
+    for i, name in enumerate(classes):
+        assert play[f"key {i}"]["class"] == f"ε = 0.{i + 1}, τ = 0: {name}"
+        assert play[f"key {i}"]["values"] == [f"0.{i + 1}", "0"]
+    # in 60 units of time six periods of 10 or three of 20, each of 41 points; chaos has 82 points
+    segments = [play[f"key {i}"]["segments"] for i in range(4)]
+    assert segments == [[1, 1], [6 * 41 - 1, 40], [3 * 41 - 1, 40], [81, 81]]
+    assert "Lyapunov exponents −0.01 ± 0.001" in play["key 1"]["more"]
+    assert "Period 10 (units of L/v₀)." in play["key 1"]["more"]
+    # v from 1/3 to 3, and from 1/90 to 90
+    assert {"0.5", "1", "2"} <= set(play["key 1"]["ticks"])
+    assert {"0.1", "1", "10"} <= set(play["key 3"]["ticks"])
+    taken = play["not computed"]
+    assert taken["class"] == "ε = 0.4, τ = 5: chaos"
+    assert "not computed" in taken["more"]
+    assert "nearest computed point of this class, ε = 0.4, τ = 0" in taken["more"]
+    assert taken["segments"] == play["key 3"]["segments"]

@@ -25,7 +25,13 @@ from scripts.drawing.special_points import STYLES, in_words, words_of
 from scripts.drawing.style import INK, logged, save
 from scripts.files.inputs import read
 from scripts.files.tsv import read_table
-from scripts.tables.motion_rows import count_in_words, is_computed, kind_of, planes_of
+from scripts.tables.motion_rows import (
+    count_in_words,
+    is_computed,
+    kind_of,
+    nearest_alike,
+    planes_of,
+)
 
 LINEAR, LARGEST = 1e-3, 0.1
 """Exponents closer to zero are coloured on a linear scale, larger ones all alike."""
@@ -118,13 +124,7 @@ def draw_exponents(axes: Axes, rows: list[dict]):
 
 def filled(values: np.ndarray, kinds: np.ndarray, computed: np.ndarray) -> np.ndarray:
     """Values on a grid, where not computed that of the nearest computed point of the same kind."""
-    whole = values.copy()
-    places = np.argwhere(computed)
-    for place in np.argwhere(~computed):
-        alike = places[kinds[tuple(places.T)] == kinds[tuple(place)]]
-        nearest = alike[np.argmin(((alike - place) ** 2).sum(axis=1))]
-        whole[tuple(place)] = values[tuple(nearest)]
-    return whole
+    return values[tuple(nearest_alike(kinds, computed))]
 
 
 def draw_curves(axes: Axes, curves: xr.Dataset) -> None:

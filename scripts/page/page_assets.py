@@ -18,6 +18,8 @@ ASSETS = {
     "findings.txt": "docs/findings.md",
     "methods.txt": "docs/method.md",
     "verification.txt": "docs/verification.md",
+    "play.css": "page/play.css",
+    "play.js": "page/play.js",
     "dygraph.min.js": f"{LIBRARY}/dygraph.min.js",
     "dygraph.min.css": f"{LIBRARY}/dygraph.min.css",
     "dygraph-licence.txt": "/usr/share/doc/libjs-dygraphs/copyright",

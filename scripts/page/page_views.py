@@ -1,4 +1,4 @@
-"""Data for what can be looked at closer on the page: trajectories and the atlas."""
+"""Data for what can be looked at closer on the page: trajectories."""
 
 import base64
 import math
@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from scripts.files.tsv import as_text
-from scripts.tables.motion_rows import UNDECIDED, has_problem, is_computed, kind_of, planes_of
+from scripts.tables.motion_rows import UNDECIDED, has_problem, kind_of
 
 SHOWN = 1000.0
 """Time up to the end of a run that can be zoomed into."""
@@ -26,21 +26,27 @@ def parameters(values: dict) -> str:
 
 def verdict(row: dict) -> str:
     """Class and exponents of a row of a table of attractors; why there are none."""
+    known = "" if has_problem(row) else f"; exponents {exponents(row) or 'not known'}"
+    return motion(row) + known
+
+
+def motion(row: dict) -> str:
+    """The class of a row of a table of attractors; why there is none."""
     if has_problem(row):
         return f"no result: {row['problem']}"
     met = kind_of(row)
     if met == UNDECIDED:
-        met = f"undecided ({row['reason']})"
-    elif met != row["class"]:
-        met = f"cycle of period {row['period']:g} in its section"
-    if not is_computed(row):
-        return f"{met}, as its neighbours; not computed"
-    exponents = [
-        f"{row[f'exponent_{i}']:.3g} ± {row[f'error_{i}']:.1g}"
+        return f"undecided ({row['reason']})"
+    return met if met == row["class"] else f"cycle of period {row['period']:g} in its section"
+
+
+def exponents(row: dict) -> str:
+    """Exponents with their standard errors, where they have one; empty where none is known."""
+    return ", ".join(
+        f"{row[f'exponent_{i}']:.3g}" + f" ± {row[f'error_{i}']:.1g}" * (row[f"error_{i}"] > 0)
         for i in (1, 2, 3)
         if not math.isnan(row[f"exponent_{i}"])
-    ]
-    return f"{met}; exponents {', '.join(exponents) or 'not known'}"
+    )
 
 
 def can_be_drawn(run: xr.Dataset) -> bool:
@@ -74,23 +80,3 @@ def trajectory(run: xr.Dataset, attractors: list[dict]) -> dict:
 def as_base64(values: np.ndarray) -> str:
     """Numbers in single precision, as text."""
     return base64.b64encode(values.astype("<f4").tobytes()).decode()
-
-
-def atlas(rows: list[dict]) -> list[dict]:
-    """Maps of the atlas, one for each plane, with cells from the lowest tau upwards."""
-    maps = []
-    for (gamma, xi), inside in planes_of(rows).items():
-        columns = sorted({row["epsilon"] for row in inside})
-        lines = sorted({row["tau"] for row in inside})
-        cells = [
-            {
-                "x": columns.index(row["epsilon"]),
-                "y": len(lines) - 1 - lines.index(row["tau"]),
-                "kind": kind_of(row),
-                "words": f"{parameters(row)}: {verdict(row)}",
-            }
-            for row in inside
-        ]
-        plane = f"ξ = {as_text(xi)}, γ = {as_text(gamma)}"
-        maps.append({"plane": plane, "columns": columns, "lines": lines, "cells": cells})
-    return maps

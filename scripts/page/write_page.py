@@ -49,7 +49,7 @@ def content(given, params) -> dict:
         "trajectories": [
             page_views.trajectory(run, attractors) for run in runs if page_views.can_be_drawn(run)
         ],
-        "atlas": page_views.atlas(read_table(given.atlas)),
+        "history": params.history,
         "colours": COLOURS,
         "commit": params.commit,
         "programs": page_provenance.programs([p for p in data if p.endswith(".nc")]),

@@ -1,5 +1,7 @@
 """What rows of attractors, of the atlas and of routes say."""
 
+import numpy as np
+
 from scripts.namelists.study_cases import PARAMETERS
 
 UNDECIDED = "undecided"
@@ -29,6 +31,19 @@ def kind_of(row: dict) -> str:
     """The class, cycles parted by their period in the section."""
     several = row["class"] == "cycle" and row["period"] > 1
     return "cycle of period > 1" if several else row["class"]
+
+
+def nearest_alike(kinds: np.ndarray, computed: np.ndarray) -> np.ndarray:
+    """For each point of a grid the nearest computed one of its kind: its line and column.
+
+    The shape is (2, lines, columns). A computed point is its own nearest one.
+    """
+    nearest = np.indices(kinds.shape)
+    places = np.argwhere(computed)
+    for place in np.argwhere(~computed):
+        alike = places[kinds[tuple(places.T)] == kinds[tuple(place)]]
+        nearest[:, *place] = alike[np.argmin(((alike - place) ** 2).sum(axis=1))]
+    return nearest
 
 
 def planes_of(rows: list[dict]) -> dict[tuple[float, float], list[dict]]:

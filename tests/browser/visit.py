@@ -12,6 +12,7 @@ from axe_core_python.selenium import Axe
 from selenium.webdriver import Chrome, ChromeOptions, ChromeService, Keys
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
+from selenium.webdriver.support.ui import Select
 
 WIDTHS = [380, 800, 1400]
 SCHEMES = ["light", "dark"]
@@ -123,27 +124,37 @@ def axis_labels(plot) -> list[str]:
     return [label.get_attribute("textContent") for label in labels]
 
 
-def of_atlas(chrome: Chrome) -> dict | None:
-    """What is read of a cell by pointer and by keyboard, and the map before and after a zoom."""
-    views = chrome.find_elements(By.ID, "atlas-view")
-    if not views:
-        return None
-    (view,) = views
-    read = view.find_element(By.CSS_SELECTOR, ".read")
-    map_ = view.find_element(By.CSS_SELECTOR, ".map svg")
-    cell = map_.find_element(By.CSS_SELECTOR, "[x='1'][y='1']")
-    ActionChains(chrome).move_to_element(cell).perform()
-    said = {"by_pointer": read.text, "cell": cell.get_attribute("data-words")}
-    # a scroll would bring another cell under the pointer
-    chrome.execute_script("arguments[0].focus({ preventScroll: true })", map_)
-    ActionChains(chrome).send_keys(Keys.ARROW_RIGHT).perform()
-    neighbour = map_.find_element(By.CSS_SELECTOR, "[x='2'][y='1']")
-    said |= {"by_keyboard": read.text, "neighbour": neighbour.get_attribute("data-words")}
-    boxes = [map_.get_dom_attribute("viewBox")]
-    for button in view.find_elements(By.CSS_SELECTOR, "[data-zoom]"):
-        button.click()
-        boxes.append(map_.get_dom_attribute("viewBox"))
-    return {**said, "boxes": boxes}
+def of_play(chrome: Chrome) -> dict[str, dict]:
+    """What is read and drawn at first, by keys along a slider, by the map and after a button."""
+    view = chrome.find_element(By.ID, "play-view")
+    seen = {"first": shown_motion(view)}
+    Select(view.find_element(By.TAG_NAME, "select")).select_by_index(0)
+    slider, other = (view.find_element(By.ID, f"play-{name}") for name in ("epsilon", "tau"))
+    for one in (slider, other):
+        one.send_keys(Keys.HOME)
+    for i in range(4):
+        seen[f"key {i}"] = shown_motion(view)
+        slider.send_keys(Keys.ARROW_RIGHT)
+    other.send_keys(Keys.END)
+    seen["not computed"] = shown_motion(view)
+    map_ = view.find_element(By.CSS_SELECTOR, ".play-map")
+    # left of the middle, in the upper half
+    ActionChains(chrome).move_to_element_with_offset(map_, -30, -30).click().perform()
+    seen["touched"] = shown_motion(view)
+    view.find_element(By.CSS_SELECTOR, ".play-scenes button").click()
+    return {**seen, "button": shown_motion(view)}
+
+
+def shown_motion(view) -> dict:
+    """The words, the values of the sliders, and the boxes around the two curves."""
+    curves = view.find_elements(By.CSS_SELECTOR, "path.motion")
+    return {
+        "class": view.find_element(By.CSS_SELECTOR, ".play-class").text,
+        "more": view.find_element(By.CSS_SELECTOR, ".play-more").text,
+        "values": [output.text for output in view.find_elements(By.TAG_NAME, "output")],
+        "segments": [curve.get_attribute("d").count("C") for curve in curves],
+        "ticks": [tick.text for tick in view.find_elements(By.CSS_SELECTOR, ".play-time text")],
+    }
 
 
 def of_claims(chrome: Chrome) -> dict:
@@ -215,7 +226,7 @@ def visit(chrome: Chrome, page: Path, folder: Path) -> dict:
     chrome.get(page.resolve().as_uri())
     for details in chrome.find_elements(By.CSS_SELECTOR, "details.appendix:not([open]) > summary"):
         details.click()
-    seen |= {"trajectories": of_trajectories(chrome), "atlas": of_atlas(chrome)}
+    seen |= {"trajectories": of_trajectories(chrome), "play": of_play(chrome)}
     for details in chrome.find_elements(By.CSS_SELECTOR, "details:not([open]) > summary"):
         chrome.execute_script("arguments[0].parentElement.open = true", details)
     for scheme in SCHEMES:

@@ -1,0 +1,154 @@
+"""Data of the view in which a reader moves the parameters: class and path of points of the atlas.
+
+The file is a script, because a page that is opened as a file may load no other data.
+"""
+
+import base64
+import json
+import math
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+
+from scripts.files.inputs import read
+from scripts.files.outputs import logged, written
+from scripts.files.tsv import read_table
+from scripts.page.page_views import exponents, motion
+from scripts.tables.motion_rows import COLOURS, is_computed, kind_of, nearest_alike
+
+KINDS = list(COLOURS)
+"""A kind of motion is stored as its place here."""
+STEPS = 1000
+"""Steps of time along a path. With `LEVELS` it is the resolution of the plot in pixels."""
+LEVELS = 255
+"""Levels of u and of ln v between the least and the largest value of a path, in one byte."""
+LONGEST_GAP = 255
+"""Most steps of time between two points, in one byte."""
+
+
+def planes(
+    rows: list[dict], paths: Sequence[np.ndarray | None], times: Sequence[float]
+) -> list[dict]:
+    """Planes of the atlas in the order of the rows, each with the motions of its points.
+
+    There is one row, one path and one length of the path in time for each point.
+    """
+    points = list(zip(rows, paths, times, strict=True))
+    places = dict.fromkeys((row["xi"], row["gamma"]) for row in rows)
+    return [
+        plane([point for point in points if (point[0]["xi"], point[0]["gamma"]) == place])
+        for place in places
+    ]
+
+
+def plane(points: list[tuple[dict, np.ndarray | None, float]]) -> dict:
+    """Axes, kinds and paths of a plane: points along epsilon, from the least tau upwards."""
+    points = sorted(points, key=lambda point: (point[0]["tau"], point[0]["epsilon"]))
+    rows = [row for row, _, _ in points]
+    columns, lines = (sorted({row[key] for row in rows}) for key in ("epsilon", "tau"))
+    kinds = np.array([KINDS.index(kind_of(row)) for row in rows])
+    computed = np.array([is_computed(row) for row in rows])
+    shape = len(lines), len(columns)
+    alike = np.array([KINDS.index(kind_of(row)) + len(KINDS) * period_of(row) for row in rows])
+    across, along = nearest_alike(alike.reshape(shape), computed.reshape(shape))
+    return {
+        "xi": rows[0]["xi"],
+        "gamma": rows[0]["gamma"],
+        "epsilon": columns,
+        "tau": lines,
+        "time": float(max(time for _, _, time in points)),
+        "kinds": "".join(map(str, kinds)),
+        "shown": (across * len(columns) + along).ravel().tolist(),
+        "words": {i: in_words(row) for i, row in enumerate(rows) if is_computed(row)},
+        "paths": base64.b64encode(
+            b"".join(
+                packed(i, path, time)
+                for i, (_, path, time) in enumerate(points)
+                if path is not None
+            )
+        ).decode(),
+    }
+
+
+def period_of(row: dict) -> int:
+    """Points of a cycle in the section, 0 for other motions."""
+    return int(row["period"]) if row["class"] == "cycle" and row["period"] > 0 else 0
+
+
+def in_words(row: dict) -> list[str]:
+    """Class, exponents, and period or base frequencies."""
+    return [motion(row), exponents(row), frequencies(row)]
+
+
+def frequencies(row: dict) -> str:
+    """The period of a cycle, or both base frequencies of a torus, as far as they are known."""
+    if row["class"] == "cycle" and not math.isnan(row["f1"]):
+        return f"period {1 / row['f1']:.4g} (units of L/v₀)"
+    if row["class"] == "torus" and not math.isnan(row["f2"]):
+        return f"base frequencies {row['f1']:.4g} and {row['f2']:.4g} (units of v₀/L)"
+    return ""
+
+
+def paths_of(run: xr.Dataset) -> list[np.ndarray | None]:
+    """The path of each point, shape (3, its length): time, u and ln v; None where there is none."""
+    if "path_time" not in run:
+        return [None] * run.sizes["point"]
+    columns = np.array([run[key].values for key in ("path_time", "path_u", "path_ln_v")])
+    ends = np.cumsum(run.path_length.values)
+    return [
+        columns[:, end - length : end] if length else None
+        for end, length in zip(ends, run.path_length.values, strict=True)
+    ]
+
+
+def packed(number: int, path: np.ndarray, time: float) -> bytes:
+    """A path as bytes, the lowest first, for a path of this length in time.
+
+    - number of the point and of points along the path, 4 bytes each;
+    - least and largest u, least and largest ln v, real numbers of 4 bytes;
+    - for each point along the path 3 bytes: steps of time from the point before, u and ln v.
+    """
+    steps = np.rint(path[0] / time * STEPS).astype(int)
+    where = [0, *np.cumsum([max(1, -(-gap // LONGEST_GAP)) for gap in np.diff(steps)])]
+    fine = np.arange(where[-1] + 1)
+    steps = np.rint(np.interp(fine, where, steps)).astype(int)
+    values = np.array([np.interp(fine, where, column) for column in path[1:]]).astype("<f4")
+    least, largest = values.min(axis=1), values.max(axis=1)
+    extent = np.where(largest > least, largest - least, 1)
+    levels = np.rint((values - least[:, None]) / extent[:, None] * LEVELS)
+    columns = np.array([np.diff(steps, prepend=0), *levels]).astype(np.uint8)
+    head = np.array([number, fine.size], dtype="<u4").tobytes()
+    ranges = np.array([least, largest]).T.astype("<f4").tobytes()
+    return head + ranges + columns.T.tobytes()
+
+
+def script(rows: list[dict], runs: list[xr.Dataset], scenes: dict[str, dict]) -> str:
+    """The whole file: planes of the atlas, and the scenes on them by name."""
+    of_runs = [(path, run.attrs.get("t_path", 0.0)) for run in runs for path in paths_of(run)]
+    paths, times = zip(*of_runs, strict=True)
+    found = planes(rows, paths, times)
+    places = {(one["xi"], one["gamma"]): i for i, one in enumerate(found)}
+    on_planes = [
+        {
+            "name": name.replace("_", " "),
+            "plane": places[at],
+            **{key: scene[key] for key in ("epsilon", "tau")},
+        }
+        for name, scene in scenes.items()
+        if (at := (scene["xi"], scene["gamma"])) in places
+    ]
+    data = {"steps": STEPS, "levels": LEVELS, "planes": found, "scenes": on_planes}
+    text = json.dumps(data, ensure_ascii=False, separators=(",", ":"))
+    return f'"use strict";\nconst playData = {text};\n'
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        text = script(
+            [row for path in snakemake.input.tables for row in read_table(path)],
+            [read(path) for path in snakemake.input.runs],
+            snakemake.params.scenes,
+        )
+        with written(snakemake.output[0]) as path:
+            path.write_text(text)

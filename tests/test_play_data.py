@@ -1,0 +1,160 @@
+"""Data of the view in which a reader moves the parameters: each point has its class and path."""
+
+import base64
+import json
+import struct
+
+import made_up_page
+import numpy as np
+import pytest
+import xarray as xr
+from made_up_page import atlas_run, attractor, turn
+
+from scripts.files.tsv import read_table
+from scripts.page import play_data
+from scripts.tables.motion_rows import COLOURS, kind_of
+
+KINDS = list(COLOURS)
+
+
+def read(text: str) -> dict:
+    """The object of a file."""
+    head, _, value = text.removesuffix(";\n").partition("const playData = ")
+    assert head == '"use strict";\n'
+    return json.loads(value)
+
+
+def unpacked(text: str, time: float) -> dict[int, np.ndarray]:
+    """Paths by the number of their point, as `packed` describes its bytes."""
+    data = base64.b64decode(text)
+    found, at = {}, 0
+    while at < len(data):
+        number, size, *ranges = struct.unpack_from("<IIffff", data, at)
+        columns = np.frombuffer(data, np.uint8, 3 * size, at + 24).reshape(size, 3).T
+        (u_least, u_most), (ln_v_least, ln_v_most) = ranges[:2], ranges[2:]
+        found[number] = np.array(
+            [
+                np.cumsum(columns[0].astype(int)) / play_data.STEPS * time,
+                u_least + columns[1] / play_data.LEVELS * (u_most - u_least),
+                ln_v_least + columns[2] / play_data.LEVELS * (ln_v_most - ln_v_least),
+            ]
+        )
+        at += 24 + 3 * size
+    return found
+
+
+@pytest.fixture(scope="module")
+def made_up() -> dict:
+    """The data of the made-up page."""
+    return read(made_up_page.play())
+
+
+def test_paths_are_those_of_their_points(made_up):
+    """To half a step of time and half a level of u and ln v; points at rest have none."""
+    first, _ = made_up["planes"]
+    paths = unpacked(first["paths"], first["time"])
+    assert list(paths) == [1, 2, 3, 5, 6]
+    for number, given in ((1, turn(10.0, 3.0)), (6, turn(20.0, 5.0))):
+        found = paths[number]
+        assert found.shape == given.shape
+        np.testing.assert_allclose(found[0], given[0], atol=0.51 * 60 / play_data.STEPS)
+        for column in (1, 2):
+            level = np.ptp(given[column]) / play_data.LEVELS
+            np.testing.assert_allclose(found[column], given[column], atol=0.51 * level)
+
+
+def test_path_with_a_long_gap_has_points_between():
+    """A gap of 40 of 60 units of time, where a byte holds 15; the line is the same."""
+    path = np.array([[0.0, 1.2, 41.4, 60.0], [0.0, 2.0, -6.0, 4.0], [0.0, 1.0, -3.0, 2.0]])
+    packed = base64.b64encode(play_data.packed(7, path, 60.0)).decode()
+    ((number, found),) = unpacked(packed, 60.0).items()
+    assert number == 7
+    assert found.shape[1] > 4
+    for column in (1, 2):
+        expected = np.interp(found[0], path[0], path[column])
+        np.testing.assert_allclose(found[column], expected, atol=0.05)
+    assert set(np.round(path[0], 6)) <= set(np.round(found[0], 6))
+
+
+def test_point_without_extent_is_packed():
+    """A path of which u does not change."""
+    path = np.array([[0.0, 30.0, 60.0], [1.5] * 3, [0.0, 1.0, 0.0]])
+    packed = base64.b64encode(play_data.packed(0, path, 60.0)).decode()
+    (found,) = unpacked(packed, 60.0).values()
+    assert set(found[1]) == {1.5}
+
+
+def test_planes_have_axes_classes_and_words(made_up):
+    """Point by point along epsilon, from the least tau upwards."""
+    first, second = made_up["planes"]
+    assert (first["xi"], second["xi"], first["gamma"], first["time"]) == (0.5, 0.8, 0.8, 60.0)
+    assert (first["epsilon"], first["tau"]) == ([0.1, 0.2, 0.3, 0.4], [0.0, 5.0])
+    kinds = [KINDS[int(digit)] for digit in first["kinds"]]
+    assert kinds == 2 * ["fixed point", "cycle", "cycle of period > 1", "chaos"]
+    assert first["words"]["1"] == [
+        "cycle",
+        "-0.01 ± 0.001, -0.02 ± 0.001, -0.03 ± 0.001",
+        "period 10 (units of L/v₀)",
+    ]
+    assert first["words"]["2"][0] == "cycle of period 2 in its section"
+    assert first["words"]["2"][2] == "period 20 (units of L/v₀)"
+    assert first["words"]["3"][2] == ""
+
+
+def test_point_that_was_not_computed_shows_the_nearest_of_its_class(made_up):
+    """All others show themselves."""
+    first, second = made_up["planes"]
+    assert first["shown"] == [0, 1, 2, 3, 4, 5, 6, 3]
+    assert "7" not in first["words"]
+    assert second["shown"] == list(range(8))
+
+
+def test_cycle_that_was_not_computed_shows_one_of_its_period():
+    """Not the nearer one of another period."""
+    rows = [
+        attractor(0.1 * i, 0.0, period=period, f1=0.1, f2=np.nan)
+        for i, period in enumerate((4.0, 2.0, 4.0))
+    ]
+    rows[2]["computed"] = "no"
+    (plane,) = read(play_data.script(rows, [atlas_run(None, None, None)], {}))["planes"]
+    assert plane["shown"] == [0, 1, 0]
+
+
+def test_torus_and_failed_run_in_words():
+    """Both base frequencies; why there is no class."""
+    torus = attractor(0.1, 0.0, f1=0.1, f2=0.0437, **{"class": "torus"})
+    assert play_data.in_words(torus)[2] == "base frequencies 0.1 and 0.0437 (units of v₀/L)"
+    failed = attractor(0.1, 0.0, f1=np.nan, f2=np.nan, problem="too stiff")
+    failed |= {"class": "undecided", **{f"exponent_{i}": np.nan for i in (1, 2, 3)}}
+    assert play_data.in_words(failed) == ["no result: too stiff", "", ""]
+
+
+def test_scenes_lie_on_their_planes(made_up):
+    """Those of no plane are left out."""
+    assert made_up["scenes"] == [{"name": "my scene", "plane": 1, "epsilon": 0.21, "tau": 4.0}]
+    elsewhere = {"one": {"xi": 0.7, "gamma": 0.8, "epsilon": 0.1, "tau": 0.0}}
+    rows = [attractor(0.1, 0.0, f1=np.nan, f2=np.nan)]
+    assert read(play_data.script(rows, [atlas_run(None)], elsewhere))["scenes"] == []
+
+
+def test_smoke_run_has_each_point_of_its_atlas(smoke):
+    """Classes are those of the table, paths those of the NetCDF files."""
+    results = smoke.folder / "results"
+    found = read((results / "page" / "play-data.js").read_text())
+    rows = read_table(results / "tables" / "atlas.tsv")
+    drawn = 0
+    for plane in found["planes"]:
+        places = {
+            (row["epsilon"], row["tau"]): row
+            for row in rows
+            if (row["xi"], row["gamma"]) == (plane["xi"], plane["gamma"])
+        }
+        cells = [(epsilon, tau) for tau in plane["tau"] for epsilon in plane["epsilon"]]
+        assert [KINDS[int(kind)] for kind in plane["kinds"]] == [
+            kind_of(places[cell]) for cell in cells
+        ]
+        assert plane["time"] == 20.0
+        drawn += len(unpacked(plane["paths"], plane["time"]))
+    files = sorted((results / "attractors" / "atlas").glob("*/*.nc"))
+    assert drawn == sum(int((xr.load_dataset(path).path_length > 0).sum()) for path in files)
+    assert drawn > 0
