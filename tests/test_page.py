@@ -10,7 +10,7 @@ import made_up_page
 import numpy as np
 import pytest
 import xarray as xr
-from conftest import SMOKE, rules_in
+from conftest import ROOT, SMOKE, rules_in
 from docutils.utils import SystemMessage
 from jinja2 import UndefinedError
 from made_up_page import attractor, claim, content, figure, run

@@ -23,8 +23,8 @@ module attractors
    !> Parts of the approach, after each of which rest and cycles are looked for.
    integer, parameter :: approach_parts = 10
    !> How close the line that is kept of a path is to it, as a share of its extent: one pixel in a
-   !> plot of 250 pixels, and of 1000 for a cycle.
-   real(wp), parameter :: closeness_of_path = 1.0_wp/250.0_wp, closeness_of_cycle = 1.0e-3_wp
+   !> plot of 250 pixels, and of 500 for a cycle.
+   real(wp), parameter :: closeness_of_path = 1.0_wp/250.0_wp, closeness_of_cycle = 1.0_wp/500.0_wp
 
 contains
 
