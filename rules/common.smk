@@ -60,6 +60,7 @@ LEDGER_TABLES = {
     "attractors": "results/tables/attractors.tsv",
     "atlas": "results/tables/atlas.tsv",
     "routes": result_files.tables_of_routes(config),
+    "cycle_points": "results/tables/cycle-points.tsv",
 }
 
 
