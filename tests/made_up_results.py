@@ -151,8 +151,11 @@ def followed_cycles(along: str = "tau", **fixed: float) -> xr.Dataset:
     )
 
 
-def cycles_to_a_torus(along: str = "tau", **fixed: float) -> xr.Dataset:
-    """A branch with a torus bifurcation at 0.25, beyond which its cycles are unstable."""
+def cycles_to_a_torus(along: str = "tau", cusps: int = 0, **fixed: float) -> xr.Dataset:
+    """A branch with a torus bifurcation at 0.25, beyond which its cycles are unstable, and cusps.
+
+    All cusps are at the same place.
+    """
     place = {key: value for key, value in {**PLACE, **fixed}.items() if key != along}
     orbits = {
         along: [0.1, 0.2, 0.3, 0.4],
@@ -175,10 +178,13 @@ def cycles_to_a_torus(along: str = "tau", **fixed: float) -> xr.Dataset:
         "multiplier_error": [1e-12],
         "mesh_error": [2e-12],
     }
+    cusp = {**PLACE, "tau": 3.5, "period": 9.0, "v_most": 2.5}
+    cusp |= {"multiplier_error": 1e-4, "mesh_error": 1e-10}
     return xr.Dataset(
         {
             **{name: ("orbit", values) for name, values in orbits.items()},
             **{f"special_{name}": ("special", values) for name, values in points.items()},
+            **{f"cusp_{name}": ("cusp", [value] * cusps) for name, value in cusp.items()},
             "multiplier_real": (("orbit", "multiplier"), [[0.3], [0.54], [0.66], [0.8]]),
             "multiplier_imaginary": (("orbit", "multiplier"), [[0.4], [0.72], [0.88], [0.7]]),
             "branch_origin": ("branches", ["hopf".ljust(16)]),

@@ -160,7 +160,7 @@ def test_scene_below_the_hopf_curve_oscillates_no_more(scratch, epsilon, verdict
 def test_bad_list_of_claims_is_refused_in_words(scratch):
     """Before anything runs, without a traceback of Python."""
     path = scratch.folder / "config" / "claims.yaml"
-    path.write_text(path.read_text().replace("expected: torus }", "expected: ring }", 1))
+    path.write_text(path.read_text().replace("expected: chaos }", "expected: ring }", 1))
     before = scratch.outputs()
     run = scratch.snakemake(*SMOKE)
     assert run.returncode != 0

@@ -75,6 +75,18 @@ def test_columns_of_a_torus_point():
     assert (row["tau"], row["angle"], row["resonance"]) == ("0.25", "0.24", "1:4")
 
 
+def test_a_cusp_lies_beside_the_line():
+    """It has parameters and errors, but neither branch nor stability."""
+    row = rows_of("mine", cycles_to_a_torus(cusps=1), [])[1]
+    assert set(row) == set(COLUMNS)
+    filled = {key: value for key, value in row.items() if value != ""}
+    place = {"tau": "3.5", "epsilon": "0.5", "xi": "0.8", "gamma": "0.8"}
+    assert filled == {
+        **{"of": "mine", "kind": "cusp", "period": "9", "v_most": "2.5", **place},
+        **{"confirmed": "not simulated", "multiplier_error": "0.0001", "mesh_error": "1e-10"},
+    }
+
+
 def test_cycles_at_a_value_of_the_parameter():
     """Between the points of a branch; a closed one ends at its first orbit."""
     found = cycles_there(cycles_to_a_torus(), 0.24)

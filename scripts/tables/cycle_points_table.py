@@ -31,7 +31,7 @@ def rows_of(line: str, cycles: xr.Dataset, swept: list[dict]) -> list[dict]:
     kinds = np.char.strip(cycles.special_kind.values.astype(str))
     origins = np.char.strip(cycles.branch_origin.values.astype(str))
     points = [cycles.isel(special=i) for i in range(kinds.size)]
-    return [
+    rows = [
         {
             "of": line,
             "branch": int(point.special_branch),
@@ -48,6 +48,19 @@ def rows_of(line: str, cycles: xr.Dataset, swept: list[dict]) -> list[dict]:
         }
         for kind, point in zip(kinds, points, strict=True)
     ]
+    return rows + [cusp_row(line, cycles.isel(cusp=i)) for i in range(cycles.sizes["cusp"])]
+
+
+def cusp_row(line: str, cusp: xr.Dataset) -> dict:
+    """A cusp of a curve of folds that starts on the line; it lies beside the line, on no branch."""
+    return {
+        **dict.fromkeys(COLUMNS, ""),
+        "of": line,
+        "kind": "cusp",
+        **{key: digits(cusp[f"cusp_{key}"], 12) for key in NUMBERS},
+        "confirmed": "not simulated",
+        **{key: f"{float(cusp[f'cusp_{key}']):.2g}" for key in ERRORS},
+    }
 
 
 def resonance(point: xr.Dataset) -> str:
