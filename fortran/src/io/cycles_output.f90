@@ -269,7 +269,7 @@ contains
             call add_cusps(curves(i)%parts(k)%cusps)
          end do
       end do
-      rows = file%dimension("cusp", size(number))
+      rows = file%dimension("cusp", size(number), coordinates="cusp_tau cusp_epsilon")
       do i = 1, 4
          id(i) = file%real_variable("cusp_"//trim(names_along(i)), rows, &
                                     trim(names_along(i))//" of a cusp of a curve of folds", "1")
