@@ -5,7 +5,8 @@ module cycle_families
    use problem_family, only: problem_family_type
    implicit none (type, external)
    private
-   public :: delayed_cubic, delayed_sine, driven_growth, duffing, known_family, mackey_glass, neurons
+   public :: delayed_cubic, delayed_sine, driven_growth, duffing, known_family, mackey_glass, &
+             neurons
 
    !> Equations:
    !>

@@ -9,7 +9,7 @@ module test_block_cycles
                           find_hopf_starts, hopf_start_type
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
-   use expectations, only: expect, expect_close, expect_success
+   use expectations, only: expect, expect_between, expect_close, expect_success
    use hopf_curves, only: curve_point_type, trace_curves
    use hopf_planes, only: tau_plane_type
    use hopf_points, only: find_hopf_points, hopf_point_type, judge_points
@@ -32,7 +32,7 @@ contains
                    new_unittest("lines along xi and gamma", test_other_lines)]
    end subroutine collect_block_cycles
 
-   !> They fulfil (5) and lie on the line; a line in tau through one along another parameter meets it.
+   !> They fulfil (5) and lie on the line. A line in tau through one meets it.
    subroutine test_hopf_starts(error)
       type(error_type), allocatable, intent(out) :: error
       type(cycle_line_type) :: line
@@ -54,7 +54,7 @@ contains
          do i = 1, size(starts)
             associate (p => starts(i)%parameters)
                place = vector_of(p)
-               call expect(error, place(along(j)) > 0.01_wp .and. place(along(j)) < 2.0_wp, "window")
+               call expect_between(error, place(along(j)), 0.01_wp, 2.0_wp, "window")
                place(along(j)) = known(along(j))
                call expect_close(error, place, known, 1.0e-9_wp, "the line")
                call expect_close(error, relative_residual(p, cmplx(0.0_wp, starts(i)%omega, wp)), &

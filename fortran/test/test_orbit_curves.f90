@@ -175,9 +175,9 @@ contains
       if (allocated(error)) return
       associate (found => curve%cusps(1))
          call expect(error, found%kind == cusp, "its kind")
-         call expect_close(error, found%orbit%parameters, [0.0_wp, 0.0_wp], 1.0e-8_wp, "its place")
+         call expect_close(error, found%orbit%parameters, [0.0_wp, 0.0_wp], 1.0e-9_wp, "its place")
          call expect_close(error, found%orbit%amplitude(), 2.0_wp, 1.0e-3_wp, "its amplitude")
-         call expect(error, found%mesh_error < 1.0e-8_wp, "two meshes agree")
+         call expect(error, found%mesh_error < 1.0e-9_wp, "two meshes agree")
       end associate
    end subroutine test_cusp
 end module test_orbit_curves

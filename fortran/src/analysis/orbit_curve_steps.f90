@@ -1,5 +1,5 @@
-!> Steps along a curve of special points of periodic orbits: a point is sought beside the direction of
-!> the curve, by the secant method.
+!> Steps along a curve of special points of periodic orbits: the next point is sought beside the
+!> direction of the curve, by the secant method.
 module orbit_curve_steps
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp

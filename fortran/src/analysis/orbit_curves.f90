@@ -33,7 +33,7 @@ module orbit_curves
    real(wp), parameter :: finer = 1.5_wp
    !> Iterations of the search for a cusp, and the share of the step to which it goes
    integer, parameter :: most_iterations = 40
-   real(wp), parameter :: share_at_cusp = 1.0e-8_wp
+   real(wp), parameter :: share_at_cusp = 1.0e-6_wp
 
 contains
 
@@ -52,10 +52,10 @@ contains
       !> The point has no curve
       type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: failure
-      type(frame_type) :: earlier, frame, next_frame
+      type(frame_type) :: earlier(2), frame, next_frame
       type(special_point_type) :: next
-      real(wp) :: step, step_before
-      integer :: evaluations, i
+      real(wp) :: step, steps(2)
+      integer :: evaluations, i, j
       logical :: exact, found, passed, passes
 
       allocate (curve%points(settings%most_points), curve%cusps(0))
@@ -71,6 +71,7 @@ contains
       passed = .false.
       exact = .true.
       step = settings%first_step
+      steps = step
       i = 1
       do while (i < settings%most_points)
          next = curve%points(i)
@@ -90,17 +91,20 @@ contains
          end if
          passed = .false.
          exact = .false.
-         if (sum(frame%directions(1)%parameters*next_frame%directions(1)%parameters) < 0.0_wp &
-             .and. next%kind == fold) then
-            call find_cusp(family, settings, curve%points(i), frame, step, curve%cusps, found)
-            ! the direction that turned was not exact
-            if (.not. found .and. i > 1) then
-               call find_cusp(family, settings, curve%points(i - 1), earlier, step_before, &
-                              curve%cusps, found)
+         if (start%kind == fold .and. i > 1) then
+            if (dot_product(earlier(1)%directions(1)%parameters, frame%directions(1)%parameters) &
+                < 0.0_wp) then
+               ! the directions may not be exact, so the cusp may lie in the step before
+               do j = 1, min(2, i - 1)
+                  call find_cusp(family, settings, curve%points(i - j), earlier(j), steps(j), &
+                                 curve%cusps, found)
+                  if (found) exit
+               end do
             end if
          end if
-         earlier = frame
-         step_before = step
+         earlier(2) = earlier(1)
+         earlier(1) = frame
+         steps = [step, steps(1)]
          frame = next_frame
          i = i + 1
          curve%points(i) = next

@@ -260,8 +260,7 @@ contains
       type(cycle_curve_type), intent(in) :: curves(:)
       integer :: i, id(8), k, rows
       integer, allocatable :: number(:)
-      real(wp) :: columns(8, sum([(size(curves(i)%parts(1)%cusps) + size(curves(i)%parts(2)%cusps), &
-                                   i=1, size(curves))]))
+      real(wp) :: columns(8, sum([((size(curves(i)%parts(k)%cusps), k=1, 2), i=1, size(curves))]))
 
       allocate (number(0))
       do i = 1, size(curves)
@@ -295,10 +294,10 @@ contains
 
          do j = 1, size(cusps)
             number = [number, i]
-            associate (orbit => cusps(j)%orbit)
-               columns(:4, size(number)) = orbit%parameters
-               columns(5:, size(number)) = [orbit%period, exp(maxval(orbit%range_of(index_of_ln_v))), &
-                                            cusps(j)%trivial_error, cusps(j)%mesh_error]
+            associate (orbit => cusps(j)%orbit, column => columns(:, size(number)))
+               column(:4) = orbit%parameters
+               column(5:) = [orbit%period, exp(maxval(orbit%range_of(index_of_ln_v))), &
+                             cusps(j)%trivial_error, cusps(j)%mesh_error]
             end associate
          end do
       end subroutine add_cusps

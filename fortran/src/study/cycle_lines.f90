@@ -9,7 +9,8 @@ module cycle_lines
                              largest_omega, two_pi
    implicit none (type, external)
    private
-   public :: along_epsilon, along_gamma, along_tau, along_xi, cycle_line_type, find_hopf_starts, hopf_start_type
+   public :: along_epsilon, along_gamma, along_tau, along_xi, cycle_line_type, find_hopf_starts, &
+             hopf_start_type
 
    !> Numbers of the parameters along which a line may run, in the order of the family of blocks.
    integer, parameter :: along_tau = 1, along_epsilon = 2, along_xi = 3, along_gamma = 4
@@ -63,13 +64,14 @@ contains
       miss%line = line
       associate (p => line%parameters)
          largest = largest_omega(p%epsilon)
-         branches = 0
          select case (line%along)
          case (along_tau)
             branches = int(line%window(2)*largest/two_pi) + 1
          case (along_epsilon)
             largest = largest_omega(line%window(2))
             branches = int(p%tau*largest/two_pi) + 1
+         case default
+            branches = 0
          end select
          do k = 0, branches
             miss%k = k
