@@ -23,8 +23,8 @@ def torus_of_scene(results: Results, *, scene: str) -> Finding:
     found = cycles_at(results, scene)
     evidence = f"{by_runs.evidence} {cycles_in_words(found)}"
     if by_runs.verdict == REPRODUCED and has_stable(found):
-        return Finding(CORRECTED, evidence)
-    return Finding(by_runs.verdict, evidence)
+        return Finding(CORRECTED, evidence, "There is a stable limit cycle, too.")
+    return Finding(by_runs.verdict, evidence, by_runs.instead)
 
 
 def second_hopf(results: Results, *, scene: str) -> Finding:
@@ -35,15 +35,15 @@ def second_hopf(results: Results, *, scene: str) -> Finding:
     """
     own = results.attractors_of(scene)[0]
     found = cycles_at(results, scene)
-    parts, elsewhere = [], False
+    parts, elsewhere = [], []
     for cycles in lines_through(results, scene).values():
         along = cycles.attrs["along"]
         fixed = {key: cycles.attrs[key] for key in PARAMETERS if key != along}
         places = [short(point[along]) for point in torus_points(results, fixed)]
-        elsewhere = elsewhere or bool(places)
         where = ", ".join(f"{key} = {short(value)}" for key, value in fixed.items())
-        at = f"at {along} = {' and '.join(places)}" if places else "none"
-        parts.append(f"{at} along {along} ({where})")
+        at = f"at {along} = {' and '.join(places)}"
+        parts.append(f"{at if places else 'none'} along {along} ({where})")
+        elsewhere += [at] * bool(places)
     evidence = (
         "A second Hopf bifurcation of a cycle is a torus bifurcation: a pair of multipliers leaves"
         f" the unit circle. Class of scene {scene} by its exponents: {own['by_exponents']}."
@@ -54,7 +54,8 @@ def second_hopf(results: Results, *, scene: str) -> Finding:
         return Finding(NOT_REPRODUCED, evidence)
     if own["by_exponents"] == "torus" and not has_stable(found):
         return Finding(REPRODUCED, evidence)
-    return Finding(CORRECTED, f"{evidence} So it occurs at other parameters than the paper's.")
+    instead = f"With all other parameters the same it occurs {' or '.join(elsewhere)}."
+    return Finding(CORRECTED, evidence, instead)
 
 
 def confirmed_by_multipliers(
@@ -88,7 +89,9 @@ def confirmed_by_multipliers(
     )
     if all(agree):
         return Finding(REPRODUCED, evidence)
-    return Finding(CORRECTED if any(agree) else NOT_REPRODUCED, evidence)
+    others = [scene for scene, agrees in zip(scenes, agree, strict=True) if not agrees]
+    instead = f"Roots and multipliers do not agree with the paper for {listed(others)}."
+    return Finding(CORRECTED if any(agree) else NOT_REPRODUCED, evidence, instead)
 
 
 def lines_through(results: Results, scene: str) -> dict[str, xr.Dataset]:

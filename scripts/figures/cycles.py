@@ -18,8 +18,6 @@ from scripts.tables.cycle_branches import branch_of
 
 HEIGHT = 1.7
 """Of a line, in inches."""
-WIDE = 100.0
-"""Greatest v of a line from which its axis is logarithmic."""
 LINES = (
     {"color": INK, "lw": 2.4, "label": "stable cycle"},
     {"color": "C1", "lw": 0.8, "label": "1 unstable multiplier"},
@@ -58,10 +56,7 @@ def draw(lines: dict[str, xr.Dataset], sweeps: Sweeps, scenes: dict[str, dict]) 
         )
         # the names of scenes stand above the dots
         axes.margins(x=0.01, y=0.12)
-        if cycles.v_most.max() > WIDE:
-            axes.set_yscale("log")
-        else:
-            axes.set_ylim(bottom=0)
+        axes.set_ylim(bottom=0)
         mark_scenes(axes, scenes, cycles.attrs, along)
         words = f"{parameters.in_words(cycles.attrs, along)}: {count_in_words(cycles)}"
         axes.set_title(f"$\\bf{{{'abcdefgh'[i % 8]}}}$  {words}")
