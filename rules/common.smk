@@ -60,6 +60,7 @@ LEDGER_TABLES = {
     "attractors": "results/tables/attractors.tsv",
     "atlas": "results/tables/atlas.tsv",
     "routes": result_files.tables_of_routes(config),
+    "cycle_points": "results/tables/cycle-points.tsv",
 }
 
 
@@ -169,15 +170,13 @@ def plane_values(wildcards):
 def cycles_values(wildcards):
     """The line on which cycles are followed, and how, as namelist group."""
     cycles = config["cycles"]
-    shared = {
-        **{
-            key: value
-            for key, value in cycles.items()
-            if key not in ("lines", "curves")
-        },
-        **cycles.get("curves", {}),
-    }
     line = cycles["lines"][wildcards.cycle_line]
+    shared = {
+        key: value for key, value in cycles.items() if key not in ("lines", "curves")
+    }
+    # curves are in planes of epsilon and tau
+    if line["along"] in ("epsilon", "tau"):
+        shared |= cycles.get("curves", {})
     # a namelist has no empty lists
     return {**shared, **{key: value for key, value in line.items() if value != []}}
 

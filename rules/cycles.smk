@@ -39,6 +39,7 @@ rule cycle_points:
     """Table of the points where cycles bifurcate."""
     input:
         cycles=result_files.cycles_of_lines(config),
+        routes=result_files.tables_of_routes(config),
         code=code_of("tables/cycle_points_table.py"),
     output:
         "results/tables/cycle-points.tsv",

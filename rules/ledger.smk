@@ -6,6 +6,7 @@ rule claims:
     input:
         **LEDGER_TABLES,
         curves=expand("results/hopf/{plane}.nc", plane=config["hopf_curves"]),
+        cycles=result_files.cycles_of_lines(config),
         spectra=data_for_claims("spectra"),
         slip_events=data_for_claims("slip_events"),
         friction="results/friction/velocity_step.nc",

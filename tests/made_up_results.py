@@ -43,7 +43,8 @@ def changed(curves: xr.Dataset, **values) -> xr.Dataset:
 def results(**given) -> Results:
     """Results of which a test uses some."""
     empty = {"curves": {}, "friction": xr.Dataset(), "hopf_points": [], "linear_stability": []}
-    empty |= {name: [] for name in ("stability", "attractors", "atlas", "routes")}
+    tables = ("stability", "attractors", "atlas", "routes", "cycle_points")
+    empty |= {name: [] for name in tables} | {"cycles": {}}
     return Results(**{**empty, "spectra": {}, "slip_events": {}, **given})
 
 
@@ -148,6 +149,55 @@ def followed_cycles(along: str = "tau", **fixed: float) -> xr.Dataset:
         },
         attrs={"along": along, **place},
     )
+
+
+def cycles_to_a_torus(along: str = "tau", cusps: int = 0, **fixed: float) -> xr.Dataset:
+    """A branch with a torus bifurcation at 0.25, beyond which its cycles are unstable, and cusps.
+
+    All cusps are at the same place.
+    """
+    place = {key: value for key, value in {**PLACE, **fixed}.items() if key != along}
+    orbits = {
+        along: [0.1, 0.2, 0.3, 0.4],
+        "v_most": [1.1, 1.2, 1.3, 1.4],
+        "branch": [1] * 4,
+        "unstable": [0, 0, 2, 2],
+    }
+    points = {
+        "kind": ["torus".ljust(20)],
+        **{key: [value] for key, value in place.items()},
+        along: [0.25],
+        "v_most": [1.25],
+        "branch": [1],
+        "unstable_before": [0],
+        "unstable_behind": [2],
+        "period": [5.0],
+        "angle": [0.24],
+        "resonance_turns": [1],
+        "resonance_periods": [4],
+        "multiplier_error": [1e-12],
+        "mesh_error": [2e-12],
+    }
+    cusp = {**PLACE, "tau": 3.5, "period": 9.0, "v_most": 2.5}
+    cusp |= {"multiplier_error": 1e-4, "mesh_error": 1e-10}
+    return xr.Dataset(
+        {
+            **{name: ("orbit", values) for name, values in orbits.items()},
+            **{f"special_{name}": ("special", values) for name, values in points.items()},
+            **{f"cusp_{name}": ("cusp", [value] * cusps) for name, value in cusp.items()},
+            "multiplier_real": (("orbit", "multiplier"), [[0.3], [0.54], [0.66], [0.8]]),
+            "multiplier_imaginary": (("orbit", "multiplier"), [[0.4], [0.72], [0.88], [0.7]]),
+            "branch_origin": ("branches", ["hopf".ljust(16)]),
+            "branch_ending": ("branches", ["window".ljust(16)]),
+        },
+        attrs={"along": along, **place},
+    )
+
+
+def torus_point(at: float = 0.25, **given) -> dict:
+    """A row of cycle-points.tsv: a torus bifurcation of a stable cycle along tau."""
+    stable = {"kind": "torus", "unstable_before": 0.0, "unstable_behind": 2.0}
+    return {"of": "mine", **PLACE, "tau": at, **stable, **given}
 
 
 def spectrum(kind: str = "one base", **heights: float) -> xr.Dataset:

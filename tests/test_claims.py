@@ -93,12 +93,14 @@ def test_files_are_read_by_name(tmp_path):
     spectrum(x1=1.0).to_netcdf(tmp_path / "a_spectrum.nc")
     slip_events().to_netcdf(tmp_path / "some_events.nc")
     names = ["hopf_points", "linear_stability", "stability", "attractors", "atlas", "routes"]
+    names.append("cycle_points")
     for name in names:
         write_table(tmp_path / name, [{"scene": name}])
     found = read_results(
         str(tmp_path / "friction.nc"),
         {
             "curves": [str(tmp_path / "a_plane.nc")],
+            "cycles": [],
             "spectra": [str(tmp_path / "a_spectrum.nc")],
             "slip_events": [str(tmp_path / "some_events.nc")],
         },
@@ -158,7 +160,7 @@ def test_scene_below_the_hopf_curve_oscillates_no_more(scratch, epsilon, verdict
 def test_bad_list_of_claims_is_refused_in_words(scratch):
     """Before anything runs, without a traceback of Python."""
     path = scratch.folder / "config" / "claims.yaml"
-    path.write_text(path.read_text().replace("expected: torus }", "expected: ring }", 1))
+    path.write_text(path.read_text().replace("expected: chaos }", "expected: ring }", 1))
     before = scratch.outputs()
     run = scratch.snakemake(*SMOKE)
     assert run.returncode != 0

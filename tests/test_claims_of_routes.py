@@ -1,7 +1,7 @@
 """Verdicts on what changes along a parameter, on made-up tables of routes."""
 
 import pytest
-from made_up_results import attractor_row, results, route_rows, stability_row
+from made_up_results import attractor_row, results, route_rows, stability_row, torus_point
 
 from scripts.claims.claims_of_routes import TESTS
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED
@@ -96,22 +96,24 @@ def test_leads_to(first, second, verdict):
 
 
 @pytest.mark.parametrize(
-    ("met", "delays", "along", "verdict"),
+    ("met", "delays", "along", "points", "verdict"),
     [
-        (["cycle", "torus"], [0.1, 7.0], ["chaos"], REPRODUCED),
-        (["cycle", "torus"], [7.0, 7.0], ["cycle", "torus"], CORRECTED),
-        (["cycle", "cycle"], [0.1, 7.0], ["cycle", "torus"], CORRECTED),
-        (["cycle", "cycle"], [0.1, 7.0], ["cycle"], NOT_REPRODUCED),
+        (["cycle", "torus"], [0.1, 7.0], ["chaos"], [], REPRODUCED),
+        (["cycle", "torus"], [7.0, 7.0], ["cycle", "torus"], [torus_point()], CORRECTED),
+        (["cycle", "cycle"], [0.1, 7.0], ["cycle", "torus"], [torus_point()], CORRECTED),
+        (["cycle", "cycle"], [0.1, 7.0], ["cycle", "torus"], [], NOT_REPRODUCED),
+        (["cycle", "cycle"], [0.1, 7.0], ["cycle"], [torus_point()], NOT_REPRODUCED),
     ],
 )
-def test_delays_in_turn(met, delays, along, verdict):
-    """By the scenes and their delays, or by a route at fixed parameters."""
+def test_delays_in_turn(met, delays, along, points, verdict):
+    """By the scenes and their delays, or by a route with a torus bifurcation."""
     made = results(
         attractors=[attractor_row(name, scene) for name, scene in zip(met, "ab", strict=True)],
         linear_stability=[
             stability_row(scene, tau=tau) for scene, tau in zip("ab", delays, strict=True)
         ],
         routes=route_rows(*twice(*along)),
+        cycle_points=points,
     )
     claim = {"scenes": ["a", "b"], "expected": ["cycle", "torus"], "route": "mine"}
     found = TESTS["delays_in_turn"](made, **claim)
@@ -120,23 +122,26 @@ def test_delays_in_turn(met, delays, along, verdict):
 
 
 @pytest.mark.parametrize(
-    ("met", "tau", "verdict"),
+    ("point", "verdict"),
     [
-        ("torus", 0.2, REPRODUCED),
-        ("cycle", 0.2, CORRECTED),
-        ("cycle", 0.4, NOT_REPRODUCED),
+        (torus_point(), REPRODUCED),
+        (torus_point(0.2), REPRODUCED),
+        (torus_point(0.15), NOT_REPRODUCED),
+        (torus_point(0.35), NOT_REPRODUCED),
+        (torus_point(xi=0.5), NOT_REPRODUCED),
+        (torus_point(kind="period_doubling"), NOT_REPRODUCED),
+        (torus_point(unstable_before=1.0), NOT_REPRODUCED),
     ],
 )
-def test_second_zero(met, tau, verdict):
-    """At the scene, or beyond it on the route."""
-    made = results(
-        attractors=[attractor_row(met)],
-        linear_stability=[stability_row(tau=tau)],
-        routes=route_rows(*twice("cycle", "torus")),
-    )
-    found = TESTS["second_zero"](made, scene="mine", route="mine")
+def test_torus_route(point, verdict):
+    """Cycle, torus and chaos in turn, and a torus bifurcation between cycle and torus."""
+    made = results(routes=route_rows(*twice("cycle", "torus", "chaos")), cycle_points=[point])
+    claim = {"routes": ["mine"], "expected": ["cycle", "torus", "chaos"]}
+    found = TESTS["torus_route"](made, **claim)
     assert found.verdict == verdict
-    assert f"by its exponents: {met}." in found.evidence
+    known = "A pair of multipliers of a stable cycle leaves the unit circle at tau = "
+    there = point["kind"] == "torus" and point["xi"] == 0.8 and not point["unstable_before"]
+    assert (f"{known}{point['tau']}." in found.evidence) == there
 
 
 def test_route_without_rows_is_an_error():

@@ -88,10 +88,14 @@ def test_former_section_names_the_new_one(config):
     assert "(is it meant to be 'routes'?)" in refusal(config)
 
 
-def test_atlas_without_planes_is_refused(config):
-    """There would be nothing to draw."""
-    config["atlas"]["planes"] = {}
-    assert "planes = {}; expected " in refusal(config)
+@pytest.mark.parametrize(
+    ("section", "key"), [("atlas", "planes"), ("routes", "lines"), ("cycles", "lines")]
+)
+def test_nothing_to_draw_is_refused(config, section, key):
+    """The line names the key."""
+    config[section][key] = {}
+    (line,) = refusal(config).splitlines()[1:]
+    assert line.startswith(f"config {section}: {key} = {{}}; expected {key}, by name")
 
 
 def test_more_parts_than_delays_are_refused(config):

@@ -183,5 +183,6 @@ def test_atlas_needs_cycles_of_its_planes(config):
         "mine": at,
         "elsewhere": {**at, "gamma": 0.9},
         "beside": {**at, "xi": 0.6},
+        "across": {"along": "xi", "tau": 7.0, "epsilon": 0.7, "gamma": 0.8},
     }
     assert result_files.cycles_in_atlas(config) == ["results/cycles/mine.nc"]

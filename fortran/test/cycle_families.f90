@@ -5,12 +5,16 @@ module cycle_families
    use problem_family, only: problem_family_type
    implicit none (type, external)
    private
-   public :: delayed_sine, driven_growth, duffing, known_family, mackey_glass, neurons
+   public :: delayed_cubic, delayed_sine, driven_growth, duffing, known_family, mackey_glass, &
+             neurons
 
    !> Equations:
    !>
    !>     delayed_sine   x' = -z [1 + (rho - x^2 - z^2)], z = x(t - pi/2); parameter rho.
    !>                    x = sqrt(rho) sin t is a solution.
+   !>     delayed_cubic  x' = -z (1 + a + b s - s^3), s = x^2 + z^2 - 1, z = x(t - pi/2);
+   !>                    parameters a, b. x = sqrt(1 + s) sin t is a solution where
+   !>                    a + b s = s^3: folds at a = -2 s^3, b = 3 s^2, a cusp at a = b = 0
    !>     driven_growth  (x1, x2) turns on the unit circle once in a unit of time,
    !>                    x3' = (a + b x1) x3(t - lag); parameters a, b, lag
    !>     duffing        x'' + d x' + a x + x^3 + b [x - x(t - tau)] = 0; parameters tau, a, b, d:
@@ -19,7 +23,7 @@ module cycle_families
    !>     neurons        two neurons, "neuron" of DDE-BIFTOOL (Shayer and Campbell 2000, SIAM J.
    !>                    Appl. Math. 61, 673); parameter a21
    integer, parameter :: delayed_sine = 1, driven_growth = 2, duffing = 3, mackey_glass = 4, &
-                         neurons = 5
+                         neurons = 5, delayed_cubic = 6
 
    !> Constants of the neurons.
    real(wp), parameter :: kappa = 0.5_wp, beta = -1.0_wp, a12 = 1.0_wp
@@ -61,7 +65,7 @@ contains
       made%equation = self%equation
       made%p = parameters
       select case (self%equation)
-      case (delayed_sine)
+      case (delayed_sine, delayed_cubic)
          made%n = 1
          made%lag = [0.5_wp*pi]
          made%component = [1]
@@ -115,11 +119,15 @@ contains
       real(wp), intent(in) :: y(self%n)
       real(wp), intent(in) :: z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
+      real(wp) :: s
 
       associate (p => self%p)
          select case (self%equation)
          case (delayed_sine)
             dydt(1) = -z(1)*(1.0_wp + p(1) - y(1)**2 - z(1)**2)
+         case (delayed_cubic)
+            s = y(1)**2 + z(1)**2 - 1.0_wp
+            dydt(1) = -z(1)*(1.0_wp + p(1) + p(2)*s - s**3)
          case (driven_growth)
             dydt(1) = -2.0_wp*pi*y(2) + y(1)*(1.0_wp - y(1)**2 - y(2)**2)
             dydt(2) = 2.0_wp*pi*y(1) + y(2)*(1.0_wp - y(1)**2 - y(2)**2)
@@ -144,6 +152,7 @@ contains
       real(wp), intent(in) :: z(size(self%lag))
       real(wp), intent(out) :: by_y(self%n, self%n)
       real(wp), intent(out) :: by_z(self%n, size(self%lag))
+      real(wp) :: s
 
       by_y = 0.0_wp
       by_z = 0.0_wp
@@ -152,6 +161,10 @@ contains
          case (delayed_sine)
             by_y(1, 1) = 2.0_wp*y(1)*z(1)
             by_z(1, 1) = -(1.0_wp + p(1) - y(1)**2 - 3.0_wp*z(1)**2)
+         case (delayed_cubic)
+            s = y(1)**2 + z(1)**2 - 1.0_wp
+            by_y(1, 1) = -2.0_wp*y(1)*z(1)*(p(2) - 3.0_wp*s**2)
+            by_z(1, 1) = -(1.0_wp + p(1) + p(2)*s - s**3) - 2.0_wp*z(1)**2*(p(2) - 3.0_wp*s**2)
          case (driven_growth)
             by_y(1, 1) = 1.0_wp - 3.0_wp*y(1)**2 - y(2)**2
             by_y(1, 2) = -2.0_wp*pi - 2.0_wp*y(1)*y(2)

@@ -1,14 +1,15 @@
 !> Cycles of the block along lines, against its Hopf points and their kinds.
 module test_block_cycles
    use block_cycles, only: cycle_settings_type, cycles_type, find_cycles, left_out_type
+   use block_family, only: parameters_of, vector_of
    use block_parameters, only: block_parameters_type
    use characteristic_function, only: relative_residual
    use cycle_curves, only: cycle_curve_type, find_curves
-   use cycle_lines, only: along_epsilon, along_tau, cycle_line_type, find_hopf_starts, &
-                          hopf_start_type
+   use cycle_lines, only: along_epsilon, along_gamma, along_tau, along_xi, cycle_line_type, &
+                          find_hopf_starts, hopf_start_type
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
-   use expectations, only: expect, expect_close, expect_success
+   use expectations, only: expect, expect_between, expect_close, expect_success
    use hopf_curves, only: curve_point_type, trace_curves
    use hopf_planes, only: tau_plane_type
    use hopf_points, only: find_hopf_points, hopf_point_type, judge_points
@@ -27,39 +28,85 @@ contains
       testsuite = [new_unittest("Hopf points on lines", test_hopf_starts), &
                    new_unittest("folds start at a generalised Hopf point", test_folds), &
                    new_unittest("tori start at a double Hopf point", test_tori), &
-                   new_unittest("a closed branch", test_closed)]
+                   new_unittest("a closed branch", test_closed), &
+                   new_unittest("lines along xi and gamma", test_other_lines)]
    end subroutine collect_block_cycles
 
-   !> They fulfil (5) and lie on the line; a line in tau through one along epsilon meets it.
+   !> They fulfil (5) and lie on the line. A line in tau through one meets it.
    subroutine test_hopf_starts(error)
       type(error_type), allocatable, intent(out) :: error
       type(cycle_line_type) :: line
       type(failure_type), allocatable :: failure
       type(hopf_start_type), allocatable :: across(:), starts(:)
-      integer :: i
+      integer, parameter :: along(3) = [along_epsilon, along_xi, along_gamma]
+      real(wp), parameter :: known(4) = [10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp]
+      real(wp) :: place(4)
+      integer :: i, j
 
-      line%along = along_epsilon
-      line%parameters = block_parameters_type(tau=10.0_wp, xi=0.8_wp, gamma=0.8_wp)
-      line%window = [0.0_wp, 1.0_wp]
-      call find_hopf_starts(line, starts, failure)
-      call expect_success(error, failure)
-      call expect(error, size(starts) == 2, "two Hopf points")
-      if (allocated(error)) return
-      do i = 1, 2
-         associate (p => starts(i)%parameters)
-            call expect_close(error, p%tau, 10.0_wp, 1.0e-9_wp, "tau")
-            call expect_close(error, relative_residual(p, cmplx(0.0_wp, starts(i)%omega, wp)), &
-                              0.0_wp, 1.0e-10_wp, "residual of (5)")
-            line%along = along_tau
-            line%parameters = p
-            line%window = [0.0_wp, 20.0_wp]
-            call find_hopf_starts(line, across, failure)
-            call expect_success(error, failure)
-            call expect_close(error, minval(abs(across%parameters%tau - 10.0_wp)), 0.0_wp, &
-                              1.0e-9_wp, "tau of the line across")
-         end associate
+      do j = 1, size(along)
+         line%along = along(j)
+         line%parameters = parameters_of(known)
+         line%window = [0.01_wp, 2.0_wp]
+         call find_hopf_starts(line, starts, failure)
+         call expect_success(error, failure)
+         call expect(error, size(starts) > 0, "Hopf points")
+         if (allocated(error)) return
+         do i = 1, size(starts)
+            associate (p => starts(i)%parameters)
+               place = vector_of(p)
+               call expect_between(error, place(along(j)), 0.01_wp, 2.0_wp, "window")
+               place(along(j)) = known(along(j))
+               call expect_close(error, place, known, 1.0e-9_wp, "the line")
+               call expect_close(error, relative_residual(p, cmplx(0.0_wp, starts(i)%omega, wp)), &
+                                 0.0_wp, 1.0e-10_wp, "residual of (5)")
+               call find_hopf_starts(cycle_line_type(along_tau, p, [0.0_wp, 20.0_wp]), across, &
+                                     failure)
+               call expect_success(error, failure)
+               if (allocated(error)) return
+               call expect_close(error, minval(abs(across%parameters%tau - 10.0_wp)), 0.0_wp, &
+                                 1.0e-9_wp, "tau of the line across")
+            end associate
+         end do
       end do
    end subroutine test_hopf_starts
+
+   !> The cycle that a trajectory comes to is on the branch from a Hopf point.
+   subroutine test_other_lines(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(cycle_settings_type) :: settings
+      type(cycles_type), allocatable :: found(:)
+      type(left_out_type), allocatable :: left_out(:)
+      type(failure_type), allocatable :: failure
+      type(hopf_start_type), allocatable :: hopf(:)
+      integer, parameter :: along(2) = [along_xi, along_gamma]
+      real(wp) :: at(4)
+      integer :: i
+
+      settings%degree = 5
+      settings%intervals = 20
+      settings%most_orbits = 20
+      settings%start_v = [1.1_wp]
+      do i = 1, size(along)
+         settings%line%along = along(i)
+         settings%line%parameters = block_parameters_type(tau=10.0_wp, epsilon=0.35_wp, &
+                                                          xi=0.8_wp, gamma=0.8_wp)
+         settings%line%window = [0.5_wp, 1.2_wp]
+         call find_hopf_starts(settings%line, hopf, failure)
+         call expect_success(error, failure)
+         call expect(error, size(hopf) == 1, "one Hopf point")
+         if (allocated(error)) return
+         at = vector_of(hopf(1)%parameters)
+         ! the scene `oscillation`, a cycle, is at 0.8
+         settings%starts = [0.8_wp]
+         call find_cycles(settings, hopf, found, left_out, failure)
+         call expect_success(error, failure)
+         call expect(error, size(found) == 1 .and. size(left_out) == 1, "one branch")
+         if (allocated(error)) return
+         call expect(error, left_out(1)%reason == "its cycle is on a branch", "the trajectory")
+         call expect_close(error, found(1)%branch%orbits(1)%parameters(along(i)), at(along(i)), &
+                           1.0e-2_wp, "the start of the branch")
+      end do
+   end subroutine test_other_lines
 
    !> The Hopf point of a kind in the plane of epsilon and tau that is nearest to a place.
    subroutine nearest_hopf_point(xi, window, kind, place, nearest, error)

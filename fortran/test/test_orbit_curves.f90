@@ -2,7 +2,7 @@
 module test_orbit_curves
    use branch_ends, only: branch_settings_type
    use collocation_basis, only: collocation_basis_type, gauss_points
-   use cycle_families, only: duffing, known_family
+   use cycle_families, only: delayed_cubic, duffing, known_family
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
    use expectations, only: expect, expect_close, expect_success
@@ -10,11 +10,12 @@ module test_orbit_curves
    use orbit_branch, only: branch_type, follow_branch
    use orbit_change, only: orbit_change_type
    use orbit_curves, only: curve_settings_type, curve_type, follow_curve
+   use orbit_mesh, only: uniform_mesh
    use orbit_passes, only: orbit_scale_type
    use orbit_points, only: find_special_points
    use orbit_start, only: orbit_at_hopf_point
    use periodic_orbit, only: periodic_orbit_type
-   use special_points, only: fold, special_point_type, torus_bifurcation
+   use special_points, only: cusp, fold, special_point_type, torus_bifurcation
    implicit none (type, external)
    private
    public :: collect_orbit_curves
@@ -28,7 +29,8 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("torus curves end at published points", test_torus_curves), &
-                   new_unittest("a fold curve ends at a published point", test_fold_curve)]
+                   new_unittest("a fold curve ends at a published point", test_fold_curve), &
+                   new_unittest("a known fold curve and its cusp", test_cusp)]
    end subroutine collect_orbit_curves
 
    !> A Hopf point of the Duffing equation: (a + b - omega^2)^2 + (d omega)^2 = b^2.
@@ -134,4 +136,48 @@ contains
          call expect_close(error, parameters(1), 14.8348_wp, 2.0e-4_wp, "tau")
       end associate
    end subroutine test_fold_curve
+
+   !> Cycles sqrt(1 + s) sin t of a cubic have folds at a = -2 s^3, b = 3 s^2 and a cusp at s = 0.
+   subroutine test_cusp(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: degree = 5, intervals = 20
+      real(wp), parameter :: first = 0.4_wp
+      type(curve_settings_type) :: settings
+      type(curve_type) :: curve
+      type(failure_type), allocatable :: failure
+      type(special_point_type) :: start
+      integer :: i
+
+      associate (orbit => start%orbit)
+         orbit%basis = collocation_basis_type(degree, gauss_points)
+         orbit%mesh = uniform_mesh(intervals)
+         orbit%period = 2.0_wp*pi
+         orbit%parameters = [-2.0_wp*first**3, 3.0_wp*first**2]
+         orbit%nodes = reshape(sqrt(1.0_wp + first)*sin(2.0_wp*pi*orbit%node_times()), &
+                               [1, intervals*degree + 1])
+      end associate
+      start%kind = fold
+      settings%scale = orbit_scale_type([1, 2], [1.0_wp, 1.0_wp])
+      settings%window = reshape([-1.0_wp, 1.0_wp, -1.0_wp, 0.6_wp], [2, 2])
+      call follow_curve(known_family(equation=delayed_cubic), settings, start, -1, curve, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect(error, curve%ending == "window", "the curve turns back to greater b")
+      do i = 2, size(curve%points)
+         associate (p => curve%points(i)%orbit%parameters)
+            call expect_close(error, p(1)**2/4.0_wp, (p(2)/3.0_wp)**3, 1.0e-7_wp, "a fold")
+         end associate
+      end do
+      associate (last => curve%points(size(curve%points))%orbit%parameters)
+         call expect(error, last(1) > 0.1_wp, "the other side of the cusp")
+      end associate
+      call expect(error, size(curve%cusps) == 1, "one cusp")
+      if (allocated(error)) return
+      associate (found => curve%cusps(1))
+         call expect(error, found%kind == cusp, "its kind")
+         call expect_close(error, found%orbit%parameters, [0.0_wp, 0.0_wp], 1.0e-9_wp, "its place")
+         call expect_close(error, found%orbit%amplitude(), 2.0_wp, 1.0e-3_wp, "its amplitude")
+         call expect(error, found%mesh_error < 1.0e-9_wp, "two meshes agree")
+      end associate
+   end subroutine test_cusp
 end module test_orbit_curves

@@ -96,7 +96,9 @@ def _unknown_names(parameters: dict, config: dict):
 
 def _contradictions(test: str, parameters: dict):
     """Parameters that do not go together."""
-    if test == "delays_in_turn" and len(parameters["scenes"]) != len(parameters["expected"]):
+    if {"scenes", "expected"} <= parameters.keys() and len(parameters["scenes"]) != len(
+        parameters["expected"]
+    ):
         yield (
             f"{len(parameters['expected'])} classes for {len(parameters['scenes'])} scenes;"
             " expected one each"

@@ -1,7 +1,7 @@
 """Claims about what changes along a parameter, by the tables of the routes.
 
 One point may not decide: a class counts where two neighbouring points of a run have it, or two runs
-at one point.
+at one point. Torus bifurcations are those of the cycles followed on the same line.
 """
 
 from collections import Counter
@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from scripts.claims.claims_of_attractors import in_words
+from scripts.claims.claims_of_cycles import torus_points
 from scripts.claims.claims_results import (
     CORRECTED,
     NOT_REPRODUCED,
@@ -47,6 +48,17 @@ def route(results: Results, *, routes: list[str], expected: list[str]) -> Findin
     return decided(any(any(met.values()) for met in found), " ".join(told))
 
 
+def torus_route(results: Results, *, routes: list[str], expected: list[str]) -> Finding:
+    """Whether these classes follow each other, a cycle and a torus at a torus bifurcation."""
+    lines = [results.route(name) for name in routes]
+    found = [at_bifurcations(rows, sequences(rows, expected), results) for rows in lines]
+    told = [
+        f"{in_a_sentence(rows, met)} {bifurcations_in_words(rows, results)}"
+        for rows, met in zip(lines, found, strict=True)
+    ]
+    return decided(any(any(met.values()) for met in found), " ".join(told))
+
+
 def leads_to(results: Results, *, routes: list[str], before: list[str], after: str) -> Finding:
     """Whether a class is met beyond others along all of the routes, or along some of them."""
     lines = [results.route(name) for name in routes]
@@ -63,17 +75,21 @@ def leads_to(results: Results, *, routes: list[str], before: list[str], after: s
 def delays_in_turn(
     results: Results, *, scenes: list[str], expected: list[str], route: str
 ) -> Finding:
-    """Whether scenes with longer and longer delays are of these classes in turn, or a route is."""
+    """Whether scenes with longer and longer delays are of these classes in turn, or a route is.
+
+    On the route a cycle and a torus meet at a torus bifurcation.
+    """
     own = [results.attractors_of(scene)[0] for scene in scenes]
     delays = [results.stability_of(scene)["tau"] for scene in scenes]
     grow = all(before < after for before, after in pairwise(delays))
     met = [f"{in_words(row)} at {short(tau)}" for row, tau in zip(own, delays, strict=True)]
     rows = results.route(route)
-    found = sequences(rows, expected)
+    found = at_bifurcations(rows, sequences(rows, expected), results)
+    shown = f"{in_a_sentence(rows, found)} {bifurcations_in_words(rows, results)}"
     evidence = (
         f"The paper's delays in its order, with other parameters changed, too: {', '.join(met)}."
-        f" These delays {'grow' if grow else 'do not grow'} from one to the next."
-        f" {in_a_sentence(rows, found)}"
+        f" These delays {'grow' if grow else 'do not grow'} from one to the next. Only"
+        f" the delay changes on the route {route}. {shown}"
     )
     if grow and [row["class"] for row in own] == expected:
         return Finding(REPRODUCED, evidence)
@@ -81,26 +97,40 @@ def delays_in_turn(
     return Finding(CORRECTED if instead else NOT_REPRODUCED, evidence, instead)
 
 
-def second_zero(results: Results, *, scene: str, route: str) -> Finding:
-    """Whether a scene has two zero exponents, or only points of a route beyond it have."""
-    own, rows = results.attractors_of(scene)[0], results.route(route)
-    place = results.stability_of(scene)[parameter_of(rows)]
-    beyond = {
-        run: [turn for turn in turns if turn[0].first <= place < turn[1].first]
-        for run, turns in sequences(rows, ["cycle", "torus"]).items()
+def at_bifurcations(rows: list[dict], found: Turns, results: Results) -> Turns:
+    """Those of the stretches in which a torus bifurcation lies between each cycle and torus."""
+    places = torus_bifurcations(rows, results)
+    return {
+        run: [
+            turn
+            for turn in turns
+            if all(
+                any(before.last <= place <= after.first for place in places)
+                for before, after in pairwise(turn)
+                if (before.motion, after.motion) == ("cycle", "torus")
+            )
+        ]
+        for run, turns in found.items()
     }
-    evidence = (
-        "A second Hopf bifurcation of a cycle gives a second zero exponent. Class of scene"
-        f" {scene} ({parameter_of(rows)} = {short(place)}) by its exponents:"
-        f" {own['by_exponents']}. {in_a_sentence(rows, beyond)}"
+
+
+def torus_bifurcations(rows: list[dict], results: Results) -> list[float]:
+    """Where stable cycles on the line of a route have torus bifurcations."""
+    along = parameter_of(rows)
+    place = {key: rows[0][key] for key in PARAMETERS if key != along}
+    return [point[along] for point in torus_points(results, place)]
+
+
+def bifurcations_in_words(rows: list[dict], results: Results) -> str:
+    """Where a pair of multipliers of a stable cycle crosses the unit circle on a route."""
+    places = torus_bifurcations(rows, results)
+    if not places:
+        return "No torus bifurcation of a stable cycle is known on this line."
+    listed_places = " and ".join(short(place) for place in places)
+    return (
+        "A pair of multipliers of a stable cycle leaves the unit circle at"
+        f" {parameter_of(rows)} = {listed_places}."
     )
-    if own["by_exponents"] == "torus":
-        return Finding(REPRODUCED, evidence)
-    first = [turns[0][1].first for turns in beyond.values() if turns]
-    if not first:
-        return decided(False, evidence)
-    instead = f"It has occurred from {parameter_of(rows)} = {short(min(first))} on."
-    return Finding(CORRECTED, evidence, instead)
 
 
 def sequences(rows: list[dict], expected: list[str]) -> Turns:
@@ -169,6 +199,6 @@ def in_a_sentence(rows: list[dict], found: Turns) -> str:
 TESTS = {
     "route": route,
     "leads_to": leads_to,
+    "torus_route": torus_route,
     "delays_in_turn": delays_in_turn,
-    "second_zero": second_zero,
 }

@@ -37,6 +37,8 @@ class Results:
     attractors: list[dict]
     atlas: list[dict]
     routes: list[dict]
+    cycle_points: list[dict]
+    cycles: dict[str, xr.Dataset]
     spectra: dict[str, xr.Dataset]
     slip_events: dict[str, xr.Dataset]
 

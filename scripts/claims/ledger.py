@@ -6,6 +6,7 @@ from pathlib import Path
 from scripts.claims import (
     claims_of_attractors,
     claims_of_bifurcations,
+    claims_of_cycles,
     claims_of_events,
     claims_of_formulas,
     claims_of_friction,
@@ -23,6 +24,7 @@ TESTS = {
     **claims_of_bifurcations.TESTS,
     **claims_of_attractors.TESTS,
     **claims_of_routes.TESTS,
+    **claims_of_cycles.TESTS,
     **claims_of_spectra.TESTS,
     **claims_of_events.TESTS,
     **claims_of_runs.TESTS,
@@ -76,8 +78,8 @@ if __name__ == "__main__":
     with logged(snakemake.log[0]):
         given = snakemake.input
         names = ("hopf_points", "linear_stability", "stability", "attractors", "atlas", "routes")
-        tables = {name: given[name] for name in names}
-        data = {name: given[name] for name in ("curves", "spectra", "slip_events")}
+        tables = {name: given[name] for name in (*names, "cycle_points")}
+        data = {name: given[name] for name in ("curves", "cycles", "spectra", "slip_events")}
         found = read_results(given.friction, data, tables)
         table = rows_of(snakemake.params.claims, found)
         write_table(snakemake.output.tsv, table)

@@ -14,8 +14,9 @@ from scripts.drawing.along_parameter import mark_scenes, maxima_of
 from scripts.drawing.special_points import STYLES, in_words, words_of
 from scripts.drawing.style import FAINT, INK, logged, save
 from scripts.files.inputs import read
+from scripts.tables.cycle_branches import branch_of
 
-HEIGHT = 2.1
+HEIGHT = 1.7
 """Of a line, in inches."""
 LINES = (
     {"color": INK, "lw": 2.4, "label": "stable cycle"},
@@ -91,43 +92,6 @@ def draw_branches(axes: Axes, cycles: xr.Dataset, along: str) -> None:
             count = int(unstable[part[0]])
             ends = slice(part[0], part[-1] + 2)
             axes.plot(x[ends], y[ends], **LINES[min(count, 3)], zorder=3 if count else 1)
-
-
-def branch_of(cycles: xr.Dataset, number: int, along: str) -> tuple[np.ndarray, ...]:
-    """Parameter, greatest v, and between each two points the number of unstable multipliers.
-
-    Special points stand between the orbits where this number changes, so that each part of the
-    branch ends at its special point.
-    """
-    orbits = cycles.isel(orbit=cycles.branch.values == number)
-    points = cycles.isel(special=cycles.special_branch.values == number)
-    x, y = orbits[along].values, orbits.v_most.values
-    unstable = orbits.unstable.values
-    if branch_word(cycles, "ending", number) == "closed":
-        x, y, unstable = (np.append(values, values[0]) for values in (x, y, unstable))
-    between = unstable[:-1].copy()
-    inserted = []
-    for point in range(points.sizes["special"]):
-        here = points.isel(special=point)
-        changes = np.flatnonzero(
-            (unstable[:-1] == int(here.special_unstable_before))
-            & (unstable[1:] == int(here.special_unstable_behind))
-        )
-        if changes.size:
-            place = float(here[f"special_{along}"]), float(here.special_v_most)
-            away = np.hypot(
-                (x[changes] - place[0]) / np.ptp(x), (y[changes] - place[1]) / np.ptp(y)
-            )
-            inserted.append((changes[away.argmin()] + 1, *place, unstable[changes[0] + 1]))
-    for before, point_x, point_y, behind in sorted(inserted, reverse=True):
-        x, y = np.insert(x, before, point_x), np.insert(y, before, point_y)
-        between = np.insert(between, before, behind)
-    return x, y, between
-
-
-def branch_word(cycles: xr.Dataset, kind: str, number: int) -> str:
-    """The origin or the ending of a branch."""
-    return words_of(cycles[f"branch_{kind}"])[number - 1]
 
 
 def draw_points(axes: Axes, cycles: xr.Dataset, along: str) -> None:

@@ -101,7 +101,7 @@ def cycles_in_atlas(config: dict) -> list[str]:
     return [
         f"results/cycles/{name}.nc"
         for name, line in config["cycles"]["lines"].items()
-        if (line["xi"], line["gamma"]) in planes
+        if (line.get("xi"), line.get("gamma")) in planes
     ]
 
 

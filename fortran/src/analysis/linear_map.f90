@@ -34,6 +34,9 @@ module linear_map
    real(wp), parameter :: noise = 1.0e-15_wp
    !> Arnoldi's method checks its eigenvalues after this many steps, and after every so many more.
    integer, parameter :: first_check = 24, steps_between = 12
+   !> Vectors of the basis whose inner products are summed together: one sum alone waits for each of
+   !> its additions.
+   integer, parameter :: together = 4
 
 contains
 
@@ -179,16 +182,26 @@ contains
       real(wp), intent(inout) :: image(:)
       !> Its coefficients; number k + 1 is 0 where nothing is left
       real(wp), intent(inout) :: h(:)
-      real(wp) :: part, whole
-      integer :: i, turn
+      real(wp) :: parts(together), whole
+      integer :: i, j, last, turn
 
       whole = norm2(image)
       h(:k) = 0.0_wp
       do turn = 1, 2
-         do i = 1, k
-            part = dot_product(basis(:, i), image)
-            h(i) = h(i) + part
-            image = image - part*basis(:, i)
+         do j = 1, k, together
+            last = min(j + together - 1, k)
+            parts = 0.0_wp
+            if (last == j + together - 1) then
+               do i = 1, size(image)
+                  parts = parts + basis(i, j:last)*image(i)
+               end do
+            else
+               parts(:last - j + 1) = matmul(image, basis(:, j:last))
+            end if
+            h(j:last) = h(j:last) + parts(:last - j + 1)
+            do i = j, last
+               image = image - parts(i - j + 1)*basis(:, i)
+            end do
          end do
       end do
       h(k + 1) = norm2(image)

@@ -1,39 +1,17 @@
 !> Curves of special points of periodic orbits in two parameters. The orbits near a point are a
-!> surface over its tangent plane. The curve is where a test function of the point is 0 on it: an
-!> orbit is sought beside the direction of the curve, by the secant method.
+!> surface over its tangent plane. The curve is where a test function of the point is 0 on it.
 module orbit_curves
    use branch_ends, only: is_closed, longer, shorter
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use orbit_change, only: difference_of, inner_product, orbit_change_type
+   use orbit_curve_steps, only: curve_settings_type, frame_on, take_step
    use orbit_mesh, only: adapted_mesh
-   use orbit_passes, only: orbit_scale_type
-   use orbit_refinement, only: refinement_type
-   use orbit_surface, only: first_plane, frame_type, test_beside, turn_along, turn_frame
-   use periodic_orbit, only: periodic_orbit_type
+   use orbit_surface, only: first_plane, frame_type, turn_along
    use problem_family, only: problem_family_type
-   use special_points, only: fold, special_point_type, torus_bifurcation
+   use special_points, only: cusp, fold, special_point_type, torus_bifurcation
    implicit none (type, external)
    private
    public :: curve_settings_type, curve_type, follow_curve
-
-   !> How far a curve is followed, and how.
-   type :: curve_settings_type
-      !> The two free parameters and their units
-      type(orbit_scale_type) :: scale
-      !> Windows on them, shape (2, parameters)
-      real(wp) :: window(2, 2) = reshape([-1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp], [2, 2])
-      !> First, least and longest step, in units of arclength
-      real(wp) :: first_step = 0.01_wp, least_step = 1.0e-6_wp, longest_step = 0.1_wp
-      !> Most points
-      integer :: most_points = 200
-      !> The curve ends at a Hopf curve where no component has a larger range.
-      real(wp) :: least_amplitude = 0.02_wp
-      !> It ends where the period is longer.
-      real(wp) :: longest_period = huge(1.0_wp)
-      !> Multipliers and their accuracy
-      type(refinement_type) :: refinement
-   end type curve_settings_type
 
    !> A curve.
    type :: curve_type
@@ -43,24 +21,19 @@ module orbit_curves
       !> '1:2' (resonances), 'closed', 'shorter_period' (at a cycle of a part of the period),
       !> 'period', 'points', 'convergence'
       character(len=:), allocatable :: ending
-      !> Points of a curve of folds before which it turns back in both parameters: cusps
-      integer, allocatable :: cusps(:)
+      !> Cusps: where a curve of folds turns back in both parameters
+      type(special_point_type), allocatable :: cusps(:)
    end type curve_type
 
-   !> Evaluations of the test function at one point, and the distance between two at which it is
-   !> zero
-   integer, parameter :: most_evaluations = 8
-   real(wp), parameter :: share = 1.0e-9_wp
-   !> Distance of two evaluations from which the slope of the test function is known
-   real(wp), parameter :: resolved = 1.0e-6_wp
    !> Evaluations after which the next step is longer
    integer, parameter :: easy = 4
-   !> Most that a point may lie beside its prediction, in steps
-   real(wp), parameter :: most_bend = 0.5_wp
    !> Angle of a pair, in turns, so close to 0 or 1/2 that the curve ends in a resonance
    real(wp), parameter :: resonant = 0.004_wp
-   !> How the intervals grow where the mesh is not accurate
-   real(wp), parameter :: growth = 1.3_wp
+   !> Intervals of the second mesh for a cusp over those of the first
+   real(wp), parameter :: finer = 1.5_wp
+   !> Iterations of the search for a cusp, and the share of the step to which it goes
+   integer, parameter :: most_iterations = 40
+   real(wp), parameter :: share_at_cusp = 1.0e-6_wp
 
 contains
 
@@ -79,11 +52,11 @@ contains
       !> The point has no curve
       type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: failure
-      type(frame_type) :: frame, next_frame
+      type(frame_type) :: earlier(2), frame, next_frame
       type(special_point_type) :: next
-      real(wp) :: step
-      integer :: evaluations, i
-      logical :: passed, passes
+      real(wp) :: step, steps(2)
+      integer :: evaluations, i, j
+      logical :: exact, found, passed, passes
 
       allocate (curve%points(settings%most_points), curve%cusps(0))
       curve%points(1) = start
@@ -96,7 +69,9 @@ contains
       end associate
       curve%ending = "points"
       passed = .false.
+      exact = .true.
       step = settings%first_step
+      steps = step
       i = 1
       do while (i < settings%most_points)
          next = curve%points(i)
@@ -105,13 +80,31 @@ contains
          if (allocated(failure)) then
             step = shorter*step
             passed = passed .or. passes
+            if (.not. exact) then
+               call turn_along(family, settings%scale, settings%refinement%multipliers, &
+                               curve%points(i), frame, failure)
+            end if
+            exact = .true.
             if (step >= settings%least_step) cycle
             curve%ending = trim(merge("shorter_period", "convergence   ", passed))
             exit
          end if
          passed = .false.
-         if (sum(frame%directions(1)%parameters*next_frame%directions(1)%parameters) < 0.0_wp &
-             .and. next%kind == fold) curve%cusps = [curve%cusps, i + 1]
+         exact = .false.
+         if (start%kind == fold .and. i > 1) then
+            if (dot_product(earlier(1)%directions(1)%parameters, frame%directions(1)%parameters) &
+                < 0.0_wp) then
+               ! the directions may not be exact, so the cusp may lie in the step before
+               do j = 1, min(2, i - 1)
+                  call find_cusp(family, settings, curve%points(i - j), earlier(j), steps(j), &
+                                 curve%cusps, found)
+                  if (found) exit
+               end do
+            end if
+         end if
+         earlier(2) = earlier(1)
+         earlier(1) = frame
+         steps = [step, steps(1)]
          frame = next_frame
          i = i + 1
          curve%points(i) = next
@@ -121,103 +114,110 @@ contains
       call cut(curve%points, i)
    end subroutine follow_curve
 
-   !> The next point of a curve.
-   subroutine take_step(family, settings, step, point, frame, evaluations, passes, error)
+   !> Find the cusp on a curve of folds within a step from a point, on two meshes, and append it.
+   subroutine find_cusp(family, settings, before, frame, step, cusps, found)
       !> The problems
       class(problem_family_type), intent(in) :: family
       !> How far and how
       type(curve_settings_type), intent(in) :: settings
-      !> Length of the step
-      real(wp), intent(in) :: step
-      !> The last point, then this one
-      type(special_point_type), intent(inout) :: point
-      !> Directions at the last point, then at this one
-      type(frame_type), intent(inout) :: frame
-      !> Evaluations of the test function
-      integer, intent(out) :: evaluations
-      !> Whether it passes through a shorter cycle
-      logical, intent(out) :: passes
-      !> The step is too long
-      type(error_type), allocatable, intent(out) :: error
-      type(orbit_change_type) :: move
-      type(periodic_orbit_type) :: before
-      integer :: i, intervals
-
-      passes = .false.
-      associate (scale => settings%scale, refinement => settings%refinement)
-         intervals = point%orbit%intervals()
-         if (.not. accurate(point, refinement)) then
-            intervals = max(intervals, min(ceiling(growth*intervals), refinement%most_intervals))
-         end if
-         before = point%orbit%on_mesh(adapted_mesh(point%orbit, intervals))
-         do i = 1, 2
-            frame%directions(i) = frame%directions(i)%on_mesh(point%orbit, before%mesh)
-         end do
-         call find_beside(family, settings, before, frame, step, point, evaluations, error)
-         if (allocated(error)) return
-         passes = point%orbit%opposite_parts(before) > 0
-         if (passes) then
-            call raise(error, "the step passes through a shorter cycle")
-            return
-         end if
-         move = difference_of(point%orbit, before, scale)
-         frame%directions(1) = move%times(1.0_wp/sqrt(inner_product(before, move, move)))
-         call turn_frame(family, scale, point%orbit, frame%directions, error)
-         if (allocated(error)) return
-         call turn_along(family, scale, refinement%multipliers, point, frame, error)
-      end associate
-   end subroutine take_step
-
-   !> The root of the test function on the line beside the end of a step, by the secant method.
-   subroutine find_beside(family, settings, before, frame, step, point, evaluations, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> How far and how
-      type(curve_settings_type), intent(in) :: settings
-      !> The orbit from which the step goes
-      type(periodic_orbit_type), intent(in) :: before
+      !> The point before it
+      type(special_point_type), intent(in) :: before
       !> Directions there
       type(frame_type), intent(in) :: frame
       !> Length of the step
       real(wp), intent(in) :: step
-      !> The point, of known kind
-      type(special_point_type), intent(inout) :: point
-      !> Evaluations of the test function
-      integer, intent(out) :: evaluations
-      !> There is none
+      !> Cusps
+      type(special_point_type), allocatable, intent(inout) :: cusps(:)
+      !> Whether there is one
+      logical, intent(out) :: found
+      type(error_type), allocatable :: error
+      type(special_point_type) :: coarse, fine, first
+
+      found = .false.
+      call locate_cusp(family, settings, before, frame, step, coarse, error)
+      if (allocated(error)) return
+      first = before
+      first%orbit = before%orbit%on_mesh(adapted_mesh(before%orbit, &
+                                                         nint(finer*before%orbit%intervals())))
+      call locate_cusp(family, settings, first, frame_on(frame, before%orbit, first%orbit), step, &
+                       fine, error)
+      if (allocated(error)) return
+      associate (free => settings%scale%free)
+         fine%mesh_error = maxval(abs(fine%orbit%parameters(free) - coarse%orbit%parameters(free)))
+      end associate
+      found = .true.
+      fine%kind = cusp
+      cusps = [cusps, fine]
+   end subroutine find_cusp
+
+   !> The point within a step at which the direction of a curve of folds has no part along the
+   !> parameters, by the secant method with bisection (Illinois).
+   subroutine locate_cusp(family, settings, before, frame, step, point, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> How far and how
+      type(curve_settings_type), intent(in) :: settings
+      !> The point before it
+      type(special_point_type), intent(in) :: before
+      !> Directions there
+      type(frame_type), intent(in) :: frame
+      !> Length of the step
+      real(wp), intent(in) :: step
+      !> The cusp
+      type(special_point_type), intent(out) :: point
+      !> It was not found
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: at, g, g_before, move, slope
+      real(wp) :: a(2), at, g(2), here, way(size(settings%scale%free))
+      integer :: i, last, side
 
-      at = 0.0_wp
-      move = 0.0_wp
-      slope = frame%slope
-      do evaluations = 1, most_evaluations
-         call test_beside(family, settings%scale, settings%refinement%multipliers, before, &
-                          frame%directions, [step, at], point, g, error)
+      way = frame%directions(1)%parameters
+      a = [0.0_wp, step]
+      do i = 1, 2
+         call part_along(a(i), g(i))
          if (allocated(error)) return
-         ! at a shorter distance the difference is one of rounding errors
-         if (abs(move) > resolved) slope = (g - g_before)/move
-         move = -g/slope
-         if (abs(move) <= share) return
-         at = at + move
-         g_before = g
-         if (.not. abs(at) <= most_bend*step) exit
       end do
-      call raise(error, "the curve bends: its next point is "//text(at)//" beside a step of " &
-                 //text(step))
-   end subroutine find_beside
+      if (g(1)*g(2) > 0.0_wp) then
+         call raise(error, "cusp: the curve does not turn back within a step of "//text(step))
+         return
+      end if
+      last = 0
+      do i = 1, most_iterations
+         at = a(1) + (a(2) - a(1))*g(1)/(g(1) - g(2))
+         call part_along(at, here)
+         if (allocated(error)) return
+         side = merge(1, 2, here*g(1) > 0.0_wp)
+         if (abs(at - a(side)) <= share_at_cusp*step) return
+         a(side) = at
+         g(side) = here
+         ! the other end would never move
+         if (side == last) g(3 - side) = 0.5_wp*g(3 - side)
+         last = side
+      end do
 
-   !> Whether the multipliers of a point are accurate. At a fold the trivial one is double: then its
-   !> error is the square root of the other errors.
-   pure logical function accurate(point, refinement) result(value)
-      !> The point
-      type(special_point_type), intent(in) :: point
-      !> What is accurate
-      type(refinement_type), intent(in) :: refinement
+   contains
 
-      value = point%trivial_error <= refinement%accuracy
-      if (point%kind == fold) value = point%trivial_error <= sqrt(refinement%accuracy)
-   end function accurate
+      !> The point after a part of the step, and the part of its direction along the parameters.
+      subroutine part_along(length, value)
+         !> Length of the part
+         real(wp), intent(in) :: length
+         !> Inner product of the parameters' parts of the directions
+         real(wp), intent(out) :: value
+         type(frame_type) :: turned
+         integer :: evaluations
+         logical :: passes
+
+         value = 0.0_wp
+         point = before
+         turned = frame
+         if (length > 0.0_wp) then
+            call take_step(family, settings, length, point, turned, evaluations, passes, error)
+            if (allocated(error)) return
+         end if
+         call turn_along(family, settings%scale, settings%refinement%multipliers, point, turned, &
+                         error)
+         value = dot_product(way, turned%directions(1)%parameters)
+      end subroutine part_along
+   end subroutine locate_cusp
 
    !> Whether a curve ends at its last point, and why.
    logical function has_ended(settings, points, last, step, reason) result(value)

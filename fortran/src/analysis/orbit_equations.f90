@@ -12,7 +12,7 @@ module orbit_equations
    use problem_family, only: problem_family_type
    implicit none (type, external)
    private
-   public :: correct_orbit, newton_type, solve_about, turn_to_tangent
+   public :: correct_orbit, find_tangents, newton_type, turn_to_tangent
 
    !> Newton's method.
    type :: newton_type
@@ -69,8 +69,8 @@ contains
       !> No convergence
       type(error_type), allocatable, intent(out) :: error
       type(orbit_change_type), allocatable :: conditions(:)
-      type(orbit_change_type) :: change
-      real(wp) :: before, target(1 + size(directions))
+      type(orbit_change_type) :: change(1)
+      real(wp) :: before, target(1 + size(directions), 1)
       integer :: i
 
       allocate (conditions(1 + size(directions)))
@@ -81,13 +81,13 @@ contains
       newton%last_change = huge(1.0_wp)
       do i = 1, newton%most_iterations
          newton%iterations = i
-         call remaining(reference, scale, conditions, distances, orbit, target)
+         call remaining(reference, scale, conditions, distances, orbit, target(:, 1))
          call solve_conditions(family, scale, orbit, conditions, 1.0_wp, target, change, error)
          if (allocated(error)) return
          before = newton%last_change
-         newton%last_change = change%size_against(orbit)
+         newton%last_change = change(1)%size_against(orbit)
          if (.not. newton%last_change <= divergence) exit
-         call change%add_to(orbit, scale)
+         call change(1)%add_to(orbit, scale)
          if (newton%last_change <= newton%tolerance) return
          if (newton%last_change <= rounding .and. newton%last_change >= 0.5_wp*before) return
          if (.not. orbit%period > 0.0_wp) exit
@@ -97,8 +97,9 @@ contains
                  //" iterations; at most "//text(newton%tolerance)//" expected")
    end subroutine correct_orbit
 
-   !> The change of an orbit with given inner products with directions that keeps it one: a tangent.
-   subroutine solve_about(family, scale, orbit, directions, distances, change, error)
+   !> Changes that keep an orbit one: tangents. Each has the inner product 1 with one of as many
+   !> directions and 0 with the others.
+   subroutine find_tangents(family, scale, orbit, directions, tangents, error)
       !> The problems
       class(problem_family_type), intent(in) :: family
       !> Free parameters
@@ -107,23 +108,23 @@ contains
       type(periodic_orbit_type), intent(in) :: orbit
       !> Directions, one for each free parameter
       type(orbit_change_type), intent(in) :: directions(:)
-      !> The inner products
-      real(wp), intent(in) :: distances(:)
-      !> The change
-      type(orbit_change_type), intent(out) :: change
-      !> The directions do not determine it
+      !> The tangents
+      type(orbit_change_type), intent(out) :: tangents(:)
+      !> The directions do not determine them
       type(error_type), allocatable, intent(out) :: error
       type(orbit_change_type), allocatable :: conditions(:)
+      real(wp) :: targets(1 + size(directions), size(directions))
       integer :: i
 
       allocate (conditions(1 + size(directions)))
       conditions(1) = phase_condition(orbit, size(scale%free))
+      targets = 0.0_wp
       do i = 1, size(directions)
          conditions(i + 1) = weights_of(orbit, directions(i))
+         targets(i + 1, i) = 1.0_wp
       end do
-      call solve_conditions(family, scale, orbit, conditions, 0.0_wp, [0.0_wp, distances], change, &
-                            error)
-   end subroutine solve_about
+      call solve_conditions(family, scale, orbit, conditions, 0.0_wp, targets, tangents, error)
+   end subroutine find_tangents
 
    !> Turn a direction to the tangent of norm 1 whose inner product with it is positive.
    subroutine turn_to_tangent(family, scale, orbit, direction, error)
@@ -137,16 +138,15 @@ contains
       type(orbit_change_type), intent(inout) :: direction
       !> There is none
       type(error_type), allocatable, intent(out) :: error
-      type(orbit_change_type) :: directions(1), tangent
+      type(orbit_change_type) :: tangent(1)
 
-      directions(1) = direction
-      call solve_about(family, scale, orbit, directions, [1.0_wp], tangent, error)
+      call find_tangents(family, scale, orbit, [direction], tangent, error)
       if (allocated(error)) return
-      direction = tangent%times(1.0_wp/sqrt(inner_product(orbit, tangent, tangent)))
+      direction = tangent(1)%times(1.0_wp/sqrt(inner_product(orbit, tangent(1), tangent(1))))
    end subroutine turn_to_tangent
 
    !> Solve the linear equations about an orbit.
-   subroutine solve_conditions(family, scale, orbit, conditions, residual, target, change, error)
+   subroutine solve_conditions(family, scale, orbit, conditions, residual, targets, changes, error)
       !> The problems
       class(problem_family_type), intent(in) :: family
       !> Free parameters
@@ -157,15 +157,15 @@ contains
       type(orbit_change_type), intent(in) :: conditions(:)
       !> 1 if the change removes the residual of the orbit, 0 if it leaves it
       real(wp), intent(in) :: residual
-      !> Values of the conditions
-      real(wp), intent(in) :: target(:)
-      !> The change
-      type(orbit_change_type), intent(out) :: change
+      !> Values of the conditions, shape (conditions, changes)
+      real(wp), intent(in) :: targets(:, :)
+      !> The changes
+      type(orbit_change_type), intent(out) :: changes(:)
       !> No solution
       type(error_type), allocatable, intent(out) :: error
       type(orbit_map_type) :: map
       real(wp), allocatable :: right(:), solution(:)
-      integer :: past, unknowns
+      integer :: i, past, unknowns
 
       call linearise_orbit(family, orbit, scale, .false., map%linear, error)
       if (allocated(error)) return
@@ -178,16 +178,18 @@ contains
                                (linear%reach + linear%intervals)*linear%degree + 1))
       end associate
       allocate (right(unknowns), solution(unknowns))
-      solution = 0.0_wp
-      call answer(map, solution, residual, right)
-      right = -right
-      right(past + 1:) = right(past + 1:) + target
-      call solve_by_gmres(map, right, linear_tolerance, solution, error)
-      if (allocated(error)) return
-      call answer(map, solution, residual, right)
-      change%nodes = reshape(map%nodes, shape(orbit%nodes))
-      change%period = solution(past + 1)
-      change%parameters = solution(past + 2:)
+      do i = 1, size(changes)
+         solution = 0.0_wp
+         call answer(map, solution, residual, right)
+         right = -right
+         right(past + 1:) = right(past + 1:) + targets(:, i)
+         call solve_by_gmres(map, right, linear_tolerance, solution, error)
+         if (allocated(error)) return
+         call answer(map, solution, residual, right)
+         changes(i)%nodes = reshape(map%nodes, shape(orbit%nodes))
+         changes(i)%period = solution(past + 1)
+         changes(i)%parameters = solution(past + 2:)
+      end do
    end subroutine solve_conditions
 
    !> The past less the past a period later, and the values of the conditions.

@@ -4,14 +4,14 @@ module orbit_surface
    use dde_kinds, only: wp
    use floquet_multipliers, only: find_multipliers, multipliers_type
    use orbit_change, only: inner_product, orbit_change_type
-   use orbit_equations, only: correct_orbit, newton_type, solve_about
+   use orbit_equations, only: correct_orbit, find_tangents, newton_type
    use orbit_passes, only: orbit_scale_type
    use periodic_orbit, only: periodic_orbit_type
    use problem_family, only: problem_family_type
    use special_points, only: fold, special_point_type, test_value
    implicit none (type, external)
    private
-   public :: first_plane, frame_type, test_beside, turn_along, turn_frame
+   public :: first_plane, frame_type, judge_point, test_beside, turn_along, turn_frame
 
    !> Where a curve goes, at a point of it.
    type :: frame_type
@@ -42,19 +42,21 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(orbit_change_type) :: plane(2)
       type(special_point_type) :: near
-      real(wp) :: g(3), length
-      integer :: i
+      real(wp) :: g(2), length, slope(2)
+      integer :: i, j
 
       near = point
-      do i = 1, 3
-         call test_beside(family, scale, wanted, point%orbit, frame%directions, &
-                          beside*[merge(1, 0, i == 1), merge(1, 0, i == 2)], near, g(i), error)
-         if (allocated(error)) return
+      do i = 1, 2
+         do j = 1, 2
+            call test_beside(family, scale, wanted, point%orbit, frame%directions, &
+                             (3 - 2*j)*beside*[2 - i, i - 1], near, g(j), error)
+            if (allocated(error)) return
+         end do
+         slope(i) = (g(1) - g(2))/(2.0_wp*beside)
       end do
-      g(:2) = (g(:2) - g(3))/beside
-      length = norm2(g(:2))
-      plane(1) = combination(frame%directions, sign(1.0_wp, g(2))*[g(2), -g(1)]/length)
-      plane(2) = combination(frame%directions, g(:2)/length)
+      length = norm2(slope)
+      plane(1) = combination(frame%directions, sign(1.0_wp, slope(2))*[slope(2), -slope(1)]/length)
+      plane(2) = combination(frame%directions, slope/length)
       frame%directions(1) = plane(1)
       frame%directions(2) = plane(2)
       frame%slope = length
@@ -97,16 +99,16 @@ contains
       type(orbit_change_type), intent(inout) :: directions(2)
       !> They do not determine the plane
       type(error_type), allocatable, intent(out) :: error
-      type(orbit_change_type) :: first, second
+      type(orbit_change_type) :: plane(2)
 
-      call solve_about(family, scale, orbit, directions, [1.0_wp, 0.0_wp], first, error)
+      call find_tangents(family, scale, orbit, directions, plane, error)
       if (allocated(error)) return
-      call solve_about(family, scale, orbit, directions, [0.0_wp, 1.0_wp], second, error)
-      if (allocated(error)) return
-      first = first%times(1.0_wp/sqrt(inner_product(orbit, first, first)))
-      second = second%plus(first, -inner_product(orbit, first, second))
-      directions(1) = first
-      directions(2) = second%times(1.0_wp/sqrt(inner_product(orbit, second, second)))
+      associate (first => plane(1), second => plane(2))
+         first = first%times(1.0_wp/sqrt(inner_product(orbit, first, first)))
+         second = second%plus(first, -inner_product(orbit, first, second))
+         second = second%times(1.0_wp/sqrt(inner_product(orbit, second, second)))
+      end associate
+      directions = plane
    end subroutine turn_frame
 
    !> The orbit at a place of the plane about an orbit, and the test function of a point there.
@@ -129,7 +131,6 @@ contains
       real(wp), intent(out) :: g
       !> There is no orbit
       type(error_type), allocatable, intent(out) :: error
-      type(multipliers_type) :: multipliers
       type(newton_type) :: newton
       type(orbit_change_type) :: move, plane(2)
 
@@ -139,21 +140,37 @@ contains
       call move%add_to(point%orbit, scale)
       call correct_orbit(family, scale, before, directions, place, point%orbit, newton, error)
       if (allocated(error)) return
-      call find_multipliers(family, point%orbit, wanted, multipliers, error)
-      if (allocated(error)) return
-      call test_value(point%kind, multipliers, point%multiplier, g)
-      point%trivial_error = multipliers%trivial_error
-      if (point%kind /= fold) return
+      if (point%kind /= fold) then
+         call judge_point(family, wanted, point, g, error)
+         return
+      end if
       ! at a fold there is a tangent along which no parameter changes
-      call solve_about(family, scale, point%orbit, directions, [1.0_wp, 0.0_wp], plane(1), &
-                       error)
-      if (allocated(error)) return
-      call solve_about(family, scale, point%orbit, directions, [0.0_wp, 1.0_wp], plane(2), &
-                       error)
+      call find_tangents(family, scale, point%orbit, directions, plane, error)
       if (allocated(error)) return
       g = plane(1)%parameters(1)*plane(2)%parameters(2) &
           - plane(1)%parameters(2)*plane(2)%parameters(1)
    end subroutine test_beside
+
+   !> The critical multiplier of a point, its accuracy, and the test function by multipliers.
+   subroutine judge_point(family, wanted, point, g, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> Number of multipliers
+      integer, intent(in) :: wanted
+      !> The point, of known kind and orbit
+      type(special_point_type), intent(inout) :: point
+      !> The test function
+      real(wp), intent(out) :: g
+      !> No multipliers
+      type(error_type), allocatable, intent(out) :: error
+      type(multipliers_type) :: multipliers
+
+      g = 0.0_wp
+      call find_multipliers(family, point%orbit, wanted, multipliers, error)
+      if (allocated(error)) return
+      call test_value(point%kind, multipliers, point%multiplier, g)
+      point%trivial_error = multipliers%trivial_error
+   end subroutine judge_point
 
    !> A linear combination of two changes.
    type(orbit_change_type) function combination(changes, factors) result(change)

@@ -5,12 +5,13 @@ module special_points
    use periodic_orbit, only: periodic_orbit_type
    implicit none (type, external)
    private
-   public :: branching, fold, kind_length, nearest_resonance, period_doubling, special_point_type, &
-             test_value, torus_bifurcation
+   public :: branching, cusp, fold, kind_length, nearest_resonance, period_doubling, &
+             special_point_type, test_value, torus_bifurcation
 
    !> Kinds of special points.
    character(len=*), parameter :: fold = "fold", period_doubling = "period_doubling", &
-                                  torus_bifurcation = "torus", branching = "branching"
+                                  torus_bifurcation = "torus", branching = "branching", &
+                                  cusp = "cusp"
    !> Letters of a kind.
    integer, parameter :: kind_length = 20
 

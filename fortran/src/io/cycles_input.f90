@@ -2,9 +2,10 @@
 module cycles_input
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use block_cycles, only: cycle_settings_type
+   use block_family, only: parameters_of, vector_of
    use block_parameters, only: check_quantity
-   use cycle_lines, only: along_epsilon, along_tau
-   use dde_errors, only: error_type
+   use cycle_lines, only: along_epsilon
+   use dde_errors, only: error_type, raise
    use dde_kinds, only: wp
    use namelist_input, only: close_namelist, not_given, open_namelist, word_length
    use value_checks, only: check_choice, check_count, check_number
@@ -13,7 +14,7 @@ module cycles_input
    public :: names_along, read_cycles
 
    !> Parameters along which a line may run, in the order of their numbers.
-   character(len=7), parameter :: names_along(2) = ["tau    ", "epsilon"]
+   character(len=7), parameter :: names_along(4) = ["tau    ", "epsilon", "xi     ", "gamma  "]
    !> Most trajectories
    integer, parameter :: most_starts = 100
 
@@ -28,7 +29,7 @@ contains
       !> It cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: along
-      real(wp) :: v
+      real(wp) :: v, vector(4)
       integer :: i
 
       call read_group(path, settings, along, v, error)
@@ -37,8 +38,9 @@ contains
       associate (line => settings%line, p => settings%line%parameters)
          line%along = findloc(names_along == along, .true., dim=1)
          ! the value of the parameter along the line is not used
-         if (line%along == along_tau) p%tau = line%window(1)
-         if (line%along == along_epsilon) p%epsilon = line%window(1)
+         vector = vector_of(p)
+         vector(line%along) = line%window(1)
+         p = parameters_of(vector)
          call p%check(path, error)
          call check_quantity(error, path, along, line%window(1), "window(1)")
          call check_number(error, path, "window(2)", line%window(2), above=line%window(1))
@@ -54,6 +56,10 @@ contains
       call check_number(error, path, "longest_period", settings%longest_period, above=0.0_wp)
       call check_count(error, path, "most_orbits", settings%most_orbits, 2, at_most=100000)
       if (allocated(settings%curve_window)) then
+         if (settings%line%along > along_epsilon .and. .not. allocated(error)) then
+            call raise(error, path//": epsilon_window and tau_window; expected only where along " &
+                       //"is tau or epsilon")
+         end if
          associate (window => settings%curve_window)
             call check_quantity(error, path, "epsilon", window(1, 1), "epsilon_window(1)")
             call check_number(error, path, "epsilon_window(2)", window(2, 1), above=window(1, 1))

@@ -1,13 +1,14 @@
 !> Files of cycles along a line of parameters.
 module cycles_output
+   use block_family, only: vector_of
    use block_cycles, only: cycle_settings_type, cycles_type, left_out_type
    use cycle_curves, only: cycle_curve_type
-   use cycle_lines, only: along_epsilon, along_tau, hopf_start_type
+   use cycle_lines, only: hopf_start_type
    use cycles_input, only: names_along
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
    use netcdf_output, only: output_file_type
-   use special_points, only: kind_length, nearest_resonance
+   use special_points, only: kind_length, nearest_resonance, special_point_type
    use spring_block, only: index_of_ln_v
    implicit none (type, external)
    private
@@ -21,7 +22,7 @@ module cycles_output
 contains
 
    !> Write the orbits of all branches one after another, the branches, the starts left out, the
-   !> special points, the Hopf points, and the points of all curves one after another.
+   !> special points, the Hopf points, the points of all curves one after another, and their cusps.
    subroutine write_cycles(path, settings, hopf, found, left_out, curves, error)
       !> Path of the file
       character(len=*), intent(in) :: path
@@ -38,14 +39,16 @@ contains
       !> It could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
+      real(wp) :: fixed(size(names_along))
+      integer :: i
 
       call file%create(path, "Cycles along a line of parameters: stable and unstable branches")
       associate (p => settings%line%parameters, along => settings%line%along)
          call file%attribute("along", trim(names_along(along)))
-         if (along /= along_tau) call file%attribute("tau", p%tau)
-         if (along /= along_epsilon) call file%attribute("epsilon", p%epsilon)
-         call file%attribute("xi", p%xi)
-         call file%attribute("gamma", p%gamma)
+         fixed = vector_of(p)
+         do i = 1, size(names_along)
+            if (i /= along) call file%attribute(trim(names_along(i)), fixed(i))
+         end do
          call file%attribute("degree", int(settings%degree, int64))
       end associate
       call put_orbits(file, settings%line%along, found)
@@ -53,6 +56,7 @@ contains
       call put_points(file, found)
       call put_hopf(file, hopf)
       call put_curves(file, curves)
+      call put_cusps(file, curves)
       call file%finish(error)
    end subroutine write_cycles
 
@@ -248,20 +252,78 @@ contains
       call file%words("curve_last_end", rows, words(:, 3), "why it ends at its last point")
    end subroutine put_curves
 
+   !> Cusps of curves of folds.
+   subroutine put_cusps(file, curves)
+      !> The file
+      type(output_file_type), intent(inout) :: file
+      !> The curves
+      type(cycle_curve_type), intent(in) :: curves(:)
+      integer :: i, id(8), k, rows
+      integer, allocatable :: number(:)
+      real(wp) :: columns(8, sum([((size(curves(i)%parts(k)%cusps), k=1, 2), i=1, size(curves))]))
+
+      allocate (number(0))
+      do i = 1, size(curves)
+         do k = 1, 2
+            call add_cusps(curves(i)%parts(k)%cusps)
+         end do
+      end do
+      rows = file%dimension("cusp", size(number), coordinates="cusp_tau cusp_epsilon")
+      do i = 1, 4
+         id(i) = file%real_variable("cusp_"//trim(names_along(i)), rows, &
+                                    trim(names_along(i))//" of a cusp of a curve of folds", "1")
+      end do
+      id(5) = file%real_variable("cusp_period", rows, "its period", "1")
+      id(6) = file%real_variable("cusp_v_most", rows, "its greatest velocity", "1")
+      id(7) = file%real_variable("cusp_multiplier_error", rows, &
+                                 "distance of the trivial multiplier from 1", "1")
+      id(8) = file%real_variable("cusp_mesh_error", rows, &
+                                 "difference of tau or epsilon on two meshes", "1")
+      do i = 1, size(id)
+         call file%put(id(i), columns(i, :))
+      end do
+      call file%put(file%integer_variable("cusp_curve", rows, "its curve, from 1"), number)
+
+   contains
+
+      !> Columns of more cusps.
+      subroutine add_cusps(cusps)
+         !> The cusps
+         type(special_point_type), intent(in) :: cusps(:)
+         integer :: j
+
+         do j = 1, size(cusps)
+            number = [number, i]
+            associate (orbit => cusps(j)%orbit, column => columns(:, size(number)))
+               column(:4) = orbit%parameters
+               column(5:) = [orbit%period, exp(maxval(orbit%range_of(index_of_ln_v))), &
+                             cusps(j)%trivial_error, cusps(j)%mesh_error]
+            end associate
+         end do
+      end subroutine add_cusps
+   end subroutine put_cusps
+
    !> Hopf points.
    subroutine put_hopf(file, hopf)
       !> The file
       type(output_file_type), intent(inout) :: file
       !> Hopf points
       type(hopf_start_type), intent(in) :: hopf(:)
-      integer :: id(3), rows
+      real(wp) :: places(4, size(hopf))
+      integer :: i, id(5), rows
 
+      do i = 1, size(hopf)
+         places(:, i) = vector_of(hopf(i)%parameters)
+      end do
       rows = file%dimension("hopf", size(hopf), coordinates="hopf_tau hopf_epsilon")
-      id(1) = file%real_variable("hopf_tau", rows, "tau of the Hopf point", "1")
-      id(2) = file%real_variable("hopf_epsilon", rows, "its epsilon", "1")
-      id(3) = file%real_variable("hopf_omega", rows, "angular frequency of its pair", "1")
-      call file%put(id(1), hopf%parameters%tau)
-      call file%put(id(2), hopf%parameters%epsilon)
-      call file%put(id(3), hopf%omega)
+      do i = 1, 4
+         id(i) = file%real_variable("hopf_"//trim(names_along(i)), rows, &
+                                    trim(names_along(i))//" of the Hopf point", "1")
+      end do
+      id(5) = file%real_variable("hopf_omega", rows, "angular frequency of its pair", "1")
+      do i = 1, 4
+         call file%put(id(i), places(i, :))
+      end do
+      call file%put(id(5), hopf%omega)
    end subroutine put_hopf
 end module cycles_output

@@ -10,7 +10,8 @@ module hopf_condition
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: hopf_epsilon, hopf_tau, hopf_xi, largest_omega, partner_omega, printed_tau, two_pi
+   public :: frequency_condition, hopf_epsilon, hopf_gamma, hopf_tau, hopf_xi, largest_omega, &
+             partner_omega, printed_tau, two_pi
 
    !> One turn.
    real(wp), parameter :: two_pi = 2.0_wp*acos(-1.0_wp)
@@ -75,6 +76,39 @@ contains
       xi = (omega*gamma**2*sin(omega*tau) + omega**2*gamma**2*cos(omega*tau)) &
            /((omega**3 - omega*gamma**2)*sin(omega*tau) + (gamma**2 - omega**2)*cos(omega*tau))
    end function hopf_xi
+
+   !> What is left of (6) when xi and gamma are eliminated: 0 at the frequencies of pairs i omega at
+   !> this epsilon and delay.
+   elemental real(wp) function frequency_condition(omega, epsilon, tau) result(value)
+      !> Frequency of the pair
+      real(wp), intent(in) :: omega
+      !> Sensitivity of the velocity relaxation
+      real(wp), intent(in) :: epsilon
+      !> Delay
+      real(wp), intent(in) :: tau
+
+      value = 1.0_wp + omega**2 &
+              + (1.0_wp + epsilon)*(omega*sin(omega*tau) - cos(omega*tau))
+   end function frequency_condition
+
+   !> The gamma of a pair i omega by the sine part of (6), where frequency_condition is 0; -1 where
+   !> there is none.
+   elemental real(wp) function hopf_gamma(omega, epsilon, tau, xi) result(gamma)
+      !> Frequency of the pair, > 0
+      real(wp), intent(in) :: omega
+      !> Sensitivity of the velocity relaxation
+      real(wp), intent(in) :: epsilon
+      !> Delay
+      real(wp), intent(in) :: tau
+      !> Spring constant
+      real(wp), intent(in) :: xi
+      real(wp) :: square
+
+      ! omega^2/gamma^2
+      square = 1.0_wp - omega*(omega + (1.0_wp + epsilon)*sin(omega*tau))/xi
+      gamma = -1.0_wp
+      if (square > 0.0_wp) gamma = omega/sqrt(square)
+   end function hopf_gamma
 
    !> Equation (10) with its full numerator and the arctangent of two arguments: the delay of a pair
    !> i omega on branch k. The angle is continuous in omega, so each branch is one smooth curve.

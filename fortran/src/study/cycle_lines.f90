@@ -1,22 +1,25 @@
 !> Lines of parameters of the block on which cycles are followed, and the Hopf points on them.
 module cycle_lines
+   use block_family, only: vector_of
    use block_parameters, only: block_parameters_type
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use gsl_roots, only: find_root, scalar_function_type
-   use hopf_condition, only: hopf_epsilon, hopf_tau, largest_omega, two_pi
+   use hopf_condition, only: frequency_condition, hopf_epsilon, hopf_gamma, hopf_tau, hopf_xi, &
+                             largest_omega, two_pi
    implicit none (type, external)
    private
-   public :: along_epsilon, along_tau, cycle_line_type, find_hopf_starts, hopf_start_type
+   public :: along_epsilon, along_gamma, along_tau, along_xi, cycle_line_type, find_hopf_starts, &
+             hopf_start_type
 
    !> Numbers of the parameters along which a line may run, in the order of the family of blocks.
-   integer, parameter :: along_tau = 1, along_epsilon = 2
+   integer, parameter :: along_tau = 1, along_epsilon = 2, along_xi = 3, along_gamma = 4
    !> Places at which a sign of the condition is looked for between frequencies 0 and the largest
    integer, parameter :: scan_places = 4000
 
    !> A line.
    type :: cycle_line_type
-      !> along_tau or along_epsilon
+      !> along_tau, along_epsilon, along_xi or along_gamma
       integer :: along = along_epsilon
       !> The other parameters
       type(block_parameters_type) :: parameters
@@ -32,11 +35,11 @@ module cycle_lines
       real(wp) :: omega = 0.0_wp
    end type hopf_start_type
 
-   !> By how much a branch of the Hopf condition misses the line, as a function of the frequency.
+   !> By how much the Hopf condition misses the line, as a function of the frequency.
    type, extends(scalar_function_type) :: miss_type
       !> The line
       type(cycle_line_type) :: line
-      !> Branch of equation (10)
+      !> Branch of equation (10); on lines along xi and gamma there is one for all
       integer :: k = 0
    contains
       procedure :: value => miss_of_line
@@ -54,19 +57,23 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(hopf_start_type) :: start
       type(miss_type) :: miss
-      real(wp) :: here, largest, longest_delay, next, omega
-      integer :: i, k
+      real(wp) :: here, largest, next, omega, place(4)
+      integer :: branches, i, k
 
       allocate (starts(0))
       miss%line = line
       associate (p => line%parameters)
          largest = largest_omega(p%epsilon)
-         longest_delay = line%window(2)
-         if (line%along == along_epsilon) then
+         select case (line%along)
+         case (along_tau)
+            branches = int(line%window(2)*largest/two_pi) + 1
+         case (along_epsilon)
             largest = largest_omega(line%window(2))
-            longest_delay = p%tau
-         end if
-         do k = 0, int(longest_delay*largest/two_pi) + 1
+            branches = int(p%tau*largest/two_pi) + 1
+         case default
+            branches = 0
+         end select
+         do k = 0, branches
             miss%k = k
             here = miss%value(largest/scan_places)
             do i = 1, scan_places - 1
@@ -75,11 +82,11 @@ contains
                   call find_root(miss, largest*i/scan_places, largest*(i + 1)/scan_places, omega, &
                                  error)
                   if (allocated(error)) return
-                  start%omega = omega
-                  start%parameters = p
-                  start%parameters%tau = hopf_tau(omega, p%xi, p%gamma, k)
-                  start%parameters%epsilon = hopf_epsilon(omega, p%xi, p%gamma)
-                  if (is_on(line, start%parameters)) starts = [starts, start]
+                  start = hopf_start_type(at_frequency(miss, omega), omega)
+                  place = vector_of(start%parameters)
+                  if (place(line%along) >= line%window(1) .and. &
+                      place(line%along) <= line%window(2) .and. &
+                      start%parameters%tau >= 0.0_wp) starts = [starts, start]
                end if
                here = next
             end do
@@ -87,17 +94,26 @@ contains
       end associate
    end subroutine find_hopf_starts
 
-   !> Whether a Hopf point is in the window.
-   pure logical function is_on(line, parameters) result(value)
-      !> The line
-      type(cycle_line_type), intent(in) :: line
-      !> Parameters of the point
-      type(block_parameters_type), intent(in) :: parameters
+   !> Parameters of a pair i omega on the line.
+   type(block_parameters_type) function at_frequency(miss, omega) result(parameters)
+      !> The line and the branch
+      type(miss_type), intent(in) :: miss
+      !> Frequency
+      real(wp), intent(in) :: omega
 
-      associate (x => merge(parameters%tau, parameters%epsilon, line%along == along_tau))
-         value = x >= line%window(1) .and. x <= line%window(2) .and. parameters%tau >= 0.0_wp
+      parameters = miss%line%parameters
+      associate (p => parameters)
+         select case (miss%line%along)
+         case (along_xi)
+            p%xi = hopf_xi(omega, p%tau, p%gamma)
+         case (along_gamma)
+            p%gamma = hopf_gamma(omega, p%epsilon, p%tau, p%xi)
+         case default
+            p%tau = hopf_tau(omega, p%xi, p%gamma, miss%k)
+            p%epsilon = hopf_epsilon(omega, p%xi, p%gamma)
+         end select
       end associate
-   end function is_on
+   end function at_frequency
 
    !> By how much a pair i omega misses the line.
    real(wp) function miss_of_line(self, x) result(value)
@@ -107,11 +123,14 @@ contains
       real(wp), intent(in) :: x
 
       associate (p => self%line%parameters)
-         if (self%line%along == along_tau) then
+         select case (self%line%along)
+         case (along_tau)
             value = hopf_epsilon(x, p%xi, p%gamma) - p%epsilon
-         else
+         case (along_epsilon)
             value = hopf_tau(x, p%xi, p%gamma, self%k) - p%tau
-         end if
+         case default
+            value = frequency_condition(x, p%epsilon, p%tau)
+         end select
       end associate
    end function miss_of_line
 end module cycle_lines

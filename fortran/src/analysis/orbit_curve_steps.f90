@@ -1,0 +1,164 @@
+!> Steps along a curve of special points of periodic orbits: the next point is sought beside the
+!> direction of the curve, by the secant method.
+module orbit_curve_steps
+   use dde_errors, only: error_type, raise, text
+   use dde_kinds, only: wp
+   use orbit_change, only: difference_of, inner_product, orbit_change_type
+   use orbit_mesh, only: adapted_mesh
+   use orbit_passes, only: orbit_scale_type
+   use orbit_refinement, only: refinement_type
+   use orbit_surface, only: frame_type, judge_point, test_beside, turn_frame
+   use periodic_orbit, only: periodic_orbit_type
+   use problem_family, only: problem_family_type
+   use special_points, only: fold, special_point_type
+   implicit none (type, external)
+   private
+   public :: curve_settings_type, frame_on, take_step
+
+   !> How far a curve is followed, and how.
+   type :: curve_settings_type
+      !> The two free parameters and their units
+      type(orbit_scale_type) :: scale
+      !> Windows on them, shape (2, parameters)
+      real(wp) :: window(2, 2) = reshape([-1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp], [2, 2])
+      !> First, least and longest step, in units of arclength
+      real(wp) :: first_step = 0.01_wp, least_step = 1.0e-6_wp, longest_step = 0.1_wp
+      !> Most points
+      integer :: most_points = 200
+      !> The curve ends at a Hopf curve where no component has a larger range.
+      real(wp) :: least_amplitude = 0.02_wp
+      !> It ends where the period is longer.
+      real(wp) :: longest_period = huge(1.0_wp)
+      !> Multipliers and their accuracy
+      type(refinement_type) :: refinement
+   end type curve_settings_type
+
+   !> Evaluations of the test function at one point, and the distance between two at which it is
+   !> zero
+   integer, parameter :: most_evaluations = 8
+   real(wp), parameter :: share = 1.0e-9_wp
+   !> Distance of two evaluations from which the slope of the test function is known
+   real(wp), parameter :: resolved = 1.0e-6_wp
+   !> Most that a point may lie beside its prediction, in steps
+   real(wp), parameter :: most_bend = 0.5_wp
+   !> How the intervals grow where the mesh is not accurate
+   real(wp), parameter :: growth = 1.3_wp
+   !> The direction at a point is that of the step to it, turned by this share of the angle by which
+   !> the step turned. A share of 1 would be exact on a circle, but errors would not decay.
+   real(wp), parameter :: turning = 0.5_wp
+
+contains
+
+   !> The next point of a curve.
+   subroutine take_step(family, settings, step, point, frame, evaluations, passes, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> How far and how
+      type(curve_settings_type), intent(in) :: settings
+      !> Length of the step
+      real(wp), intent(in) :: step
+      !> The last point, then this one
+      type(special_point_type), intent(inout) :: point
+      !> Directions at the last point, then at this one
+      type(frame_type), intent(inout) :: frame
+      !> Evaluations of the test function
+      integer, intent(out) :: evaluations
+      !> Whether it passes through a shorter cycle
+      logical, intent(out) :: passes
+      !> The step is too long
+      type(error_type), allocatable, intent(out) :: error
+      type(orbit_change_type) :: move
+      type(periodic_orbit_type) :: before
+      real(wp) :: g
+      integer :: intervals
+
+      passes = .false.
+      associate (scale => settings%scale, refinement => settings%refinement)
+         intervals = point%orbit%intervals()
+         if (.not. accurate(point, refinement)) then
+            intervals = max(intervals, min(ceiling(growth*intervals), refinement%most_intervals))
+         end if
+         before = point%orbit%on_mesh(adapted_mesh(point%orbit, intervals))
+         frame = frame_on(frame, point%orbit, before)
+         call find_beside(family, settings, before, frame, step, point, evaluations, error)
+         if (allocated(error)) return
+         passes = point%orbit%opposite_parts(before) > 0
+         if (passes) then
+            call raise(error, "the step passes through a shorter cycle")
+            return
+         end if
+         if (point%kind == fold) then
+            call judge_point(family, refinement%multipliers, point, g, error)
+            if (allocated(error)) return
+         end if
+         move = difference_of(point%orbit, before, scale)
+         move = move%times((1.0_wp + turning)/sqrt(inner_product(before, move, move)))
+         frame%directions(1) = move%plus(frame%directions(1), -turning)
+         call turn_frame(family, scale, point%orbit, frame%directions, error)
+      end associate
+   end subroutine take_step
+
+   !> The root of the test function on the line beside the end of a step, by the secant method.
+   subroutine find_beside(family, settings, before, frame, step, point, evaluations, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> How far and how
+      type(curve_settings_type), intent(in) :: settings
+      !> The orbit from which the step goes
+      type(periodic_orbit_type), intent(in) :: before
+      !> Directions there, and the slope of the test function, which is improved
+      type(frame_type), intent(inout) :: frame
+      !> Length of the step
+      real(wp), intent(in) :: step
+      !> The point, of known kind
+      type(special_point_type), intent(inout) :: point
+      !> Evaluations of the test function
+      integer, intent(out) :: evaluations
+      !> There is none
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: at, g, g_before, move
+
+      at = 0.0_wp
+      move = 0.0_wp
+      do evaluations = 1, most_evaluations
+         call test_beside(family, settings%scale, settings%refinement%multipliers, before, &
+                          frame%directions, [step, at], point, g, error)
+         if (allocated(error)) return
+         ! at a shorter distance the difference is one of rounding errors
+         if (abs(move) > resolved) frame%slope = (g - g_before)/move
+         move = -g/frame%slope
+         if (abs(move) <= share) return
+         at = at + move
+         g_before = g
+         if (.not. abs(at) <= most_bend*step) exit
+      end do
+      call raise(error, "the curve bends: its next point is "//text(at)//" beside a step of " &
+                 //text(step))
+   end subroutine find_beside
+
+   !> Directions on the mesh of another orbit.
+   type(frame_type) function frame_on(frame, orbit, other) result(value)
+      !> The directions
+      type(frame_type), intent(in) :: frame
+      !> The orbit they belong to, and that on the other mesh
+      type(periodic_orbit_type), intent(in) :: orbit, other
+      integer :: i
+
+      value%slope = frame%slope
+      do i = 1, 2
+         value%directions(i) = frame%directions(i)%on_mesh(orbit, other%mesh)
+      end do
+   end function frame_on
+
+   !> Whether the multipliers of a point are accurate. At a fold the trivial one is double: then its
+   !> error is the square root of the other errors.
+   pure logical function accurate(point, refinement) result(value)
+      !> The point
+      type(special_point_type), intent(in) :: point
+      !> What is accurate
+      type(refinement_type), intent(in) :: refinement
+
+      value = point%trivial_error <= refinement%accuracy
+      if (point%kind == fold) value = point%trivial_error <= sqrt(refinement%accuracy)
+   end function accurate
+end module orbit_curve_steps

@@ -1,0 +1,76 @@
+"""Branches of cycles in a file of cycles followed along a line."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from scripts.drawing.special_points import words_of
+
+
+@dataclass
+class CycleThere:
+    """A cycle of a branch at a value of the parameter along the line."""
+
+    branch: int
+    unstable: int
+    """Multipliers outside of the unit circle"""
+    most: float
+    """Greatest v"""
+    modulus: float
+    """The largest of a multiplier but 1, that of the nearest orbit"""
+
+
+def cycles_there(cycles: xr.Dataset, place: float) -> list[CycleThere]:
+    """All cycles at a value of the parameter, each between two points of its branch."""
+    along = cycles.attrs["along"]
+    found = []
+    for number in range(1, cycles.sizes["branches"] + 1):
+        x, most, unstable = branch_of(cycles, number, along)
+        away = x - place
+        orbits = cycles.isel(orbit=cycles.branch.values == number)
+        for i in np.flatnonzero((away[:-1] * away[1:] <= 0) & (away[:-1] != away[1:])):
+            share = away[i] / (away[i] - away[i + 1])
+            here = float((1 - share) * most[i] + share * most[i + 1])
+            distance = np.hypot(orbits[along].values - place, orbits.v_most.values - here)
+            nearest = orbits.isel(orbit=distance.argmin(), multiplier=0)
+            modulus = float(np.hypot(nearest.multiplier_real, nearest.multiplier_imaginary))
+            found.append(CycleThere(number, int(unstable[i]), here, modulus))
+    return found
+
+
+def branch_of(cycles: xr.Dataset, number: int, along: str) -> tuple[np.ndarray, ...]:
+    """Parameter, greatest v, and between each two points the number of unstable multipliers.
+
+    Special points stand between the orbits where this number changes, so that each part of the
+    branch ends at its special point. A closed branch ends at its first orbit.
+    """
+    orbits = cycles.isel(orbit=cycles.branch.values == number)
+    points = cycles.isel(special=cycles.special_branch.values == number)
+    x, y = orbits[along].values, orbits.v_most.values
+    unstable = orbits.unstable.values
+    if branch_word(cycles, "ending", number) == "closed":
+        x, y, unstable = (np.append(values, values[0]) for values in (x, y, unstable))
+    between = unstable[:-1].copy()
+    inserted = []
+    for point in range(points.sizes["special"]):
+        here = points.isel(special=point)
+        changes = np.flatnonzero(
+            (unstable[:-1] == int(here.special_unstable_before))
+            & (unstable[1:] == int(here.special_unstable_behind))
+        )
+        if changes.size:
+            place = float(here[f"special_{along}"]), float(here.special_v_most)
+            away = np.hypot(
+                (x[changes] - place[0]) / np.ptp(x), (y[changes] - place[1]) / np.ptp(y)
+            )
+            inserted.append((changes[away.argmin()] + 1, *place, unstable[changes[0] + 1]))
+    for before, point_x, point_y, behind in sorted(inserted, reverse=True):
+        x, y = np.insert(x, before, point_x), np.insert(y, before, point_y)
+        between = np.insert(between, before, behind)
+    return x, y, between
+
+
+def branch_word(cycles: xr.Dataset, kind: str, number: int) -> str:
+    """The origin or the ending of a branch."""
+    return words_of(cycles[f"branch_{kind}"])[number - 1]

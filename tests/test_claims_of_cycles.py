@@ -1,0 +1,112 @@
+"""Verdicts on cycles at a scene, on a made-up line with a torus bifurcation at tau = 0.25."""
+
+import pytest
+from made_up_results import (
+    PLACE,
+    attractor_row,
+    cycles_to_a_torus,
+    results,
+    stability_row,
+    torus_point,
+)
+
+from scripts.claims.claims_of_cycles import TESTS
+from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED
+
+
+def at_scene(met: str, tau: float, **given):
+    """Results of a scene on this line."""
+    return results(
+        **{
+            "attractors": [attractor_row(met)],
+            "linear_stability": [stability_row(**{**PLACE, "tau": tau})],
+            "cycles": {"mine": cycles_to_a_torus()},
+            "cycle_points": [torus_point()],
+            **given,
+        }
+    )
+
+
+@pytest.mark.parametrize(
+    ("met", "tau", "verdict"),
+    [
+        ("torus", 0.35, REPRODUCED),
+        ("torus", 0.26, REPRODUCED),
+        ("torus", 0.24, CORRECTED),
+        ("cycle", 0.15, NOT_REPRODUCED),
+        ("chaos", 0.35, NOT_REPRODUCED),
+    ],
+)
+def test_torus_of_scene(met, tau, verdict):
+    """A run that ends on a torus, where no cycle is stable: the special point parts the orbits."""
+    assert TESTS["torus_of_scene"](at_scene(met, tau), scene="mine").verdict == verdict
+
+
+@pytest.mark.parametrize(
+    ("met", "tau", "given", "verdict"),
+    [
+        ("torus", 0.35, {}, REPRODUCED),
+        ("torus", 0.15, {}, CORRECTED),
+        ("cycle", 0.15, {}, CORRECTED),
+        ("chaos", 0.35, {}, CORRECTED),
+        ("torus", 0.35, {"cycle_points": []}, NOT_REPRODUCED),
+        ("torus", 0.35, {"cycle_points": [torus_point(kind="fold")]}, NOT_REPRODUCED),
+        ("torus", 0.35, {"cycle_points": [torus_point(unstable_before=2.0)]}, NOT_REPRODUCED),
+        ("torus", 0.35, {"cycle_points": [torus_point(xi=0.5)]}, NOT_REPRODUCED),
+        ("torus", 0.35, {"cycles": {"mine": cycles_to_a_torus(xi=0.5)}}, NOT_REPRODUCED),
+    ],
+)
+def test_second_hopf(met, tau, given, verdict):
+    """At the scene, elsewhere on a line through it, or not for a stable cycle of such a line."""
+    found = TESTS["second_hopf"](at_scene(met, tau, **given), scene="mine")
+    assert found.verdict == verdict
+    instead = "With all other parameters the same it occurs at tau = 0.25."
+    assert found.instead == (instead if verdict == CORRECTED else "")
+
+
+def test_evidence_of_the_second_hopf():
+    """The cycle with its size and multiplier, each once, and torus points of all lines."""
+    lines = {"mine": cycles_to_a_torus(), "across": cycles_to_a_torus("epsilon", tau=0.15)}
+    row = stability_row(**{**PLACE, "tau": 0.15, "epsilon": 0.15})
+    lines["mine"].attrs["epsilon"] = 0.15
+    made = at_scene("cycle", 0.15, cycles=lines, linear_stability=[row])
+    made.cycle_points[0]["epsilon"] = 0.15
+    assert TESTS["second_hopf"](made, scene="mine").evidence == (
+        "A second Hopf bifurcation of a cycle is a torus bifurcation: a pair of multipliers leaves"
+        " the unit circle. Class of scene mine by its exponents: cycle. Cycles followed to these"
+        " parameters, and the modulus of their largest Floquet multiplier but 1: stable with v up"
+        " to 1.15 (modulus 0.5). Torus bifurcations of stable cycles on lines through the scene:"
+        " at tau = 0.25 along tau (epsilon = 0.15, xi = 0.8, gamma = 0.8); none along epsilon"
+        " (tau = 0.15, xi = 0.8, gamma = 0.8)."
+    )
+
+
+@pytest.mark.parametrize(
+    ("expected", "tau", "pairs", "agrees"),
+    [
+        ("fixed point", 0.15, 0.0, True),
+        ("fixed point", 0.15, 1.0, False),
+        ("cycle", 0.15, 1.0, True),
+        ("cycle", 0.35, 1.0, False),
+        ("torus", 0.35, 1.0, True),
+        ("chaos", 0.35, 0.0, False),
+        ("chaos", 0.15, 1.0, False),
+        ("torus", 0.9, 1.0, False),
+    ],
+)
+def test_confirmed_by_multipliers(expected, tau, pairs, agrees):
+    """A class without a stable cycle needs a cycle that was followed there and is unstable."""
+    row = stability_row(**{**PLACE, "tau": tau}, unstable_pairs=pairs)
+    made = at_scene("cycle", tau, linear_stability=[row])
+    found = TESTS["confirmed_by_multipliers"](made, scenes=["mine"], expected=[expected])
+    assert found.verdict == (REPRODUCED if agrees else NOT_REPRODUCED)
+    assert (f"mine ({expected} in the paper) agrees" in found.evidence) == agrees
+
+
+def test_some_scenes_confirmed():
+    """The others are not."""
+    made = at_scene("cycle", 0.15)
+    claim = {"scenes": ["mine", "mine"], "expected": ["cycle", "torus"]}
+    found = TESTS["confirmed_by_multipliers"](made, **claim)
+    assert found.verdict == CORRECTED
+    assert found.instead == "Roots and multipliers do not agree with the paper for mine."

@@ -1,0 +1,100 @@
+"""The table of special points of cycles, from a made-up line with a torus bifurcation at 0.25."""
+
+import pytest
+from made_up_results import PLACE, cycles_to_a_torus, followed_cycles
+
+from scripts.tables.cycle_branches import cycles_there
+from scripts.tables.cycle_points_table import COLUMNS, rows_of, sweeps_over
+
+
+def sweep(*motions: tuple[str, float], run: str = "up", **given) -> list[dict]:
+    """Rows of a sweep at 0.2, 0.3 and so on: class, with points in the section behind a /."""
+    return [
+        {
+            "run": run,
+            **PLACE,
+            "tau": round(0.1 * i + 0.2, 1),
+            "class": met.split("/")[0],
+            "period": float(met.split("/")[1]) if "/" in met else float("nan"),
+            "largest_maximum": most,
+            **given,
+        }
+        for i, (met, most) in enumerate(motions)
+    ]
+
+
+@pytest.mark.parametrize(
+    ("rows", "word"),
+    [
+        (sweep(("cycle/1", 1.2), ("torus", 1.4)), "yes"),
+        (sweep(("cycle/1", 1.21), ("cycle/4", 1.4)), "yes"),
+        (sweep(("cycle/1", 1.2), ("cycle/1", 1.5)), "yes"),
+        (sweep(("cycle/1", 1.2), ("cycle/1", 1.25)), "no"),
+        (sweep(("cycle/1", 1.3), ("torus", 1.4)), "not simulated"),
+        (sweep(("chaos", 1.2), ("torus", 1.4)), "not simulated"),
+        (sweep(("cycle/1", 1.2), ("undecided", 1.4)), "not simulated"),
+        (sweep(("cycle/1", 1.2)), "not simulated"),
+        (sweep(("cycle/1", 1.2), ("torus", 1.4), xi=0.5), "not simulated"),
+        (sweep(("cycle/1", 1.2), ("torus", 1.4), run="near"), "not simulated"),
+        ([], "not simulated"),
+    ],
+)
+def test_confirmed_by_a_sweep(rows, word):
+    """It follows the stable cycle to the place before the point, and leaves it at the next."""
+    cycles = cycles_to_a_torus()
+    (row,) = rows_of("mine", cycles, sweeps_over(cycles, rows))
+    assert row["confirmed"] == word
+
+
+def test_one_sweep_of_two_is_enough():
+    """The other one is on another cycle."""
+    cycles = cycles_to_a_torus()
+    rows = sweep(("cycle/1", 3.0), ("cycle/1", 3.1)) + sweep(
+        ("cycle/1", 1.2), ("torus", 1.4), run="down"
+    )
+    (row,) = rows_of("mine", cycles, sweeps_over(cycles, rows))
+    assert row["confirmed"] == "yes"
+
+
+def test_a_point_of_unstable_cycles_is_not_simulated():
+    """No simulation stays on them."""
+    cycles = cycles_to_a_torus()
+    cycles["unstable"] = cycles.unstable + 1
+    for side in ("before", "behind"):
+        cycles[f"special_unstable_{side}"] = cycles[f"special_unstable_{side}"] + 1
+    rows = sweep(("cycle/1", 1.2), ("torus", 1.4))
+    (row,) = rows_of("mine", cycles, rows)
+    assert row["confirmed"] == "not simulated"
+
+
+def test_columns_of_a_torus_point():
+    """Its criticality is not computed."""
+    (row,) = rows_of("mine", cycles_to_a_torus(), [])
+    assert list(row) == COLUMNS
+    assert row["criticality"] == "not determined"
+    assert (row["tau"], row["angle"], row["resonance"]) == ("0.25", "0.24", "1:4")
+
+
+def test_a_cusp_lies_beside_the_line():
+    """It has parameters and errors, but neither branch nor stability."""
+    row = rows_of("mine", cycles_to_a_torus(cusps=1), [])[1]
+    assert set(row) == set(COLUMNS)
+    filled = {key: value for key, value in row.items() if value != ""}
+    place = {"tau": "3.5", "epsilon": "0.5", "xi": "0.8", "gamma": "0.8"}
+    assert filled == {
+        **{"of": "mine", "kind": "cusp", "period": "9", "v_most": "2.5", **place},
+        **{"confirmed": "not simulated", "multiplier_error": "0.0001", "mesh_error": "1e-10"},
+    }
+
+
+def test_cycles_at_a_value_of_the_parameter():
+    """Between the points of a branch; a closed one ends at its first orbit."""
+    found = cycles_there(cycles_to_a_torus(), 0.24)
+    assert [(cycle.unstable, round(cycle.most, 9)) for cycle in found] == [(0, 1.24)]
+    assert found[0].modulus == pytest.approx(0.9)
+    closed = followed_cycles().drop_dims("curve_point")
+    closed["multiplier_real"] = (("orbit", "multiplier"), [[0.5]] * 10)
+    closed["multiplier_imaginary"] = (("orbit", "multiplier"), [[0.0]] * 10)
+    both = [cycle for cycle in cycles_there(closed, 0.65) if cycle.branch == 2]
+    assert [round(cycle.most, 9) for cycle in both] == [2.05, 2.55]
+    assert [cycle.unstable for cycle in both] == [0, 0]
