@@ -4,6 +4,8 @@ With an option that changes what Snakemake says, its own output is left as it is
 """
 
 import argparse
+import contextlib
+import io
 import logging
 import re
 import signal
@@ -15,6 +17,7 @@ from typing import NoReturn
 sys.path.insert(1, str(Path(__file__).parents[2]))
 
 from snakemake import cli
+from snakemake.exceptions import CliException, WorkflowError
 
 from scripts.console.error_words import in_one_line, meant
 
@@ -32,14 +35,15 @@ class OneLine(logging.Handler):
 
     def emit(self, record: logging.LogRecord) -> None:
         """The reason alone."""
-        print(in_one_line(record.getMessage()), file=sys.stderr)
+        print(in_one_line(record.getMessage()), file=sys.__stderr__)
 
 
 def refuse(parser: argparse.ArgumentParser, reason: str) -> NoReturn:
     """Say what is wrong with the options, without the list of all of them."""
     unknown = re.search(r"unrecognized arguments: (\S+)", reason)
     options = set(re.findall(r"--[a-z][a-z0-9-]+", parser.format_help()))
-    parser.exit(2, f"error: {reason}{meant(unknown[1], options) if unknown else ''}\n")
+    print(f"error: {reason}{meant(unknown[1], options) if unknown else ''}", file=sys.__stderr__)
+    sys.exit(2)
 
 
 def wrong_cores(arguments: list[str]) -> str | None:
@@ -58,15 +62,21 @@ def main(arguments: list[str]) -> None:
     if number is not None:
         raise SystemExit(f"error: --cores is '{number}'; expected 1, 2, ..., or all")
     arguments = ["--list-target-rules" if each == "--list" else each for each in arguments]
-    argparse.ArgumentParser.error = refuse
-    logging.getLogger("snakemake.logging").addHandler(OneLine())
     if not any(SAYS_OTHER_THINGS.fullmatch(argument) for argument in arguments):
         arguments = ["--logger", "progress", *arguments]
+    argparse.ArgumentParser.error = refuse
+    logging.getLogger("snakemake.logging").addHandler(OneLine())
     try:
-        cli.main(arguments)
+        # without the line that names profiles/default
+        with contextlib.redirect_stderr(io.StringIO()):
+            parser, options = cli.parse_args(arguments)
+        done = cli.args_to_api(options, parser)
     except KeyboardInterrupt:
         # a second one, while Snakemake ends what the first one stopped
         sys.exit(128 + signal.SIGINT)
+    except (ValueError, OSError, WorkflowError, CliException) as problem:
+        raise SystemExit(in_one_line(str(problem))) from None
+    sys.exit(0 if done else 1)
 
 
 if __name__ == "__main__":
