@@ -108,7 +108,7 @@ def test_terminal_gets_one_line_of_progress_and_the_end(workflow):
 
 
 def test_page_is_named_only_where_it_was_asked_for(workflow):
-    """Where nothing is to be done, too."""
+    """Where nothing is to be done, too; by its path from the user's folder."""
     figure, page = "results/figures/figure_5.pdf", "open results/index.html"
     status, lines = lines_of(workflow, figure)
     assert status == 0
@@ -117,7 +117,10 @@ def test_page_is_named_only_where_it_was_asked_for(workflow):
     assert re.fullmatch(r"done in \d+ s", lines[3])
     assert len(lines) == 4
     assert lines_of(workflow)[1][-1] == page
-    assert lines_of(workflow) == (0, ["nothing to do: all results are up to date", page])
+    elsewhere = workflow.parent
+    places = (f"--snakefile={workflow}/Snakefile", f"--directory={workflow}")
+    page = f"open {workflow.name}/results/index.html"
+    assert lines_of(elsewhere, *places) == (0, ["nothing to do: all results are up to date", page])
 
 
 def test_failing_job_is_shown_with_its_words_and_log(workflow):

@@ -57,7 +57,8 @@ class RunProgress:
     """Counts of jobs, and which are at work."""
 
     def __init__(self) -> None:
-        """Nothing is known before the first job."""
+        """Begins in the user's folder; the jobs run in the project's."""
+        self.folder = Path.cwd()
         self.began = time.monotonic()
         self.total = 0
         self.done = 0
@@ -69,6 +70,14 @@ class RunProgress:
     def elapsed(self) -> str:
         """Time since the beginning."""
         return seconds_in_words(time.monotonic() - self.began)
+
+    def seen(self, path: str) -> str:
+        """A path from the user's folder."""
+        return os.path.relpath(path, self.folder)
+
+    def ask(self, paths: list[str]) -> None:
+        """All files that the run is to make or keep."""
+        self.asked = [os.path.abspath(path) for path in paths]
 
     def begin(self, number: int, job: Job) -> None:
         """A job starts."""
@@ -102,7 +111,7 @@ class RunProgress:
         """What a run that began ends with."""
         if self.failed:
             jobs = counted(self.failed, "job")
-            return [f"{jobs} failed after {self.elapsed}; all messages are in {log}"]
+            return [f"{jobs} failed after {self.elapsed}; all messages are in {self.seen(log)}"]
         if self.done < self.total:
             done = f"{self.done} of {counted(self.total, 'job')} done"
             remedy = "run the same command again to continue"
@@ -116,13 +125,13 @@ class RunProgress:
             claims = json.loads(Path(path).read_text(encoding="utf-8"))
             verdicts = Counter(claim["verdict"] for claim in claims).most_common()
             words = ", ".join(f"{number} {verdict}" for verdict, number in verdicts)
-            table = Path(path).with_suffix(".tsv")
+            table = self.seen(str(Path(path).with_suffix(".tsv")))
             lines.append(f"{counted(len(claims), 'claim')} of the paper: {words}; see {table}")
         return lines
 
     def to_open(self) -> list[str]:
         """The page, where it was asked for."""
-        return [f"open {path}" for path in self.named(PAGE)]
+        return [f"open {self.seen(path)}" for path in self.named(PAGE)]
 
     def named(self, name: str) -> list[str]:
         """Results of this name among those that were asked for."""

@@ -4,8 +4,8 @@ Snakemake's own messages and the words of jobs are in its log file in .snakemake
 """
 
 import atexit
+import contextlib
 import logging
-import os
 import threading
 import time
 
@@ -24,7 +24,11 @@ NOTHING = "Nothing to be done"
 """Snakemake's first words where all results are up to date."""
 STOPPING = "Terminating processes on user request"
 """Its first words after Ctrl-C; the jobs that this ends have not failed by themselves."""
-OF_FAILURES = ("RuleException", "WorkflowError: At least one job", "Exiting because a job")
+OF_FAILURES = (
+    "RuleException: CalledProcessError",
+    "WorkflowError: At least one job",
+    "Exiting because a job",
+)
 """First words of errors that only repeat that a job failed."""
 
 
@@ -48,7 +52,7 @@ class LogHandler(LogHandlerBase):
     def __post_init__(self) -> None:
         """Before the Snakefile is read."""
         self.run = RunProgress()
-        self.log = self.log_named = ""
+        self.log = ""
         self.up_to_date = self.stopping = False
         self.closed = threading.Event()
         self.screen = Screen(self.note)
@@ -58,18 +62,17 @@ class LogHandler(LogHandlerBase):
             LogEvent.JOB_FINISHED: self.on_end_of_job,
             LogEvent.JOB_ERROR: self.on_failure,
         }
-        threading.Thread(target=self.tick, daemon=True).start()
+        self.ticker = threading.Thread(target=self.tick, daemon=True)
+        self.ticker.start()
         # a Snakefile that ends the run leaves its handlers open
         atexit.register(self.close)
 
     def emit(self, record: logging.LogRecord) -> None:
         """Called for each message of Snakemake's, in turn."""
-        if not self.log and (log := log_file()):
-            # Snakemake leaves the project's folder at the end
-            self.log, self.log_named = log, os.path.relpath(log)
+        self.log = self.log or log_file()
         asked = getattr(record, "asked_for", None)
         if asked is not None:
-            self.run.asked = asked
+            self.run.ask(asked)
         elif on_event := self.events.get(getattr(record, "event", None)):
             on_event(record)
         elif record.levelno >= logging.WARNING:
@@ -82,7 +85,8 @@ class LogHandler(LogHandlerBase):
     def on_run(self, record: logging.LogRecord) -> None:
         """Before the first job."""
         self.run.total = record.stats["total"]
-        self.screen.say(f"{counted(self.run.total, 'job')}; all messages are in {self.log_named}")
+        log = self.run.seen(self.log)
+        self.screen.say(f"{counted(self.run.total, 'job')}; all messages are in {log}")
 
     def on_job(self, record: logging.LogRecord) -> None:
         """A job starts."""
@@ -91,16 +95,16 @@ class LogHandler(LogHandlerBase):
     def on_end_of_job(self, record: logging.LogRecord) -> None:
         """A job is done."""
         for path in self.run.end(record.job_id):
-            self.screen.say(f"made {path}")
+            self.screen.say(f"made {self.run.seen(path)}")
 
     def on_failure(self, record: logging.LogRecord) -> None:
         """The job's own words came before, through standard error."""
         if self.stopping:
             return
         self.run.fail(record.jobid)
-        made = record.output[0] if record.output else record.rule_name
-        logs = f"; log: {', '.join(record.log)}" if record.log else ""
-        self.screen.say(f"failed: {made} (rule {record.rule_name}){logs}")
+        made = f"{self.run.seen(record.output[0])} " if record.output else ""
+        log = f"; log: {self.run.seen(record.log[0])}" if record.log else ""
+        self.screen.say(f"failed: {made}(rule {record.rule_name}){log}")
 
     def on_problem(self, record: logging.LogRecord) -> None:
         """A warning as it stands, an error in one line."""
@@ -112,9 +116,9 @@ class LogHandler(LogHandlerBase):
 
     def note(self, line: str) -> None:
         """Keep the words of jobs in the log file too."""
-        if self.log:
-            with open(self.log, "a", encoding="utf-8") as log:
-                log.write(f"{line}\n")
+        # on a full disk the jobs go on
+        with contextlib.suppress(OSError), open(self.log, "a", encoding="utf-8") as log:
+            log.write(f"{line}\n")
 
     def tick(self) -> None:
         """Time goes on while no message comes."""
@@ -131,8 +135,9 @@ class LogHandler(LogHandlerBase):
         """At the end of the run, however that ends; Snakemake calls it more than once."""
         if not self.closed.is_set():
             self.closed.set()
+            self.ticker.join()
             self.screen.close()
-            lines = self.run.last_lines(self.log_named) if self.run.total else []
+            lines = self.run.last_lines(self.log) if self.run.total else []
             if self.up_to_date:
                 lines = ["nothing to do: all results are up to date", *self.run.to_open()]
             for line in lines:
