@@ -183,7 +183,10 @@ def test_findings_follow_the_tables():
         in (one["words"])
     )
     assert [given["id"] for given in one["claims"]] == ["figure_5a"]
-    assert "at epsilon = 0.25. Along the Hopf curves of 2 planes it changes" in two["words"]
+    assert (
+        "at epsilon = 0.25. Along the Hopf curves of 2 planes the bifurcation changes"
+        in two["words"]
+    )
     assert two["words"].endswith(" at 1 point.")
     assert "All 1 runs there reach their end, each in at most 7 steps." in three["words"]
     assert three["words"].endswith("none do.")

@@ -39,8 +39,8 @@ def of_the_hopf_points(tables: dict[str, list[dict]]) -> dict:
     turns = sum(row["kind"] == "generalised_hopf" for row in tables["hopf_points"])
     planes = len({row["of"] for row in tables["hopf_points"]})
     both = (
-        f"Along the Hopf curves of {planes} planes it changes between supercritical and subcritical"
-        f" at {turns} point{'' if turns == 1 else 's'}."
+        f"Along the Hopf curves of {planes} planes the bifurcation changes between supercritical"
+        f" and subcritical at {turns} point{'' if turns == 1 else 's'}."
     )
     if not points:
         return {"title": "Steady sliding becomes unstable by a delay only.", "words": both}
