@@ -332,6 +332,19 @@ def test_every_claim_stands_in_the_page_once(smoke, smoke_page):
         assert f"{verdict} {count} claim" in text
 
 
+def test_no_sentence_stands_in_the_page_twice(smoke):
+    """Of the captions, of the findings and of what is true instead."""
+    text = (smoke.folder / "results" / "index.html").read_text()
+    groups = (
+        r'(?s)<p class="instead">(.*?)</p>',
+        r"(?s)<figcaption>\s*<p>(.*?)</p>",
+        r"(?s)</h3>\s*<p>(.*?)</p>",
+    )
+    found = Counter(words for group in groups for words in re.findall(group, text))
+    assert len(found) > 20
+    assert [words for words, count in found.items() if count > 1] == []
+
+
 def test_every_figure_stands_in_the_page(smoke, smoke_page):
     """With its caption, its rule, and words for those who do not see it."""
     images = {given["src"]: given["alt"] for tag, given in smoke_page.found if tag == "img"}
