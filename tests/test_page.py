@@ -161,7 +161,8 @@ def test_findings_follow_the_tables():
     """Their titles, too."""
     torus = motion("torus", "cycle", [0.0, -0.01, -0.02], np.nan)
     true_torus = motion("true_torus", "torus", [0.002, -0.002, -0.02], 0.3) | {"tau": 12.5}
-    point = {"kind": "hopf_without_delay", "epsilon": 0.25, "xi": 0.5, "gamma": 0.8}
+    point = {"of": "a", "kind": "hopf_without_delay", "epsilon": 0.25, "xi": 0.5, "gamma": 0.8}
+    turn = {"of": "b", "kind": "generalised_hopf"}
     runs = [
         {"gamma": gamma, "method": method, "status": status, "steps": 7.0}
         for gamma, method, status in (
@@ -170,7 +171,7 @@ def test_findings_follow_the_tables():
             (0.8, "auto", "stopped"),
         )
     ]
-    tables = {"attractors": [torus, true_torus], "hopf_points": [point], "stability": runs}
+    tables = {"attractors": [torus, true_torus], "hopf_points": [point, turn], "stability": runs}
     one, two, three = findings.findings([claim("figure_5a")], tables)
     assert one["title"] == "The paper's torus is a limit cycle."
     assert (
@@ -182,7 +183,11 @@ def test_findings_follow_the_tables():
         in (one["words"])
     )
     assert [given["id"] for given in one["claims"]] == ["figure_5a"]
-    assert "at epsilon = 0.25" in two["words"]
+    assert (
+        "at epsilon = 0.25. Along the Hopf curves of 2 planes the bifurcation changes"
+        in two["words"]
+    )
+    assert two["words"].endswith(" at 1 point.")
     assert "All 1 runs there reach their end, each in at most 7 steps." in three["words"]
     assert three["words"].endswith("none do.")
     changed = {"attractors": [true_torus | {"scene": "torus"}, true_torus], "hopf_points": []}
@@ -325,6 +330,19 @@ def test_every_claim_stands_in_the_page_once(smoke, smoke_page):
     for verdict in VERDICTS:
         count = sum(row["verdict"] == verdict for row in claims)
         assert f"{verdict} {count} claim" in text
+
+
+def test_no_sentence_stands_in_the_page_twice(smoke):
+    """Of the captions, of the findings and of what is true instead."""
+    text = (smoke.folder / "results" / "index.html").read_text()
+    groups = (
+        r'(?s)<p class="instead">(.*?)</p>',
+        r"(?s)<figcaption>\s*<p>(.*?)</p>",
+        r"(?s)</h3>\s*<p>(.*?)</p>",
+    )
+    found = Counter(words for group in groups for words in re.findall(group, text))
+    assert len(found) > 20
+    assert [words for words, count in found.items() if count > 1] == []
 
 
 def test_every_figure_stands_in_the_page(smoke, smoke_page):

@@ -141,8 +141,8 @@ def hopf_curves(results: Results, *, planes: list[str], limit: float) -> Finding
         corrected <= limit,
         f"Largest residual of (5) at {points} points of {branches} branches: {short(printed)} with"
         f" the formulas as printed, {short(corrected)} with the corrected formulas.",
-        f"Residual of (5): up to {short(printed, 2)} as printed, {short(corrected, 2)} after"
-        " correction.",
+        f"At {points} points the residual of (5) is up to {short(printed, 2)} as printed and"
+        f" {short(corrected, 2)} after correction.",
     )
 
 

@@ -19,7 +19,7 @@ def single_peak(results: Results, *, scene: str) -> Finding:
     periodic = spectrum.attrs["spectrum_kind"] == "one base"
     alone = spectrum.sizes["peak"] == 1
     verdict = (REPRODUCED if alone else CORRECTED) if periodic else NOT_REPRODUCED
-    instead = second_peak(spectrum) if not (periodic and alone) else ""
+    instead = second_peak(scene, spectrum) if not (periodic and alone) else ""
     return Finding(verdict, in_words(scene, spectrum), instead)
 
 
@@ -29,15 +29,15 @@ def spectrum_class(results: Results, *, scene: str, expected: str) -> Finding:
     return decided(
         spectrum.attrs["spectrum_kind"] == expected,
         in_words(scene, spectrum),
-        second_peak(spectrum),
+        second_peak(scene, spectrum),
     )
 
 
-def second_peak(spectrum: xr.Dataset) -> str:
+def second_peak(scene: str, spectrum: xr.Dataset) -> str:
     """What the second highest peak is, in a sentence."""
     kind, count = spectrum.attrs["spectrum_kind"], spectrum.sizes["peak"]
     if kind != "one base" or count < 2:
-        return f"The spectrum is of the kind {kind}, with {count} peaks."
+        return f"The spectrum of scene {scene} is of the kind {kind}, with {count} peaks."
     first, second = (-spectrum.peak_power.values).argsort()[:2]
     share = 100 * float(spectrum.peak_power[second] / spectrum.peak_power[first])
     multiple = int(spectrum.peak_multiple[second])

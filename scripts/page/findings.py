@@ -37,9 +37,10 @@ def of_the_hopf_points(tables: dict[str, list[dict]]) -> dict:
     """Whether steady sliding needs a delay to become unstable, and in which ways it does."""
     points = [row for row in tables["hopf_points"] if row["kind"] == "hopf_without_delay"]
     turns = sum(row["kind"] == "generalised_hopf" for row in tables["hopf_points"])
+    planes = len({row["of"] for row in tables["hopf_points"]})
     both = (
-        f"Along the curves the bifurcation changes between supercritical and subcritical at {turns}"
-        " points."
+        f"Along the Hopf curves of {planes} planes the bifurcation changes between supercritical"
+        f" and subcritical at {turns} point{'' if turns == 1 else 's'}."
     )
     if not points:
         return {"title": "Steady sliding becomes unstable by a delay only.", "words": both}

@@ -39,10 +39,12 @@ def sections(figures: list[dict], claims: list[dict]) -> dict[str, list[dict]]:
     placed = claims_by_figure(figures, claims)
     for figure in figures:
         caption = captions.as_html(figure["caption"])
+        first, end, more = caption.partition("</p>")
         section = {
             "name": figure["name"],
             "title": title_of(figure["name"]),
-            "caption": caption,
+            "caption": first + end,
+            "more": more,
             "alternative": captions.first_sentence(caption),
             "claims": placed[figure["name"]],
             "data": [relative(path) for path in figure["data"]],
