@@ -169,11 +169,13 @@ def test_numbers_of_the_solver(tmp_path):
         {**base, "solver": "other", "error_max": 1e-9, "seconds": 6.0},
         {**base, "solver": "other", "error_max": 1e-9, "seconds": 3.0, "t_end": 5.0},
     ]
+    # a scene without a run of another solver that is as long
+    ours.append({**ours[0], "scene": "other", "t_end": 5.0})
     write_table(tmp_path / "ours.tsv", ours)
     write_table(tmp_path / "others.tsv", others)
     measured = tmp_path / "others.tsv"
     measured.write_text("# date: 2026-11-22\n" + measured.read_text())
     given = {"table": tmp_path / "ours.tsv", "others": measured}
     found = numbers_of_solver.of_work_precision(given, {})
-    assert found["fastest"] == ["fast (in one scene)"]
+    assert found["fastest"] == ["fast (in one scene)", "slow (in one scene)"]
     assert (found["ratios"], found["date"]) == (["3", "3"], "2026-11-22")

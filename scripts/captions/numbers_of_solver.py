@@ -51,7 +51,8 @@ def of_work_precision(given: dict, _params: dict) -> dict:
         )
         if ours:
             fastest[min(ours)[1]] += 1
-            ratios += [min(theirs)[0] / min(ours)[0]] * bool(theirs)
+        if ours and theirs:
+            ratios.append(min(theirs)[0] / min(ours)[0])
     # methods with fixed steps have these in the place of a tolerance
     tolerances = [row["tolerance"] for row in table if not row["solver"].startswith("rk4")]
     return {
