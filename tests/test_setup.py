@@ -18,7 +18,10 @@ SCRIPTS = [
     "compilers/run",
     "docs/draw",
 ]
-LOCKS = {".": 10, "setup": 0, "benchmarks": 2, "docs": 0, "tests/browser": 1, "profiles/slurm": 0}
+LOCKS = {
+    **{".": 10, "setup": 0, "benchmarks": 2, "docs": 0, "tests/browser": 1, "tests/formats": 0},
+    "profiles/slurm": 0,
+}
 """Folders with a lock of Python packages, and more than how many of them are named by hand."""
 
 
