@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-from jinja2 import Template
+from jinja2 import Environment, StrictUndefined
 
 from scripts.claims import (
     claims_of_attractors,
@@ -28,6 +28,7 @@ from scripts.claims.claims_results import (
 )
 from scripts.files.outputs import logged, written
 from scripts.files.tsv import write_table
+from scripts.page import mathematics
 
 TESTS = {
     **claims_of_formulas.TESTS,
@@ -89,7 +90,9 @@ def write_json(path: str | Path, rows: list[dict]) -> None:
 def write_page(path: str | Path, template: str | Path, rows: list[dict]) -> None:
     """The rows by verdict, as a page of the report; the file is whole or absent."""
     by_verdict = {verdict: [row for row in rows if row["verdict"] == verdict] for verdict in SHOWN}
-    page = Template(Path(template).read_text(), autoescape=True, trim_blocks=True)
+    environment = Environment(autoescape=True, trim_blocks=True, undefined=StrictUndefined)
+    environment.filters["mathematics"] = mathematics.of_words
+    page = environment.from_string(Path(template).read_text())
     with written(path) as unfinished:
         unfinished.write_text(page.render(verdicts=by_verdict) + "\n")
 
