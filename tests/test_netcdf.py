@@ -6,7 +6,7 @@ import pytest
 import xarray as xr
 from conftest import ROOT, Project
 
-CHECKER = ROOT / "tests" / "netcdf" / ".venv" / "bin" / "compliance-checker"
+CHECKER = ROOT / "tests" / "formats" / ".venv" / "bin" / "compliance-checker"
 KINDS = {
     *("trajectories", "spectra", "exponents", "slip_events", "linear_stability", "hopf", "cycles"),
     *("friction", "measurements/stability", "measurements/trust", "measurements/work_precision"),
