@@ -164,7 +164,7 @@ def cycles_to_a_torus(along: str = "tau", cusps: int = 0, **fixed: float) -> xr.
         "unstable": [0, 0, 2, 2],
     }
     points = {
-        "kind": ["torus".ljust(20)],
+        "kind": ["torus"],
         **{key: [value] for key, value in place.items()},
         along: [0.25],
         "v_most": [1.25],
@@ -187,8 +187,8 @@ def cycles_to_a_torus(along: str = "tau", cusps: int = 0, **fixed: float) -> xr.
             **{f"cusp_{name}": ("cusp", [value] * cusps) for name, value in cusp.items()},
             "multiplier_real": (("orbit", "multiplier"), [[0.3], [0.54], [0.66], [0.8]]),
             "multiplier_imaginary": (("orbit", "multiplier"), [[0.4], [0.72], [0.88], [0.7]]),
-            "branch_origin": ("branches", ["hopf".ljust(16)]),
-            "branch_ending": ("branches", ["window".ljust(16)]),
+            "branch_origin": ("branches", ["hopf"]),
+            "branch_ending": ("branches", ["window"]),
         },
         attrs={"along": along, **place},
     )
