@@ -15,6 +15,7 @@ for figure in FIGURES:
                 f"results/figures/{figure}.png",
                 caption=Path.cwd() / entries.caption_of(figure),
                 category=entries.ENTRIES[figure].category,
+                labels={"figure": entries.title_of(figure).rstrip(".")},
             ),
             svg=f"results/figures/{figure}.svg",
         log:

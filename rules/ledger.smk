@@ -10,12 +10,20 @@ rule claims:
         spectra=data_for_claims("spectra"),
         slip_events=data_for_claims("slip_events"),
         friction="results/friction/velocity_step.nc",
+        template="page/verdicts.html.jinja",
         code=code_of("claims/ledger.py"),
     output:
         tsv=report(
             "results/tables/claims.tsv",
             caption="../scripts/claims/ledger.rst",
-            category="Ledger",
+            category="Claims",
+            labels={"content": "Table"},
+        ),
+        page=report(
+            "results/tables/claims.html",
+            caption="../scripts/claims/ledger.rst",
+            category="Claims",
+            labels={"content": "Verdicts"},
         ),
         json="results/tables/claims.json",
     log:

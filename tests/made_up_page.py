@@ -41,10 +41,10 @@ def attractor(epsilon: float, tau: float, **given) -> dict:
 def run(count: int = 30001, interval: float = 0.05) -> xr.Dataset:
     """A trajectory of the scene `my_scene`."""
     time = interval * np.arange(count)
-    values = {"v": ("time", 1 + 0.5 * np.cos(time)), "u": ("time", 0.5 * np.sin(time))}
+    values = {"v": ("t", 1 + 0.5 * np.cos(time)), "u": ("t", 0.5 * np.sin(time))}
     parameters = {"epsilon": 0.5, "tau": 10.0, "xi": 0.8, "gamma": 0.8}
     attributes = {"scene": "my_scene", "sample_interval": interval, **parameters}
-    return xr.Dataset(values, {"time": time}, attributes)
+    return xr.Dataset(values, {"t": time}, attributes)
 
 
 def atlas_run(*paths: np.ndarray | None) -> xr.Dataset:

@@ -124,7 +124,7 @@ def followed_cycles(along: str = "tau", **fixed: float) -> xr.Dataset:
         "unstable": [2, 2, 2, 3, 3, 1, *(0, 1, 1, 0)],
     }
     points = {
-        "kind": ["fold".ljust(20), "torus".ljust(20), *["period_doubling".ljust(20)] * 2],
+        "kind": ["fold", "torus", *["period_doubling"] * 2],
         along: [0.45, 0.3, 0.7, 0.7],
         "v_most": [2.2, 3.0, 2.1, 2.6],
         "branch": [1, 1, 2, 2],
@@ -139,8 +139,8 @@ def followed_cycles(along: str = "tau", **fixed: float) -> xr.Dataset:
         {
             **{name: ("orbit", values) for name, values in orbits.items()},
             **{f"special_{name}": ("special", values) for name, values in points.items()},
-            "branch_origin": ("branches", ["hopf".ljust(16), "trajectory".ljust(16)]),
-            "branch_ending": ("branches", ["window".ljust(16), "closed".ljust(16)]),
+            "branch_origin": ("branches", ["hopf", "trajectory"]),
+            "branch_ending": ("branches", ["window", "closed"]),
             f"hopf_{along}": ("hopf", [0.1]),
             f"hopf_{other}": ("hopf", [place[other]]),
             **{f"curve_{name}": ("curve_point", values) for name, values in curves.items()},
@@ -164,7 +164,7 @@ def cycles_to_a_torus(along: str = "tau", cusps: int = 0, **fixed: float) -> xr.
         "unstable": [0, 0, 2, 2],
     }
     points = {
-        "kind": ["torus".ljust(20)],
+        "kind": ["torus"],
         **{key: [value] for key, value in place.items()},
         along: [0.25],
         "v_most": [1.25],
@@ -187,8 +187,8 @@ def cycles_to_a_torus(along: str = "tau", cusps: int = 0, **fixed: float) -> xr.
             **{f"cusp_{name}": ("cusp", [value] * cusps) for name, value in cusp.items()},
             "multiplier_real": (("orbit", "multiplier"), [[0.3], [0.54], [0.66], [0.8]]),
             "multiplier_imaginary": (("orbit", "multiplier"), [[0.4], [0.72], [0.88], [0.7]]),
-            "branch_origin": ("branches", ["hopf".ljust(16)]),
-            "branch_ending": ("branches", ["window".ljust(16)]),
+            "branch_origin": ("branches", ["hopf"]),
+            "branch_ending": ("branches", ["window"]),
         },
         attrs={"along": along, **place},
     )

@@ -283,8 +283,8 @@ def a_scene(name: str, met: str) -> true_torus.Scene:
     size = 1.0 if met == "torus" else 0.0
     time = np.arange(0.0, 200.0, 0.1)
     trajectory = xr.Dataset(
-        {"v": ("time", 1 + 0.5 * np.cos(time))},
-        {"time": time},
+        {"v": ("t", 1 + 0.5 * np.cos(time))},
+        {"t": time},
         {"tau": 10.0, "epsilon": 0.5, "xi": 0.8, "gamma": 0.8},
     )
     attractors = xr.Dataset(

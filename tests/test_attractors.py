@@ -137,7 +137,7 @@ def a_run(classes: list[str], **given) -> xr.Dataset:
         **given,
     }
     exponents = {key: points.pop(key, 0.0) for key in ("lyapunov_exponent", "lyapunov_error")}
-    words = np.broadcast_to(points.pop("problem", " "), size)
+    words = np.broadcast_to(points.pop("problem", ""), size)
     data = {key: ("point", np.broadcast_to(value, size)) for key, value in points.items()}
     for key in ("class", "by_exponents", "by_section", "by_spectrum"):
         data[key] = ("point", numbers, {"flag_meanings": meanings})
@@ -172,8 +172,8 @@ def attractors_in(run: xr.Dataset) -> list[int]:
 
 
 def test_rows_say_what_the_file_holds():
-    """Zeros that stand for nothing become empty, blank problems too."""
-    run = a_run(["cycle", "undecided"], period=[3, 0], problem=[" ", "it stopped"])
+    """Zeros that stand for nothing become empty, and there are none."""
+    run = a_run(["cycle", "undecided"], period=[3, 0], problem=["", "it stopped"])
     first, second = attractor_tables.rows_of(run)
     assert (first["class"], first["period"], first["f1"]) == ("cycle", 3.0, 0.1)
     assert (first["exponent_1"], first["exponent_2"]) == (0.0, -1.0)
@@ -199,7 +199,7 @@ def test_histories_slower_than_the_attractor_are_tame(fastest, tame):
         ["cycle"] * 3,
         history_v=[1.0, fastest, 1.0],
         largest_maximum=[2.0, 2.0, math.nan],
-        problem=[" ", " ", "it stopped"],
+        problem=["", "", "it stopped"],
     )
     rows = attractor_tables.scene_rows("mine", run)
     assert [row["tame_histories"] for row in rows] == [tame] * 3
@@ -252,7 +252,7 @@ def test_parameter_of_a_route(along):
 def test_shares_of_basins_have_standard_errors():
     """The most frequent motion first; a failed run belongs to none and counts as a history."""
     classes = ["cycle", "chaos", "cycle", "undecided", "cycle"]
-    run = a_run(classes, problem=[" ", " ", " ", "it stopped", " "])
+    run = a_run(classes, problem=["", "", "", "it stopped", ""])
     first, second = basins_table.basin_rows("mine", run, [])
     assert (first["motion"], first["class"], first["histories"]) == (1, "cycle", 5)
     assert (first["share"], second["share"]) == (0.6, 0.2)

@@ -91,7 +91,7 @@ def test_numbers_of_hopf_curves(tmp_path):
     curves["l1"][3] = 0.2
     curves["unstable_pairs"][curves.epsilon.values.argmax()] = 1
     curves["crossing"][:4] = -1
-    curves["special_kind"] = ("special", np.array([b"hopf_without_delay  "]))
+    curves["special_kind"] = ("special", np.array(["hopf_without_delay"]))
     curves["special_epsilon"] = ("special", [0.28])
     curves.drop_vars("xi").to_netcdf(tmp_path / "curves.nc")
     place = {"epsilon": 0.5, "tau": 10.0, "gamma": 0.8}
@@ -109,7 +109,7 @@ def test_numbers_of_trajectories(tmp_path):
     """The end of v, the class and the period of made-up motions."""
     time = np.arange(0.0, 40.0, 0.1)
     v = 1 + np.where(time < 20, 3.0, 0.5) * np.cos(2 * np.pi * 0.1 * time)
-    xr.Dataset({"v": ("time", v)}, {"time": time}).to_netcdf(tmp_path / "run.nc")
+    xr.Dataset({"v": ("t", v)}, {"t": time}).to_netcdf(tmp_path / "run.nc")
     given = {"trajectories": [tmp_path / "run.nc"], "table": tmp_path / "attractors.tsv"}
 
     def row_where(*rows: dict) -> dict:

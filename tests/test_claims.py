@@ -2,9 +2,10 @@
 
 import csv
 import json
+import re
 
 import pytest
-from conftest import SMOKE
+from conftest import ROOT, SMOKE
 from made_up_results import (
     attractor_row,
     hopf_curve,
@@ -120,6 +121,21 @@ def test_json_is_whole_or_absent(tmp_path):
     ledger.write_json(tmp_path / "claims.json", rows)
     assert json.loads((tmp_path / "claims.json").read_text()) == rows
     assert [path.name for path in tmp_path.iterdir()] == ["claims.json"]
+
+
+def test_page_has_failing_claims_first(tmp_path):
+    """Each claim with its result, beside how many have its verdict; no tag comes from a claim."""
+    rows = ledger_of("fixed point")
+    rows[1]["evidence"] = "1 < 2 & 3"
+    template = ROOT / "page" / "verdicts.html.jinja"
+    ledger.write_page(tmp_path / "claims.html", template, rows)
+    text = (tmp_path / "claims.html").read_text()
+    headings = re.findall("<h2>(.*)</h2>", text)
+    assert headings == ["Not reproduced", "Reproduced", "Not testable"]
+    assert re.findall("<li>(.*)</li>", text)[1] == "reproduced with a correction: 0"
+    claims = re.findall(r'<tr><th scope="row">.*</th><td>(.*)</td><td>(.*)</td></tr>', text)
+    assert [claim for claim, _ in claims] == [row["claim"] for row in rows]
+    assert claims[1][1] == "1 &lt; 2 &amp; 3"
 
 
 def read_ledger(folder) -> dict[str, dict]:

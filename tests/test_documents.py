@@ -283,14 +283,31 @@ def test_catalog_file_is_what_the_catalog_reads():
     }  # fmt: skip
 
 
-def test_citation_is_valid():
-    """By cffconvert, where `setup/setup.sh docs` has set it up."""
-    program = ROOT / "docs" / ".venv" / "bin" / "cffconvert"
+def cffconvert(*arguments: str) -> str:
+    """What it says about CITATION.cff."""
+    program = ROOT / "tests" / "formats" / ".venv" / "bin" / "cffconvert"
     if not program.exists():
-        pytest.skip("docs/.venv is not set up")
-    command = [program, "--validate", "--infile", ROOT / "CITATION.cff"]
+        pytest.skip("`setup/setup.sh tests/formats` sets it up, and so does ./test")
+    command = [program, "--infile", ROOT / "CITATION.cff", *arguments]
     run = subprocess.run(command, capture_output=True, text=True)
     assert run.returncode == 0, run.stdout + run.stderr
+    return run.stdout
+
+
+def test_citation_is_valid():
+    """By the schema of the Citation File Format."""
+    assert "valid according to schema" in cffconvert("--validate")
+
+
+def test_citation_is_complete():
+    """BibTeX gets author, title and year; the authors of the paper have first names."""
+    entry = cffconvert("--format", "bibtex")
+    assert set(re.findall(r"^(\w+) = {.+}", entry, re.MULTILINE)) >= {"author", "title", "year"}
+    [paper] = read(ROOT / "CITATION.cff")["references"]
+    assert paper["title"] in entry
+    names = [author["given-names"] for author in paper["authors"]]
+    assert len(names) == 4
+    assert not [name for name in names if "." in name]
 
 
 @pytest.mark.parametrize(

@@ -26,9 +26,9 @@ def _closed_figures():
 
 def a_trajectory(v: np.ndarray, u: np.ndarray) -> xr.Dataset:
     """A made-up trajectory with a time step of 0.1."""
-    time = {"time": 0.1 * np.arange(v.size)}
+    time = {"t": 0.1 * np.arange(v.size)}
     attributes = {"tau": 3.0, "epsilon": 0.25, "xi": 0.5, "gamma": 0.75, "t_transient": 50.0}
-    return xr.Dataset({"u": ("time", u), "v": ("time", v)}, time, attributes)
+    return xr.Dataset({"u": ("t", u), "v": ("t", v)}, time, attributes)
 
 
 @pytest.fixture
@@ -214,7 +214,7 @@ def a_plane(ordinate: str, fixed: str) -> xr.Dataset:
         "l1": np.array([-0.1, -0.2, 0.1, 0.2, -0.1, -0.1]),
     }
     data = {name: ("point", column) for name, column in columns.items()}
-    data["special_kind"] = ("special", np.array([b"double_hopf      "]))
+    data["special_kind"] = ("special", np.array(["double_hopf"]))
     data["special_epsilon"] = ("special", [0.35])
     data[f"special_{ordinate}"] = ("special", [2.5])
     data["map_epsilon"] = ("map_epsilon", [0.25, 0.75])

@@ -46,7 +46,7 @@ def test_exponents_of_a_fixed_point_are_its_roots(programs, groups):
     at_rest = made.block_value.isel(block=slice(10, 20))
     np.testing.assert_allclose(at_rest.sum("exponent"), -(1 + ratio), atol=1e-4)
     assert made.dimension.values.tolist() == [0, 0, 0, 0]
-    assert made.time[-1] == pytest.approx(500)
+    assert made.t[-1] == pytest.approx(500)
     assert made.attrs["zero_exponents"] == 0
 
 

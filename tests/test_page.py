@@ -205,7 +205,7 @@ def test_citation_names_this_work_and_the_paper():
     assert cited["licence"] == "GPL-3.0-or-later"
     own, paper = cited["works"]
     assert own.startswith("The maintainers of this reproduction")
-    assert "Kostic, S., Vasovic, N., Franovic, I., Todorovic, K." in paper
+    assert paper.startswith("Kostić, Srđan, Vasović, Nebojša, Franović, Igor, Todorović, Kristina")
     assert "Time-delay in spring-block model for aperiodicity in earthquakes" in paper
 
 

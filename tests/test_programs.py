@@ -214,8 +214,8 @@ def test_spectrum_of_a_truncated_trajectory_is_refused(programs, good_groups):
     [
         (lambda data: data.drop_vars("v"), "holds no variable 'v'"),
         (lambda data: data.drop_attrs(), "attribute 'scene'"),
-        (lambda data: data.where(data.time > 250), "v"),
-        (lambda data: data.isel(time=slice(2010)), "samples"),
+        (lambda data: data.where(data.t > 250), "v"),
+        (lambda data: data.isel(t=slice(2010)), "samples"),
     ],
     ids=["without v", "without attributes", "with NaN", "too short"],
 )

@@ -1,24 +1,25 @@
 """The report of Snakemake and its captions."""
 
+import json
 import re
 import zipfile
 
 import pytest
 from conftest import SMOKE
 
-from scripts.figures.entries import FIGURES, caption_of
+from scripts.figures.entries import FIGURES, caption_of, title_of
 
 
 @pytest.mark.parametrize("ending", ["zip", pytest.param("html", marks=pytest.mark.long)])
-def test_report_holds_every_figure_and_caption(smoke, tmp_path, ending):
+def test_report_holds_figures_captions_and_verdicts(smoke, tmp_path, ending):
     """In one file; the longest plain part of each caption stands for the whole."""
     report = tmp_path / f"report.{ending}"
     run = smoke.snakemake(*SMOKE, "--report", str(report))
     assert run.returncode == 0, run.stdout
     if ending == "zip":
         with zipfile.ZipFile(report) as parts:
-            pictures = {name.split("/")[-1] for name in parts.namelist()}
-            assert {f"{figure}.png" for figure in FIGURES} <= pictures
+            files = {name.split("/")[-1] for name in parts.namelist()}
+            assert {"claims.html", *(f"{figure}.png" for figure in FIGURES)} <= files
             text = parts.read("report/report.html").decode()
     else:
         text = report.read_text()
@@ -28,3 +29,5 @@ def test_report_holds_every_figure_and_caption(smoke, tmp_path, ending):
         plain_parts = re.findall(r"[\w ,;:.()-]+", " ".join(caption.split()))
         assert max(plain_parts, key=len).strip() in text
         assert f"{figure}.png" in text
+        assert json.dumps({"figure": title_of(figure).rstrip(".")})[1:-1] in text
+    assert '"content": "Verdicts"' in text

@@ -2,6 +2,7 @@
 
 import re
 import subprocess
+from pathlib import Path
 
 import pytest
 from conftest import ROOT, project_files
@@ -18,7 +19,10 @@ SCRIPTS = [
     "compilers/run",
     "docs/draw",
 ]
-LOCKS = {".": 10, "setup": 0, "benchmarks": 2, "docs": 0, "tests/browser": 1, "profiles/slurm": 0}
+LOCKS = {
+    **{".": 10, "setup": 0, "benchmarks": 2, "docs": 0, "tests/browser": 1, "tests/formats": 0},
+    "profiles/slurm": 0,
+}
 """Folders with a lock of Python packages, and more than how many of them are named by hand."""
 
 
@@ -43,6 +47,28 @@ def test_shell_script_is_sound(script):
     text = path.read_text()
     assert text.startswith("#!/usr/bin/env bash\n")
     assert "set -euo pipefail" in text or "\nexec " in text
+
+
+def test_container_runs_what_the_project_has():
+    """The base has a version; every program and folder that a step names is there."""
+    steps = (ROOT / "containers" / "Containerfile").read_text().replace("\\\n", " ")
+    images = re.findall(r"^FROM (\S+)", steps, re.MULTILINE)
+    assert re.fullmatch(r"docker\.io/library/debian:\d+\.\d+-slim", images[0])
+    assert set(images[1:]) == {"base"}
+    assert re.findall(r'^CMD \["(.*)"\]', steps, re.MULTILINE) == ["./test", "./reproduce"]
+    folders = re.findall(r"setup/setup\.sh (?!&)(\S+)", steps)
+    assert folders
+    assert [folder for folder in folders if not (ROOT / folder).is_dir()] == []
+
+
+def test_container_leaves_out_what_git_ignores():
+    """By the last part of each path."""
+
+    def names_in(file: str) -> set[str]:
+        lines = (ROOT / file).read_text().splitlines()
+        return {Path(line).name for line in lines if line and not line.startswith("#")}
+
+    assert names_in(".gitignore") == names_in(".dockerignore")
 
 
 @pytest.mark.parametrize("folder", LOCKS)

@@ -25,7 +25,7 @@ def test_events_are_those_of_the_trajectory(programs, good_inputs, smoke_config)
     scene |= {key: of_chaos[key] for key in ("tau", "epsilon", "xi", "gamma", "history")}
     found = programs.made_by("slip_events", scene)
     run = programs.made_by("trajectory", scene)
-    time, v = run.time.values, run.v.values
+    time, v = run.t.values, run.v.values
     rises = time[1:][(v[:-1] < 1) & (v[1:] >= 1) & (time[:-1] >= ENDS["t_transient"])]
     assert found.sizes["event"] == rises.size - 1 > 15
     np.testing.assert_allclose(found.onset, rises[:-1], rtol=0, atol=FINE)

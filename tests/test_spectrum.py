@@ -22,7 +22,7 @@ def spectrum_of(programs, settings):
     def run(v: np.ndarray, t_transient: float = 0.0, **changes) -> xr.Dataset:
         attributes = {"scene": "made_up", "sample_interval": INTERVAL, "t_transient": t_transient}
         times = INTERVAL * np.arange(v.size)
-        signal = xr.Dataset({"v": ("time", v)}, coords={"time": times}, attrs=attributes)
+        signal = xr.Dataset({"v": ("t", v)}, coords={"t": times}, attrs=attributes)
         signal.to_netcdf(programs.folder / settings["trajectory"])
         return programs.made_by("spectrum", {**settings, **changes})
 

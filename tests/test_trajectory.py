@@ -81,7 +81,7 @@ def test_without_delay_agrees_with_scipy(programs, scene, config, tolerance):
     scene |= {**of_trajectory(checked(config), "fixed_point"), "variables": VARIABLES}
     scene |= {"t_end": 100.0, "t_transient": 0.0, "tolerance": tolerance}
     trajectory = programs.made_by("trajectory", scene)
-    expected = without_delay(scene, trajectory.time.values)
+    expected = without_delay(scene, trajectory.t.values)
     np.testing.assert_allclose(values_of(trajectory), expected, rtol=0, atol=100 * tolerance)
 
 
@@ -93,7 +93,7 @@ def test_with_delay_agrees_with_scipy(programs, scene, config, name, tolerance):
     scene |= {"t_end": 5 * scene["tau"], "t_transient": 0.0, "tolerance": tolerance}
     assert scene["history"] == {"theta": 0.0, "u": 0.0, "v": 1.1}
     trajectory = programs.made_by("trajectory", scene)
-    expected = by_method_of_steps(scene, trajectory.time.values)
+    expected = by_method_of_steps(scene, trajectory.t.values)
     np.testing.assert_allclose(values_of(trajectory), expected, rtol=0, atol=100 * tolerance)
 
 
@@ -103,7 +103,7 @@ def test_delays_of_any_length_agree_with_scipy(programs, scene, tau):
     scene |= {"tau": tau, "t_end": min(30.0, 200 * tau), "t_transient": 0.0}
     scene["sample_interval"] = scene["t_end"] / 64
     trajectory = programs.made_by("trajectory", scene)
-    expected = by_method_of_steps(scene, trajectory.time.values)
+    expected = by_method_of_steps(scene, trajectory.t.values)
     np.testing.assert_allclose(values_of(trajectory), expected, rtol=0, atol=1e-7)
 
 
@@ -111,7 +111,7 @@ def test_history_of_all_variables_is_taken(programs, scene):
     """A start far from steady sliding, against SciPy."""
     scene["history"] = {"theta": 0.3, "u": -0.2, "v": 0.7}
     trajectory = programs.made_by("trajectory", scene)
-    expected = by_method_of_steps(scene, trajectory.time.values)
+    expected = by_method_of_steps(scene, trajectory.t.values)
     np.testing.assert_allclose(values_of(trajectory)[:, 0], [0.3, -0.2, 0.7], rtol=1e-15)
     np.testing.assert_allclose(values_of(trajectory), expected, rtol=0, atol=1e-7)
 
@@ -127,13 +127,13 @@ def test_steady_sliding_stays_exactly(programs, scene, tau):
 
 
 def test_file_has_one_coordinate_and_the_variables(programs, scene):
-    """Dimension and coordinate `time`, everything nondimensional and named."""
+    """Dimension and coordinate `t`, everything nondimensional and named."""
     trajectory = programs.made_by("trajectory", scene)
-    assert dict(trajectory.sizes) == {"time": 121}
-    assert list(trajectory.coords) == ["time"]
+    assert dict(trajectory.sizes) == {"t": 121}
+    assert list(trajectory.coords) == ["t"]
     assert list(trajectory.data_vars) == VARIABLES
     for variable in trajectory.variables.values():
-        assert variable.dims == ("time",)
+        assert variable.dims == ("t",)
         assert variable.dtype == np.float64
         assert variable.attrs["units"] == "1"
         assert variable.attrs["long_name"]
@@ -174,7 +174,7 @@ def test_attributes_tell_where_the_numbers_come_from(programs, scene):
 def test_time_axis_counts_from_zero(programs, scene, t_end, interval, samples):
     """0, dt, 2 dt, ... up to t_end, also where it is no multiple of dt or blocks are full."""
     scene |= {"t_end": t_end, "t_transient": 0.0, "sample_interval": interval}
-    t = programs.made_by("trajectory", scene).time.values
+    t = programs.made_by("trajectory", scene).t.values
     assert t.size == samples
     assert t[-1] <= t_end
     np.testing.assert_allclose(t, interval * np.arange(samples), rtol=1e-15, atol=0)
@@ -184,7 +184,7 @@ def test_sampling_does_not_change_the_numbers(programs, scene):
     """Coarse samples are the fine ones left out, to the last bit."""
     fine = programs.made_by("trajectory", {**scene, "sample_interval": 0.125})
     coarse = programs.made_by("trajectory", {**scene, "sample_interval": 1.0})
-    xr.testing.assert_equal(coarse, fine.sel(time=coarse.time))
+    xr.testing.assert_equal(coarse, fine.sel(t=coarse.t))
 
 
 @pytest.mark.parametrize("variables", [["v"], ["v", "theta"], ["u"], ["u", "v", "theta"]])

@@ -39,8 +39,8 @@ def test_scene_of_ones_own(scratch):
     assert loose.attrs["history_theta"] == 0.0
     assert loose.attrs["history_v"] == 1.2
     for time in (0.5, 3.0, 17.5, 60.0):
-        right = float(tight.v.sel(time=time))
-        assert float(loose.v.sel(time=time)) == pytest.approx(right, abs=100e-7)
+        right = float(tight.v.sel(t=time))
+        assert float(loose.v.sel(t=time)) == pytest.approx(right, abs=100e-7)
     assert not np.array_equal(loose.v, tight.v)
     assert torus.attrs["t_end"] == 8000.0
 

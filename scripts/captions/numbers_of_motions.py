@@ -27,8 +27,8 @@ def of_trajectories(given: dict, params: dict) -> dict:
     seen = own_rows(given["table"])
     rows = {}
     for label, (row, trajectory) in labelled(given, params, "trajectories").items():
-        start = float(trajectory.time[-1]) - params["settings"]["end_shown"]
-        v = trajectory.v.sel(time=slice(max(0.0, start), None))
+        start = float(trajectory.t[-1]) - params["settings"]["end_shown"]
+        v = trajectory.v.sel(t=slice(max(0.0, start), None))
         met = seen.get(row["scene"], {})
         rows[label] = {
             "paper": row["paper"],

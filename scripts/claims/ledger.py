@@ -3,6 +3,8 @@
 import json
 from pathlib import Path
 
+from jinja2 import Environment, StrictUndefined
+
 from scripts.claims import (
     claims_of_attractors,
     claims_of_bifurcations,
@@ -15,9 +17,18 @@ from scripts.claims import (
     claims_of_spectra,
 )
 from scripts.claims.claims_config import named_test
-from scripts.claims.claims_results import NOT_TESTABLE, Finding, Results, read_results
+from scripts.claims.claims_results import (
+    CORRECTED,
+    NOT_REPRODUCED,
+    NOT_TESTABLE,
+    REPRODUCED,
+    Finding,
+    Results,
+    read_results,
+)
 from scripts.files.outputs import logged, written
 from scripts.files.tsv import write_table
+from scripts.page import mathematics
 
 TESTS = {
     **claims_of_formulas.TESTS,
@@ -31,6 +42,8 @@ TESTS = {
     **claims_of_friction.TESTS,
 }
 """Each test by its name in config/claims.yaml."""
+SHOWN = [NOT_REPRODUCED, CORRECTED, REPRODUCED, NOT_TESTABLE]
+"""Verdicts in the order of the page: failing claims first."""
 
 
 def rows_of(claims: dict[str, dict], results: Results) -> list[dict]:
@@ -74,6 +87,16 @@ def write_json(path: str | Path, rows: list[dict]) -> None:
         unfinished.write_text(json.dumps(rows, indent=2) + "\n")
 
 
+def write_page(path: str | Path, template: str | Path, rows: list[dict]) -> None:
+    """The rows by verdict, as a page of the report; the file is whole or absent."""
+    by_verdict = {verdict: [row for row in rows if row["verdict"] == verdict] for verdict in SHOWN}
+    environment = Environment(autoescape=True, trim_blocks=True, undefined=StrictUndefined)
+    environment.filters["mathematics"] = mathematics.of_words
+    page = environment.from_string(Path(template).read_text())
+    with written(path) as unfinished:
+        unfinished.write_text(page.render(verdicts=by_verdict) + "\n")
+
+
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         given = snakemake.input
@@ -84,3 +107,4 @@ if __name__ == "__main__":
         table = rows_of(snakemake.params.claims, found)
         write_table(snakemake.output.tsv, table)
         write_json(snakemake.output.json, table)
+        write_page(snakemake.output.page, given.template, table)

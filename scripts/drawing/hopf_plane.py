@@ -78,7 +78,7 @@ def shade(axes: Axes, curves: xr.Dataset):
 def mark_special_points(axes: Axes, curves: xr.Dataset) -> list[Line2D]:
     """Points where the kind of the bifurcation changes, and their names for the legend."""
     handles = []
-    kinds = np.char.strip(curves.special_kind.values.astype(str))
+    kinds = curves.special_kind.values.astype(str)
     ordinate = curves[f"special_{curves.attrs['ordinate']}"].values
     for kind, (marker, name) in MARKERS.items():
         these = kinds == kind

@@ -29,5 +29,5 @@ def in_words(kind: str) -> str:
 
 
 def words_of(names: xr.DataArray) -> list[str]:
-    """Names of a file without the blanks that fill them."""
-    return [str(name).strip() for name in names.values.astype(str)]
+    """Names of a file."""
+    return names.values.astype(str).tolist()

@@ -25,7 +25,7 @@ def draw(rows: dict[str, xr.Dataset], titles: dict[str, str], settings: dict) ->
         squeeze=False,
     )
     for (label, trajectory), (left, middle, right) in zip(rows.items(), grid, strict=True):
-        last = float(trajectory.time[-1])
+        last = float(trajectory.t[-1])
         draw_velocity(left, trajectory, 0.0, min(settings["rows"][label]["time_shown"], last))
         draw_velocity(middle, trajectory, max(0.0, last - settings["end_shown"]), last)
         draw_portrait(right, trajectory, settings["attractor_shown"])
@@ -61,17 +61,17 @@ def titles_of(settings: dict, table: list[dict]) -> dict[str, str]:
 
 def draw_velocity(axes: Axes, trajectory: xr.Dataset, start: float, end: float) -> None:
     """v from one time to another."""
-    shown = trajectory.sel(time=slice(start, end))
-    axes.plot(shown.time, shown.v, color="C0", lw=0.7)
+    shown = trajectory.sel(t=slice(start, end))
+    axes.plot(shown.t, shown.v, color="C0", lw=0.7)
     axes.set(xlabel="time $t$", ylabel="velocity $v$", xlim=(start, end))
 
 
 def draw_portrait(axes: Axes, trajectory: xr.Dataset, shown: float) -> None:
     """The transient faint, the last part dark; a dot where the attractor is a point."""
-    transient = trajectory.sel(time=slice(0, trajectory.attrs["t_transient"]))
-    end = float(trajectory.time[-1])
+    transient = trajectory.sel(t=slice(0, trajectory.attrs["t_transient"]))
+    end = float(trajectory.t[-1])
     start = max(end - shown, trajectory.attrs["t_transient"])
-    attractor = trajectory.sel(time=slice(start, end))
+    attractor = trajectory.sel(t=slice(start, end))
     axes.plot(
         transient.u,
         transient.v,

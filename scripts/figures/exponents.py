@@ -64,7 +64,7 @@ def words(rows: list[dict]) -> str:
 
 def draw_times(axes: Axes, run: xr.Dataset) -> None:
     """Plain averages up to each time; at the end the values and their error bars."""
-    elapsed = run.time - run.attrs["t_begin"]
+    elapsed = run.t - run.attrs["t_begin"]
     for i in range(run.sizes["exponent"]):
         axes.plot(elapsed, run.running_average[:, i], color=f"C{i % 8}", lw=0.8)
     end = run.attrs["t_end"] - run.attrs["t_begin"]

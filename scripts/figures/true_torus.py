@@ -44,7 +44,7 @@ def draw(scenes: dict[str, Scene], end_shown: float, frequency_shown: float) -> 
     for label, scene in scenes.items():
         panels = [axes[f"{kind}{label}"] for kind in "vpms"]
         velocity, spectrum, maxima, section = panels
-        last = float(scene.trajectory.time[-1])
+        last = float(scene.trajectory.t[-1])
         draw_velocity(velocity, scene.trajectory, max(0.0, last - end_shown), last)
         velocity.set_title(f"$\\bf{{{label}}}$  {words(scene)}")
         draw_spectrum(spectrum, scene.spectrum, frequency_shown)

@@ -57,17 +57,17 @@ def can_be_drawn(run: xr.Dataset) -> bool:
 def trajectory(run: xr.Dataset, attractors: list[dict]) -> dict:
     """The last part of a run, thinned, with what is known of it."""
     scene = run.attrs["scene"]
-    end = float(run.time[-1])
-    shown = run.sel(time=slice(max(0.0, end - SHOWN), end))
-    every = math.ceil(shown.sizes["time"] / MOST_POINTS)
-    shown = shown.isel(time=slice(None, None, every))
+    end = float(run.t[-1])
+    shown = run.sel(t=slice(max(0.0, end - SHOWN), end))
+    every = math.ceil(shown.sizes["t"] / MOST_POINTS)
+    shown = shown.isel(t=slice(None, None, every))
     own = [row for row in attractors if row["scene"] == scene and row["history"] == 1]
     known = verdict(own[0]) if own else "its attractor was not computed"
     return {
         "name": scene.replace("_", " "),
         "words": f"{parameters(run.attrs)}: {known}",
         "every": every,
-        "start": float(shown.time[0]),
+        "start": float(shown.t[0]),
         "step": every * run.attrs["sample_interval"],
         "series": [
             {"name": name, "values": as_base64(shown[name].values)}

@@ -46,7 +46,7 @@ def read_runs(path: str | Path) -> list[dict]:
     runs = []
     for i in range(data.sizes["run"]):
         row = data.isel(run=i)
-        run = {name: str(row[name].values).strip() for name in WORDS}
+        run = {name: str(row[name].values) for name in WORDS}
         run |= {
             name: float(row[name])
             for name, values in data.variables.items()

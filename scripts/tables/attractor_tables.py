@@ -34,7 +34,7 @@ def rows_of(run: xr.Dataset) -> list[dict]:
         "f1": positive(run.base_1),
         "f2": positive(run.base_2),
         **{key: numbers(run[key]) for key in ("smallest_maximum", "largest_maximum", "roughness")},
-        "problem": [str(problem).strip() for problem in run.problem.values],
+        "problem": run.problem.values.tolist(),
     }
     return [
         dict(zip(columns, values, strict=True)) for values in zip(*columns.values(), strict=True)

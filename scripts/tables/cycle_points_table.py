@@ -2,7 +2,6 @@
 
 from pathlib import Path
 
-import numpy as np
 import xarray as xr
 
 from scripts.files.inputs import read
@@ -28,8 +27,8 @@ JUMP = 0.1
 
 def rows_of(line: str, cycles: xr.Dataset, swept: list[dict]) -> list[dict]:
     """The points of one line, branch by branch; `swept` are rows of the sweeps over it."""
-    kinds = np.char.strip(cycles.special_kind.values.astype(str))
-    origins = np.char.strip(cycles.branch_origin.values.astype(str))
+    kinds = cycles.special_kind.values.astype(str)
+    origins = cycles.branch_origin.values.astype(str)
     points = [cycles.isel(special=i) for i in range(kinds.size)]
     rows = [
         {

@@ -2,7 +2,6 @@
 
 from pathlib import Path
 
-import numpy as np
 import xarray as xr
 
 from scripts.files.inputs import read
@@ -24,7 +23,7 @@ COEFFICIENTS = ("g2100", "g1011", "g1110", "g0021", "theta", "delta")
 
 def rows_of(plane: str, curves: xr.Dataset) -> list[dict]:
     """The points of one plane; of a single pair the columns of the second are empty."""
-    kinds = np.char.strip(curves.special_kind.values.astype(str))
+    kinds = curves.special_kind.values.astype(str)
     points = [curves.isel(special=i) for i in range(kinds.size)]
     return [
         {
@@ -105,7 +104,7 @@ def start(kind: str, point: xr.Dataset, number: int) -> dict:
 
 def word(value: xr.DataArray) -> str:
     """A word of the file."""
-    return str(np.char.strip(value.values.astype(str)))
+    return str(value.values)
 
 
 def digits(value, number: int = 15) -> str:

@@ -60,7 +60,7 @@ contains
          call file%create(path, "Lyapunov exponents of the spring block with delayed friction")
          ids = [file%dimension("exponent", settings%exponents), &
                 file%dimension("run", size(options), coordinates="tolerance longest_step"), &
-                file%dimension("time", size(time)), file%dimension("block", settings%blocks)]
+                file%dimension("t", size(time)), file%dimension("block", settings%blocks)]
          id = file%real_variable("tolerance", ids(2), "tolerance, the scene's own first", "1")
          call file%put(id, options%relative)
          id = file%real_variable("longest_step", ids(2), "longest step allowed, if any", "1")
@@ -72,7 +72,7 @@ contains
          call file%put(id, dimension)
          id = file%real_variable("dimension_error", ids(2), "its standard error", "1")
          call file%put(id, dimension_error)
-         id = file%real_variable("time", ids(3), "time", "1")
+         id = file%real_variable("t", ids(3), "time", "1")
          call file%put(id, first%t_begin + time)
          call file%table("value", ids([1, 2]), values, "exponent")
          call file%table("error", ids([1, 2]), bars, "standard error from blocks")

@@ -46,9 +46,9 @@ contains
                  "attribute 'sample_interval'")
       call check(nf90_get_att(file, nf90_global, "t_transient", trajectory%t_transient), &
                  "attribute 't_transient'")
-      call check(nf90_inq_dimid(file, "time", dimension), "dimension 'time'")
+      call check(nf90_inq_dimid(file, "t", dimension), "dimension 't'")
       if (.not. allocated(error)) then
-         call check(nf90_inquire_dimension(file, dimension, len=length), "dimension 'time'")
+         call check(nf90_inquire_dimension(file, dimension, len=length), "dimension 't'")
          allocate (trajectory%samples(length))
          call check(nf90_get_var(file, id, trajectory%samples), "variable '"//variable &
                     //"' cannot be read (remove the file; the next run makes it again)")

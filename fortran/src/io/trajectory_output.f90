@@ -65,8 +65,8 @@ contains
       allocate (writer%wanted(variables), writer%ids(0:variables))
       allocate (writer%block(block_length, 0:variables))
       call writer%file%create(path, "Trajectory of the spring block with delayed friction")
-      dimension = writer%file%dimension("time", writer%samples)
-      writer%ids(0) = writer%file%real_variable("time", dimension, "time", "1")
+      dimension = writer%file%dimension("t", writer%samples)
+      writer%ids(0) = writer%file%real_variable("t", dimension, "time", "1")
       do i = 1, variables
          select case (scene%variables(i))
          case ("theta")

@@ -1,0 +1,78 @@
+"""NetCDF files of the results follow the CF conventions, and can be read without further work."""
+
+import subprocess
+
+import pytest
+import xarray as xr
+from conftest import ROOT, Project
+
+CHECKER = ROOT / "tests" / "formats" / ".venv" / "bin" / "compliance-checker"
+KINDS = {
+    *("trajectories", "spectra", "exponents", "slip_events", "linear_stability", "hopf", "cycles"),
+    *("friction", "measurements/stability", "measurements/trust", "measurements/work_precision"),
+    *("attractors/scenes", "attractors/basins", "attractors/routes", "attractors/atlas"),
+}
+"""Folders with NetCDF files, each with those of one program."""
+
+
+def one_of_each_kind(smoke: Project) -> dict[str, str]:
+    """The largest file of each kind, as path from the results."""
+    results = smoke.folder / "results"
+    files: dict[str, list[str]] = {}
+    for path in sorted(results.rglob("*.nc"), key=lambda path: path.stat().st_size):
+        name = path.relative_to(results).as_posix()
+        parts = 2 if name.startswith(("attractors/", "measurements/")) else 1
+        files.setdefault("/".join(name.split("/")[:parts]), []).append(name)
+    return {kind: names[-1] for kind, names in files.items()}
+
+
+@pytest.fixture(scope="module")
+def files(smoke) -> dict[str, str]:
+    """One file of each kind of the smoke run."""
+    return one_of_each_kind(smoke)
+
+
+@pytest.mark.skipif(
+    not CHECKER.exists(), reason="`setup/setup.sh tests/formats` sets it up, and so does ./test"
+)
+def test_files_follow_the_cf_conventions(smoke, files):
+    """All recommendations, too, by the checker of IOOS and the table of standard names it ships."""
+    assert set(files) == KINDS
+    command = [CHECKER, "--test=cf:1.8", "--criteria=strict", *files.values()]
+    run = subprocess.run(
+        command, cwd=smoke.folder / "results", capture_output=True, text=True, timeout=300
+    )
+    assert run.returncode == 0, run.stdout + run.stderr
+    assert run.stdout.count("All tests passed!") == len(files), run.stdout
+
+
+def test_files_name_their_origin(smoke, files):
+    """Program and version, the paper, and no time."""
+    for name in files.values():
+        attributes = xr.open_dataset(smoke.folder / "results" / name).attrs
+        assert attributes["Conventions"] == "CF-1.8"
+        program = attributes["source"].split()[1]
+        assert (ROOT / "fortran" / "app" / f"{program}.f90").exists()
+        assert attributes["source"].endswith(attributes["program_version"])
+        assert "Time-delay in spring-block model" in attributes["references"]
+        assert "20" not in attributes["history"]
+
+
+def test_values_come_as_words_and_coordinates(smoke, files):
+    """Words without blanks at their end, flags with their words, points with their parameters."""
+    read = {kind: xr.load_dataset(smoke.folder / "results" / name) for kind, name in files.items()}
+    kinds = set(read["hopf"].special_kind.values)
+    assert kinds
+    assert kinds <= {"generalised_hopf", "double_hopf", "hopf_without_delay"}
+    assert set(read["measurements/stability"].method.values) == {"auto", "explicit"}
+    assert set(read["attractors/atlas"]["class"].coords) == {"epsilon", "tau", "xi", "gamma"}
+    flags = read["attractors/atlas"]["class"].attrs
+    assert flags["flag_values"].tolist() == list(range(len(flags["flag_meanings"].split())))
+
+
+def test_long_variables_are_compressed(smoke, files):
+    """A trajectory; the short ones of linear stability are not: they would become longer."""
+    long = xr.open_dataset(smoke.folder / "results" / files["trajectories"])
+    short = xr.open_dataset(smoke.folder / "results" / files["linear_stability"])
+    assert all(variable.encoding["zlib"] for variable in long.variables.values())
+    assert not any(variable.encoding["zlib"] for variable in short.variables.values())
