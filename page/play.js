@@ -64,7 +64,7 @@ function ticksOfV(low, high) {
   const decades = Array.from({ length: 5 }, (_, i) => Math.floor(least) + i);
   const multiples = decades.flatMap((decade) => parts.map((part) => part * 10 ** decade));
   const inside = multiples.filter((value) => low <= Math.log(value) && Math.log(value) <= high);
-  const values = inside.length >= 3 ? inside : roundNumbers(Math.exp(low), Math.exp(high), 5);
+  const values = inside.length >= 3 ? inside : roundNumbers(Math.exp(low), Math.exp(high), 8);
   return values.map((value) => ({ at: Math.log(value), label: signed(value, 6) }));
 }
 
