@@ -2,6 +2,7 @@
 
 import csv
 import math
+import re
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -177,6 +178,12 @@ def torus_starts(of: str, number: int = 0) -> list:
     along = settings("cycles", "lines", of, "along")
     found = [cycle_points(of, "torus", column)[number] for column in (along, "angle")]
     return [*found, *begins(of, ("torus", number))]
+
+
+def stable_modulus(claim: str) -> list[str]:
+    """The modulus of the largest multiplier but 1 of the stable cycle in a claim's evidence."""
+    (row,) = [row for row in table("claims.tsv") if row["id"] == claim]
+    return re.findall(r" stable with v up to \S+ \(modulus (\S+)\)", row["evidence"])
 
 
 def doublings_of_unstable_cycles() -> int:
@@ -460,6 +467,18 @@ SAID = [
     Said(
         "docs/findings.md", "| `chaos_in_epsilon` | epsilon = {:.4f} | {:.3f} | {} |",
         lambda: torus_starts("chaos_in_epsilon"),
+    ),
+    Said(
+        "docs/findings.md", "a torus bifurcation at tau = {:.3f} leads",
+        lambda: cycle_points("upper_torus", "torus", "tau"),
+    ),
+    Said(
+        "docs/findings.md", "bifurcation at tau = {:.3f}. So tori",
+        lambda: cycle_points("fault_in_tau", "torus", "tau"),
+    ),
+    Said(
+        "docs/findings.md", "multiplier but 1 has the modulus {}. So",
+        lambda: stable_modulus("figure_5a"),
     ),
     Said(
         "docs/findings.md", "fold at epsilon = {1:.4f}, the large one at epsilon = {0:.4f}",
