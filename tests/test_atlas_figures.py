@@ -87,8 +87,8 @@ def test_atlas_is_on_its_page(drawn):
 def test_atlas_has_a_row_for_each_plane(drawn):
     """Smaller xi first, with counts; beside each its exponents."""
     titles = [title_of(axes) for axes in drawn.axes[:4]]
-    assert r"$\xi$ = 0.5" in titles[0]
-    assert r"$\xi$ = 0.8" in titles[2]
+    assert r"$\xi = 0.5$" in titles[0]
+    assert r"$\xi = 0.8$" in titles[2]
     assert "12 points, 1 undecided, 1 failed" in titles[0]
     assert all("largest Lyapunov exponent" in title for title in titles[1::2])
     assert r"\lambda_1" in words_in(drawn)
