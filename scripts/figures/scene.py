@@ -6,9 +6,10 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from scripts.drawing import parameters
 from scripts.drawing.spectrum_rows import label_peaks, lines_in_words
 from scripts.drawing.style import FAINT, logged, save
-from scripts.drawing.trajectory_rows import draw_portrait, draw_velocity, parameters
+from scripts.drawing.trajectory_rows import draw_portrait, draw_velocity
 from scripts.files.inputs import read
 from scripts.tables.attractor_tables import rows_of
 from scripts.tables.motion_rows import UNDECIDED, kind_of
@@ -27,6 +28,8 @@ LEAST_SCALE = 1e-3
 """Exponents closer to zero than this are drawn on a linear scale."""
 LEAST_SPREAD = 0.05
 """Half of the axes of the section, as a share of the size of its points."""
+LETTER = 0.0125
+"""How wide a letter is, as a share of the widest axis."""
 DOTS = {"ls": "", "marker": "o", "color": "C1", "ms": 2.5, "mew": 0}
 
 
@@ -62,7 +65,7 @@ def draw(
         axes.set_title(f"$\\bf{{{letter}}}$  {title}")
     name = trajectory.attrs["scene"].replace("_", " ")
     above.suptitle(
-        f"scene {name} ({parameters(trajectory)}): {class_in_words(attractors)}\n"
+        f"scene {name} ({parameters.in_words(trajectory.attrs)}): {class_in_words(attractors)}\n"
         f"{roots_in_words(roots)}",
         fontsize=8,
     )
@@ -131,7 +134,7 @@ def draw_spectrum(axes: Axes, spectrum: xr.Dataset) -> None:
     if top > 0:
         axes.semilogy(shown.frequency, shown.power, color="C0", lw=0.7)
         axes.set_ylim(max(0.3 * float(shown.power.min()), 3e-11 * top), 100 * top)
-        label_peaks(axes, spectrum, end)
+        label_peaks(axes, spectrum, end, LETTER)
 
 
 def class_in_words(attractors: xr.Dataset) -> str:
