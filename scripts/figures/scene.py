@@ -42,7 +42,7 @@ def draw(
     start, end = above.subplots(1, 2, sharey=True)
     portrait, section, exponents = middle.subplots(1, 3)
     powers = below.subplots()
-    last = float(trajectory.time[-1])
+    last = float(trajectory.t[-1])
     draw_velocity(start, trajectory, 0.0, last)
     # as lines, long runs would make the page slow
     for line in start.lines:
