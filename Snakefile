@@ -5,7 +5,7 @@ from snakemake.utils import min_version
 min_version("9.0")
 
 
-configfile: "config/config.yaml"
+configfile: os.path.relpath(f"{workflow.current_basedir}/config/config.yaml")
 
 
 report: "scripts/page/report.rst"
@@ -18,18 +18,24 @@ rule all:
     """All figures, the tables of results and the page with the verdicts on the paper's claims."""
     default_target: True
     input:
-        expand(
-            "results/figures/{figure}.{ending}",
-            figure=FIGURES,
-            ending=["pdf", "png", "svg"],
+        (
+            everything_added
+            if OWN
+            else [
+                *expand(
+                    "<results>/figures/{figure}.{ending}",
+                    figure=FIGURES,
+                    ending=["pdf", "png", "svg"],
+                ),
+                "<results>/index.html",
+                "<results>/tables/tolerance-proportionality.tsv",
+                "<results>/tables/hopf-points.tsv",
+                "<results>/tables/cycle-points.tsv",
+                "<results>/tables/linear-stability.tsv",
+                "<results>/tables/basins.tsv",
+                "<results>/tables/claims.tsv",
+            ]
         ),
-        "results/index.html",
-        "results/tables/tolerance-proportionality.tsv",
-        "results/tables/hopf-points.tsv",
-        "results/tables/cycle-points.tsv",
-        "results/tables/linear-stability.tsv",
-        "results/tables/basins.tsv",
-        "results/tables/claims.tsv",
 
 
 include: "rules/build.smk"
@@ -45,9 +51,10 @@ include: "rules/exponents.smk"
 include: "rules/attractors.smk"
 include: "rules/studies.smk"
 include: "rules/ledger.smk"
-include: "rules/page.smk"
+include: "rules/own.smk" if OWN else "rules/page.smk"
 include: "rules/documents.smk"
 
 
 # All but the long rules take seconds.
-snakemake_internals.run_here_all_but(workflow, LONG_RULES)
+if not IS_MODULE:
+    snakemake_internals.run_here_all_but(workflow, LONG_RULES)

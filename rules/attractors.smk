@@ -9,11 +9,11 @@ rule attractors_namelist:
     input:
         code=code_of("namelists/write_study_namelists.py"),
     output:
-        runs="results/namelists/attractors/{survey}/{part}.nml",
+        runs="{results}/namelists/attractors/{survey}/{part}.nml",
     log:
-        "results/logs/namelists/attractors/{survey}/{part}.log",
+        "{results}/logs/namelists/attractors/{survey}/{part}.log",
     params:
-        groups=survey_groups,
+        groups=of_config(result_values.survey_groups, "survey", "part"),
     script:
         "../scripts/namelists/write_study_namelists.py"
 
@@ -21,34 +21,32 @@ rule attractors_namelist:
 rule attractors_runs:
     """Motions at many parameters and their classes: one part of a survey of attractors."""
     input:
-        program="build/release/bin/attractors",
-        namelist="results/namelists/attractors/{survey}/{part}.nml",
+        program="<build>/release/bin/attractors",
+        namelist="{results}/namelists/attractors/{survey}/{part}.nml",
     output:
-        "results/attractors/{survey}/{part}.nc",
+        "{results}/attractors/{survey}/{part}.nc",
     log:
-        "results/logs/attractors/{survey}/{part}.log",
+        "{results}/logs/attractors/{survey}/{part}.log",
     benchmark:
-        "results/benchmarks/attractors/{survey}/{part}.tsv"
+        "{results}/benchmarks/attractors/{survey}/{part}.tsv"
     priority: OF_LONG
     params:
-        groups=survey_groups,
+        groups=of_config(result_values.survey_groups, "survey", "part"),
         sources=digest_of("attractors"),
     shell:
-        "OMP_NUM_THREADS={threads} {input.program} {input.namelist} {output}"
+        "OMP_NUM_THREADS={threads} {input.program:q} {input.namelist} {output}"
         " 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
 
 
 rule attractors_table:
     """Table of the attractors of the scenes, with their classes."""
     input:
-        runs=result_files.paths_of_scenes(
-            "attractors/scenes", result_files.scenes_with(config, "attractors")
-        ),
+        runs=placed(result_files.attractors_of_scenes(LISTED)),
         code=code_of("tables/attractor_tables.py"),
     output:
-        "results/tables/attractors.tsv",
+        "<results>/tables/attractors.tsv",
     log:
-        "results/logs/tables/attractors.log",
+        "<results>/logs/tables/attractors.log",
     params:
         of="scenes",
     script:
@@ -61,9 +59,9 @@ rule route_table:
         runs=runs_of_route,
         code=code_of("tables/attractor_tables.py"),
     output:
-        "results/tables/routes/{line}.tsv",
+        "<results>/tables/routes/{line}.tsv",
     log:
-        "results/logs/tables/routes/{line}.log",
+        "<results>/logs/tables/routes/{line}.log",
     params:
         of="route",
     script:
@@ -73,13 +71,13 @@ rule route_table:
 rule basins_table:
     """Table of the attractors that are reached from random histories."""
     input:
-        runs=result_files.runs_of_basins(config),
-        routes=result_files.tables_of_routes(config),
+        runs=placed(result_files.runs_of_basins(LISTED)),
+        routes=result_files.tables_of_routes(LISTED),
         code=code_of("tables/basins_table.py"),
     output:
-        "results/tables/basins.tsv",
+        "<results>/tables/basins.tsv",
     log:
-        "results/logs/tables/basins.log",
+        "<results>/logs/tables/basins.log",
     script:
         "../scripts/tables/basins_table.py"
 
@@ -87,12 +85,12 @@ rule basins_table:
 rule atlas_table:
     """Table of the atlas: the class of motion at points of epsilon and tau."""
     input:
-        runs=result_files.parts_of_atlas(config),
+        runs=placed(result_files.parts_of_atlas(LISTED)),
         code=code_of("tables/attractor_tables.py"),
     output:
-        "results/tables/atlas.tsv",
+        "<results>/tables/atlas.tsv",
     log:
-        "results/logs/tables/atlas.log",
+        "<results>/logs/tables/atlas.log",
     params:
         of="atlas",
     script:

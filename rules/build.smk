@@ -6,14 +6,19 @@ rule build:
     input:
         sources_of,
     output:
-        "build/release/bin/{program}",
+        "<build>/release/bin/{program}",
     log:
-        "results/logs/build/{program}.log",
+        "<results>/logs/build/{program}.log",
     priority: OF_PROGRAMS
     threads: 2
+    params:
+        fortran=of_project("fortran"),
+        build=of_project("build"),
+        needs=of_project("setup/build_needs.sh"),
     # two builds must not write one build folder at the same time
     shell:
         "(flock 9"
-        " && cmake --preset release -S fortran"
-        " && cmake --build build/release --parallel {threads} --target {wildcards.program}_program)"
-        " > {log} 2>&1 9> build/lock || {{ setup/build_needs.sh && cat {log} >&2; exit 1; }}"
+        " && cmake --preset release -S {params.fortran:q}"
+        " && cmake --build {params.build:q}/release --parallel {threads}"
+        " --target {wildcards.program}_program)"
+        " > {log} 2>&1 9> {params.build:q}/lock || {{ {params.needs:q} && cat {log} >&2; exit 1; }}"

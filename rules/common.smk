@@ -1,23 +1,31 @@
 # The configuration, checked, and what rules ask of it.
+import copy
 import functools
 import hashlib
 import os
+import re
 import sys
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-sys.path.insert(0, str(workflow.basedir))
+PROJECT = Path(str(workflow.current_basedir)).parent.resolve()
+sys.path.insert(0, str(PROJECT))
 from scripts.workflow import packages
 
 try:
     packages.refuse_missing()
-    packages.let_jobs_import(workflow.basedir)
+    packages.let_jobs_import(PROJECT)
     from scripts.workflow import snakemake_internals
 
-    snakemake_internals.make_missing_files_again()
-    snakemake_internals.start_jobs_at_once(workflow)
-    config_sources = snakemake_internals.config_sources(workflow)
+    IS_MODULE = snakemake_internals.is_module(workflow)
+    if IS_MODULE:
+        defaults, overlays, entries_given = [PROJECT / "config" / "config.yaml"], [], []
+    else:
+        snakemake_internals.make_missing_files_again()
+        snakemake_internals.start_jobs_at_once(workflow)
+        sources = snakemake_internals.config_sources(workflow)
+        defaults, overlays, entries_given = sources
 except packages.PackageError as problem:
     raise SystemExit(f"error: {problem}") from None
 
@@ -25,16 +33,82 @@ from scripts.claims import claims_config
 from scripts.config import check_config, read_config
 from scripts.figures import entries
 from scripts.figures.entries import FIGURES
-from scripts.namelists import attractor_surveys, study_cases
+from scripts.namelists import result_values, study_cases
 from scripts.page import page_assets
-from scripts.workflow import before_run, git_commit, result_files, script_imports
+from scripts.workflow import (
+    before_run,
+    git_commit,
+    own_file,
+    result_files,
+    script_imports,
+)
 
 try:
-    before_run.refuse_unwritable(Path.cwd())
-    before_run.free_folder(Path.cwd())
-    config = check_config.checked(read_config.merged(*config_sources))
+    if not IS_MODULE:
+        before_run.refuse_unwritable(Path.cwd())
+        before_run.free_folder(Path.cwd())
+    OVERLAY = read_config.merged(overlays, entries_given)
+    if IS_MODULE and snakemake_internals.has_config_of_module(workflow):
+        OVERLAY = copy.deepcopy(config)
+    folder = own_file.folder_of(overlays, entries_given)
 except (before_run.FolderError, read_config.ConfigError) as problems:
     raise WorkflowError(problems) from None
+
+
+# of a module it is that of the workflow that uses it
+if not IS_MODULE:
+
+    pathvars:
+        results=folder,
+
+
+RESULTS = snakemake_internals.folder_of_results(workflow)
+OWN = bool(OVERLAY) and (IS_MODULE or RESULTS != own_file.RESULTS)
+"""Whether the run is for what a file adds."""
+NAMES = own_file.added(OVERLAY if OWN else {})
+try:
+    written = read_config.merged(defaults, [])
+    CONFIGS = {}
+    if OWN and not IS_MODULE:
+        CONFIGS[own_file.RESULTS] = check_config.checked(copy.deepcopy(written))
+    config = check_config.checked(
+        read_config.merged_over(written, OVERLAY), NAMES["scenes"]
+    )
+    CONFIGS[RESULTS] = config
+except read_config.ConfigError as problems:
+    raise WorkflowError(problems) from None
+
+
+try:
+    # claims of one's own are alone in their table
+    said = {
+        "claims": {
+            **({} if OWN else claims_config.listed()["claims"]),
+            **config["claims"],
+        }
+    }
+    tables = [
+        Path(path).name
+        for path in claims_config.FILES.values()
+        if path.endswith(".tsv")
+    ]
+    shown = {*FIGURES, *entries.own_figures(config, NAMES), *tables}
+    CLAIMS = claims_config.checked(said, config, shown) if said["claims"] else {}
+except read_config.ConfigError as problems:
+    raise WorkflowError(problems) from None
+
+if OWN:
+    SHOWN = entries.own_figures(config, NAMES)
+    LISTED = own_file.listed(config, NAMES, claims_config.names_in(CLAIMS))
+else:
+    SHOWN, LISTED = FIGURES, config
+"""Figures on the page; the configuration without what the run does not list in tables."""
+DRAWN = {**LISTED, "hopf_curves": config["hopf_curves"]}
+"""The same for figures: Hopf curves of all planes can be drawn in an atlas."""
+
+
+pathvars:
+    build="build" if Path.cwd() == PROJECT else str(PROJECT / "build"),
 
 
 LINES = "|".join(config["routes"]["lines"])
@@ -54,18 +128,10 @@ LONG_RULES = {
 OF_PROGRAMS = 10
 OF_PAPER = 2
 OF_LONG = 1
-LEDGER_TABLES = {
-    "hopf_points": "results/tables/hopf-points.tsv",
-    "linear_stability": "results/tables/linear-stability.tsv",
-    "stability": "results/tables/stability.tsv",
-    "attractors": "results/tables/attractors.tsv",
-    "atlas": "results/tables/atlas.tsv",
-    "routes": result_files.tables_of_routes(config),
-    "cycle_points": "results/tables/cycle-points.tsv",
-}
 
 
 wildcard_constraints:
+    results="|".join(map(re.escape, CONFIGS)),
     scene="|".join(config["scenes"]),
     plane="|".join(config["hopf_curves"]),
     family="|".join([*FAMILIES, *WORK_SCENES]),
@@ -74,13 +140,60 @@ wildcard_constraints:
     survey=f"scenes|basins|routes/({LINES})|atlas/({'|'.join(config['atlas']['planes'])})",
     line=LINES,
     cycle_line="|".join(config["cycles"]["lines"]),
+    atlas_plane="|".join(config["atlas"]["planes"]),
     part=r"\w+",
 
 
+def of_project(path):
+    """A file of the project, as a path from the folder in which Snakemake works."""
+    return path if Path.cwd() == PROJECT else str(PROJECT / path)
+
+
 def code_of(script):
-    """Modules that a script imports, as paths from the project's folder."""
+    """Modules that a script imports."""
     modules = script_imports.modules_of(script)
-    return [os.path.relpath(path, workflow.basedir) for path in modules]
+    return [of_project(os.path.relpath(path, PROJECT)) for path in modules]
+
+
+def placed(given):
+    """Paths, alone or in lists and dictionaries, with a folder in place of `<results>`.
+
+    It is that of the paper's results if both configurations compute the file from the same values.
+    """
+    if isinstance(given, dict):
+        return {key: placed(value) for key, value in given.items()}
+    if isinstance(given, list):
+        return [placed(value) for value in given]
+    if isinstance(given, str) and given.startswith("<results>/"):
+        return placed_file(given.removeprefix("<results>/"))
+    if isinstance(given, str) and given.startswith("benchmarks/"):
+        return of_project(given)
+    return given
+
+
+@functools.cache
+def placed_file(path):
+    """The same for one file, by its path in the folder of results."""
+    for folder, other in CONFIGS.items():
+        if result_values.are_the_same(path, other, config):
+            return f"{folder}/{path}"
+    return f"{RESULTS}/{path}"
+
+
+def of_config(values, *names):
+    """Values by the configuration of the folder {results}, for the wildcards of these names."""
+
+    def given(wildcards):
+        named = [getattr(wildcards, name) for name in names]
+        try:
+            return values(CONFIGS[wildcards.results], *named)
+        except KeyError as unknown:
+            raise SystemExit(
+                f"error: config/config.yaml has no {unknown}; the results of your own file are in"
+                f" {RESULTS}/"
+            ) from None
+
+    return given
 
 
 def sources_of(wildcards):
@@ -91,15 +204,18 @@ def sources_of(wildcards):
 @functools.cache
 def sources_of_program(program):
     """Its own and all modules."""
+    fortran = of_project("fortran")
     modules = glob_wildcards(
-        "fortran/{folder,src|dde/src|dde/lapack}/{path}.{ending,f90|c|in}"
+        fortran + "/{folder,src|dde/src|dde/lapack}/{path}.{ending,f90|c|in}"
     )
     return [
-        "fortran/CMakeLists.txt",
-        "fortran/CMakePresets.json",
-        "fortran/dde/CMakeLists.txt",
-        f"fortran/app/{program}.f90",
-        *sorted(expand("fortran/{folder}/{path}.{ending}", zip, **modules._asdict())),
+        f"{fortran}/CMakeLists.txt",
+        f"{fortran}/CMakePresets.json",
+        f"{fortran}/dde/CMakeLists.txt",
+        f"{fortran}/app/{program}.f90",
+        *sorted(
+            expand(fortran + "/{folder}/{path}.{ending}", zip, **modules._asdict())
+        ),
     ]
 
 
@@ -115,122 +231,60 @@ def documented_sources():
     return sorted(expand("fortran/{folder}/{path}.f90", zip, **found._asdict()))
 
 
-def scene_values(wildcards):
-    """The scene's namelist group."""
-    scene = {
-        key: value
-        for key, value in config["scenes"][wildcards.scene].items()
-        if key not in ("exponents", "attractors")
-    }
-    return {"name": wildcards.scene, **scene}
-
-
-def exponents_groups(wildcards):
-    """The scene and how its exponents are measured, as namelist groups."""
-    wanted = config["scenes"][wildcards.scene]["exponents"]
-    return {
-        "runs": {
-            "scene": scene_values(wildcards),
-            "exponents": {**wanted, **config["exponents"]},
-        }
-    }
-
-
-def survey_groups(wildcards):
-    """How attractors of a part of a survey are looked for, as namelist groups."""
-    if wildcards.survey == "scenes":
-        groups = attractor_surveys.scene_groups(config, wildcards.part)
-    elif wildcards.survey == "basins":
-        groups = attractor_surveys.basin_groups(config, wildcards.part)
-    elif wildcards.survey.startswith("routes/"):
-        line = wildcards.survey.removeprefix("routes/")
-        groups = attractor_surveys.route_groups(config, line, wildcards.part)
-    else:
-        plane = wildcards.survey.removeprefix("atlas/")
-        groups = attractor_surveys.atlas_groups(config, plane, int(wildcards.part))
-    return {"runs": groups}
-
-
-def runs_of_route(wildcards):
-    """Files of all runs along a route."""
-    return result_files.runs_of_route(config, wildcards.line)
-
-
-def linear_stability_values(wildcards):
-    """The scene's parameters, and what is asked of its linear stability."""
-    scene = config["scenes"][wildcards.scene]
-    parameters = {key: scene[key] for key in ["tau", "epsilon", "xi", "gamma"]}
-    return {**parameters, **config["linear_stability"]}
-
-
-def plane_values(wildcards):
-    """The plane's namelist group."""
-    return config["hopf_curves"][wildcards.plane]
-
-
-def cycles_values(wildcards):
-    """The line on which cycles are followed, and how, as namelist group."""
-    cycles = config["cycles"]
-    line = cycles["lines"][wildcards.cycle_line]
-    shared = {
-        key: value for key, value in cycles.items() if key not in ("lines", "curves")
-    }
-    # curves are in planes of epsilon and tau
-    if line["along"] in ("epsilon", "tau"):
-        shared |= cycles.get("curves", {})
-    # a namelist has no empty lists
-    return {**shared, **{key: value for key, value in line.items() if value != []}}
+def trajectory_of(wildcards):
+    """The trajectory that a spectrum is computed from."""
+    path = f"trajectories/{wildcards.scene}.nc"
+    own = wildcards.results == RESULTS
+    return placed_file(path) if own else f"{wildcards.results}/{path}"
 
 
 def spectrum_values(wildcards):
     """The spectrum's namelist group."""
-    return {
-        "trajectory": f"results/trajectories/{wildcards.scene}.nc",
-        **config["spectra"],
+    spectra = CONFIGS[wildcards.results]["spectra"]
+    return {"trajectory": trajectory_of(wildcards), **spectra}
+
+
+def runs_of_route(wildcards):
+    """Files of all runs along a route."""
+    return placed(result_files.runs_of_route(config, wildcards.line))
+
+
+def tables_added():
+    """Tables of what the file of one's own adds."""
+    sections = {
+        "<results>/tables/linear-stability.tsv": "scenes",
+        "<results>/tables/attractors.tsv": "scenes",
+        "<results>/tables/hopf-points.tsv": "planes",
+        "<results>/tables/cycle-points.tsv": "cycles",
+        "<results>/tables/basins.tsv": "basins",
+        "<results>/tables/stability.tsv": "families",
     }
+    tables = [table for table, section in sections.items() if NAMES[section]]
+    return tables + (["<results>/tables/claims.tsv"] if CLAIMS else [])
 
 
-def family_groups(wildcards):
-    """Namelists of a family of cases."""
-    return study_cases.stability_groups(config["stability"], wildcards.family)
-
-
-def trust_groups_of(wildcards):
-    """Namelists of a scene whose horizon of trust is sought."""
-    return study_cases.trust_groups(MEASURED, wildcards.work_scene)
-
-
-def study_groups(wildcards):
-    """Namelists of a study: of a family of cases, or of a scene whose horizon of trust is sought."""
-    if wildcards.study == "stability":
-        return family_groups(wildcards)
-    return study_cases.trust_groups(MEASURED, wildcards.family)
-
-
-def references_of_families():
-    """Reference files of the families that have one."""
-    families = config["stability"]["families"].items()
+def everything_added(wildcards):
+    """Figures, page and tables of all that the file of one's own adds."""
+    if not (tables_added() or SHOWN):
+        raise SystemExit(
+            f"error: {RESULTS}: the file adds no scene, plane, route, atlas, cycles or claim; ask"
+            " for a figure or a result by its name"
+        )
     return [
-        f"results/references/stability/{name}.tsv"
-        for name, family in families
-        if family["reference"] == "quadruple"
+        *expand(
+            "<results>/figures/{figure}.{ending}",
+            figure=SHOWN,
+            ending=["pdf", "png", "svg"],
+        ),
+        *tables_added(),
+        "<results>/index.html",
     ]
 
 
-def claims_listed():
-    """The paper's claims with their tests, checked."""
-    tables = [table for table in LEDGER_TABLES.values() if isinstance(table, str)]
-    shown = {*FIGURES, *(Path(table).name for table in tables)}
-    try:
-        return claims_config.checked(claims_config.listed(), config, shown)
-    except read_config.ConfigError as problems:
-        raise WorkflowError(problems) from None
-
-
-def data_for_claims(kind):
-    """Data of scenes that claims need, of one kind: the name of their folder."""
-    scenes = claims_config.scenes_for(kind, claims_listed())
-    return result_files.paths_of_scenes(kind, scenes)
+def caption_file(figure):
+    """The caption of a figure."""
+    caption = entries.caption_of(figure)
+    return placed(caption) if figure in FIGURES else of_project(caption)
 
 
 def to_caption():
@@ -238,9 +292,9 @@ def to_caption():
     return [
         {
             "name": name,
-            "template": entries.template_of(name),
-            "inputs": entries.inputs_of(name, config),
-            "params": entries.params_of(name, config),
+            "template": of_project(entries.template_of(name)),
+            "inputs": placed(entries.inputs_of(name, DRAWN)),
+            "params": placed(entries.params_of(name, DRAWN)),
         }
         for name in FIGURES
     ]
@@ -251,37 +305,43 @@ def on_page():
     return [
         {
             "name": name,
-            "category": entries.ENTRIES[name].category,
-            "caption": entries.caption_of(name),
-            "drawing": f"results/figures/{name}.svg",
+            "category": entries.entry_of(name).category,
+            "caption": caption_file(name),
+            "drawing": f"{RESULTS}/figures/{name}.svg",
             "data": [
-                path
-                for path in entries.files_of(name, config)
-                if path.startswith("results/")
+                placed(path)
+                for path in entries.files_of(name, DRAWN)
+                if path.startswith("<results>/")
             ],
         }
-        for name in FIGURES
+        for name in SHOWN
     ]
 
 
 def trajectories_on_page():
     """Trajectory files that can be zoomed into: those that figures draw."""
-    drawn = (path for name in FIGURES for path in entries.files_of(name, config))
-    return list(
-        dict.fromkeys(
-            path for path in drawn if path.startswith("results/trajectories/")
-        )
-    )
+    drawn = [path for name in SHOWN for path in entries.files_of(name, DRAWN)]
+    kept = [path for path in drawn if path.startswith("<results>/trajectories/")]
+    return placed(list(dict.fromkeys(kept)))
 
 
 def assets_of_page(wildcards):
     """What lies beside the page; where some of it is missing, one line says so and ends the run."""
     try:
-        return page_assets.sources()
+        return list(map(of_project, page_assets.sources()))
     except page_assets.AssetError as problem:
         raise SystemExit(f"error: {problem}") from None
 
 
 def commit_at_work():
     """The project's commit, as the page names it."""
-    return git_commit.commit_of(Path(workflow.basedir))
+    return git_commit.commit_of(PROJECT)
+
+
+def benchmarks_at_work():
+    """Patterns of benchmark files, by rule, in the folder of this run."""
+    patterns = snakemake_internals.benchmarks_of(workflow, rules)
+    return {
+        name: pattern.replace("{results}", RESULTS)
+        for name, pattern in patterns.items()
+    }

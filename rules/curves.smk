@@ -6,13 +6,13 @@ rule hopf_namelist:
     input:
         code=code_of("namelists/write_namelist.py"),
     output:
-        "results/namelists/hopf/{plane}.nml",
+        "{results}/namelists/hopf/{plane}.nml",
     log:
-        "results/logs/namelists/hopf/{plane}.log",
+        "{results}/logs/namelists/hopf/{plane}.log",
     priority: OF_PAPER
     params:
         group="hopf_curves",
-        values=plane_values,
+        values=of_config(result_values.plane_values, "plane"),
     script:
         "../scripts/namelists/write_namelist.py"
 
@@ -20,31 +20,33 @@ rule hopf_namelist:
 rule hopf_curves:
     """Hopf curves of steady sliding in a plane of two parameters."""
     input:
-        program="build/release/bin/hopf",
-        namelist="results/namelists/hopf/{plane}.nml",
+        program="<build>/release/bin/hopf",
+        namelist="{results}/namelists/hopf/{plane}.nml",
     output:
-        "results/hopf/{plane}.nc",
+        "{results}/hopf/{plane}.nc",
     log:
-        "results/logs/hopf/{plane}.log",
+        "{results}/logs/hopf/{plane}.log",
     benchmark:
-        "results/benchmarks/hopf/{plane}.tsv"
+        "{results}/benchmarks/hopf/{plane}.tsv"
     priority: OF_PAPER
     params:
-        values=plane_values,
+        values=of_config(result_values.plane_values, "plane"),
         sources=digest_of("hopf"),
     shell:
-        "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
+        "{input.program:q} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
 
 
 rule hopf_points:
     """Table of the special points on the Hopf curves."""
     input:
-        curves=expand("results/hopf/{plane}.nc", plane=config["hopf_curves"]),
-        scenes=expand("results/linear_stability/{scene}.nc", scene=config["scenes"]),
+        curves=placed(result_files.curves_of_planes(LISTED)),
+        scenes=placed(
+            result_files.paths_of_scenes("linear_stability", LISTED["scenes"])
+        ),
         code=code_of("tables/hopf_points_table.py"),
     output:
-        "results/tables/hopf-points.tsv",
+        "<results>/tables/hopf-points.tsv",
     log:
-        "results/logs/tables/hopf-points.log",
+        "<results>/logs/tables/hopf-points.log",
     script:
         "../scripts/tables/hopf_points_table.py"

@@ -6,12 +6,12 @@ rule cycles_namelist:
     input:
         code=code_of("namelists/write_namelist.py"),
     output:
-        "results/namelists/cycles/{cycle_line}.nml",
+        "{results}/namelists/cycles/{cycle_line}.nml",
     log:
-        "results/logs/namelists/cycles/{cycle_line}.log",
+        "{results}/logs/namelists/cycles/{cycle_line}.log",
     params:
         group="cycles",
-        values=cycles_values,
+        values=of_config(result_values.cycles_values, "cycle_line"),
     script:
         "../scripts/namelists/write_namelist.py"
 
@@ -19,31 +19,31 @@ rule cycles_namelist:
 rule cycles_runs:
     """Cycles along one parameter, stable and unstable, by continuation."""
     input:
-        program="build/release/bin/cycles",
-        namelist="results/namelists/cycles/{cycle_line}.nml",
+        program="<build>/release/bin/cycles",
+        namelist="{results}/namelists/cycles/{cycle_line}.nml",
     output:
-        "results/cycles/{cycle_line}.nc",
+        "{results}/cycles/{cycle_line}.nc",
     log:
-        "results/logs/cycles/{cycle_line}.log",
+        "{results}/logs/cycles/{cycle_line}.log",
     benchmark:
-        "results/benchmarks/cycles/{cycle_line}.tsv"
+        "{results}/benchmarks/cycles/{cycle_line}.tsv"
     priority: OF_LONG
     params:
-        values=cycles_values,
+        values=of_config(result_values.cycles_values, "cycle_line"),
         sources=digest_of("cycles"),
     shell:
-        "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
+        "{input.program:q} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
 
 
 rule cycle_points:
     """Table of the points where cycles bifurcate."""
     input:
-        cycles=result_files.cycles_of_lines(config),
-        routes=result_files.tables_of_routes(config),
+        cycles=placed(result_files.cycles_of_lines(LISTED)),
+        routes=result_files.tables_of_routes(LISTED),
         code=code_of("tables/cycle_points_table.py"),
     output:
-        "results/tables/cycle-points.tsv",
+        "<results>/tables/cycle-points.tsv",
     log:
-        "results/logs/tables/cycle-points.log",
+        "<results>/logs/tables/cycle-points.log",
     script:
         "../scripts/tables/cycle_points_table.py"

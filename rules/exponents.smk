@@ -6,11 +6,11 @@ rule exponents_namelist:
     input:
         code=code_of("namelists/write_study_namelists.py"),
     output:
-        runs="results/namelists/exponents/{scene}.nml",
+        runs="{results}/namelists/exponents/{scene}.nml",
     log:
-        "results/logs/namelists/exponents/{scene}.log",
+        "{results}/logs/namelists/exponents/{scene}.log",
     params:
-        groups=exponents_groups,
+        groups=of_config(result_values.exponents_groups, "scene"),
     script:
         "../scripts/namelists/write_study_namelists.py"
 
@@ -18,30 +18,30 @@ rule exponents_namelist:
 rule exponents_runs:
     """Lyapunov exponents of a scene."""
     input:
-        program="build/release/bin/exponents",
-        namelist="results/namelists/exponents/{scene}.nml",
+        program="<build>/release/bin/exponents",
+        namelist="{results}/namelists/exponents/{scene}.nml",
     output:
-        "results/exponents/{scene}.nc",
+        "{results}/exponents/{scene}.nc",
     log:
-        "results/logs/exponents/{scene}.log",
+        "{results}/logs/exponents/{scene}.log",
     benchmark:
-        "results/benchmarks/exponents/{scene}.tsv"
+        "{results}/benchmarks/exponents/{scene}.tsv"
     priority: OF_LONG
     params:
-        groups=exponents_groups,
+        groups=of_config(result_values.exponents_groups, "scene"),
         sources=digest_of("exponents"),
     shell:
-        "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
+        "{input.program:q} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
 
 
 rule exponents_table:
     """Table of the Lyapunov exponents of the scenes."""
     input:
-        runs=result_files.exponents_of_scenes(config),
+        runs=placed(result_files.exponents_of_scenes(LISTED)),
         code=code_of("tables/exponents_table.py"),
     output:
-        "results/tables/exponents.tsv",
+        "<results>/tables/exponents.tsv",
     log:
-        "results/logs/tables/exponents.log",
+        "<results>/logs/tables/exponents.log",
     script:
         "../scripts/tables/exponents_table.py"

@@ -1,29 +1,29 @@
 # The figures, a rule of its name for each entry of scripts/figures/entries.py.
 
 
-for figure in FIGURES:
+for figure in dict.fromkeys([*FIGURES, *SHOWN]):
 
     rule:
         name:
             figure
         input:
-            **entries.inputs_of(figure, config),
-            code=code_of(f"figures/{figure}.py"),
+            **placed(entries.inputs_of(figure, DRAWN)),
+            code=code_of(f"figures/{entries.script_of(figure)}.py"),
         output:
-            pdf=f"results/figures/{figure}.pdf",
+            pdf=f"<results>/figures/{figure}.pdf",
             png=report(
-                f"results/figures/{figure}.png",
-                caption=Path.cwd() / entries.caption_of(figure),
-                category=entries.ENTRIES[figure].category,
+                f"<results>/figures/{figure}.png",
+                caption=Path.cwd() / caption_file(figure),
+                category=entries.entry_of(figure).category,
                 labels={"figure": entries.title_of(figure).rstrip(".")},
             ),
-            svg=f"results/figures/{figure}.svg",
+            svg=f"<results>/figures/{figure}.svg",
         log:
-            f"results/logs/figures/{figure}.log",
-        priority: OF_PAPER if entries.ENTRIES[figure].category == "Figures" else 0
+            f"<results>/logs/figures/{figure}.log",
+        priority: OF_PAPER if entries.entry_of(figure).category == "Figures" else 0
         params:
-            **entries.params_of(figure, config),
-            script=figure,
+            **placed(entries.params_of(figure, DRAWN)),
+            script=entries.script_of(figure),
         script:
             "../scripts/figures/{params.script}.py"
 
@@ -31,14 +31,18 @@ for figure in FIGURES:
 rule captions:
     """Captions of all figures, filled with their numbers and the verdicts."""
     input:
-        data=[path for figure in FIGURES for path in entries.files_of(figure, config)],
-        templates=[entries.template_of(figure) for figure in FIGURES],
-        claims="results/tables/claims.json",
+        data=[
+            path
+            for figure in FIGURES
+            for path in placed(entries.files_of(figure, DRAWN))
+        ],
+        templates=[of_project(entries.template_of(figure)) for figure in FIGURES],
+        claims="<results>/tables/claims.json",
         code=code_of("captions/write_captions.py"),
     output:
-        [entries.caption_of(figure) for figure in FIGURES],
+        [caption_file(figure) for figure in FIGURES],
     log:
-        "results/logs/figures/captions.log",
+        "<results>/logs/figures/captions.log",
     params:
         figures=to_caption(),
     script:
@@ -46,5 +50,5 @@ rule captions:
 
 
 snakemake_internals.describe(
-    workflow, {figure: entries.title_of(figure) for figure in FIGURES}
+    workflow, {figure: entries.title_of(figure) for figure in [*FIGURES, *SHOWN]}
 )

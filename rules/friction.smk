@@ -4,9 +4,9 @@ rule velocity_step_namelist:
     input:
         code=code_of("namelists/write_namelist.py"),
     output:
-        "results/namelists/velocity_step.nml",
+        "<results>/namelists/velocity_step.nml",
     log:
-        "results/logs/namelists/velocity_step.log",
+        "<results>/logs/namelists/velocity_step.log",
     priority: OF_PAPER
     params:
         group="velocity_step",
@@ -18,17 +18,17 @@ rule velocity_step_namelist:
 rule velocity_step:
     """Friction after a step of the velocity, from (1.1) and (1.2)."""
     input:
-        program="build/release/bin/velocity_step",
-        namelist="results/namelists/velocity_step.nml",
+        program="<build>/release/bin/velocity_step",
+        namelist="<results>/namelists/velocity_step.nml",
     output:
-        "results/friction/velocity_step.nc",
+        "<results>/friction/velocity_step.nc",
     log:
-        "results/logs/friction/velocity_step.log",
+        "<results>/logs/friction/velocity_step.log",
     benchmark:
-        "results/benchmarks/friction/velocity_step.tsv"
+        "<results>/benchmarks/friction/velocity_step.tsv"
     priority: OF_PAPER
     params:
         values=config["velocity_step"],
         sources=digest_of("velocity_step"),
     shell:
-        "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
+        "{input.program:q} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"

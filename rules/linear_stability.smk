@@ -6,12 +6,12 @@ rule linear_stability_namelist:
     input:
         code=code_of("namelists/write_namelist.py"),
     output:
-        "results/namelists/linear_stability/{scene}.nml",
+        "{results}/namelists/linear_stability/{scene}.nml",
     log:
-        "results/logs/namelists/linear_stability/{scene}.log",
+        "{results}/logs/namelists/linear_stability/{scene}.log",
     params:
         group="linear_stability",
-        values=linear_stability_values,
+        values=of_config(result_values.linear_stability_values, "scene"),
     script:
         "../scripts/namelists/write_namelist.py"
 
@@ -19,29 +19,31 @@ rule linear_stability_namelist:
 rule linear_stability:
     """Characteristic roots of steady sliding at the parameters of a scene."""
     input:
-        program="build/release/bin/linear_stability",
-        namelist="results/namelists/linear_stability/{scene}.nml",
+        program="<build>/release/bin/linear_stability",
+        namelist="{results}/namelists/linear_stability/{scene}.nml",
     output:
-        "results/linear_stability/{scene}.nc",
+        "{results}/linear_stability/{scene}.nc",
     log:
-        "results/logs/linear_stability/{scene}.log",
+        "{results}/logs/linear_stability/{scene}.log",
     benchmark:
-        "results/benchmarks/linear_stability/{scene}.tsv"
+        "{results}/benchmarks/linear_stability/{scene}.tsv"
     params:
-        values=linear_stability_values,
+        values=of_config(result_values.linear_stability_values, "scene"),
         sources=digest_of("linear_stability"),
     shell:
-        "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
+        "{input.program:q} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
 
 
 rule linear_stability_table:
     """Table of the linear stability of steady sliding in the scenes."""
     input:
-        scenes=expand("results/linear_stability/{scene}.nc", scene=config["scenes"]),
+        scenes=placed(
+            result_files.paths_of_scenes("linear_stability", LISTED["scenes"])
+        ),
         code=code_of("tables/linear_stability_table.py"),
     output:
-        "results/tables/linear-stability.tsv",
+        "<results>/tables/linear-stability.tsv",
     log:
-        "results/logs/tables/linear-stability.log",
+        "<results>/logs/tables/linear-stability.log",
     script:
         "../scripts/tables/linear_stability_table.py"

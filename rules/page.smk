@@ -4,15 +4,15 @@
 rule play_data:
     """Classes and motions of the atlas, for the view in which a reader moves the parameters."""
     input:
-        runs=result_files.parts_of_atlas(config),
-        tables=[LEDGER_TABLES["atlas"]],
+        runs=placed(result_files.parts_of_atlas(LISTED)),
+        tables=["<results>/tables/atlas.tsv"],
         code=code_of("page/play_data.py"),
     output:
-        "results/page/play-data.js",
+        "<results>/page/play-data.js",
     log:
-        "results/logs/page/play-data.log",
+        "<results>/logs/page/play-data.log",
     params:
-        scenes=result_files.places_in_atlas(config),
+        scenes=result_files.places_in_atlas(LISTED),
     script:
         "../scripts/page/play_data.py"
 
@@ -20,29 +20,29 @@ rule play_data:
 rule page:
     """The page with figures, claims and verdicts: results/index.html."""
     input:
-        figures=expand("results/figures/{figure}.svg", figure=FIGURES),
-        claims="results/tables/claims.json",
-        attractors=LEDGER_TABLES["attractors"],
-        hopf_points=LEDGER_TABLES["hopf_points"],
-        stability=LEDGER_TABLES["stability"],
+        figures=expand("<results>/figures/{figure}.svg", figure=FIGURES),
+        claims="<results>/tables/claims.json",
+        attractors="<results>/tables/attractors.tsv",
+        hopf_points="<results>/tables/hopf-points.tsv",
+        stability="<results>/tables/stability.tsv",
         trajectories=trajectories_on_page(),
-        play="results/page/play-data.js",
+        play="<results>/page/play-data.js",
         captions=[figure["caption"] for figure in on_page()],
-        readme="README.md",
-        citation="CITATION.cff",
-        equations="page/equations.yaml",
-        template="page/index.html.jinja",
-        parts=page_assets.PARTS,
+        readme=of_project("README.md"),
+        citation=of_project("CITATION.cff"),
+        equations=of_project("page/equations.yaml"),
+        template=of_project("page/index.html.jinja"),
+        parts=[of_project(part) for part in page_assets.PARTS],
         assets=assets_of_page,
         code=code_of("page/write_page.py"),
     output:
-        page="results/index.html",
-        assets=expand("results/page/{asset}", asset=page_assets.ASSETS),
+        page="<results>/index.html",
+        assets=expand("<results>/page/{asset}", asset=page_assets.ASSETS),
     log:
-        "results/logs/page.log",
+        "<results>/logs/page.log",
     params:
         figures=on_page(),
-        benchmarks=snakemake_internals.benchmarks_of(workflow, rules),
+        benchmarks=benchmarks_at_work(),
         commit=commit_at_work(),
         history=config["atlas"]["history"],
     script:

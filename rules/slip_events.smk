@@ -4,16 +4,16 @@
 rule slip_events:
     """Slip events of a scene: their times, slips and recurrence times."""
     input:
-        program="build/release/bin/slip_events",
-        namelist="results/namelists/trajectories/{scene}.nml",
+        program="<build>/release/bin/slip_events",
+        namelist="{results}/namelists/trajectories/{scene}.nml",
     output:
-        "results/slip_events/{scene}.nc",
+        "{results}/slip_events/{scene}.nc",
     log:
-        "results/logs/slip_events/{scene}.log",
+        "{results}/logs/slip_events/{scene}.log",
     benchmark:
-        "results/benchmarks/slip_events/{scene}.tsv"
+        "{results}/benchmarks/slip_events/{scene}.tsv"
     params:
-        values=scene_values,
+        values=of_config(result_values.scene_values, "scene"),
         sources=digest_of("slip_events"),
     shell:
-        "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
+        "{input.program:q} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"

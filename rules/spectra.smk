@@ -6,9 +6,9 @@ rule spectrum_namelist:
     input:
         code=code_of("namelists/write_namelist.py"),
     output:
-        "results/namelists/spectra/{scene}.nml",
+        "{results}/namelists/spectra/{scene}.nml",
     log:
-        "results/logs/namelists/spectra/{scene}.log",
+        "{results}/logs/namelists/spectra/{scene}.log",
     priority: OF_PAPER
     params:
         group="spectrum",
@@ -20,18 +20,18 @@ rule spectrum_namelist:
 rule spectrum:
     """Power spectrum of the velocity of a scene, with its peaks and base frequencies."""
     input:
-        program="build/release/bin/spectrum",
-        namelist="results/namelists/spectra/{scene}.nml",
-        trajectory="results/trajectories/{scene}.nc",
+        program="<build>/release/bin/spectrum",
+        namelist="{results}/namelists/spectra/{scene}.nml",
+        trajectory=trajectory_of,
     output:
-        "results/spectra/{scene}.nc",
+        "{results}/spectra/{scene}.nc",
     log:
-        "results/logs/spectra/{scene}.log",
+        "{results}/logs/spectra/{scene}.log",
     benchmark:
-        "results/benchmarks/spectra/{scene}.tsv"
+        "{results}/benchmarks/spectra/{scene}.tsv"
     priority: OF_PAPER
     params:
         values=spectrum_values,
         sources=digest_of("spectrum"),
     shell:
-        "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
+        "{input.program:q} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"

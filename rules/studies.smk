@@ -7,12 +7,12 @@ rule stability_namelists:
     input:
         code=code_of("namelists/write_study_namelists.py"),
     output:
-        measurement="results/namelists/measurements/stability/{family}.nml",
-        reference="results/namelists/references/stability/{family}.nml",
+        measurement="{results}/namelists/measurements/stability/{family}.nml",
+        reference="{results}/namelists/references/stability/{family}.nml",
     log:
-        "results/logs/namelists/stability/{family}.log",
+        "{results}/logs/namelists/stability/{family}.log",
     params:
-        groups=family_groups,
+        groups=of_config(result_values.family_groups, "family"),
     script:
         "../scripts/namelists/write_study_namelists.py"
 
@@ -22,12 +22,12 @@ rule trust_namelists:
     input:
         code=code_of("namelists/write_study_namelists.py"),
     output:
-        measurement="results/namelists/measurements/trust/{work_scene}.nml",
-        reference="results/namelists/references/trust/{work_scene}.nml",
+        measurement="{results}/namelists/measurements/trust/{work_scene}.nml",
+        reference="{results}/namelists/references/trust/{work_scene}.nml",
     log:
-        "results/logs/namelists/trust/{work_scene}.log",
+        "{results}/logs/namelists/trust/{work_scene}.log",
     params:
-        groups=trust_groups_of,
+        groups=of_config(result_values.trust_groups, "work_scene"),
     script:
         "../scripts/namelists/write_study_namelists.py"
 
@@ -35,56 +35,54 @@ rule trust_namelists:
 rule reference:
     """Solution of the same cases in quadruple precision."""
     input:
-        program="build/release/bin/reference",
-        namelist="results/namelists/references/{study}/{family}.nml",
+        program="<build>/release/bin/reference",
+        namelist="{results}/namelists/references/{study}/{family}.nml",
     output:
-        "results/references/{study}/{family}.tsv",
+        "{results}/references/{study}/{family}.tsv",
     log:
-        "results/logs/references/{study}/{family}.log",
+        "{results}/logs/references/{study}/{family}.log",
     benchmark:
-        "results/benchmarks/references/{study}/{family}.tsv"
+        "{results}/benchmarks/references/{study}/{family}.tsv"
     priority: OF_LONG
     params:
-        groups=study_groups,
+        groups=of_config(result_values.study_groups, "study", "family"),
         sources=digest_of("reference"),
     shell:
-        "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
+        "{input.program:q} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
 
 
 rule measurement:
     """Runs of the solver on test cases, by several methods and tolerances."""
     input:
-        program="build/release/bin/measure",
-        namelist="results/namelists/measurements/{study}/{family}.nml",
+        program="<build>/release/bin/measure",
+        namelist="{results}/namelists/measurements/{study}/{family}.nml",
     output:
-        "results/measurements/{study}/{family}.nc",
+        "{results}/measurements/{study}/{family}.nc",
     log:
-        "results/logs/measurements/{study}/{family}.log",
+        "{results}/logs/measurements/{study}/{family}.log",
     benchmark:
-        "results/benchmarks/measurements/{study}/{family}.tsv"
+        "{results}/benchmarks/measurements/{study}/{family}.tsv"
     params:
-        groups=study_groups,
+        groups=of_config(result_values.study_groups, "study", "family"),
         sources=digest_of("measure"),
     shell:
-        "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
+        "{input.program:q} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
 
 
 rule stability_table:
     """Table of the errors of the solver on stiff and extreme cases."""
     input:
-        measurements=expand(
-            "results/measurements/stability/{family}.nc", family=FAMILIES
-        ),
-        references=references_of_families(),
+        measurements=placed(result_files.runs_of_families(LISTED)),
+        references=placed(result_files.references_of_families(LISTED)),
         code=code_of("tables/stability_table.py"),
     output:
-        "results/tables/stability.tsv",
+        "<results>/tables/stability.tsv",
     log:
-        "results/logs/tables/stability.log",
+        "<results>/logs/tables/stability.log",
     params:
         references={
             name: family["reference"]
-            for name, family in config["stability"]["families"].items()
+            for name, family in LISTED["stability"]["families"].items()
         },
     script:
         "../scripts/tables/stability_table.py"
@@ -93,13 +91,17 @@ rule stability_table:
 rule trusted_horizons:
     """Table of the times up to which runs of the scenes can be compared."""
     input:
-        measurements=expand("results/measurements/trust/{scene}.nc", scene=WORK_SCENES),
-        references=expand("results/references/trust/{scene}.tsv", scene=WORK_SCENES),
+        measurements=placed(
+            expand("<results>/measurements/trust/{scene}.nc", scene=WORK_SCENES)
+        ),
+        references=placed(
+            expand("<results>/references/trust/{scene}.tsv", scene=WORK_SCENES)
+        ),
         code=code_of("tables/trusted_horizons.py"),
     output:
-        "results/tables/trusted-horizons.tsv",
+        "<results>/tables/trusted-horizons.tsv",
     log:
-        "results/logs/tables/trusted-horizons.log",
+        "<results>/logs/tables/trusted-horizons.log",
     params:
         trusted_error=MEASURED["trusted_error"],
     script:
@@ -109,12 +111,12 @@ rule trusted_horizons:
 rule work_precision_namelist:
     """Input of the runs that compare error and run time on a scene."""
     input:
-        horizons="results/tables/trusted-horizons.tsv",
+        horizons="<results>/tables/trusted-horizons.tsv",
         code=code_of("namelists/write_measured_scene.py"),
     output:
-        "results/namelists/measurements/work_precision/{work_scene}.nml",
+        "<results>/namelists/measurements/work_precision/{work_scene}.nml",
     log:
-        "results/logs/namelists/work_precision/{work_scene}.log",
+        "<results>/logs/namelists/work_precision/{work_scene}.log",
     params:
         study=MEASURED,
     script:
@@ -125,34 +127,36 @@ rule work_precision_namelist:
 rule work_precision_runs:
     """Errors and run times of all methods of the solver on a scene."""
     input:
-        program="build/release/bin/measure",
-        namelist="results/namelists/measurements/work_precision/{work_scene}.nml",
+        program="<build>/release/bin/measure",
+        namelist="<results>/namelists/measurements/work_precision/{work_scene}.nml",
     output:
-        "results/measurements/work_precision/{work_scene}.nc",
+        "<results>/measurements/work_precision/{work_scene}.nc",
     log:
-        "results/logs/measurements/work_precision/{work_scene}.log",
+        "<results>/logs/measurements/work_precision/{work_scene}.log",
     benchmark:
-        "results/benchmarks/measurements/work_precision/{work_scene}.tsv"
+        "<results>/benchmarks/measurements/work_precision/{work_scene}.tsv"
     priority: OF_LONG
     params:
         study=MEASURED,
         sources=digest_of("measure"),
     shell:
-        "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
+        "{input.program:q} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
 
 
 rule work_precision_table:
     """Tables of error against run time, and of error against tolerance."""
     input:
         measurements=expand(
-            "results/measurements/work_precision/{scene}.nc", scene=WORK_SCENES
+            "<results>/measurements/work_precision/{scene}.nc", scene=WORK_SCENES
         ),
-        references=expand("results/references/trust/{scene}.tsv", scene=WORK_SCENES),
+        references=placed(
+            expand("<results>/references/trust/{scene}.tsv", scene=WORK_SCENES)
+        ),
         code=code_of("tables/work_precision_table.py"),
     output:
-        errors="results/tables/work-precision.tsv",
-        proportionality="results/tables/tolerance-proportionality.tsv",
+        errors="<results>/tables/work-precision.tsv",
+        proportionality="<results>/tables/tolerance-proportionality.tsv",
     log:
-        "results/logs/tables/work-precision.log",
+        "<results>/logs/tables/work-precision.log",
     script:
         "../scripts/tables/work_precision_table.py"

@@ -6,13 +6,13 @@ rule scene_namelist:
     input:
         code=code_of("namelists/write_namelist.py"),
     output:
-        "results/namelists/trajectories/{scene}.nml",
+        "{results}/namelists/trajectories/{scene}.nml",
     log:
-        "results/logs/namelists/trajectories/{scene}.log",
+        "{results}/logs/namelists/trajectories/{scene}.log",
     priority: OF_PAPER
     params:
         group="scene",
-        values=scene_values,
+        values=of_config(result_values.scene_values, "scene"),
     script:
         "../scripts/namelists/write_namelist.py"
 
@@ -20,17 +20,17 @@ rule scene_namelist:
 rule trajectory:
     """Trajectory of a scene: theta, u and v over time."""
     input:
-        program="build/release/bin/trajectory",
-        namelist="results/namelists/trajectories/{scene}.nml",
+        program="<build>/release/bin/trajectory",
+        namelist="{results}/namelists/trajectories/{scene}.nml",
     output:
-        "results/trajectories/{scene}.nc",
+        "{results}/trajectories/{scene}.nc",
     log:
-        "results/logs/trajectories/{scene}.log",
+        "{results}/logs/trajectories/{scene}.log",
     benchmark:
-        "results/benchmarks/trajectories/{scene}.tsv"
+        "{results}/benchmarks/trajectories/{scene}.tsv"
     priority: OF_PAPER
     params:
-        values=scene_values,
+        values=of_config(result_values.scene_values, "scene"),
         sources=digest_of("trajectory"),
     shell:
-        "{input.program} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
+        "{input.program:q} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"

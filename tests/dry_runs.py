@@ -15,7 +15,7 @@ class Job:
 
 def jobs_in(log: str) -> list[Job]:
     """The jobs in the log of a run or a dry run."""
-    listed = r"^(?:local)?rule (\w+):\n(?:    input: (.*)\n)?(?:    output: (.*)\n)?"
+    listed = r"^(?:local)?rule ([\w/]+):\n(?:    input: (.*)\n)?(?:    output: (.*)\n)?"
     return [
         Job(rule, *(frozenset(files.split(", ")) - {""} for files in (given, made)))
         for rule, given, made in re.findall(listed, log, flags=re.MULTILINE)

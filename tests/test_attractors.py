@@ -12,6 +12,7 @@ from scripts.config.check_config import checked
 from scripts.namelists import attractor_surveys
 from scripts.tables import attractor_tables, basins_table
 from scripts.tables.motion_rows import count_in_words, kind_of, parameter_of
+from scripts.workflow import result_files
 
 CLASSES = ["undecided", "fixed point", "cycle", "torus", "chaos"]
 
@@ -80,6 +81,20 @@ def test_runs_of_a_route_go_along_its_parameter(full, run, sweep):
     assert "kept" not in groups["observation"]
     assert points["refinements"] == 0
     assert points["kept"] == routes["observation"]["kept"]
+
+
+def test_route_along_a_value_of_the_history(full):
+    """One set of parameters and a history for each value; there are no sweeps."""
+    line = {"along": "v", "window": [0.5, 1.5], "count": 3, "tau": 7.0, "epsilon": 0.5}
+    full = copy.deepcopy(full)
+    full["routes"]["lines"]["mine"] = line | {"xi": 0.5, "gamma": 0.8}
+    points = attractor_surveys.route_groups(full, "mine", "slip")["points"]
+    assert points["v"] == [0.5, 1.0, 1.5]
+    assert points["u"] == [full["routes"]["histories"]["slip"]["u"]] * 3
+    assert [points[f"{key}_count"] for key in ("tau", "epsilon", "xi", "gamma")] == [1, 1, 1, 1]
+    assert points["sweep"] == "none"
+    names = [path.split("/")[-1] for path in result_files.runs_of_route(full, "mine")]
+    assert names == ["near.nc", "slip.nc"]
 
 
 def test_basins_have_random_histories_only(full):
@@ -247,6 +262,16 @@ def test_parameter_of_a_route(along):
     """The one that varies."""
     run = a_run(["cycle", "cycle"], **{along: [1.0, 2.0]})
     assert parameter_of(attractor_tables.rows_of(run)) == along
+
+
+def test_value_of_the_history_along_a_route():
+    """The one that varies within a run."""
+    one, other = (
+        a_run(["cycle", "cycle"], history_v=[1.0, 2.0], history_u=[u, u]) for u in (0.0, -5.0)
+    )
+    rows = attractor_tables.route_rows(Path("mine/near.nc"), one)
+    rows += attractor_tables.route_rows(Path("mine/slip.nc"), other)
+    assert parameter_of(rows) == "v"
 
 
 def test_shares_of_basins_have_standard_errors():

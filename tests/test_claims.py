@@ -16,7 +16,7 @@ from made_up_results import (
 )
 
 from scripts.claims import ledger
-from scripts.claims.claims_config import listed
+from scripts.claims.claims_config import checked, files_for, listed
 from scripts.claims.claims_results import (
     CORRECTED,
     NOT_REPRODUCED,
@@ -62,7 +62,7 @@ def ledger_of(met: str) -> list[dict]:
         attractors=[attractor_row(met)],
         linear_stability=[stability_row()],
     )
-    return ledger.rows_of(CLAIMS, made)
+    return ledger.rows_of(CLAIMS, made, "results")
 
 
 def test_a_row_for_every_claim():
@@ -97,16 +97,15 @@ def test_files_are_read_by_name(tmp_path):
     names.append("cycle_points")
     for name in names:
         write_table(tmp_path / name, [{"scene": name}])
-    found = read_results(
-        str(tmp_path / "friction.nc"),
-        {
-            "curves": [str(tmp_path / "a_plane.nc")],
-            "cycles": [],
-            "spectra": [str(tmp_path / "a_spectrum.nc")],
-            "slip_events": [str(tmp_path / "some_events.nc")],
-        },
-        {name: str(tmp_path / name) for name in names},
-    )
+    files = {
+        "friction": str(tmp_path / "friction.nc"),
+        "cycles": [],
+        "curves": [str(tmp_path / "a_plane.nc")],
+        "spectra": [str(tmp_path / "a_spectrum.nc")],
+        "slip_events": [str(tmp_path / "some_events.nc")],
+        **{name: str(tmp_path / name) for name in names},
+    }
+    found = read_results(files)
     assert list(found.curves) == ["a_plane"]
     assert list(found.spectra) == ["a_spectrum"]
     assert list(found.slip_events) == ["some_events"]
@@ -157,6 +156,19 @@ def test_ledger_of_the_workflow(smoke):
         assert not row["instead"] or row["verdict"] in (CORRECTED, NOT_REPRODUCED)
         assert row["instead"].endswith(".") or row["verdict"] != CORRECTED
         assert row["verdict"] == NOT_TESTABLE or (smoke.folder / row["look_at"]).is_file()
+
+
+def test_a_claim_alone_needs_no_other_files(smoke, smoke_config):
+    """Its verdict from the files that its test reads is that of the whole ledger."""
+    rows, said = read_ledger(smoke.folder), listed()
+    shown = {claim["look_at"] for claim in said["claims"].values() if "look_at" in claim}
+    results = str(smoke.folder / "results")
+    for name, claim in checked(said, smoke_config, shown).items():
+        files = json.loads(
+            json.dumps(files_for({name: claim}, smoke_config)).replace("<results>", results)
+        )
+        found = ledger.finding_of(claim, read_results(files))
+        assert vars(found) == {key: rows[name][key] for key in ("verdict", "evidence")}
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ import inspect
 
 import pytest
 
-from scripts.claims import claims_config, claims_of_events, claims_of_spectra, ledger
+from scripts.claims import claims_config, ledger
 from scripts.config.check_config import checked
 from scripts.config.read_config import ConfigError, read
 
@@ -115,14 +115,21 @@ def test_every_test_is_used_and_every_claim_stands_somewhere():
 
 
 def test_data_of_scenes_are_known():
-    """Of every test of spectra and events; and each claim's scenes are found, once."""
-    tests = {"spectra": claims_of_spectra.TESTS, "slip_events": claims_of_events.TESTS}
-    assert claims_config.DATA_OF == {name: data for data in tests for name in tests[data]}
+    """Of every test; and each claim's scenes are found, once."""
+    assert set(claims_config.DATA_OF) == set(ledger.TESTS)
+    known = {*claims_config.FILES, *claims_config.FILES_OF, "cycles"}
+    assert {data for read in claims_config.DATA_OF.values() for data in read} == known
     named = ["single_peak", "spectrum_class", "aperiodic_events", "power_law_of_sizes"]
     claims = {name: with_test(name)["claims"]["mine"] for name in [*named, "equation_10"]}
     claims["untested"] = UNTESTED
-    assert claims_config.scenes_for("spectra", claims) == ["oscillation", "torus"]
-    assert claims_config.scenes_for("slip_events", claims) == ["chaos", "oscillation"]
+    files = claims_config.files_for(claims, {})
+    assert files["spectra"] == [f"<results>/spectra/{name}.nc" for name in ("oscillation", "torus")]
+    events = [f"<results>/slip_events/{name}.nc" for name in ("chaos", "oscillation")]
+    assert files["slip_events"] == events
+    assert files["friction"] == files["atlas"] == files["routes"] == []
+    assert claims_config.names_in(claims)["scenes"] == [
+        *("oscillation", "torus", "chaos", "oscillation", "chaos")
+    ]
 
 
 def test_no_verdict_is_written_in_the_list():

@@ -60,6 +60,17 @@ def test_line_along_any_parameter(config, along):
     assert f"config routes lines mine: key ['{missing}'] is missing" in refusal(config)
 
 
+def test_line_along_a_value_of_the_history(config):
+    """It has all four parameters; v is positive."""
+    line = {"along": "v", "window": [0.1, 0.2], "count": 3, "tau": 7.0, "epsilon": 0.5, "xi": 0.5}
+    config["routes"]["lines"]["mine"] = line
+    assert "config routes lines mine: key ['gamma'] is missing" in refusal(config)
+    line |= {"gamma": 0.8, "window": [0.0, 0.2]}
+    assert "config routes lines mine: window = [0.0, 0.2]; expected" in refusal(config)
+    line["window"] = [0.1, 0.2]
+    checked(config)
+
+
 def test_value_of_the_parameter_that_varies_is_refused(config):
     """It would be without effect."""
     put(config, (*LINE, "tau"), 7.0)

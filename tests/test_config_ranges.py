@@ -184,7 +184,7 @@ RANGES = {
     **below("atlas", refinements=("a whole number >= 0 and <= 4", [-1, 0.5, 5, True, None])),
     **below("routes", "histories", "slip", v=HISTORY_V),
     **below(*LINE, xi=POSITIVE, gamma=POSITIVE, tau=NOT_NEGATIVE, count=LINE_COUNT),
-    **below(*LINE, along=("one of: tau, epsilon, xi, gamma", ["v", None])),
+    **below(*LINE, along=("one of: tau, epsilon, xi, gamma, theta, u, v", ["w", None])),
     **below("routes", sweeps=("up, down", [["up", "up"], "up", None])),
     **block(*PLACE),
     **below("basins", count=("a whole number >= 1", [0, 1.5, 1001])),
@@ -248,7 +248,6 @@ SECTIONS = [
 MISSING = [
     *SECTIONS,
     *(("scenes", "torus", key) for key in ("tau", "epsilon", "xi", "gamma", "t_end")),
-    ("scenes", "torus", "attractors", "histories"),
     ("stability", "families"),
     ("work_precision", "scenes"),
     *((*place, key) for place in (FAMILY, MEASURED) for key in ("tau", "xi", "t_end")),

@@ -13,6 +13,8 @@ def made_up_workflow() -> SimpleNamespace:
     """What is used of Snakemake's workflow, in a form that can be taken apart."""
     here = []
     return SimpleNamespace(
+        modifier=SimpleNamespace(namespace=None, skip_configfile=False),
+        pathvars={"results": "results"},
         scheduling_settings=SimpleNamespace(max_jobs_per_timespan="100/1s"),
         configfiles=["mine.yaml", "config.yaml"],
         config_settings=SimpleNamespace(
@@ -63,6 +65,10 @@ def test_snakemake_that_judges_otherwise_is_refused(monkeypatch, holder, gone, n
     [
         (internals.start_jobs_at_once, "scheduling_settings"),
         (internals.start_jobs_at_once, "scheduling_settings.max_jobs_per_timespan"),
+        (internals.is_module, "modifier"),
+        (internals.is_module, "modifier.namespace"),
+        (internals.has_config_of_module, "modifier.skip_configfile"),
+        (internals.folder_of_results, "pathvars"),
         (internals.config_sources, "configfiles"),
         (internals.config_sources, "config_settings"),
         (internals.config_sources, "config_settings.configfiles"),
@@ -92,9 +98,12 @@ def test_names_that_are_there_are_used():
     workflow = made_up_workflow()
     internals.start_jobs_at_once(workflow)
     assert workflow.scheduling_settings.max_jobs_per_timespan is None
-    assert internals.config_sources(workflow) == (["config.yaml", "mine.yaml"], [])
+    assert internals.config_sources(workflow) == (["config.yaml"], ["mine.yaml"], [])
     describe(workflow)
     assert [rule.docstring for rule in workflow.rules] == ["Long.", "Short."]
+    assert not internals.is_module(workflow)
+    assert not internals.has_config_of_module(workflow)
+    assert internals.folder_of_results(workflow) == "results"
     run_here(workflow)
     assert workflow.here == ["short"]
     assert benchmarks_of(workflow) == {"short": "{scene}.tsv"}
@@ -104,4 +113,4 @@ def test_file_in_place_of_the_configuration_is_read_alone():
     """Snakemake's option --replace-workflow-config."""
     workflow = made_up_workflow()
     workflow.config_settings.replace_workflow_config = True
-    assert internals.config_sources(workflow) == (["mine.yaml"], [])
+    assert internals.config_sources(workflow) == ([], ["mine.yaml"], [])

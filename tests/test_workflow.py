@@ -112,7 +112,7 @@ def test_namelists_hold_the_config(smoke, smoke_config):
     for scene in SCENES:
         source = {"trajectory": f"results/trajectories/{scene}.nc"}
         expected[f"spectra/{scene}"] = {"spectrum": source | smoke_config["spectra"]}
-        wanted = smoke_config["scenes"][scene]["exponents"] | smoke_config["exponents"]
+        wanted = smoke_config["exponents"] | smoke_config["scenes"][scene]["exponents"]
         (wanted["check_steps"],) = wanted["check_steps"]
         expected[f"exponents/{scene}"] = {"scene": scenes[scene], "exponents": wanted}
     assert read == expected
@@ -149,7 +149,7 @@ def test_what_is_in_results_stands_in_its_readme(smoke):
     assert readme == (ROOT / "results" / "README.md").read_text()
     named = set(re.findall(r"`results/([\w.]+)", readme))
     made = {path.name for path in (smoke.folder / "results").iterdir()}
-    assert named == (made | {"docs"}) - {"page", "README.md"}
+    assert named == (made | {"docs", "mine"}) - {"page", "README.md"}
 
 
 def test_second_run_does_nothing(smoke):

@@ -51,7 +51,8 @@ def test_results_of_scripts_depend_on_what_these_import(smoke):
     }
     for figure in FIGURES:
         of_rule[figure] = (f"scripts/figures/{figure}.py", of_rule[figure][1])
-    written = "".join(path.read_text() for path in (ROOT / "rules").glob("*.smk"))
+    files = set((ROOT / "rules").glob("*.smk")) - {ROOT / "rules" / "own.smk"}
+    written = "".join(path.read_text() for path in files)
     # one text stands for the rules of all figures
     assert len(of_rule) == written.count("    script:\n") - 1 + len(FIGURES)
     for rule, (script, given) in of_rule.items():

@@ -29,9 +29,13 @@ scenes:
 
 
 def test_scene_of_ones_own(scratch):
-    """It merges over the default config; v is right to 100 x tolerance against a tighter run."""
+    """It merges over the default config; v is right to 100 x tolerance against a tighter run.
+
+    What is in results/ is the paper's.
+    """
     (scratch.folder / "mine.yaml").write_text(MY_SCENE)
-    targets = [f"results/trajectories/{name}.nc" for name in ("mine", "mine_tight", "torus")]
+    targets = [f"results/mine/trajectories/{name}.nc" for name in ("mine", "mine_tight")]
+    targets += ["results/trajectories/torus.nc"]
     run = scratch.snakemake(*targets, "--configfile", "mine.yaml")
     assert run.returncode == 0, run.stdout
     loose, tight, torus = (xr.load_dataset(scratch.folder / path) for path in targets)
@@ -49,7 +53,7 @@ def test_one_key_of_a_scene_can_be_changed(smoke, scratch, tmp_path):
     """The others keep their values; numbers are read by YAML 1.2, in files and in `--config`."""
     (tmp_path / "first.yaml").write_text("scenes: { torus: { tau: 7, tolerance: 1e-10 } }")
     (tmp_path / "last.yaml").write_text("scenes: { torus: { tau: 010, history: { v: 1.5 } } }")
-    namelist = "results/namelists/trajectories/torus.nml"
+    namelist = "results/first-last/namelists/trajectories/torus.nml"
     overlays = ("--configfile", str(tmp_path / "first.yaml"), str(tmp_path / "last.yaml"))
     given = ("--config", "scenes={ torus: { xi: 8e-1, t_end: 09000.5 } }")
     run = scratch.snakemake(namelist, *overlays, *given)
@@ -58,7 +62,8 @@ def test_one_key_of_a_scene_can_be_changed(smoke, scratch, tmp_path):
     changed = {"tau": 10, "tolerance": 1e-10, "xi": 0.8, "t_end": 9000.5}
     assert {key: scene[key] for key in changed} == changed
     assert scene["history"] == {"theta": 0.0, "u": 0.0, "v": 1.5}
-    before = f90nml.read(smoke.folder / namelist)["scene"].todict()
+    paper = smoke.folder / "results" / "namelists" / "trajectories" / "torus.nml"
+    before = f90nml.read(paper)["scene"].todict()
     assert scene["epsilon"] == before["epsilon"]
 
 
@@ -88,9 +93,9 @@ def test_integration_that_fails_is_told_and_leaves_no_output(scratch):
     """What the program says is on the screen and in the log."""
     text = MY_SCENE.replace("v: 1.2", "v: 1.0e-300")
     (scratch.folder / "mine.yaml").write_text(text)
-    run = scratch.snakemake("results/trajectories/mine.nc", "--configfile", "mine.yaml")
+    run = scratch.snakemake("results/mine/trajectories/mine.nc", "--configfile", "mine.yaml")
     assert run.returncode != 0
-    results = scratch.folder / "results"
+    results = scratch.folder / "results" / "mine"
     assert list((results / "trajectories").glob("mine*")) == []
     said = (results / "logs" / "trajectories" / "mine.log").read_text()
     assert said.startswith("error: ")
@@ -102,10 +107,10 @@ def test_program_that_dies_leaves_no_output(scratch):
     program = scratch.folder / "build" / "release" / "bin" / "trajectory"
     program.write_text('#!/bin/sh\necho half >"$2"\necho "it died" >&2\nexit 3\n')
     (scratch.folder / "mine.yaml").write_text(MY_SCENE)
-    run = scratch.snakemake("results/trajectories/mine.nc", "--configfile", "mine.yaml")
+    run = scratch.snakemake("results/mine/trajectories/mine.nc", "--configfile", "mine.yaml")
     assert run.returncode != 0
     assert "it died" in run.stdout
-    assert not (scratch.folder / "results" / "trajectories" / "mine.nc").exists()
+    assert not (scratch.folder / "results" / "mine" / "trajectories" / "mine.nc").exists()
 
 
 def test_build_that_fails_is_told(project):

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from scripts.config.check_config import in_words, validator_of
 from scripts.config.read_config import ConfigError, read
+from scripts.workflow.result_files import cycles_of_lines
 
 FOLDER = Path(__file__).parents[2] / "config"
 CLAIMS = FOLDER / "claims.yaml"
@@ -17,13 +18,59 @@ KEYS_OF = {
 """Parameters of tests that name one scene, one plane or one route."""
 
 DATA_OF = {
-    "single_peak": "spectra",
-    "spectrum_class": "spectra",
-    "aperiodic_events": "slip_events",
-    "power_law_of_sizes": "slip_events",
-    "relaxation": "slip_events",
+    **dict.fromkeys(
+        [
+            *("equation_3", "equation_4", "equation_6", "equation_8", "equation_9", "equation_10"),
+            *("hopf_curves", "hopf_depends_on", "kinds_of_hopf", "pairs_gained_and_lost"),
+            "independent_of_spring",
+        ],
+        ("curves",),
+    ),
+    **dict.fromkeys(
+        ["hopf_by_delay", "delay_destabilises", "amplitude_death"], ("linear_stability",)
+    ),
+    "hopf_only_by_delay": ("hopf_points",),
+    "roots_decide": ("atlas", "attractors"),
+    "attractor_class": ("attractors", "linear_stability"),
+    "positive_exponent": ("attractors",),
+    "route": ("routes",),
+    "leads_to": ("routes",),
+    "delays_in_turn": ("attractors", "linear_stability", "routes"),
+    "torus_route": ("routes", "cycle_points"),
+    **dict.fromkeys(
+        ["torus_of_scene", "second_hopf", "confirmed_by_multipliers"],
+        ("attractors", "linear_stability", "cycles", "cycle_points"),
+    ),
+    "single_peak": ("spectra",),
+    "spectrum_class": ("spectra",),
+    **dict.fromkeys(["aperiodic_events", "power_law_of_sizes", "relaxation"], ("slip_events",)),
+    **dict.fromkeys(["out_of_reach", "stiffness_forbids", "stationary_state"], ("stability",)),
+    **dict.fromkeys(
+        [
+            *("mu0_is_steady_friction", "same_state_law", "velocity_step"),
+            "friction_falls_with_epsilon",
+        ],
+        ("friction",),
+    ),
 }
-"""Tests that read data of the scenes they name, and which."""
+"""What each test reads, by the names of `Results`."""
+FILES = {
+    "friction": "<results>/friction/velocity_step.nc",
+    "hopf_points": "<results>/tables/hopf-points.tsv",
+    "linear_stability": "<results>/tables/linear-stability.tsv",
+    "stability": "<results>/tables/stability.tsv",
+    "attractors": "<results>/tables/attractors.tsv",
+    "atlas": "<results>/tables/atlas.tsv",
+    "cycle_points": "<results>/tables/cycle-points.tsv",
+}
+"""What is in one file."""
+FILES_OF = {
+    "curves": ("plane", "<results>/hopf/{}.nc"),
+    "routes": ("route", "<results>/tables/routes/{}.tsv"),
+    "spectra": ("scene", "<results>/spectra/{}.nc"),
+    "slip_events": ("scene", "<results>/slip_events/{}.nc"),
+}
+"""What is in one file for each plane, route or scene that a test names."""
 
 
 def listed() -> dict:
@@ -52,11 +99,27 @@ def named_test(claim: dict) -> tuple[str, dict]:
     return name, parameters
 
 
-def scenes_for(data: str, claims: dict) -> list[str]:
-    """Scenes whose data of this kind the claims need, each once."""
+def files_for(claims: dict, config: dict) -> dict[str, str | list[str]]:
+    """What the tests of the claims read, by the names of `Results`; of what none reads, no file.
+
+    Of cycles it is what the configuration lists.
+    """
     tested = [named_test(claim) for claim in claims.values() if "test" in claim]
-    named = (parameters for test, parameters in tested if DATA_OF.get(test) == data)
-    return list(dict.fromkeys(name for parameters in named for name in _named("scene", parameters)))
+    read_by_some = {data for test, _ in tested for data in DATA_OF[test]}
+    files = {data: path if data in read_by_some else [] for data, path in FILES.items()}
+    for data, (kind, path) in FILES_OF.items():
+        named = (_named(kind, parameters) for test, parameters in tested if data in DATA_OF[test])
+        files[data] = list(dict.fromkeys(path.format(name) for names in named for name in names))
+    files["cycles"] = cycles_of_lines(config) if "cycles" in read_by_some else []
+    return files
+
+
+def names_in(claims: dict) -> dict[str, list[str]]:
+    """Scenes, planes and routes that the tests of the claims name."""
+    tested = [named_test(claim)[1] for claim in claims.values() if "test" in claim]
+    return {
+        f"{kind}s": [name for each in tested for name in _named(kind, each)] for kind in KEYS_OF
+    }
 
 
 def _named(kind: str, parameters: dict) -> list[str]:

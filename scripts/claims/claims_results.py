@@ -30,7 +30,7 @@ class Results:
     """Contents of the files that verdicts rest on: rows of tables and data sets."""
 
     curves: dict[str, xr.Dataset]
-    friction: xr.Dataset
+    friction: xr.Dataset | None
     hopf_points: list[dict]
     linear_stability: list[dict]
     stability: list[dict]
@@ -65,12 +65,16 @@ class Results:
         return rows_about(self.routes, f"routes/{name}.tsv", name, "route")
 
 
-def read_results(
-    friction: str, data: dict[str, list[str]], tables: dict[str, str | list[str]]
-) -> Results:
-    """Read the files; `data` and `tables`, one or several, by the names of `Results`."""
+DATA_SETS = ("curves", "cycles", "spectra", "slip_events")
+"""Data sets, one for each plane or scene."""
+
+
+def read_results(files: dict[str, str | list[str]]) -> Results:
+    """Read the files, one or several of each kind, by the names of `Results`."""
+    data = {name: paths for name, paths in files.items() if name in DATA_SETS}
+    tables = {name: paths for name, paths in files.items() if name not in (*DATA_SETS, "friction")}
     return Results(
-        friction=xr.load_dataset(friction),
+        friction=xr.load_dataset(files["friction"]) if files["friction"] else None,
         **{
             name: {Path(path).stem: xr.load_dataset(path) for path in paths}
             for name, paths in data.items()

@@ -16,7 +16,7 @@ from scripts.claims import (
     claims_of_runs,
     claims_of_spectra,
 )
-from scripts.claims.claims_config import named_test
+from scripts.claims.claims_config import FILES, FILES_OF, named_test
 from scripts.claims.claims_results import (
     CORRECTED,
     NOT_REPRODUCED,
@@ -46,12 +46,12 @@ SHOWN = [NOT_REPRODUCED, CORRECTED, REPRODUCED, NOT_TESTABLE]
 """Verdicts in the order of the page: failing claims first."""
 
 
-def rows_of(claims: dict[str, dict], results: Results) -> list[dict]:
-    """One row a claim, in the order of the list."""
-    return [row_of(name, claim, results) for name, claim in claims.items()]
+def rows_of(claims: dict[str, dict], results: Results, folder: str) -> list[dict]:
+    """One row a claim, in the order of the list; the results are in the folder."""
+    return [row_of(name, claim, results, folder) for name, claim in claims.items()]
 
 
-def row_of(name: str, claim: dict, results: Results) -> dict:
+def row_of(name: str, claim: dict, results: Results, folder: str) -> dict:
     """Verdict and evidence of one claim."""
     finding = finding_of(claim, results)
     return {
@@ -61,7 +61,7 @@ def row_of(name: str, claim: dict, results: Results) -> dict:
         "verdict": finding.verdict,
         "evidence": finding.evidence,
         "instead": finding.instead,
-        "look_at": path_of(claim.get("look_at", "")),
+        "look_at": path_of(claim.get("look_at", ""), folder),
     }
 
 
@@ -73,12 +73,12 @@ def finding_of(claim: dict, results: Results) -> Finding:
     return TESTS[test](results, **parameters)
 
 
-def path_of(shown: str) -> str:
+def path_of(shown: str, folder: str) -> str:
     """Where the figure or table is."""
     if not shown:
         return ""
     is_table = shown.endswith(".tsv")
-    return f"results/tables/{shown}" if is_table else f"results/figures/{shown}.png"
+    return f"{folder}/tables/{shown}" if is_table else f"{folder}/figures/{shown}.png"
 
 
 def write_json(path: str | Path, rows: list[dict]) -> None:
@@ -99,12 +99,9 @@ def write_page(path: str | Path, template: str | Path, rows: list[dict]) -> None
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        given = snakemake.input
-        names = ("hopf_points", "linear_stability", "stability", "attractors", "atlas", "routes")
-        tables = {name: given[name] for name in (*names, "cycle_points")}
-        data = {name: given[name] for name in ("curves", "cycles", "spectra", "slip_events")}
-        found = read_results(given.friction, data, tables)
-        table = rows_of(snakemake.params.claims, found)
+        files = {name: snakemake.input[name] for name in (*FILES, *FILES_OF, "cycles")}
+        folder = str(Path(snakemake.output.tsv).parents[1])
+        table = rows_of(snakemake.params.claims, read_results(files), folder)
         write_table(snakemake.output.tsv, table)
         write_json(snakemake.output.json, table)
-        write_page(snakemake.output.page, given.template, table)
+        write_page(snakemake.output.page, snakemake.input.template, table)

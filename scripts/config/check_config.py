@@ -2,6 +2,7 @@
 
 import copy
 import math
+from collections.abc import Collection
 from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
@@ -11,7 +12,7 @@ import jsonschema
 from scripts.config import check_attractors
 from scripts.config.ranges import SCHEMA, range_of
 from scripts.config.read_config import ConfigError, parsed, read
-from scripts.figures.entries import variables_used
+from scripts.figures.entries import OWN_VARIABLES, variables_used
 from scripts.namelists.study_cases import cases_of_family
 
 EQUATIONS = 3
@@ -24,15 +25,18 @@ LONG = 1e4
 """Time after which a decaying case counts as stationary."""
 
 
-def checked(config: dict) -> dict:
-    """Return `config` with its defaults; raise ConfigError naming place, key, value and range."""
+def checked(config: dict, own: Collection[str] = ()) -> dict:
+    """Return `config` with its defaults; raise ConfigError naming place, key, value and range.
+
+    Scenes of one's own are judged and drawn each in a figure.
+    """
     problems = list(_names_that_are_no_text(config))
     if not problems:
         problems = [in_words(error) for error in validator_of(SCHEMA).iter_errors(config)]
     if not problems:
-        _fill_in_variables(config)
+        _fill_in_variables(config, own)
         _fill_in_ends_of_exponents(config)
-        problems = list(_contradictions(config))
+        problems = list(_contradictions(config, own))
     if problems:
         raise ConfigError("\n".join(["the configuration is refused:", *sorted(set(problems))]))
     return config
@@ -140,22 +144,24 @@ def _place(path: list[str]) -> str:
     return " ".join(["config", *path])
 
 
-def _fill_in_variables(config: dict) -> None:
-    """Scenes store what their figures use, or everything where they are in none."""
+def _fill_in_variables(config: dict, own: Collection[str]) -> None:
+    """Scenes store what their figures use; everything where they are in none or of one's own."""
     order = ["theta", "u", "v"]
     for name, scene in config["scenes"].items():
-        used = variables_used(config, name) or set(order)
+        used = variables_used(config, name)
+        used = set(order) if name in own or not used else used
         scene.setdefault("variables", [variable for variable in order if variable in used])
 
 
 def _fill_in_ends_of_exponents(config: dict) -> None:
-    """Exponents are measured up to the end of their scene where nothing else is said."""
+    """Exponents are measured up to the end of their scene where nothing else is given."""
     for scene in config["scenes"].values():
         if "exponents" in scene:
+            scene["exponents"].setdefault("count", config["exponents"]["count"])
             scene["exponents"].setdefault("t_end", scene["t_end"])
 
 
-def _contradictions(config: dict):
+def _contradictions(config: dict, own: Collection[str]):
     """Problems that involve more than one key."""
     for name, scene in config["scenes"].items():
         place = f"scene '{name}'"
@@ -170,7 +176,8 @@ def _contradictions(config: dict):
                 f" > 0 and <= t_end = {scene['t_end']}"
             )
         yield from _contradictions_of_exponents(place, scene)
-        lacking = variables_used(config, name) - set(scene["variables"])
+        used = variables_used(config, name) | set(OWN_VARIABLES if name in own else ())
+        lacking = used - set(scene["variables"])
         if lacking:
             yield (
                 f"{place}: variables = {scene['variables']}; its figures also use {sorted(lacking)}"

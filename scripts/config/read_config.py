@@ -1,5 +1,6 @@
 """Read configuration files by the rules of YAML 1.2, in which 1e-9 is a number and 010 is ten."""
 
+import copy
 from pathlib import Path
 
 from ruamel.yaml import YAML
@@ -35,6 +36,13 @@ def parsed(text: str, source: str = "text"):
         raise ConfigError(f"{source}, line {mark.line + 1}: {words}") from None
     except (YAMLError, ValueError) as problem:
         raise ConfigError(f"{source}: {' '.join(str(problem).split())}") from None
+
+
+def merged_over(config: dict, overlay: dict) -> dict:
+    """A configuration with another one merged over it, as Snakemake does it."""
+    whole = copy.deepcopy(config)
+    update_config(whole, copy.deepcopy(overlay))
+    return whole
 
 
 def merged(files: list[str | Path], entries: list[str]) -> dict:

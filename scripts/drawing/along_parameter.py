@@ -4,16 +4,16 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from scripts.drawing.parameters import SYMBOLS
 from scripts.drawing.style import FAINT
+from scripts.namelists.study_cases import PARAMETERS
 
 
 def mark_scenes(axes: Axes, scenes: dict[str, dict], place: dict, along: str) -> None:
     """A line with its name at each scene whose fixed parameters are those of a place."""
     first, last = axes.get_xlim()
     middle = 0.5 * (first + last)
-    for name, scene in scenes.items():
-        fixed = all(scene[key] == place[key] for key in SYMBOLS if key != along)
+    for name, scene in scenes.items() if along in PARAMETERS else ():
+        fixed = all(scene[key] == place[key] for key in PARAMETERS if key != along)
         if fixed and first <= scene[along] <= last:
             axes.axvline(scene[along], color=FAINT, lw=0.6, zorder=0)
             axes.annotate(
@@ -30,6 +30,7 @@ def mark_scenes(axes: Axes, scenes: dict[str, dict], place: dict, along: str) ->
 
 def maxima_of(run: xr.Dataset, along: str) -> tuple[np.ndarray, np.ndarray]:
     """Places and values of all maxima of v that a run has kept."""
-    places = np.broadcast_to(run[along].values[:, None], run.maximum.shape)
+    varied = run[along if along in PARAMETERS else f"history_{along}"]
+    places = np.broadcast_to(varied.values[:, None], run.maximum.shape)
     there = run.maximum.values > 0
     return places[there], run.maximum.values[there]

@@ -6,7 +6,12 @@ NAMES = {
     "epsilon": "sensitivity of the velocity relaxation",
     "xi": "spring constant",
     "gamma": "frequency",
+    "theta": "friction state before the start",
+    "u": "displacement before the start",
+    "v": "velocity before the start",
 }
+OF_HISTORY = {"theta": r"\theta", "u": "u", "v": "v"}
+"""Symbols of the values before the start."""
 LEAST_PLAIN, LEAST_POWER = 1e-3, 1e4
 """Numbers between these are written plainly, others with a power of ten."""
 
@@ -38,4 +43,4 @@ def in_words(place: dict, *left_out: str) -> str:
 def axis_of(parameter: str) -> str:
     """Name and symbol of a parameter, the delay with its unit."""
     unit = " (units of $L/v_0$)" if parameter == "tau" else ""
-    return f"{NAMES[parameter]} ${SYMBOLS[parameter]}${unit}"
+    return f"{NAMES[parameter]} ${(SYMBOLS | OF_HISTORY)[parameter]}${unit}"

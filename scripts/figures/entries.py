@@ -1,7 +1,8 @@
 """All figures, each in one entry: its category, the results it needs, what its script is given.
 
 A new figure is a script NAME.py and a template NAME.rst of its caption in this folder, and an entry
-here.
+here. Figures of what a file of one's own adds are named KIND/NAME, for example scenes/strong_delay.
+`<results>` stands for the folder of the results.
 """
 
 import ast
@@ -16,15 +17,20 @@ from scripts.workflow.result_files import (
     exponents_of_scenes,
     paths_of_scenes,
     places_in_atlas,
+    places_in_plane,
     places_of_scenes,
+    runs_of_route,
     runs_of_routes,
     scenes_of,
     sweeps_beside_cycles,
     sweeps_on_lines,
     tables_of_routes,
+    with_plane_alone,
 )
 
 FOLDER = "scripts/figures"
+OWN_VARIABLES = ("u", "v")
+"""Variables that the figure of a scene of one's own draws."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,7 +39,7 @@ class Entry:
 
     category: str
     """Where it stands on the page and in the report."""
-    inputs: dict[str, str | Callable[[dict], list[str]]] = field(default_factory=dict)
+    inputs: dict[str, str | list[str] | Callable[[dict], list[str]]] = field(default_factory=dict)
     """Results by their names in the script: a path, or paths by the configuration."""
     rows: tuple[str, ...] = ()
     """Kinds of results that it needs of each scene in its rows, which the configuration lists."""
@@ -41,52 +47,58 @@ class Entry:
     """Variables that it draws of the trajectories among its inputs."""
     params: dict[str, Callable[[dict], dict]] = field(default_factory=dict)
     """What else its script is given, by the configuration."""
+    script: str = ""
+    """Name of its script, where that is not its own."""
+    caption: str = ""
+    """Name of its caption, where that is not its own."""
 
 
 ENTRIES = {
     "figure_1": Entry(category="Figures"),
     "figure_2": Entry(
         category="Figures",
-        inputs={"curves": "results/hopf/tau_of_epsilon.nc"},
+        inputs={"curves": "<results>/hopf/tau_of_epsilon.nc"},
         params={"scenes": places_of_scenes},
     ),
     "figure_3": Entry(
         category="Figures",
-        inputs={"curves": "results/hopf/xi_of_epsilon.nc"},
+        inputs={"curves": "<results>/hopf/xi_of_epsilon.nc"},
         params={"scenes": places_of_scenes},
     ),
     "figure_4": Entry(
         category="Figures",
-        inputs={"table": "results/tables/attractors.tsv"},
+        inputs={"table": "<results>/tables/attractors.tsv"},
         rows=("trajectories",),
         variables=("u", "v"),
     ),
     "figure_5": Entry(
         category="Figures",
-        inputs={"table": "results/tables/attractors.tsv"},
+        inputs={"table": "<results>/tables/attractors.tsv"},
         rows=("trajectories",),
         variables=("u", "v"),
     ),
     "figure_6": Entry(category="Figures", rows=("spectra",)),
     "figure_7": Entry(category="Figures", rows=("spectra",)),
-    "figure_8": Entry(category="Figures", inputs={"response": "results/friction/velocity_step.nc"}),
+    "figure_8": Entry(
+        category="Figures", inputs={"response": "<results>/friction/velocity_step.nc"}
+    ),
     "exponents": Entry(
         category="Supplement",
-        inputs={"runs": exponents_of_scenes, "table": "results/tables/exponents.tsv"},
+        inputs={"runs": exponents_of_scenes, "table": "<results>/tables/exponents.tsv"},
     ),
     "events": Entry(category="Supplement", rows=("slip_events",)),
-    "stability": Entry(category="Solver", inputs={"table": "results/tables/stability.tsv"}),
+    "stability": Entry(category="Solver", inputs={"table": "<results>/tables/stability.tsv"}),
     "work_precision": Entry(
         category="Solver",
         inputs={
-            "table": "results/tables/work-precision.tsv",
+            "table": "<results>/tables/work-precision.tsv",
             "others": "benchmarks/measured.tsv",
         },
     ),
     "atlas": Entry(
         category="Atlas",
         inputs={
-            "table": "results/tables/atlas.tsv",
+            "table": "<results>/tables/atlas.tsv",
             "curves": curves_of_atlas,
             "cycles": cycles_in_atlas,
         },
@@ -94,7 +106,7 @@ ENTRIES = {
     ),
     "true_torus": Entry(
         category="Atlas",
-        inputs={"table": "results/tables/attractors.tsv"},
+        inputs={"table": "<results>/tables/attractors.tsv"},
         rows=("trajectories", "attractors/scenes", "spectra"),
         variables=("v",),
     ),
@@ -113,25 +125,140 @@ ENTRIES = {
 FIGURES = list(ENTRIES)
 
 
+def entry_of_scene(scene: str) -> Entry:
+    """A scene: in time, phase portrait, spectrum, section, exponents and class, roots."""
+    return Entry(
+        category="Scenes",
+        inputs={
+            "trajectory": f"<results>/trajectories/{scene}.nc",
+            "spectrum": f"<results>/spectra/{scene}.nc",
+            "attractors": f"<results>/attractors/scenes/{scene}.nc",
+            "roots": f"<results>/linear_stability/{scene}.nc",
+        },
+        variables=OWN_VARIABLES,
+        script="scene",
+        caption="own/scene",
+    )
+
+
+def entry_of_plane(plane: str) -> Entry:
+    """Hopf curves in a plane, as in figures 2 and 3."""
+    return Entry(
+        category="Hopf curves",
+        inputs={"curves": f"<results>/hopf/{plane}.nc"},
+        params={"scenes": lambda config: places_in_plane(config, plane)},
+        script="figure_2",
+        caption="own/plane",
+    )
+
+
+def entry_of_route(line: str) -> Entry:
+    """Motions along a parameter."""
+    return Entry(
+        category="Routes",
+        inputs={
+            "tables": [f"<results>/tables/routes/{line}.tsv"],
+            "runs": lambda config: runs_of_route(config, line),
+        },
+        params={"scenes": places_in_atlas},
+        script="routes",
+        caption="own/route",
+    )
+
+
+def entry_of_atlas(plane: str) -> Entry:
+    """A plane of the atlas."""
+    return Entry(
+        category="Atlas",
+        inputs={
+            "table": f"<results>/tables/atlas/{plane}.tsv",
+            "curves": lambda config: curves_of_atlas(with_plane_alone(config, plane)),
+            "cycles": lambda config: cycles_in_atlas(with_plane_alone(config, plane)),
+        },
+        params={"scenes": places_in_atlas},
+        script="atlas",
+        caption="own/atlas",
+    )
+
+
+def entry_of_exponents(scene: str) -> Entry:
+    """Exponents of a scene."""
+    return Entry(
+        category="Exponents",
+        inputs={
+            "runs": [f"<results>/exponents/{scene}.nc"],
+            "table": "<results>/tables/exponents.tsv",
+        },
+        script="exponents",
+        caption="own/exponents",
+    )
+
+
+def entry_of_cycles(line: str) -> Entry:
+    """Branches of cycles along a parameter."""
+    return Entry(
+        category="Cycles",
+        inputs={
+            "cycles": [f"<results>/cycles/{line}.nc"],
+            "sweeps": lambda config: sweeps_on_lines(config)[line],
+        },
+        params={
+            "scenes": places_in_atlas,
+            "sweeps": lambda config: {line: sweeps_on_lines(config)[line]},
+        },
+        script="cycles",
+        caption="own/cycles",
+    )
+
+
+OF_ONES_OWN = {
+    "scenes": entry_of_scene,
+    "exponents": entry_of_exponents,
+    "planes": entry_of_plane,
+    "routes": entry_of_route,
+    "cycles": entry_of_cycles,
+    "atlas": entry_of_atlas,
+}
+"""Entries of what a file of one's own adds, by kind."""
+
+
+def own_figures(config: dict, names: dict[str, list[str]]) -> list[str]:
+    """Figures of what a file adds, given its names by section."""
+    measured = [scene for scene in names["scenes"] if "exponents" in config["scenes"][scene]]
+    names = {**names, "exponents": measured}
+    return [f"{kind}/{name}" for kind in OF_ONES_OWN for name in names[kind]]
+
+
+def entry_of(figure: str) -> Entry:
+    """The entry of a figure, or of one of a file of one's own."""
+    kind, _, name = figure.partition("/")
+    return OF_ONES_OWN[kind](name) if name else ENTRIES[figure]
+
+
+def script_of(figure: str) -> str:
+    """Name of its script in the folder of figures, without the ending."""
+    return entry_of(figure).script or figure
+
+
 def template_of(figure: str) -> str:
     """Its caption before numbers and verdicts are filled in, in the project's folder."""
-    return f"{FOLDER}/{figure}.rst"
+    return f"{FOLDER}/{entry_of(figure).caption or figure}.rst"
 
 
 def caption_of(figure: str) -> str:
-    """Its caption."""
-    return f"results/figures/{figure}.rst"
+    """Its caption: of the paper's figures the one that a run fills."""
+    return f"<results>/figures/{figure}.rst" if figure in ENTRIES else template_of(figure)
 
 
 def title_of(figure: str) -> str:
     """The first line of its script, which says what is drawn."""
-    script = Path(__file__).with_name(f"{figure}.py").read_text(encoding="utf-8")
+    script = Path(__file__).with_name(f"{script_of(figure)}.py").read_text(encoding="utf-8")
     return ast.get_docstring(ast.parse(script)).splitlines()[0]
 
 
 def inputs_of(figure: str, config: dict) -> dict[str, str | list[str]]:
     """The results that it needs, by their names in the script."""
-    entry = ENTRIES[figure]
+    entry = entry_of(figure)
     inputs = {
         name: needed(config) if callable(needed) else needed
         for name, needed in entry.inputs.items()
@@ -152,7 +279,7 @@ def files_of(figure: str, config: dict) -> list[str]:
 
 def params_of(figure: str, config: dict) -> dict:
     """What else its script is given; of a figure with rows its settings."""
-    entry = ENTRIES[figure]
+    entry = entry_of(figure)
     params = {name: given(config) for name, given in entry.params.items()}
     return {**params, "settings": config["figures"][figure]} if entry.rows else params
 
@@ -162,8 +289,8 @@ def variables_used(config: dict, scene: str) -> set[str]:
     used = set()
     for figure, entry in ENTRIES.items():
         files = files_of(figure, config)
-        if f"results/trajectories/{scene}.nc" in files:
+        if f"<results>/trajectories/{scene}.nc" in files:
             used |= set(entry.variables)
-        if f"results/spectra/{scene}.nc" in files:
+        if f"<results>/spectra/{scene}.nc" in files:
             used.add("v")
     return used

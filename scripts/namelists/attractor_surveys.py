@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from scripts.namelists.study_cases import PARAMETERS
+from scripts.namelists.study_cases import HISTORY, PARAMETERS
 
 
 def drawn_histories(count: int, ranges: dict) -> list[dict]:
@@ -64,7 +64,8 @@ def part_of(count: int, parts: int, part: int, distance: int = 1) -> list[int]:
 def scene_groups(config: dict, scene: str) -> dict:
     """Namelist of a scene: its own history and others."""
     settings, study = config["scenes"][scene], config["attractors"]
-    others = drawn_histories(settings["attractors"]["histories"] - 1, study["histories"])
+    count = settings.get("attractors", {}).get("histories", study["count"])
+    others = drawn_histories(count - 1, study["histories"])
     observation = study["observation"]
     points = points_group(
         scene,
@@ -99,15 +100,22 @@ def atlas_groups(config: dict, plane: str, part: int) -> dict:
 
 
 def route_groups(config: dict, line: str, run: str) -> dict:
-    """Namelist of a run of a route: from one history, or a sweep."""
+    """Namelist of a run of a route: from one history, or a sweep.
+
+    Along a value of the history, the others are those of the run's history.
+    """
     routes = config["routes"]
     settings = routes["lines"][line]
-    axis = {"window": settings["window"], "count": settings["count"]}
+    along, window, count = (settings[key] for key in ("along", "window", "count"))
     first = next(iter(routes["histories"]))
+    histories = [routes["histories"].get(run, routes["histories"][first])]
+    if along in HISTORY:
+        values = np.linspace(*window, count).tolist()
+        histories = [{**histories[0], along: value} for value in values]
     points = points_group(
         f"{line} {run}",
-        place={**settings, settings["along"]: axis},
-        histories=[routes["histories"].get(run, routes["histories"][first])],
+        place={**settings, along: {"window": window, "count": count}},
+        histories=histories,
         kept=routes["observation"]["kept"],
         sweep=run if run in routes["sweeps"] else "none",
     )

@@ -2,9 +2,8 @@
 
 from pathlib import Path
 
-PARTS = sorted(
-    f"page/parts/{path.name}" for path in Path(__file__).parents[2].glob("page/parts/*.jinja")
-)
+PROJECT = Path(__file__).parents[2]
+PARTS = sorted(f"page/parts/{path.name}" for path in PROJECT.glob("page/parts/*.jinja"))
 """Parts of the page's template."""
 LIBRARY = "/usr/share/javascript/dygraphs"
 """Where Debian's libjs-dygraphs is."""
@@ -33,7 +32,7 @@ class AssetError(ValueError):
 
 def sources() -> list[str]:
     """Where the files come from; raise AssetError where one is missing."""
-    missing = [path for path in ASSETS.values() if not Path(path).exists()]
+    missing = [path for path in ASSETS.values() if not (PROJECT / path).exists()]
     if missing:
         raise AssetError(
             f"the page needs {', '.join(missing)} (Debian's libjs-dygraphs); run ./reproduce, which"

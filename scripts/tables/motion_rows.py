@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from scripts.namelists.study_cases import PARAMETERS
+from scripts.namelists.study_cases import HISTORY, PARAMETERS
 
 UNDECIDED = "undecided"
 COLOURS = {
@@ -53,8 +53,11 @@ def planes_of(rows: list[dict]) -> dict[tuple[float, float], list[dict]]:
 
 
 def parameter_of(rows: list[dict]) -> str:
-    """The parameter that varies along a route."""
-    return next(key for key in PARAMETERS if len({row[key] for row in rows}) > 1)
+    """The parameter that varies along a route, or the value of the history."""
+    # runs differ in their histories
+    of_run = [row for row in rows if row.get("run") == rows[0].get("run")]
+    keys = (*PARAMETERS, *HISTORY)
+    return next(key for key in keys if len({row[key] for row in of_run}) > 1)
 
 
 def count_in_words(rows: list[dict]) -> str:

@@ -1,4 +1,9 @@
-"""Paths of results, and what figures mark of scenes, by the configuration."""
+"""Paths of results, and what figures mark of scenes, by the configuration.
+
+In paths `<results>` stands for the folder of the results.
+"""
+
+from scripts.namelists.study_cases import HISTORY
 
 
 def scenes_of(config: dict, figure: str) -> list[str]:
@@ -8,7 +13,7 @@ def scenes_of(config: dict, figure: str) -> list[str]:
 
 def paths_of_scenes(kind: str, scenes: list[str]) -> list[str]:
     """The results of scenes, of one kind: the name of their folder."""
-    return [f"results/{kind}/{scene}.nc" for scene in scenes]
+    return [f"<results>/{kind}/{scene}.nc" for scene in scenes]
 
 
 def scenes_with(config: dict, key: str) -> list[str]:
@@ -26,10 +31,22 @@ def exponents_of_scenes(config: dict) -> list[str]:
     return paths_of_scenes("exponents", scenes_with(config, "exponents"))
 
 
+def attractors_of_scenes(config: dict) -> list[str]:
+    """Attractors of all scenes that ask for them."""
+    return paths_of_scenes("attractors/scenes", scenes_with(config, "attractors"))
+
+
+def curves_of_planes(config: dict) -> list[str]:
+    """Hopf curves of all planes."""
+    return [f"<results>/hopf/{plane}.nc" for plane in config["hopf_curves"]]
+
+
 def runs_of_route(config: dict, line: str) -> list[str]:
-    """Runs along a route: from each history, and sweeps."""
-    runs = [*config["routes"]["histories"], *config["routes"]["sweeps"]]
-    return [f"results/attractors/routes/{line}/{run}.nc" for run in runs]
+    """Runs along a route: from each history, and sweeps of a parameter."""
+    routes = config["routes"]
+    swept = [] if routes["lines"][line]["along"] in HISTORY else routes["sweeps"]
+    runs = [*routes["histories"], *swept]
+    return [f"<results>/attractors/routes/{line}/{run}.nc" for run in runs]
 
 
 def runs_of_routes(config: dict) -> list[str]:
@@ -39,12 +56,12 @@ def runs_of_routes(config: dict) -> list[str]:
 
 def tables_of_routes(config: dict) -> list[str]:
     """Tables of all routes."""
-    return [f"results/tables/routes/{line}.tsv" for line in config["routes"]["lines"]]
+    return [f"<results>/tables/routes/{line}.tsv" for line in config["routes"]["lines"]]
 
 
 def cycles_of_lines(config: dict) -> list[str]:
     """Cycles followed along all lines."""
-    return [f"results/cycles/{line}.nc" for line in config["cycles"]["lines"]]
+    return [f"<results>/cycles/{line}.nc" for line in config["cycles"]["lines"]]
 
 
 def sweeps_on_lines(config: dict) -> dict[str, list[str]]:
@@ -55,7 +72,7 @@ def sweeps_on_lines(config: dict) -> dict[str, list[str]]:
     }
     return {
         line: [
-            f"results/attractors/routes/{name}/{run}.nc"
+            f"<results>/attractors/routes/{name}/{run}.nc"
             for name, place in places.items()
             if place == [settings.get(key) for key in keys]
             for run in config["routes"]["sweeps"]
@@ -71,17 +88,24 @@ def sweeps_beside_cycles(config: dict) -> list[str]:
 
 def runs_of_basins(config: dict) -> list[str]:
     """Runs at the places where motions coexist."""
-    return [f"results/attractors/basins/{place}.nc" for place in config["basins"]["places"]]
+    return [f"<results>/attractors/basins/{place}.nc" for place in config["basins"]["places"]]
+
+
+def parts_of_plane(config: dict, plane: str) -> list[str]:
+    """Parts of a plane of the atlas."""
+    parts = numbered(config["atlas"]["parts"])
+    return [f"<results>/attractors/atlas/{plane}/{part}.nc" for part in parts]
 
 
 def parts_of_atlas(config: dict) -> list[str]:
     """Parts of all planes of the atlas."""
+    return [path for plane in config["atlas"]["planes"] for path in parts_of_plane(config, plane)]
+
+
+def with_plane_alone(config: dict, plane: str) -> dict:
+    """The configuration with one plane of the atlas."""
     atlas = config["atlas"]
-    return [
-        f"results/attractors/atlas/{plane}/{part}.nc"
-        for plane in atlas["planes"]
-        for part in numbered(atlas["parts"])
-    ]
+    return {**config, "atlas": {**atlas, "planes": {plane: atlas["planes"][plane]}}}
 
 
 def curves_of_atlas(config: dict) -> list[str]:
@@ -89,7 +113,7 @@ def curves_of_atlas(config: dict) -> list[str]:
     atlas = config["atlas"]
     planes = [(plane["xi"], plane["gamma"]) for plane in atlas["planes"].values()]
     return [
-        f"results/hopf/{name}.nc"
+        f"<results>/hopf/{name}.nc"
         for name, plane in config["hopf_curves"].items()
         if plane["ordinate"] == "tau" and (plane["fixed"], plane["gamma"]) in planes
     ]
@@ -99,9 +123,24 @@ def cycles_in_atlas(config: dict) -> list[str]:
     """Cycles followed along lines that lie in planes of the atlas."""
     planes = [(plane["xi"], plane["gamma"]) for plane in config["atlas"]["planes"].values()]
     return [
-        f"results/cycles/{name}.nc"
+        f"<results>/cycles/{name}.nc"
         for name, line in config["cycles"]["lines"].items()
         if (line.get("xi"), line.get("gamma")) in planes
+    ]
+
+
+def runs_of_families(config: dict) -> list[str]:
+    """Measured runs of all families of cases."""
+    families = config["stability"]["families"]
+    return [f"<results>/measurements/stability/{family}.nc" for family in families]
+
+
+def references_of_families(config: dict) -> list[str]:
+    """Reference files of the families that have one."""
+    return [
+        f"<results>/references/stability/{name}.tsv"
+        for name, family in config["stability"]["families"].items()
+        if family["reference"] == "quadruple"
     ]
 
 
@@ -109,7 +148,11 @@ def places_of_scenes(config: dict) -> dict[str, dict[str, float]]:
     """Parameters of the scenes that the paper's figures show, as marked beside the Hopf curves."""
     figures = [name for name in config["figures"] if name.startswith("figure_")]
     shown = dict.fromkeys(scene for name in figures for scene in scenes_of(config, name))
-    return {scene: _parameters(config, scene, "tau", "epsilon", "xi", "gamma") for scene in shown}
+    return {
+        scene: _parameters(config, scene, "tau", "epsilon", "xi", "gamma")
+        for scene in shown
+        if scene in config["scenes"]
+    }
 
 
 def places_in_atlas(config: dict) -> dict[str, dict[str, float]]:
@@ -117,6 +160,17 @@ def places_in_atlas(config: dict) -> dict[str, dict[str, float]]:
     return {
         scene: _parameters(config, scene, "tau", "epsilon", "xi", "gamma")
         for scene in scenes_with(config, "attractors")
+    }
+
+
+def places_in_plane(config: dict, plane: str) -> dict[str, dict[str, float]]:
+    """The same of those that lie in a plane of Hopf curves."""
+    settings = config["hopf_curves"][plane]
+    fixed = "xi" if settings["ordinate"] == "tau" else "tau"
+    return {
+        scene: place
+        for scene, place in places_in_atlas(config).items()
+        if (place[fixed], place["gamma"]) == (settings["fixed"], settings["gamma"])
     }
 
 

@@ -75,8 +75,29 @@ def start_jobs_at_once(workflow) -> None:
         settings.max_jobs_per_timespan = None
 
 
-def config_sources(workflow) -> tuple[list, list[str]]:
-    """Configuration files in the order in which they are merged, and entries KEY=VALUE."""
+def is_module(workflow) -> bool:
+    """Whether another workflow uses the project by `module`."""
+    use = "by which a module is known as such"
+    expect(workflow, "modifier", use)
+    expect(workflow.modifier, "namespace", use)
+    return workflow.modifier.namespace is not None
+
+
+def has_config_of_module(workflow) -> bool:
+    """Whether `module` gives a configuration."""
+    expect(workflow, "modifier", "by which the configuration of a module is known")
+    expect(workflow.modifier, "skip_configfile", "by which a configuration of `module` is known")
+    return workflow.modifier.skip_configfile
+
+
+def folder_of_results(workflow) -> str:
+    """What `<results>` stands for in paths."""
+    expect(workflow, "pathvars", "which holds the folder of the results")
+    return workflow.pathvars.get("results")
+
+
+def config_sources(workflow) -> tuple[list, list, list[str]]:
+    """Configuration files of the workflow and those merged over them, and entries KEY=VALUE."""
     use = "by which the configuration is read again with the line of each problem"
     expect(workflow, "configfiles", use)
     expect(workflow, "config_settings", use)
@@ -87,7 +108,7 @@ def config_sources(workflow) -> tuple[list, list[str]]:
     defaults = workflow.configfiles[len(overlays) :]
     if given.replace_workflow_config and (overlays or given.config_args):
         defaults = []
-    return [*defaults, *overlays], given.config_args or []
+    return defaults, overlays, given.config_args or []
 
 
 def describe(workflow, docstrings: dict[str, str]) -> None:

@@ -1,0 +1,43 @@
+# What only a file of one's own has: tables of single planes of the atlas, and its page.
+
+
+rule atlas_plane_table:
+    """The table of one plane of the atlas."""
+    input:
+        runs=lambda wildcards: placed(
+            result_files.parts_of_plane(config, wildcards.atlas_plane)
+        ),
+        code=code_of("tables/attractor_tables.py"),
+    output:
+        "<results>/tables/atlas/{atlas_plane}.tsv",
+    log:
+        "<results>/logs/tables/atlas/{atlas_plane}.log",
+    params:
+        of="atlas",
+    script:
+        "../scripts/tables/attractor_tables.py"
+
+
+rule page:
+    """The page of what a file of one's own adds: index.html in the folder of its results."""
+    input:
+        figures=expand("<results>/figures/{figure}.svg", figure=SHOWN),
+        claims="<results>/tables/claims.json" if CLAIMS else [],
+        attractors="<results>/tables/attractors.tsv" if NAMES["scenes"] else [],
+        tables=tables_added(),
+        trajectories=trajectories_on_page(),
+        captions=[figure["caption"] for figure in on_page()],
+        template=of_project("page/own.html.jinja"),
+        parts=[of_project(part) for part in page_assets.PARTS],
+        assets=assets_of_page,
+        code=code_of("page/own_page.py"),
+    output:
+        page="<results>/index.html",
+        assets=expand("<results>/page/{asset}", asset=page_assets.ASSETS),
+    log:
+        "<results>/logs/page.log",
+    params:
+        figures=on_page(),
+        commit=commit_at_work(),
+    script:
+        "../scripts/page/own_page.py"

@@ -1,0 +1,84 @@
+"""The page of what a file of one's own adds: index.html in the folder of its results."""
+
+import json
+import os
+import shutil
+from itertools import groupby
+from pathlib import Path
+
+from scripts.files.inputs import read
+from scripts.files.outputs import logged, written
+from scripts.files.tsv import read_table
+from scripts.page import captions, page_provenance, page_views
+from scripts.page.page_content import size_of, tally
+from scripts.page.write_page import rendered
+
+
+def sections(figures: list[dict], folder: str) -> dict[str, list[dict]]:
+    """Figures by category, each with what stands beside it; links begin in the folder.
+
+    A figure is given by its `name`, `category`, `caption` (a file) and `data` (files).
+    """
+    return {
+        category: [section(figure, folder) for figure in of_category]
+        for category, of_category in groupby(figures, lambda figure: figure["category"])
+    }
+
+
+def section(figure: dict, folder: str) -> dict:
+    """What stands beside one figure."""
+    caption = captions.as_html(figure["caption"])
+    title = figure["name"].partition("/")[2].replace("_", " ")
+    return {
+        "name": figure["name"],
+        "title": title,
+        "caption": caption,
+        "alternative": f"{title}: {captions.first_sentence(caption)}",
+        "claims": [],
+        "data": [os.path.relpath(path, folder) for path in figure["data"]],
+        "size": size_of(figure["drawing"]),
+    }
+
+
+def judged(path: str | list, folder: str) -> list[dict]:
+    """Claims with their verdicts, and links to the tables they rest on."""
+    claims = json.loads(Path(path).read_text()) if path else []
+    tables = [claim["look_at"] if claim["look_at"].endswith(".tsv") else "" for claim in claims]
+    return [
+        {**claim, "table": os.path.relpath(table, folder) if table else ""}
+        for claim, table in zip(claims, tables, strict=True)
+    ]
+
+
+def content(given, params, folder: str) -> dict:
+    """All that the page shows, from the files that the rule gives."""
+    claims = judged(given.claims, folder)
+    attractors = read_table(given.attractors) if given.attractors else []
+    runs = [read(path) for path in given.trajectories]
+    data = sorted({path for figure in params.figures for path in figure["data"]})
+    return {
+        "name": Path(folder).name.replace("_", " "),
+        "figures": sections(params.figures, folder),
+        "claims": claims,
+        "verdicts": tally(claims),
+        "tables": [os.path.relpath(path, folder) for path in given.tables],
+        "trajectories": [
+            page_views.trajectory(run, attractors) for run in runs if page_views.can_be_drawn(run)
+        ],
+        "commit": params.commit,
+        "programs": page_provenance.programs([path for path in data if path.endswith(".nc")]),
+        "packages": page_provenance.python_packages(),
+    }
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        folder = str(Path(snakemake.output.page).parent)
+        text = rendered(
+            snakemake.input.template, **content(snakemake.input, snakemake.params, folder)
+        )
+        for source, target in zip(snakemake.input.assets, snakemake.output.assets, strict=True):
+            with written(target) as path:
+                shutil.copyfile(source, path)
+        with written(snakemake.output.page) as path:
+            path.write_text(text)

@@ -1,0 +1,69 @@
+"""A configuration file of one's own: the folder of its results, and what it adds."""
+
+import re
+from pathlib import Path
+
+from scripts.config.read_config import ConfigError
+
+RESULTS = "results"
+"""The folder of the paper's results; in it each file of one's own has a folder of its own."""
+TAKEN = {
+    *("attractors", "benchmarks", "cycles", "docs", "exponents", "figures", "friction", "hopf"),
+    *("linear_stability", "logs", "measurements", "namelists", "page", "references"),
+    *("slip_events", "spectra", "tables", "trajectories"),
+}
+"""Folders of the paper's results."""
+SECTIONS = {
+    "scenes": ("scenes",),
+    "planes": ("hopf_curves",),
+    "routes": ("routes", "lines"),
+    "atlas": ("atlas", "planes"),
+    "cycles": ("cycles", "lines"),
+    "basins": ("basins", "places"),
+    "families": ("stability", "families"),
+}
+"""Where the configuration has what a file may add, by name."""
+
+
+def folder_of(files: list[str | Path], entries: list[str]) -> str:
+    """The folder of the results of some files, named after them, or of entries KEY=VALUE alone.
+
+    Of neither it is the folder of the paper's results.
+    """
+    names = [Path(file).stem for file in files] or ["config"] * bool(entries)
+    if not names:
+        return RESULTS
+    name = re.sub(r"[^A-Za-z0-9_-]", "_", "-".join(names))
+    if name in TAKEN:
+        raise ConfigError(
+            f"{files[0]}: its results would be in {RESULTS}/{name}/, where the paper's are; give"
+            " the file another name"
+        )
+    return f"{RESULTS}/{name}"
+
+
+def added(overlay: dict) -> dict[str, list[str]]:
+    """Names of what a file adds or changes, by section."""
+    return {section: list(_inside(overlay, path)) for section, path in SECTIONS.items()}
+
+
+def listed(config: dict, *groups: dict[str, list[str]]) -> dict:
+    """The configuration with nothing else in these sections than the names of these groups.
+
+    The attractors of all its scenes are looked for.
+    """
+    kept = dict(config)
+    for section, (first, *rest) in SECTIONS.items():
+        inside = _inside(config, (first, *rest))
+        names = dict.fromkeys(name for group in groups for name in group.get(section, []))
+        chosen = {name: inside[name] for name in names}
+        kept[first] = {**config[first], rest[0]: chosen} if rest else chosen
+    kept["scenes"] = {name: {"attractors": {}} | own for name, own in kept["scenes"].items()}
+    return kept
+
+
+def _inside(config: dict, path: tuple[str, ...]) -> dict:
+    """A section; nothing where it is not there."""
+    for key in path:
+        config = config.get(key) if isinstance(config, dict) else None
+    return config if isinstance(config, dict) else {}
