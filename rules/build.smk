@@ -13,7 +13,7 @@ rule build:
     threads: 2
     params:
         fortran=of_project("fortran"),
-        build=of_project("build"),
+        build=lambda wildcards, output: Path(output[0]).parents[2],
         needs=of_project("setup/build_needs.sh"),
     # two builds must not write one build folder at the same time
     shell:

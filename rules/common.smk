@@ -204,18 +204,19 @@ def sources_of(wildcards):
 @functools.cache
 def sources_of_program(program):
     """Its own and all modules."""
-    fortran = of_project("fortran")
-    modules = glob_wildcards(
-        fortran + "/{folder,src|dde/src|dde/lapack}/{path}.{ending,f90|c|in}"
-    )
+    fortran = Path(of_project("fortran"))
+    modules = [
+        path
+        for folder in ("src", "dde/src", "dde/lapack")
+        for path in fortran.joinpath(folder).rglob("*")
+        if path.suffix in {".f90", ".c", ".in"}
+    ]
     return [
         f"{fortran}/CMakeLists.txt",
         f"{fortran}/CMakePresets.json",
         f"{fortran}/dde/CMakeLists.txt",
         f"{fortran}/app/{program}.f90",
-        *sorted(
-            expand(fortran + "/{folder}/{path}.{ending}", zip, **modules._asdict())
-        ),
+        *sorted(map(str, modules)),
     ]
 
 
