@@ -4,9 +4,8 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
-import yaml
-
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, VERDICTS
+from scripts.config.read_config import read as read_yaml
 from scripts.page import captions, mathematics
 
 BLOCK, HERO = "figure_1", "true_torus"
@@ -88,7 +87,7 @@ def size_of(drawing: str | Path) -> tuple[int, int] | None:
 def equations(path: str | Path, claims: list[dict]) -> dict:
     """Groups of equations as MathML, and under `NAME_claims` the claims about them."""
     found = {}
-    for group, listed in yaml.safe_load(Path(path).read_text()).items():
+    for group, listed in read_yaml(path).items():
         about = [name for equation in listed for name in equation.get("claims", [])]
         found[f"{group}_claims"] = [
             as_shown(claim) for claim in failing_first(claims) if claim["id"] in about

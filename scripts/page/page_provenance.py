@@ -5,9 +5,9 @@ import platform
 from collections import Counter
 from pathlib import Path
 
-import yaml
 from snakemake.io import glob_wildcards
 
+from scripts.config.read_config import read as read_yaml
 from scripts.files.inputs import read
 from scripts.workflow import packages
 
@@ -26,7 +26,7 @@ def programs(files: list[str]) -> list[dict]:
 
 def citation(path: str | Path) -> dict:
     """How to cite this work and the paper, by CITATION.cff."""
-    given = yaml.safe_load(Path(path).read_text())
+    given = read_yaml(path)
     return {
         "licence": given["license"],
         "works": [reference(given), *(reference(one) for one in given.get("references", []))],

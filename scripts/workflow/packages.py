@@ -15,6 +15,7 @@ PACKAGES = [
     "netCDF4",
     "matplotlib",
     "jinja2",
+    "MarkupSafe",
     "docutils",
 ]
 
