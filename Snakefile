@@ -51,6 +51,7 @@ include: "rules/exponents.smk"
 include: "rules/attractors.smk"
 include: "rules/studies.smk"
 include: "rules/ledger.smk"
+include: "rules/play.smk"
 include: "rules/own.smk" if OWN else "rules/page.smk"
 include: "rules/documents.smk"
 

@@ -250,6 +250,12 @@ def runs_of_route(wildcards):
     return placed(result_files.runs_of_route(config, wildcards.line))
 
 
+def tables_of_atlas():
+    """Tables with the planes of the atlas that the run lists."""
+    planes = expand("<results>/tables/atlas/{plane}.tsv", plane=NAMES["atlas"])
+    return planes if OWN else ["<results>/tables/atlas.tsv"]
+
+
 def tables_added():
     """Tables of what the file of one's own adds."""
     sections = {

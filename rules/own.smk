@@ -26,6 +26,7 @@ rule page:
         attractors="<results>/tables/attractors.tsv" if NAMES["scenes"] else [],
         tables=tables_added(),
         trajectories=trajectories_on_page(),
+        play="<results>/page/play-data.js" if NAMES["atlas"] else [],
         captions=[figure["caption"] for figure in on_page()],
         template=of_project("page/own.html.jinja"),
         parts=[of_project(part) for part in page_assets.PARTS],
@@ -39,5 +40,6 @@ rule page:
     params:
         figures=on_page(),
         commit=commit_at_work(),
+        history=config["atlas"]["history"],
     script:
         "../scripts/page/own_page.py"

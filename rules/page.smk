@@ -1,22 +1,6 @@
 # The page that re-tells the paper; with results/ around it, it can be zipped and mailed.
 
 
-rule play_data:
-    """Classes and motions of the atlas, for the view in which a reader moves the parameters."""
-    input:
-        runs=placed(result_files.parts_of_atlas(LISTED)),
-        tables=["<results>/tables/atlas.tsv"],
-        code=code_of("page/play_data.py"),
-    output:
-        "<results>/page/play-data.js",
-    log:
-        "<results>/logs/page/play-data.log",
-    params:
-        scenes=result_files.places_in_atlas(LISTED),
-    script:
-        "../scripts/page/play_data.py"
-
-
 rule page:
     """The page with figures, claims and verdicts: results/index.html."""
     input:

@@ -120,7 +120,7 @@ def test_page_of_ones_own_shows_all_of_it(made):
     files = {link for link in links if not link.startswith("data:")}
     assert {f"figures/{name}.svg" for name in FIGURES} <= files
     assert [link for link in files if not (page.parent / link).is_file()] == []
-    for part in ('id="trajectory-view"', 'id="claim-my_claim"'):
+    for part in ('id="trajectory-view"', 'id="claim-my_claim"', 'id="play-view"'):
         assert part in page.read_text()
 
 

@@ -12,6 +12,7 @@ from scripts.files.tsv import read_table
 from scripts.page import captions, page_provenance, page_views
 from scripts.page.page_content import size_of, tally
 from scripts.page.write_page import rendered
+from scripts.tables.motion_rows import COLOURS
 
 
 def sections(figures: list[dict], folder: str) -> dict[str, list[dict]]:
@@ -65,6 +66,9 @@ def content(given, params, folder: str) -> dict:
         "trajectories": [
             page_views.trajectory(run, attractors) for run in runs if page_views.can_be_drawn(run)
         ],
+        "can_play": bool(given.play),
+        "colours": COLOURS,
+        "history": params.history,
         "commit": params.commit,
         "programs": page_provenance.programs([path for path in data if path.endswith(".nc")]),
         "packages": page_provenance.python_packages(),

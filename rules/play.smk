@@ -1,0 +1,17 @@
+# Data of the view in which a reader moves the parameters.
+
+
+rule play_data:
+    """Classes and motions of the atlas, for the view in which a reader moves the parameters."""
+    input:
+        runs=placed(result_files.parts_of_atlas(LISTED)),
+        tables=tables_of_atlas(),
+        code=code_of("page/play_data.py"),
+    output:
+        "<results>/page/play-data.js",
+    log:
+        "<results>/logs/page/play-data.log",
+    params:
+        scenes=result_files.places_in_atlas(LISTED),
+    script:
+        "../scripts/page/play_data.py"
