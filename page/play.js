@@ -225,7 +225,7 @@ function playView(view) {
     view.querySelector(".play-class").textContent = `${at(number)}: ${motion}`;
     const more = [
       number !== shown && `This point was not computed: its neighbours are of one class. Shown is the nearest computed point of this class, ${at(shown)}`,
-      exponents && `Lyapunov exponents ${exponents.replaceAll("-", "−")} (units of v₀/L)`,
+      exponents && `Lyapunov exponents ${exponents} (units of v₀/L)`,
       frequencies && `${frequencies[0].toUpperCase()}${frequencies.slice(1)}`,
     ];
     view.querySelector(".play-more").textContent = more.filter(Boolean).map((sentence) => `${sentence}.`).join(" ");
@@ -268,6 +268,7 @@ function playView(view) {
   playData.planes.forEach((plane, i) => {
     select.append(new Option(`ξ = ${signed(plane.xi, 6)}, γ = ${plane.gamma < 1e4 ? signed(plane.gamma, 6) : plane.gamma.toExponential().replace("e+", "e")}`, i));
   });
+  view.querySelector(".play-scenes").hidden = playData.scenes.length === 0;
   for (const scene of playData.scenes) {
     const button = document.createElement("button");
     button.type = "button";

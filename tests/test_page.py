@@ -244,8 +244,14 @@ def test_trajectory_is_thinned_to_its_last_part():
     np.testing.assert_allclose(v, 1 + 0.5 * np.cos(500 + 0.1 * np.arange(10001)), atol=1e-6)
     assert shown["words"] == (
         "ε = 0.5, τ = 10, ξ = 0.8, γ = 0.8: cycle;"
-        " exponents -0.01 ± 0.001, -0.02 ± 0.001, -0.03 ± 0.001"
+        " exponents −0.01 ± 0.001, −0.02 ± 0.001, −0.03 ± 0.001"
     )
+
+
+def test_numbers_of_views_have_signs_of_print():
+    """A factor of 1 is left out; digits without an exponent stay."""
+    said = page_views.in_signs("1e+08, -1.1e-05, 21 and 0.1")
+    assert said == "10⁸, −1.1 · 10⁻⁵, 21 and 0.1"
 
 
 def test_short_trajectory_is_shown_whole():

@@ -93,7 +93,7 @@ def test_planes_have_axes_classes_and_words(made_up):
     assert kinds == 2 * ["fixed point", "cycle", "cycle of period > 1", "chaos"]
     assert first["words"]["1"] == [
         "cycle",
-        "-0.01 ± 0.001, -0.02 ± 0.001, -0.03 ± 0.001",
+        "−0.01 ± 0.001, −0.02 ± 0.001, −0.03 ± 0.001",
         "period 10 (units of L/v₀)",
     ]
     assert first["words"]["2"][0] == "cycle of period 2 in its section"

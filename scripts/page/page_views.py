@@ -2,6 +2,7 @@
 
 import base64
 import math
+import re
 
 import numpy as np
 import xarray as xr
@@ -17,11 +18,27 @@ MOST_POINTS = 12_000
 """Of a trajectory; of longer ones every second, third, ... sample is kept."""
 SIGNS = {"epsilon": "ε", "tau": "τ", "xi": "ξ", "gamma": "γ"}
 """Parameters by their names in files."""
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+"""Signs of an exponent."""
+
+
+def in_signs(numbers: str) -> str:
+    """Numbers with powers of ten and minus signs as they are written in print."""
+    powers = re.sub(r"(\d[\d.]*)e([+-]\d+)", _as_power, numbers)
+    return powers.replace("-", "−")
+
+
+def _as_power(found: re.Match) -> str:
+    """A number with an exponent."""
+    factor = "" if found[1] == "1" else f"{found[1]} · "
+    return f"{factor}10{str(int(found[2])).translate(RAISED)}"
 
 
 def parameters(values: dict) -> str:
     """Parameters as a line of text."""
-    return ", ".join(f"{sign} = {as_text(float(values[key]))}" for key, sign in SIGNS.items())
+    return ", ".join(
+        f"{sign} = {in_signs(as_text(float(values[key])))}" for key, sign in SIGNS.items()
+    )
 
 
 def verdict(row: dict) -> str:
@@ -42,11 +59,12 @@ def motion(row: dict) -> str:
 
 def exponents(row: dict) -> str:
     """Exponents with their standard errors, where they have one; empty where none is known."""
-    return ", ".join(
+    listed = ", ".join(
         f"{row[f'exponent_{i}']:.3g}" + f" ± {row[f'error_{i}']:.1g}" * (row[f"error_{i}"] > 0)
         for i in (1, 2, 3)
         if not math.isnan(row[f"exponent_{i}"])
     )
+    return in_signs(listed)
 
 
 def can_be_drawn(run: xr.Dataset) -> bool:
