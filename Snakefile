@@ -2,7 +2,7 @@
 # Data flow: config -> namelist -> Fortran program -> NetCDF -> figure.
 from snakemake.utils import min_version
 
-min_version("9.0")
+min_version("9.27")
 
 
 configfile: os.path.relpath(f"{workflow.current_basedir}/config/config.yaml")

@@ -12,6 +12,7 @@ rule attractors_namelist:
         runs="{results}/namelists/attractors/{survey}/{part}.nml",
     log:
         "{results}/logs/namelists/attractors/{survey}/{part}.log",
+    priority: priority_of_survey
     params:
         groups=of_config(result_values.survey_groups, "survey", "part"),
     script:
@@ -29,7 +30,7 @@ rule attractors_runs:
         "{results}/logs/attractors/{survey}/{part}.log",
     benchmark:
         "{results}/benchmarks/attractors/{survey}/{part}.tsv"
-    priority: OF_LONG
+    priority: priority_of_survey
     params:
         groups=of_config(result_values.survey_groups, "survey", "part"),
         sources=digest_of("attractors"),
@@ -47,6 +48,7 @@ rule attractors_table:
         "<results>/tables/attractors.tsv",
     log:
         "<results>/logs/tables/attractors.log",
+    priority: OF_PAPER
     params:
         of="scenes",
     script:

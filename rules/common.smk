@@ -144,6 +144,11 @@ wildcard_constraints:
     part=r"\w+",
 
 
+def priority_of_survey(wildcards):
+    """The paper's figures 4 and 5 show the classes of the scenes."""
+    return OF_PAPER if wildcards.survey == "scenes" else OF_LONG
+
+
 def of_project(path):
     """A file of the project, as a path from the folder in which Snakemake works."""
     return path if Path.cwd() == PROJECT else str(PROJECT / path)

@@ -14,7 +14,7 @@ from scripts.figures import atlas
 from scripts.files.tsv import read_table, write_table
 from scripts.namelists.attractor_surveys import atlas_groups
 from scripts.namelists.write_namelist import write_groups
-from scripts.page import page_views
+from scripts.page import play_data
 from scripts.tables import attractor_tables
 
 PARTS = "results/attractors/atlas"
@@ -133,7 +133,7 @@ def test_refined_plane_computes_only_where_neighbours_differ(programs, tiny):
 
 
 def test_points_not_computed_reach_table_figure_and_page(programs, tiny):
-    """All of them, with class and without exponents; the figure and the page count them."""
+    """All of them, with class and without exponents; the figure counts them, and the page has words for the others."""
     (path,) = made_parts(programs, tiny, 1, refinements=2, epsilon_count=11, tau_count=9)
     table = programs.folder / "atlas.tsv"
     write_table(table, attractor_tables.atlas_rows(xr.load_dataset(path)))
@@ -148,6 +148,6 @@ def test_points_not_computed_reach_table_figure_and_page(programs, tiny):
     exponents = figure.axes[1].collections[0].get_array().filled(np.nan).ravel()
     assert np.isfinite(exponents[known]).all()
     plt.close(figure)
-    (map_,) = page_views.atlas(rows)
-    said = [cell["words"].endswith("; not computed") for cell in map_["cells"]]
-    assert said == [row["computed"] == "no" for row in rows]
+    (plane,) = play_data.planes(rows, [None] * len(rows), [0.0] * len(rows))
+    in_order = sorted(rows, key=lambda row: (row["tau"], row["epsilon"]))
+    assert list(plane["words"]) == [i for i, row in enumerate(in_order) if row not in taken]

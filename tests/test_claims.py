@@ -168,7 +168,7 @@ def test_a_claim_alone_needs_no_other_files(smoke, smoke_config):
             json.dumps(files_for({name: claim}, smoke_config)).replace("<results>", results)
         )
         found = ledger.finding_of(claim, read_results(files))
-        assert vars(found) == {key: rows[name][key] for key in ("verdict", "evidence")}
+        assert vars(found) == {key: rows[name][key] for key in ("verdict", "evidence", "instead")}
 
 
 @pytest.mark.parametrize(

@@ -81,7 +81,7 @@ def test_reproduce_takes_files_from_the_current_folder(set_up, tmp_path):
     (tmp_path / "mine.yaml").write_text(
         "scenes: { mine: { tau: 1.0, epsilon: 0.5, xi: 1.0, gamma: 1.0, t_end: 9.0 } }"
     )
-    target = ["--dry-run", "results/trajectories/mine.nc", "--configfile", "mine.yaml"]
+    target = ["--dry-run", "results/mine/trajectories/mine.nc", "--configfile", "mine.yaml"]
     run = subprocess.run(
         [set_up / "reproduce", *target], cwd=tmp_path, capture_output=True, text=True
     )

@@ -148,6 +148,8 @@ def test_interrupted_run_says_how_to_continue(workflow):
         stderr=subprocess.PIPE,
         text=True,
         start_new_session=True,
+        # a shell lets its background jobs, and these tests among them, ignore the signal
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
     wait_for(lambda: (workflow / "begun").exists())
     os.killpg(run.pid, signal.SIGINT)

@@ -168,7 +168,7 @@ def test_sweeps_are_those_of_routes_on_the_same_line(config):
         "beside": {**at, "xi": 0.6},
         "across": {"along": "epsilon", "tau": 7.0, "xi": 0.5, "gamma": 0.8},
     }
-    folder = "results/attractors/routes"
+    folder = "<results>/attractors/routes"
     assert result_files.sweeps_on_lines(config) == {
         "mine": [f"{folder}/chaos_in_tau/up.nc", f"{folder}/chaos_in_tau/down.nc"],
         "beside": [],
@@ -185,4 +185,4 @@ def test_atlas_needs_cycles_of_its_planes(config):
         "beside": {**at, "xi": 0.6},
         "across": {"along": "xi", "tau": 7.0, "epsilon": 0.7, "gamma": 0.8},
     }
-    assert result_files.cycles_in_atlas(config) == ["results/cycles/mine.nc"]
+    assert result_files.cycles_in_atlas(config) == ["<results>/cycles/mine.nc"]

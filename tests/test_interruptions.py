@@ -253,7 +253,7 @@ def test_nothing_stale_passes_as_current(smoke, scratch, end):
     (scratch.folder / "mine.yaml").write_text("scenes: { torus: { tau: 10.5 } }")
     other = scratch.snakemake("figure_5", *SMOKE, "mine.yaml")
     assert other.returncode == 0, other.stdout
-    shown = ("figures/figure_5.png", "spectra/torus.nc", "trajectories/torus.nc")
+    shown = ("figures/figure_5.png", "attractors/scenes/torus.nc", "trajectories/torus.nc")
     before, changed = smoke.outputs(), scratch.outputs()
     assert all(changed[name] != before[name] for name in shown)
     end(scratch)

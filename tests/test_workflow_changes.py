@@ -164,7 +164,7 @@ def test_changed_style_redraws_and_computes_nothing(scratch):
     with open(scratch.folder / STYLE, "a") as style:
         style.write("\nlines.linewidth: 2\n")
     run = scratch.snakemake("--dry-run", *SMOKE)
-    assert rules_in(run.stdout) == {"all", *FIGURES, "page"}
+    assert rules_in(run.stdout) == {"all", *FIGURES, "captions", "page"}
 
 
 @pytest.mark.long

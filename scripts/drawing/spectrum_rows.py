@@ -43,7 +43,7 @@ def draw(rows: dict[str, xr.Dataset], paper: dict[str, str], frequency_shown: fl
         left.set(yscale="log", ylim=(max(0.3 * least, LEAST_SHOWN * highest), 100 * highest))
         label_peaks(left, spectrum, frequency_shown, WIDTH_OF_A_CHARACTER)
         draw_power(right, shown[label], frequency_shown)
-        right.set(ylabel="", ylim=(0, None))
+        right.set(ylim=(0, None))
         right.xaxis.set_major_locator(MaxNLocator(4))
         letter = f"$\\bf{{{label}}}$  " if len(rows) > 1 else ""
         title_columns((left, right), COLUMNS, f"{letter}{seen(spectrum, paper[label])}")

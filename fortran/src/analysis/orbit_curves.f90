@@ -21,7 +21,7 @@ module orbit_curves
       !> '1:2' (resonances), 'closed', 'shorter_period' (at a cycle of a part of the period),
       !> 'period', 'points', 'convergence'
       character(len=:), allocatable :: ending
-      !> Cusps: where a curve of folds turns back in both parameters
+      !> Points where a curve of folds turns back in both parameters
       type(special_point_type), allocatable :: cusps(:)
    end type curve_type
 
