@@ -133,7 +133,7 @@ def test_refined_plane_computes_only_where_neighbours_differ(programs, tiny):
 
 
 def test_points_not_computed_reach_table_figure_and_page(programs, tiny):
-    """All of them, with class and without exponents; the figure counts them, and the page has words for the others."""
+    """All of them, with class and without exponents; the page has words for the others."""
     (path,) = made_parts(programs, tiny, 1, refinements=2, epsilon_count=11, tau_count=9)
     table = programs.folder / "atlas.tsv"
     write_table(table, attractor_tables.atlas_rows(xr.load_dataset(path)))

@@ -163,9 +163,7 @@ def test_screen_reader_meets_the_page_from_top_to_bottom(seen):
 def test_text_of_figures_is_nine_pixels_high_on_a_phone(seen):
     """The smallest text of the style, at the width that the page gives a figure there."""
     style = (ROOT / "scripts" / "drawing" / "paper.mplstyle").read_text()
-    least = min(
-        float(size) for size in re.findall(r"(?:font\.|label|title|font)size: (\d+)\n", style)
-    )
+    least = min(float(size) for size in re.findall(r"(?:font\.?|label|title)size: (\d+)", style))
     pixels = [least * 96 / 72 * scale for scale in seen["scales"]]
     assert min(pixels) >= 9
 
