@@ -101,7 +101,7 @@ def test_terminal_gets_one_line_of_progress_and_the_end(workflow):
     )
     counted, took, page = last.splitlines()
     assert counted == (
-        "3 claims of the paper: 2 reproduced, 1 not reproduced; see results/claims.tsv"
+        "3 claims: 2 reproduced, 1 not reproduced; see results/claims.tsv"
     )
     assert re.fullmatch(r"done in \d+ s", took)
     assert page == "open results/index.html"

@@ -126,7 +126,7 @@ class RunProgress:
             verdicts = Counter(claim["verdict"] for claim in claims).most_common()
             words = ", ".join(f"{number} {verdict}" for verdict, number in verdicts)
             table = self.seen(str(Path(path).with_suffix(".tsv")))
-            lines.append(f"{counted(len(claims), 'claim')} of the paper: {words}; see {table}")
+            lines.append(f"{counted(len(claims), 'claim')}: {words}; see {table}")
         return lines
 
     def to_open(self) -> list[str]:
