@@ -100,9 +100,7 @@ def test_terminal_gets_one_line_of_progress_and_the_end(workflow):
         received.replace("\r\x1b[K", "\n").split("\n")
     )
     counted, took, page = last.splitlines()
-    assert counted == (
-        "3 claims: 2 reproduced, 1 not reproduced; see results/claims.tsv"
-    )
+    assert counted == ("3 claims: 2 reproduced, 1 not reproduced; see results/claims.tsv")
     assert re.fullmatch(r"done in \d+ s", took)
     assert page == "open results/index.html"
 
