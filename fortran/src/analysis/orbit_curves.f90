@@ -8,6 +8,7 @@ module orbit_curves
    use orbit_mesh, only: adapted_mesh
    use orbit_surface, only: first_plane, frame_type, turn_along
    use problem_family, only: problem_family_type
+   use sign_change, only: sign_change_type
    use special_points, only: cusp, fold, special_point_type, torus_bifurcation
    implicit none (type, external)
    private
@@ -151,7 +152,7 @@ contains
    end subroutine find_cusp
 
    !> The point within a step at which the direction of a curve of folds has no part along the
-   !> parameters, by the secant method with bisection (Illinois).
+   !> parameters.
    subroutine locate_cusp(family, settings, before, frame, step, point, error)
       !> The problems
       class(problem_family_type), intent(in) :: family
@@ -167,32 +168,28 @@ contains
       type(special_point_type), intent(out) :: point
       !> It was not found
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: a(2), at, g(2), here, way(size(settings%scale%free))
-      integer :: i, last, side
+      type(sign_change_type) :: change
+      real(wp) :: at, g, moved, way(size(settings%scale%free))
+      integer :: i
 
       way = frame%directions(1)%parameters
-      a = [0.0_wp, step]
+      change%places = [0.0_wp, step]
       do i = 1, 2
-         call part_along(a(i), g(i))
+         call part_along(change%places(i), change%values(i))
          if (allocated(error)) return
       end do
-      if (g(1)*g(2) > 0.0_wp) then
+      if (product(change%values) > 0.0_wp) then
          call raise(error, "cusp: the curve does not turn back within a step of "//text(step))
          return
       end if
-      last = 0
       do i = 1, most_iterations
-         at = a(1) + (a(2) - a(1))*g(1)/(g(1) - g(2))
-         call part_along(at, here)
+         at = change%next()
+         call part_along(at, g)
          if (allocated(error)) return
-         side = merge(1, 2, here*g(1) > 0.0_wp)
-         if (abs(at - a(side)) <= share_at_cusp*step) return
-         a(side) = at
-         g(side) = here
-         ! the other end would never move
-         if (side == last) g(3 - side) = 0.5_wp*g(3 - side)
-         last = side
+         call change%narrow(at, g, moved)
+         if (moved <= share_at_cusp*step) return
       end do
+      call raise(error, "cusp: not found within "//text(most_iterations)//" iterations")
 
    contains
 

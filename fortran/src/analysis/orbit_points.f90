@@ -13,6 +13,7 @@ module orbit_points
    use orbit_segment, only: orbit_on, segment_between, segment_type
    use periodic_orbit, only: periodic_orbit_type
    use problem_family, only: problem_family_type
+   use sign_change, only: sign_change_type
    use special_points, only: branching, fold, period_doubling, special_point_type, test_value, &
                              torus_bifurcation
    implicit none (type, external)
@@ -161,7 +162,7 @@ contains
       end do
    end subroutine locate_on_meshes
 
-   !> Find a point on a segment by the secant method with bisection (Illinois).
+   !> Find a point on a segment.
    subroutine locate(family, settings, segment, point, error)
       !> The problems
       class(problem_family_type), intent(in) :: family
@@ -173,34 +174,29 @@ contains
       type(special_point_type), intent(inout) :: point
       !> It was not found
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: a(2), at, g(2), g_here
-      integer :: i, last, side
+      type(sign_change_type) :: change
+      real(wp) :: at, g, moved
+      integer :: i
 
-      a = [0.0_wp, 1.0_wp]
       do i = 1, 2
-         call test_at(family, settings, segment, a(i), point, g(i), error)
+         call test_at(family, settings, segment, change%places(i), point, change%values(i), error)
          if (allocated(error)) return
       end do
-      if (g(1)*g(2) > 0.0_wp) then
-         call raise(error, "special point "//trim(point%kind)//": test function "//text(g(1)) &
-                    //" and "//text(g(2))//" at the ends of a step; different signs expected")
+      if (product(change%values) > 0.0_wp) then
+         call raise(error, "special point "//trim(point%kind)//": test function " &
+                    //text(change%values(1))//" and "//text(change%values(2)) &
+                    //" at the ends of a step; different signs expected")
          return
       end if
-      last = 0
       do i = 1, most_iterations
-         at = a(1) + (a(2) - a(1))*g(1)/(g(1) - g(2))
-         call test_at(family, settings, segment, at, point, g_here, error)
+         at = change%next()
+         call test_at(family, settings, segment, at, point, g, error)
          if (allocated(error)) return
-         side = merge(1, 2, g_here*g(1) > 0.0_wp)
-         if (abs(at - a(side)) <= share .or. abs(g_here) <= tiny(g_here)) exit
-         a(side) = at
-         g(side) = g_here
-         ! the other end would never move
-         if (side == last) g(3 - side) = 0.5_wp*g(3 - side)
-         last = side
+         call change%narrow(at, g, moved)
+         if (moved <= share .or. abs(g) <= tiny(g)) exit
       end do
-      if (abs(g_here) > small) then
-         call raise(error, "special point "//trim(point%kind)//": test function "//text(g_here) &
+      if (abs(g) > small) then
+         call raise(error, "special point "//trim(point%kind)//": test function "//text(g) &
                     //" where it changes sign; at most "//text(small)//" expected")
       end if
    end subroutine locate
