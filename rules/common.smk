@@ -201,6 +201,13 @@ def of_config(values, *names):
     return given
 
 
+def files_in(*folders, endings):
+    """Files with these endings in folders of the Fortran code, in order."""
+    fortran = Path(of_project("fortran"))
+    files = [path for folder in folders for path in fortran.joinpath(folder).rglob("*")]
+    return sorted(str(path) for path in files if path.suffix in endings)
+
+
 def sources_of(wildcards):
     """Sources that a program is built from."""
     return sources_of_program(wildcards.program)
@@ -209,19 +216,14 @@ def sources_of(wildcards):
 @functools.cache
 def sources_of_program(program):
     """Its own and all modules."""
-    fortran = Path(of_project("fortran"))
-    modules = [
-        path
-        for folder in ("src", "dde/src", "dde/lapack")
-        for path in fortran.joinpath(folder).rglob("*")
-        if path.suffix in {".f90", ".c", ".in"}
-    ]
+    fortran = of_project("fortran")
+    modules = files_in("src", "dde/src", "dde/lapack", endings={".f90", ".c", ".in"})
     return [
         f"{fortran}/CMakeLists.txt",
         f"{fortran}/CMakePresets.json",
         f"{fortran}/dde/CMakeLists.txt",
         f"{fortran}/app/{program}.f90",
-        *sorted(map(str, modules)),
+        *modules,
     ]
 
 
@@ -233,8 +235,7 @@ def digest_of(program):
 
 def documented_sources():
     """Modules and programs that the pages about the code explain."""
-    found = glob_wildcards("fortran/{folder,dde/src|src|app}/{path}.f90")
-    return sorted(expand("fortran/{folder}/{path}.f90", zip, **found._asdict()))
+    return files_in("dde/src", "src", "app", endings={".f90"})
 
 
 def trajectory_of(wildcards):

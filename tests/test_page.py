@@ -250,8 +250,8 @@ def test_trajectory_is_thinned_to_its_last_part():
 
 def test_numbers_of_views_have_signs_of_print():
     """A factor of 1 is left out; digits without an exponent stay."""
-    said = page_views.in_signs("1e+08, -1.1e-05, 21 and 0.1")
-    assert said == "10⁸, −1.1 · 10⁻⁵, 21 and 0.1"
+    said = mathematics.in_signs("1e+08, -1.1e-05, 21 and 0.1")
+    assert said == "10⁸, −1.1 × 10⁻⁵, 21 and 0.1"
 
 
 def test_short_trajectory_is_shown_whole():

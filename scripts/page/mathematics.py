@@ -15,6 +15,8 @@ GREEK = {
     "tau": "τ",
     "xi": "ξ",
 }
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+"""Signs of an exponent where there is no markup."""
 SIGNS = {"+-": "±", "<=": "≤", ">=": "≥", "->": "→", "'": "’"}
 NAME = "|".join(GREEK)
 WORDS = re.compile(
@@ -48,6 +50,21 @@ def of_words(words: str) -> Markup:
         end = found.end()
     html = "".join([*parts, escape(words[end:])])
     return Markup(re.sub(r"(?<=[>]) = (?=[\d−])", "\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}", html))
+
+
+def in_signs(numbers: str) -> str:
+    """Numbers with powers of ten and minus signs as in print, where there is no markup."""
+    powers = re.sub(
+        r"(\d[\d.]*)e([+-]\d+)",
+        lambda found: _power(found[1], str(int(found[2])).translate(RAISED)),
+        numbers,
+    )
+    return powers.replace("-", "−")
+
+
+def _power(mantissa: str, exponent: str) -> str:
+    """A number with a power of ten; its exponent is written already."""
+    return f"10{exponent}" if mantissa == "1" else f"{mantissa} × 10{exponent}"
 
 
 def _html(found: re.Match) -> str:

@@ -2,16 +2,14 @@
 
 import json
 import os
-import shutil
 from itertools import groupby
 from pathlib import Path
 
 from scripts.files.inputs import read
-from scripts.files.outputs import logged, written
+from scripts.files.outputs import logged
 from scripts.files.tsv import read_table
-from scripts.page import captions, page_provenance, page_views
-from scripts.page.page_content import size_of, tally
-from scripts.page.write_page import rendered
+from scripts.page import page_content, page_provenance, page_views
+from scripts.page.write_page import rendered, write_files
 from scripts.tables.motion_rows import COLOURS
 
 
@@ -28,17 +26,9 @@ def sections(figures: list[dict], folder: str) -> dict[str, list[dict]]:
 
 def section(figure: dict, folder: str) -> dict:
     """What stands beside one figure."""
-    caption = captions.as_html(figure["caption"])
     title = figure["name"].partition("/")[2].replace("_", " ")
-    return {
-        "name": figure["name"],
-        "title": title,
-        "caption": caption,
-        "alternative": f"{title}: {captions.first_sentence(caption)}",
-        "claims": [],
-        "data": [os.path.relpath(path, folder) for path in figure["data"]],
-        "size": size_of(figure["drawing"]),
-    }
+    described = page_content.described(figure, title, folder)
+    return {**described, "alternative": f"{title}: {described['alternative']}", "claims": []}
 
 
 def judged(path: str | list, folder: str) -> list[dict]:
@@ -61,7 +51,7 @@ def content(given, params, folder: str) -> dict:
         "name": Path(folder).name.replace("_", " "),
         "figures": sections(params.figures, folder),
         "claims": claims,
-        "verdicts": tally(claims),
+        "verdicts": page_content.tally(claims),
         "tables": [os.path.relpath(path, folder) for path in given.tables],
         "trajectories": [
             page_views.trajectory(run, attractors) for run in runs if page_views.can_be_drawn(run)
@@ -81,8 +71,4 @@ if __name__ == "__main__":
         text = rendered(
             snakemake.input.template, **content(snakemake.input, snakemake.params, folder)
         )
-        for source, target in zip(snakemake.input.assets, snakemake.output.assets, strict=True):
-            with written(target) as path:
-                shutil.copyfile(source, path)
-        with written(snakemake.output.page) as path:
-            path.write_text(text)
+        write_files(text, snakemake.input.assets, snakemake.output)

@@ -1,5 +1,6 @@
 """What the page says: figures, equations and claims, each claim in one place."""
 
+import os
 import re
 from collections.abc import Iterable
 from pathlib import Path
@@ -37,20 +38,27 @@ def sections(figures: list[dict], claims: list[dict]) -> dict[str, list[dict]]:
     grouped = {}
     placed = claims_by_figure(figures, claims)
     for figure in figures:
-        caption = captions.as_html(figure["caption"])
-        first, end, more = caption.partition("</p>")
         section = {
-            "name": figure["name"],
-            "title": title_of(figure["name"]),
-            "caption": first + end,
-            "more": more,
-            "alternative": captions.first_sentence(caption),
+            **described(figure, title_of(figure["name"]), "results"),
             "claims": placed[figure["name"]],
-            "data": [relative(path) for path in figure["data"]],
-            "size": size_of(figure.get("drawing", "")),
         }
         grouped.setdefault(figure["category"], []).append(section)
     return dict(sorted(grouped.items(), key=lambda item: item[0] == LAST))
+
+
+def described(figure: dict, title: str, folder: str) -> dict:
+    """A figure with its caption and files; links begin in the folder of the page."""
+    caption = captions.as_html(figure["caption"])
+    first, end, more = caption.partition("</p>")
+    return {
+        "name": figure["name"],
+        "title": title,
+        "caption": first + end,
+        "more": more,
+        "alternative": captions.first_sentence(caption),
+        "data": [os.path.relpath(path, folder) for path in figure["data"]],
+        "size": size_of(figure.get("drawing", "")),
+    }
 
 
 def taken_out(sections: dict[str, list[dict]], name: str) -> dict | None:

@@ -2,12 +2,12 @@
 
 import base64
 import math
-import re
 
 import numpy as np
 import xarray as xr
 
 from scripts.files.tsv import as_text
+from scripts.page.mathematics import in_signs
 from scripts.tables.motion_rows import UNDECIDED, has_problem, kind_of
 
 SHOWN = 1000.0
@@ -18,20 +18,6 @@ MOST_POINTS = 12_000
 """Of a trajectory; of longer ones every second, third, ... sample is kept."""
 SIGNS = {"epsilon": "ε", "tau": "τ", "xi": "ξ", "gamma": "γ"}
 """Parameters by their names in files."""
-RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-"""Signs of an exponent."""
-
-
-def in_signs(numbers: str) -> str:
-    """Numbers with powers of ten and minus signs as they are written in print."""
-    powers = re.sub(r"(\d[\d.]*)e([+-]\d+)", _as_power, numbers)
-    return powers.replace("-", "−")
-
-
-def _as_power(found: re.Match) -> str:
-    """A number with an exponent."""
-    factor = "" if found[1] == "1" else f"{found[1]} · "
-    return f"{factor}10{str(int(found[2])).translate(RAISED)}"
 
 
 def parameters(values: dict) -> str:

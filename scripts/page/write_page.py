@@ -59,11 +59,16 @@ def content(given, params) -> dict:
     }
 
 
+def write_files(text: str, assets: list[str], output) -> None:
+    """Write the page and what lies beside it."""
+    for source, target in zip(assets, output.assets, strict=True):
+        with written(target) as path:
+            shutil.copyfile(source, path)
+    with written(output.page) as path:
+        path.write_text(text)
+
+
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         text = rendered(snakemake.input.template, **content(snakemake.input, snakemake.params))
-        for source, target in zip(snakemake.input.assets, snakemake.output.assets, strict=True):
-            with written(target) as path:
-                shutil.copyfile(source, path)
-        with written(snakemake.output.page) as path:
-            path.write_text(text)
+        write_files(text, snakemake.input.assets, snakemake.output)
