@@ -11,6 +11,7 @@ configfile: os.path.relpath(f"{workflow.current_basedir}/config/config.yaml")
 report: "scripts/page/report.rst"
 
 
+include: "rules/configuration.smk"
 include: "rules/common.smk"
 
 
