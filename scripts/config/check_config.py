@@ -10,8 +10,8 @@ from pathlib import Path
 import jsonschema
 
 from scripts.config import check_attractors
-from scripts.config.ranges import SCHEMA, range_of
-from scripts.config.read_config import ConfigError, parsed, read
+from scripts.config.ranges import SCHEMA, range_of, rules_of
+from scripts.config.read_config import ConfigError, parsed
 from scripts.figures.entries import OWN_VARIABLES, variables_used
 from scripts.namelists.study_cases import cases_of_family
 
@@ -66,7 +66,7 @@ def validator_of(schema: Path):
     extended = jsonschema.validators.extend(
         base, {"properties": fill_then_check}, type_checker=types
     )
-    return extended(read(schema))
+    return extended(rules_of(schema))
 
 
 def _is_finite_number(value) -> bool:

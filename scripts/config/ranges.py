@@ -9,8 +9,14 @@ SCHEMA = Path(__file__).parents[2] / "config" / "schema.yaml"
 
 
 @cache
+def rules_of(schema: Path) -> dict:
+    """A schema, not to be changed."""
+    return read(schema)
+
+
+@cache
 def range_of(parameter: str) -> dict[str, float]:
     """The bound `above` which a parameter lies, or the `least` that it may be."""
-    rules = read(SCHEMA)["$defs"][parameter]
+    rules = rules_of(SCHEMA)["$defs"][parameter]
     bounds = {"above": rules.get("exclusiveMinimum"), "least": rules.get("minimum")}
     return {name: float(bound) for name, bound in bounds.items() if bound is not None}
