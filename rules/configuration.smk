@@ -19,7 +19,6 @@ try:
         defaults, overlays, entries_given = [PROJECT / "config" / "config.yaml"], [], []
     else:
         snakemake_internals.make_missing_files_again()
-        snakemake_internals.start_jobs_at_once(workflow)
         sources = snakemake_internals.config_sources(workflow)
         defaults, overlays, entries_given = sources
 except packages.PackageError as problem:

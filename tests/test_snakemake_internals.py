@@ -1,5 +1,7 @@
 """Where Snakemake lacks what the workflow uses of its internals, the error names it."""
 
+import subprocess
+import sys
 from types import SimpleNamespace
 
 import pytest
@@ -91,6 +93,32 @@ def test_name_that_snakemake_lacks_is_named(use, path):
     delattr(holder[-1] if isinstance(holder, list) else holder, gone)
     with pytest.raises(PackageError, match=rf"^Snakemake 9\S+ has no \w+\.{gone}, .* ./reproduce"):
         use(workflow)
+
+
+TIMERS = """
+import sys, threading
+from unittest.mock import patch
+from snakemake.cli import main
+with patch.object(threading, "Timer", wraps=threading.Timer) as timers:
+    try:
+        main(sys.argv[1:])
+    except SystemExit as end:
+        print("ended", end.code, "timers", timers.call_count)
+"""
+
+
+def test_scheduler_is_not_woken_by_timers(project):
+    """With the limit of jobs per second, which is Snakemake's default, each job starts a timer."""
+    wanted = [
+        f"results/namelists/hopf/{plane}.nml" for plane in ("xi_of_epsilon", "tau_of_epsilon")
+    ]
+    run = subprocess.run(
+        [sys.executable, "-c", TIMERS, "--cores", "1", *wanted],
+        cwd=project.folder,
+        capture_output=True,
+        text=True,
+    )
+    assert run.stdout.endswith("ended 0 timers 0\n"), run.stdout + run.stderr
 
 
 def test_names_that_are_there_are_used():

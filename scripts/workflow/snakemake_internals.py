@@ -25,7 +25,8 @@ class CompleteDAG(DAG):
     """
 
     def __init__(self, workflow, rules, *arguments, **options) -> None:
-        """Called once all rules are known, those of a workflow around this one too."""
+        """Called once all rules and settings are known, those of a workflow around this one too."""
+        start_jobs_at_once(workflow)
         super().__init__(workflow, rules, *arguments, **options)
         for name in ("targetfiles", "rules"):
             expect(self, name, "by which unknown targets are refused with a suggestion")
@@ -67,12 +68,12 @@ def make_missing_files_again() -> None:
 
 
 def start_jobs_at_once(workflow) -> None:
-    """Lift the limit of jobs a second: it wakes the scheduler once more for each job that ended."""
+    """Lift the limit of jobs a second: with it every job that ends wakes the scheduler once more in
+    every second that follows. Snakemake has no settings yet while it reads the rules."""
     expect(workflow, "scheduling_settings", "which holds the limit of jobs a second")
     settings = workflow.scheduling_settings
-    if settings is not None:
-        expect(settings, "max_jobs_per_timespan", "the limit of jobs a second")
-        settings.max_jobs_per_timespan = None
+    expect(settings, "max_jobs_per_timespan", "the limit of jobs a second")
+    settings.max_jobs_per_timespan = None
 
 
 def is_module(workflow) -> bool:
