@@ -68,11 +68,18 @@ def test_a_point_of_unstable_cycles_is_not_simulated():
 
 
 def test_columns_of_a_torus_point():
-    """Its criticality is not computed."""
-    (row,) = rows_of("mine", cycles_to_a_torus(), [])
+    """The coefficient and its error are empty where they were not found."""
+    cycles = cycles_to_a_torus()
+    (row,) = rows_of("mine", cycles, [])
     assert list(row) == COLUMNS
-    assert row["criticality"] == "not determined"
     assert (row["tau"], row["angle"], row["resonance"]) == ("0.25", "0.24", "1:4")
+    keys = ("criticality", "coefficient", "coefficient_error")
+    assert [row[key] for key in keys] == ["supercritical", "-0.1234568", "3.2e-10"]
+    cycles["special_criticality"] = ("special", ["not determined"])
+    for key in keys[1:]:
+        cycles[f"special_{key}"] = ("special", [float("nan")])
+    (row,) = rows_of("mine", cycles, [])
+    assert [row[key] for key in keys] == ["not determined", "", ""]
 
 
 def test_a_cusp_lies_beside_the_line():

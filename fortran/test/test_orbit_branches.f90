@@ -194,6 +194,9 @@ contains
       if (allocated(error)) return
       call expect_close(error, special(1)%orbit%parameters(1), other(1)%orbit%parameters(1), &
                         1.0e-8_wp, "tau at the torus point")
+      call expect(error, special(1)%criticality() == "supercritical", "stable tori start there")
+      call expect_close(error, special(1)%coefficient, other(1)%coefficient, 1.0e-8_wp, &
+                        "coefficient of the normal form")
       associate (tau => special(1)%orbit%parameters(1))
          call integrate(build_block(tau - 0.25_wp, 0.5_wp, 0.8_wp, 0.8_wp, v=1.1_wp), 0.0_wp, &
                         3000.0_wp, at_tolerance(1.0e-8_wp), outcome, failure, &

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import numpy as np
 import xarray as xr
 
 from scripts.files.inputs import read
@@ -19,7 +20,8 @@ ERRORS = ["multiplier_error", "mesh_error"]
 """Columns with two digits."""
 COLUMNS = [
     *("of", "branch", "origin", "kind", *NUMBERS, "angle", "resonance"),
-    *("unstable_before", "unstable_behind", "criticality", "confirmed", *ERRORS),
+    *("unstable_before", "unstable_behind", "criticality", "coefficient", "confirmed"),
+    *(*ERRORS, "coefficient_error"),
 ]
 JUMP = 0.1
 """Share by which the greatest v changes where a sweep leaves a cycle for another one."""
@@ -41,13 +43,20 @@ def rows_of(line: str, cycles: xr.Dataset, swept: list[dict]) -> list[dict]:
             "resonance": resonance(point) if kind == "torus" else "",
             "unstable_before": int(point.special_unstable_before),
             "unstable_behind": int(point.special_unstable_behind),
-            "criticality": "not determined" if kind == "torus" else "",
+            "criticality": str(point.special_criticality.values.astype(str)),
+            "coefficient": if_known(point.special_coefficient, 7),
             "confirmed": confirmed(point, cycles, swept),
             **{key: f"{float(point[f'special_{key}']):.2g}" for key in ERRORS},
+            "coefficient_error": if_known(point.special_coefficient_error, 2),
         }
         for kind, point in zip(kinds, points, strict=True)
     ]
     return rows + [cusp_row(line, cycles.isel(cusp=i)) for i in range(cycles.sizes["cusp"])]
+
+
+def if_known(value: xr.DataArray, digits: int) -> str:
+    """A number with so many digits, or nothing."""
+    return "" if np.isnan(value) else f"{float(value):.{digits}g}"
 
 
 def cusp_row(line: str, cusp: xr.Dataset) -> dict:

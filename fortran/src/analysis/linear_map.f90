@@ -54,19 +54,22 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> The residual may stop decreasing before the tolerance; up to this it is accepted.
       real(wp), parameter :: acceptable = 1.0e-3_wp
+      !> Steps allowed: the basis has so many vectors.
+      integer, parameter :: most_steps = 500
       real(wp), allocatable :: basis(:, :), cosine(:), h(:, :), image(:), rotated(:), sine(:)
       real(wp) :: length, size_of_right
-      integer :: i, k, n
+      integer :: i, k, most, n
 
       n = size(right)
+      most = min(n, most_steps)
       solution = 0.0_wp
       size_of_right = norm2(right)
       if (size_of_right <= 0.0_wp) return
-      allocate (basis(n, n + 1), h(n + 1, n), image(n), cosine(n), sine(n))
-      allocate (rotated(n + 1), source=0.0_wp)
+      allocate (basis(n, most + 1), h(most + 1, most), image(n), cosine(most), sine(most))
+      allocate (rotated(most + 1), source=0.0_wp)
       rotated(1) = size_of_right
       basis(:, 1) = right/size_of_right
-      do k = 1, n
+      do k = 1, most
          call map%apply(basis(:, k), image)
          call extend_basis(basis, k, image, h(:, k))
          do i = 1, k - 1
@@ -82,7 +85,7 @@ contains
          rotated(k) = cosine(k)*rotated(k)
          if (.not. abs(rotated(k + 1)) > tolerance*size_of_right) exit
       end do
-      k = min(k, n)
+      k = min(k, most)
       if (.not. abs(rotated(k + 1)) <= max(acceptable, tolerance)*size_of_right) then
          call raise(error, "gmres: residual "//text(abs(rotated(k + 1))/size_of_right)//" of the " &
                     //"right-hand side after "//text(k)//" steps; at most "//text(tolerance) &

@@ -32,7 +32,7 @@ module orbit_linearisation
 contains
 
    !> The equations about an orbit.
-   subroutine linearise_orbit(family, orbit, scale, whole_past, self, error)
+   subroutine linearise_orbit(family, orbit, scale, whole_past, self, error, further)
       !> The problems
       class(problem_family_type), intent(in) :: family
       !> The orbit
@@ -46,10 +46,13 @@ contains
       type(orbit_passes_type), intent(out) :: self
       !> The right-hand side is not finite somewhere
       type(error_type), allocatable, intent(out) :: error
+      !> Further forcings at the collocation points, shape (n, m, intervals, forcings); they follow
+      !> those of the parameters
+      real(wp), intent(in), optional :: further(:, :, :, :)
       class(dde_problem_type), allocatable :: problem
       type(member_type) :: beside(2, size(scale%free))
       real(wp), allocatable :: local(:, :), place(:, :, :), right(:, :)
-      integer :: i, p
+      integer :: first, forcings, i, p
 
       call family%at(orbit%parameters, problem)
       do p = 1, size(scale%free)
@@ -61,9 +64,13 @@ contains
       self%intervals = orbit%intervals()
       call find_sources(self, problem, orbit, whole_past, place)
       associate (n => self%n, m => self%degree, delays => size(problem%lag))
-         allocate (self%response(n*m, n + delays*m + 2 + size(scale%free), self%intervals))
+         first = n + delays*m + 2 + size(scale%free) + 1
+         forcings = 0
+         if (present(further)) forcings = size(further, 4)
+         allocate (self%response(n*m, first - 1 + forcings, self%intervals))
          allocate (local(n*m, n*(m + 1)), right(n*m, size(self%response, 2)))
          do i = 1, self%intervals
+            if (present(further)) right(:, first:) = reshape(further(:, :, i, :), [n*m, forcings])
             call local_system(self, problem, beside, orbit, place(:, :, i), i, local, right)
             call solve(local(:, n + 1:), right, self%response(:, :, i), error)
             if (allocated(error)) return
@@ -155,15 +162,16 @@ contains
       integer, intent(in) :: i
       !> Left-hand side
       real(wp), intent(out) :: local(:, :)
-      !> Right-hand sides
-      real(wp), intent(out) :: right(:, :)
+      !> Right-hand sides; those of further forcings are given
+      real(wp), intent(inout) :: right(:, :)
       type(point_type) :: point
       real(wp) :: h, row_size, values(self%degree + 1)
-      integer :: column, first, interval, j, k, l, r
+      integer :: column, first, interval, j, k, l, last, r
 
       h = orbit%mesh(i + 1) - orbit%mesh(i)
+      last = self%n + self%degree*size(problem%lag) + 2 + size(beside, 2)
       local = 0.0_wp
-      right = 0.0_wp
+      right(:, :last) = 0.0_wp
       associate (n => self%n, m => self%degree, basis => orbit%basis, period => orbit%period)
          do k = 1, m
             r = (k - 1)*n
@@ -195,7 +203,7 @@ contains
                   self%source(l, k, i) = (interval - 1 + self%reach)*m + 1
                end if
             end do
-            right(r + 1:r + n, n + m*size(problem%lag) + 1:) = point%forcing
+            right(r + 1:r + n, n + m*size(problem%lag) + 1:last) = point%forcing
          end do
          right(:, :n) = -local(:, :n)
          do r = 1, size(local, 1)

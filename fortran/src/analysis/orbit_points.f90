@@ -16,6 +16,7 @@ module orbit_points
    use sign_change, only: sign_change_type
    use special_points, only: branching, fold, period_doubling, special_point_type, test_value, &
                              torus_bifurcation
+   use torus_normal_form, only: find_torus_coefficient
    implicit none (type, external)
    private
    public :: find_special_points
@@ -146,6 +147,7 @@ contains
 
       call locate(family, settings, segment, point, error)
       if (allocated(error)) return
+      call set_coefficient(family, settings, point)
       p = settings%scale%free(1)
       coarse = point%orbit%parameters(p)
       do
@@ -155,12 +157,38 @@ contains
          call locate(family, settings, segment_between(first, segment%ends(2), settings%scale), &
                      point, error)
          if (allocated(error)) return
+         call set_coefficient(family, settings, point)
          point%mesh_error = abs(point%orbit%parameters(p) - coarse)
          coarse = point%orbit%parameters(p)
          if (point%mesh_error <= agreement*settings%scale%unit(1)) return
          if (intervals >= settings%refinement%most_intervals) return
       end do
    end subroutine locate_on_meshes
+
+   !> Set the coefficient of a torus point on this mesh, and its difference from that before.
+   subroutine set_coefficient(family, settings, point)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> How the branch was followed
+      type(branch_settings_type), intent(in) :: settings
+      !> The point
+      type(special_point_type), intent(inout) :: point
+      type(error_type), allocatable :: failure
+      real(wp) :: coefficient
+
+      if (point%kind /= torus_bifurcation) return
+      call find_torus_coefficient(family, point%orbit, point%multiplier, &
+                                  settings%refinement%multipliers, coefficient, failure)
+      if (allocated(failure)) then
+         if (allocated(point%coefficient)) deallocate (point%coefficient)
+         return
+      end if
+      point%coefficient_error = huge(coefficient)
+      if (allocated(point%coefficient)) then
+         point%coefficient_error = abs(coefficient - point%coefficient)
+      end if
+      point%coefficient = coefficient
+   end subroutine set_coefficient
 
    !> Find a point on a segment.
    subroutine locate(family, settings, segment, point, error)

@@ -12,8 +12,12 @@ module special_points
    character(len=*), parameter :: fold = "fold", period_doubling = "period_doubling", &
                                   torus_bifurcation = "torus", branching = "branching", &
                                   cusp = "cusp"
-   !> Letters of a kind.
+   !> Letters of a kind and of a criticality.
    integer, parameter :: kind_length = 20
+   !> The sign of a coefficient is certain if it is so many times its error.
+   real(wp), parameter :: certain = 10.0_wp
+   !> An angle this near to a strong resonance, in turns, counts as one.
+   real(wp), parameter :: near_resonance = 1.0e-3_wp
 
    !> A special point.
    type :: special_point_type
@@ -29,9 +33,14 @@ module special_points
       real(wp) :: mesh_error = 0.0_wp
       !> Unstable multipliers before and behind it on the branch
       integer :: unstable(2) = 0
+      !> Of a torus point: coefficient of its normal form (`torus_normal_form`) and the difference
+      !> between the two meshes; not allocated where it was not found
+      real(wp), allocatable :: coefficient, coefficient_error
    contains
       !> Share of a turn of the critical pair
       procedure :: angle
+      !> On which side of a torus point the tori are
+      procedure :: criticality
    end type special_point_type
 
 contains
@@ -44,6 +53,32 @@ contains
 
       value = atan2(aimag(self%multiplier), real(self%multiplier))/turn
    end function angle
+
+   !> 'supercritical' where the tori are on the side on which the cycle has two more unstable
+   !> multipliers, 'subcritical' on the other side, 'not determined', or '' for other kinds.
+   pure function criticality(self) result(word)
+      !> The point
+      class(special_point_type), intent(in) :: self
+      character(len=kind_length) :: word
+
+      word = ""
+      if (self%kind /= torus_bifurcation) return
+      word = "not determined"
+      if (.not. allocated(self%coefficient)) return
+      if (.not. abs(self%coefficient) > certain*self%coefficient_error) return
+      if (is_strong_resonance(self%angle())) return
+      word = merge("supercritical", "subcritical  ", self%coefficient < 0.0_wp)
+   end function criticality
+
+   !> Whether an angle in turns is that of a resonance 1:1 to 1:4, where there is another normal
+   !> form.
+   pure logical function is_strong_resonance(angle) result(value)
+      !> The angle
+      real(wp), intent(in) :: angle
+      integer :: q
+
+      value = any([(abs(angle*q - nint(angle*q)) <= q*near_resonance, q=1, 4)])
+   end function is_strong_resonance
 
    !> The fraction p/q with q up to 10 that is nearest to an angle in turns.
    pure function nearest_resonance(angle) result(fraction)

@@ -1,5 +1,6 @@
 !> Files of cycles along a line of parameters.
 module cycles_output
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use block_family, only: vector_of
    use block_cycles, only: cycle_settings_type, cycles_type, left_out_type
    use cycle_curves, only: cycle_curve_type
@@ -144,16 +145,17 @@ contains
       type(output_file_type), intent(inout) :: file
       !> Branches
       type(cycles_type), intent(in) :: found(:)
-      character(len=kind_length), allocatable :: kinds(:)
+      character(len=kind_length), allocatable :: words(:, :)
       real(wp), allocatable :: columns(:, :)
       integer, allocatable :: numbers(:, :)
       integer :: all, i, id, j, row, rows
-      character(len=*), parameter :: names(11) = [character(len=24) :: &
+      character(len=*), parameter :: names(13) = [character(len=24) :: &
                                                   "tau", "epsilon", "xi", "gamma", "period", &
                                                   "v_most", "multiplier_real", &
                                                   "multiplier_imaginary", "angle", &
-                                                  "multiplier_error", "mesh_error"]
-      character(len=*), parameter :: meanings(11) = [character(len=60) :: &
+                                                  "multiplier_error", "mesh_error", &
+                                                  "coefficient", "coefficient_error"]
+      character(len=*), parameter :: meanings(13) = [character(len=60) :: &
                                                      "its tau", "its epsilon", "its xi", &
                                                      "its gamma", "its period", &
                                                      "its greatest velocity", &
@@ -161,7 +163,9 @@ contains
                                                      "imaginary part of it", &
                                                      "angle of it over a full turn", &
                                                      "distance of the trivial multiplier from 1", &
-                                                     "difference of the parameter on two meshes"]
+                                                     "difference of the parameter on two meshes", &
+                                                     "cubic coefficient of a torus point", &
+                                                     "difference of it on two meshes"]
       character(len=*), parameter :: counts(5) = [character(len=24) :: &
                                                   "branch", "unstable_before", "unstable_behind", &
                                                   "resonance_turns", "resonance_periods"]
@@ -173,24 +177,29 @@ contains
                                                           &angle", "q of it, at most 10"]
 
       all = sum([(size(found(i)%points), i=1, size(found))])
-      allocate (kinds(all), columns(all, size(names)), numbers(all, size(counts)))
+      allocate (words(all, 2), columns(all, size(names)), numbers(all, size(counts)))
+      columns = ieee_value(1.0_wp, ieee_quiet_nan)
       row = 0
       do i = 1, size(found)
          do j = 1, size(found(i)%points)
             row = row + 1
             associate (point => found(i)%points(j))
-               kinds(row) = point%kind
+               words(row, :) = [point%kind, point%criticality()]
                columns(row, :4) = point%orbit%parameters
                columns(row, 5) = point%orbit%period
                columns(row, 6) = exp(maxval(point%orbit%range_of(index_of_ln_v)))
-               columns(row, 7:) = [real(point%multiplier), aimag(point%multiplier), &
-                                   point%angle(), point%trivial_error, point%mesh_error]
+               columns(row, 7:11) = [real(point%multiplier), aimag(point%multiplier), &
+                                     point%angle(), point%trivial_error, point%mesh_error]
+               if (allocated(point%coefficient)) then
+                  columns(row, 12:) = [point%coefficient, point%coefficient_error]
+               end if
                numbers(row, :) = [i, point%unstable, nearest_resonance(abs(point%angle()))]
             end associate
          end do
       end do
       rows = file%dimension("special", all, coordinates="special_tau special_epsilon")
-      call file%words("special_kind", rows, kinds, "kind of the special point")
+      call file%words("special_kind", rows, words(:, 1), "kind of the special point")
+      call file%words("special_criticality", rows, words(:, 2), "criticality of a torus point")
       do i = 1, size(names)
          id = file%real_variable("special_"//trim(names(i)), rows, trim(meanings(i)), "1")
          call file%put(id, columns(:, i))

@@ -1,0 +1,93 @@
+!> Normal form of torus points, against an exact one.
+module test_torus_normal_form
+   use collocation_basis, only: collocation_basis_type, gauss_points, radau_points
+   use dde_errors, only: failure_type => error_type, text
+   use dde_kinds, only: wp
+   use expectations, only: expect, expect_close, expect_success
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use orbit_equations, only: newton_type
+   use orbit_mesh, only: uniform_mesh
+   use orbit_runs, only: correct
+   use periodic_orbit, only: periodic_orbit_type
+   use special_points, only: fold, special_point_type, torus_bifurcation
+   use torus_normal_form, only: find_torus_coefficient
+   use twin_waves, only: omega1, twin_waves_family
+   implicit none (type, external)
+   private
+   public :: collect_torus_normal_form
+
+   real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_torus_normal_form(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("exact coefficients", test_exact), &
+                   new_unittest("criticality", test_criticality)]
+   end subroutine collect_torus_normal_form
+
+   !> Tori of rotating waves, stable and unstable ones, with an angle in each half of the circle.
+   subroutine test_exact(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(newton_type) :: newton
+      type(periodic_orbit_type) :: orbit
+      type(twin_waves_family) :: family
+      real(wp), parameter :: p22(2) = [-2.5_wp, 1.5_wp], omega2(2) = [0.4_wp, 2.3_wp]
+      real(wp) :: coefficient, expected
+      integer :: i, points
+
+      do points = gauss_points, radau_points
+         family%delayed = points == gauss_points
+         orbit%basis = collocation_basis_type(7, points)
+         orbit%mesh = uniform_mesh(32)
+         do i = 1, 2
+            orbit%parameters = [p22(i), omega2(i)]
+            orbit%period = turn/omega1
+            associate (s => orbit%node_times())
+               orbit%nodes = reshape(spread(0.0_wp, 1, 4*size(s)), [4, size(s)])
+               orbit%nodes(1, :) = cos(turn*s)
+               orbit%nodes(2, :) = sin(turn*s)
+               orbit%nodes(3, :) = 0.7_wp*cos(turn*s)*sin(turn*s)
+               orbit%nodes(4, :) = sin(turn*s)
+            end associate
+            call correct(family, orbit, newton, failure)
+            call expect_success(error, failure)
+            if (allocated(error)) return
+            call find_torus_coefficient(family, orbit, exp(cmplx(0.0_wp, &
+                                                                 turn*omega2(i)/omega1, kind=wp)), &
+                                        6, coefficient, failure)
+            call expect_success(error, failure)
+            expected = family%coefficient(orbit%parameters)
+            call expect_close(error, coefficient, expected, 1.0e-8_wp, "coefficient "//text(i))
+            call expect(error, (expected < 0.0_wp) .eqv. i == 1, "one stable, one unstable torus")
+         end do
+      end do
+   end subroutine test_exact
+
+   !> It is the sign of the coefficient where that is certain and no strong resonance is near.
+   subroutine test_criticality(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(special_point_type) :: point
+
+      point%kind = fold
+      call expect(error, point%criticality() == "", "none of a fold")
+      point%kind = torus_bifurcation
+      point%multiplier = exp(cmplx(0.0_wp, 0.22_wp*turn, kind=wp))
+      call expect(error, point%criticality() == "not determined", "without coefficient")
+      point%coefficient = -0.1_wp
+      point%coefficient_error = 1.0e-6_wp
+      call expect(error, point%criticality() == "supercritical", "stable tori")
+      point%coefficient = 0.1_wp
+      call expect(error, point%criticality() == "subcritical", "unstable tori")
+      point%coefficient_error = 0.05_wp
+      call expect(error, point%criticality() == "not determined", "an uncertain sign")
+      point%coefficient_error = 1.0e-6_wp
+      point%multiplier = exp(cmplx(0.0_wp, turn/3.0_wp, kind=wp))
+      call expect(error, point%criticality() == "not determined", "resonance 1:3")
+      point%multiplier = exp(cmplx(0.0_wp, turn/5.0_wp, kind=wp))
+      call expect(error, point%criticality() == "subcritical", "resonance 1:5")
+   end subroutine test_criticality
+end module test_torus_normal_form
