@@ -240,14 +240,19 @@ def script_of(figure: str) -> str:
     return entry_of(figure).script or figure
 
 
+def name_of_caption(figure: str) -> str:
+    """Name of its caption, which figures of one kind in a file of one's own share."""
+    return entry_of(figure).caption or figure
+
+
 def template_of(figure: str) -> str:
     """Its caption before numbers and verdicts are filled in, in the project's folder."""
-    return f"{FOLDER}/{entry_of(figure).caption or figure}.rst"
+    return f"{FOLDER}/{name_of_caption(figure)}.rst"
 
 
 def caption_of(figure: str) -> str:
-    """Its caption: of the paper's figures the one that a run fills."""
-    return f"<results>/figures/{figure}.rst" if figure in ENTRIES else template_of(figure)
+    """Its caption as a run fills it."""
+    return f"<results>/figures/{figure}.rst"
 
 
 def title_of(figure: str) -> str:
