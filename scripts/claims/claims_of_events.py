@@ -42,9 +42,11 @@ def aperiodic_events(results: Results, *, scene: str, periodic: str) -> Finding:
             f" times repeats best after {after} event{'' if after == 1 else 's'}, with differences"
             f" of {percent(repeats[name])} of the mean."
         )
+    repeating = f"The recurrence times of scene {scene} repeat."
     return decided(
         repeats[scene] > PERIODIC >= repeats[periodic],
         " ".join(parts),
+        repeating if repeats[scene] <= PERIODIC else f"Those of scene {periodic} do not repeat.",
     )
 
 
@@ -55,7 +57,8 @@ def power_law_of_sizes(results: Results, *, scene: str, spread: float) -> Findin
         return few(scene, slip.size)
     ends = np.quantile(slip, 1 - np.array(RANKS))
     if np.any(np.diff(ends) <= 0):
-        return decided(False, f"All slips of {scene} between these quantiles are equal.")
+        evidence = f"All slips of {scene} between two of the quantiles are equal."
+        return Finding(NOT_REPRODUCED, evidence, "The sizes are not a power law: many are equal.")
     powers = -np.diff(np.log(RANKS)) / np.diff(np.log(ends))
     ranges = [f"{short(a, 3)} to {short(b, 3)}" for a, b in pairwise(ends)]
     fits = [f"{short(power, 3)} (slip {here})" for power, here in zip(powers, ranges, strict=True)]
@@ -91,6 +94,7 @@ def relaxation(results: Results, *, scenes: list[str], ratio: float, stick: floa
         holds,
         f"{' '.join(parts)} The test asks for a factor of {ratio:g} in every event, and for"
         f" {percent(stick)} of the time.",
+        "In none of the scenes does the block stick and slip like this.",
     )
 
 
@@ -117,9 +121,8 @@ def percent(share: float) -> str:
 
 def few(scene: str, events: int) -> Finding:
     """The scene has too few events."""
-    return Finding(
-        NOT_REPRODUCED, f"Scene {scene} has {events} complete events. The test needs {FEWEST}."
-    )
+    evidence = f"Scene {scene} has {events} complete events. The test needs {FEWEST}."
+    return Finding(NOT_REPRODUCED, evidence, f"Scene {scene} has too few events.")
 
 
 TESTS = {
