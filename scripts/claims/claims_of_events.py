@@ -32,7 +32,7 @@ def aperiodic_events(results: Results, *, scene: str, periodic: str) -> Finding:
         events = results.events_of(name)
         times, slip = (events[key].values for key in ("recurrence_time", "slip"))
         if times.size < FEWEST:
-            return few(name, times.size)
+            return few(name, times.size, "to show whether they repeat")
         after, repeats[name] = best_repeat(times)
         parts.append(
             f"Scene {name} has {times.size} events. The mean recurrence time is"
@@ -54,7 +54,7 @@ def power_law_of_sizes(results: Results, *, scene: str, spread: float) -> Findin
     """Whether the number of events with at least a slip is a power of the slip."""
     slip = np.sort(results.events_of(scene).slip.values)
     if slip.size < FEWEST:
-        return few(scene, slip.size)
+        return few(scene, slip.size, "for a distribution of their sizes")
     ends = np.quantile(slip, 1 - np.array(RANKS))
     if np.any(np.diff(ends) <= 0):
         evidence = f"All slips of {scene} between two of the quantiles are equal."
@@ -119,10 +119,10 @@ def percent(share: float) -> str:
     return f"{100 * share:.3g} %"
 
 
-def few(scene: str, events: int) -> Finding:
-    """The scene has too few events."""
+def few(scene: str, events: int, why: str) -> Finding:
+    """The scene has too few events to show something."""
     evidence = f"Scene {scene} has {events} complete events. The test needs {FEWEST}."
-    return Finding(NOT_REPRODUCED, evidence, f"Scene {scene} has too few events.")
+    return Finding(NOT_REPRODUCED, evidence, f"Scene {scene} has too few events {why}.")
 
 
 TESTS = {

@@ -73,7 +73,9 @@ def leads_to(results: Results, *, routes: list[str], before: list[str], after: s
         return Finding(REPRODUCED, evidence)
     if any(holds):
         return Finding(CORRECTED, evidence, f"It does along {sum(holds)} of {len(holds)} lines.")
-    return Finding(NOT_REPRODUCED, evidence, f"No run shows {after} beyond another class.")
+    parameters = " or ".join(dict.fromkeys(parameter_of(rows) for rows in lines))
+    instead = f"No run along {parameters} shows {after} beyond {' or '.join(before)}."
+    return Finding(NOT_REPRODUCED, evidence, instead)
 
 
 def delays_in_turn(

@@ -28,7 +28,7 @@ LEAST_SCALE = 1e-3
 """Exponents closer to zero than this are drawn on a linear scale."""
 LEAST_SPREAD = 0.05
 """Half of the axes of the section, as a share of the size of its points."""
-LETTER = 0.0125
+LETTER = 0.0135
 """How wide a letter is, as a share of the widest axis."""
 DOTS = {"ls": "", "marker": "o", "color": "C1", "ms": 2.5, "mew": 0}
 
