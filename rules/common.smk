@@ -217,6 +217,7 @@ def on_page():
             "category": entries.entry_of(name).category,
             "caption": caption_file(name),
             "drawing": f"{RESULTS}/figures/{name}.svg",
+            "shows_classes": entries.entry_of(name).shows_classes,
             "data": [
                 placed(path)
                 for path in entries.files_of(name, DRAWN)

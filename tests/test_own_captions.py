@@ -119,7 +119,7 @@ def test_caption_of_a_plane(tmp_path):
     assert words.startswith(
         r"One branch of Hopf curves at :math:`\xi = 0.5`, :math:`\gamma = 0.8`, supercritical at"
         " 11 of 12 points (solid lines) and subcritical at 1 (dashed lines). Steady sliding is"
-        " stable in 75 % of the plane (white)."
+        " stable in 75 % of the plane (no shade)."
     )
     assert (
         "two double Hopf points at (0.336, 13.4) and (1.14, 3.34); one Hopf point without delay"

@@ -51,6 +51,8 @@ class Entry:
     """Name of its script, where that is not its own."""
     caption: str = ""
     """Name of its caption, where that is not its own."""
+    shows_classes: bool = False
+    """Whether its colours are those of classes of motion, which the page keeps in the dark."""
 
 
 ENTRIES = {
@@ -103,6 +105,7 @@ ENTRIES = {
             "cycles": cycles_in_atlas,
         },
         params={"scenes": places_in_atlas},
+        shows_classes=True,
     ),
     "true_torus": Entry(
         category="Atlas",
@@ -114,6 +117,7 @@ ENTRIES = {
         category="Atlas",
         inputs={"tables": tables_of_routes, "runs": runs_of_routes},
         params={"scenes": places_in_atlas},
+        shows_classes=True,
     ),
     "cycles": Entry(
         category="Atlas",
@@ -162,6 +166,7 @@ def entry_of_route(line: str) -> Entry:
         },
         params={"scenes": places_in_atlas},
         script="routes",
+        shows_classes=True,
         caption="own/route",
     )
 
@@ -177,6 +182,7 @@ def entry_of_atlas(plane: str) -> Entry:
         },
         params={"scenes": places_in_atlas},
         script="atlas",
+        shows_classes=True,
         caption="own/atlas",
     )
 

@@ -21,8 +21,9 @@ HEIGHT, OF_RUN = 1.9, 0.15
 """Of a route without its strips, and of each strip, in inches."""
 COLOURS = ("C6", "C2", "C3", "C7")
 """Of runs; none is that of a class."""
-SPREAD = 0.2
-"""Distance between the dots of two runs at the same place, as a share of the distance of places."""
+SPREAD, MOST_SPREAD = 0.2, 0.006
+"""Distance between the dots of two runs at the same place: a share of the distance of places, and
+at most a share of the route."""
 ROOM = 1.25
 """End of the axis of maxima over the largest of them."""
 FEW, DOT, SMALL_DOT = 30, 3.5, 1.8
@@ -48,7 +49,7 @@ def draw(
         along = parameter_of(of_route)
         by_run = {run: [r for r in of_route if r["run"] == run] for run in names_of(of_route)}
         above, middle, below = grid[3 * i : 3 * i + 3]
-        step = SPREAD * distance(of_route, along)
+        step = spread(of_route, along)
         for number, (run, of_run) in enumerate(by_run.items()):
             colour = colours.setdefault(run, COLOURS[len(colours) % len(COLOURS)])
             shift = (number - 0.5 * (len(by_run) - 1)) * step
@@ -73,10 +74,10 @@ def names_of(rows: list[dict]) -> list[str]:
     return list(dict.fromkeys(row["run"] for row in rows))
 
 
-def distance(rows: list[dict], along: str) -> float:
-    """Between neighbouring places of a route."""
+def spread(rows: list[dict], along: str) -> float:
+    """Distance between the dots of two runs at the same place."""
     places = {row[along] for row in rows}
-    return (max(places) - min(places)) / (len(places) - 1)
+    return (max(places) - min(places)) * min(MOST_SPREAD, SPREAD / (len(places) - 1))
 
 
 def label(above: Axes, strips: Axes, below: Axes, along: str, shift: float) -> None:
