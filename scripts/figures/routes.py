@@ -100,7 +100,7 @@ def label(above: Axes, strips: Axes, below: Axes, along: str, shift: float) -> N
     below.set_yticks([-0.1, 0, 0.1], ["$-0.1$", "$0$", "$0.1$"])
     below.set_yticks([-0.01, -LEAST_SCALE, LEAST_SCALE, 0.01], minor=True)
     below.tick_params(axis="y", which="minor", labelleft=False)
-    below.set(xlabel=parameters.axis_of(along), ylabel=r"exponent $\lambda_1$")
+    below.set(xlabel=parameters.axis_of(along), ylabel="exponent\n$\\lambda_1$")
 
 
 def dot(rows: list[dict]) -> float:
