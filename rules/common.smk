@@ -193,20 +193,19 @@ def everything_added(wildcards):
 
 def caption_file(figure):
     """The caption of a figure."""
-    caption = entries.caption_of(figure)
-    return placed(caption) if figure in FIGURES else of_project(caption)
+    return placed(entries.caption_of(figure))
 
 
 def to_caption():
     """What the caption of each figure is filled from."""
     return [
         {
-            "name": name,
+            "name": entries.name_of_caption(name),
             "template": of_project(entries.template_of(name)),
             "inputs": placed(entries.inputs_of(name, DRAWN)),
             "params": placed(entries.params_of(name, DRAWN)),
         }
-        for name in FIGURES
+        for name in SHOWN
     ]
 
 
@@ -218,6 +217,7 @@ def on_page():
             "category": entries.entry_of(name).category,
             "caption": caption_file(name),
             "drawing": f"{RESULTS}/figures/{name}.svg",
+            "shows_classes": entries.entry_of(name).shows_classes,
             "data": [
                 placed(path)
                 for path in entries.files_of(name, DRAWN)

@@ -33,14 +33,14 @@ rule captions:
     input:
         data=[
             path
-            for figure in FIGURES
+            for figure in SHOWN
             for path in placed(entries.files_of(figure, DRAWN))
         ],
-        templates=[of_project(entries.template_of(figure)) for figure in FIGURES],
-        claims="<results>/tables/claims.json",
+        templates=[of_project(entries.template_of(figure)) for figure in SHOWN],
+        claims=[] if OWN else "<results>/tables/claims.json",
         code=code_of("captions/write_captions.py"),
     output:
-        [caption_file(figure) for figure in FIGURES],
+        [caption_file(figure) for figure in SHOWN],
     log:
         "<results>/logs/figures/captions.log",
     params:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from config_refusals import line_about, refusal
-from figure_contents import points_in, title_of, words_in
+from figure_contents import assert_on_page, points_in, title_of, words_in
 from made_up_results import attractor_row, followed_cycles, hopf_curve
 from matplotlib import pyplot as plt
 from matplotlib.collections import PatchCollection, QuadMesh
@@ -67,16 +67,6 @@ def drawn() -> Figure:
     figure = atlas.draw(rows, [curves_at(0.5), curves_at(0.8)], [], PLACES)
     figure.canvas.draw()
     return figure
-
-
-def assert_on_page(figure: Figure) -> None:
-    """Nothing is cut off at printed size."""
-    figure.canvas.draw()
-    box, (width, height) = figure.get_tightbbox(), figure.get_size_inches()
-    assert width <= 7.0
-    assert min(box.x0, box.y0) >= -0.02
-    assert box.x1 <= width + 0.02
-    assert box.y1 <= height + 0.02
 
 
 def test_atlas_is_on_its_page(drawn):
@@ -259,9 +249,9 @@ def test_routes_show_maxima_classes_and_exponents(routes_drawn):
 
 
 def test_runs_of_a_route_do_not_cover_each_other(routes_drawn):
-    """Their dots stand beside each other, nearer to their place than to the next."""
+    """Their dots stand beside each other, close to their place."""
     near, up = (line.get_xdata() for line in routes_drawn.axes[0].lines)
-    np.testing.assert_allclose(up - near, 0.1 * routes.SPREAD)
+    np.testing.assert_allclose(up - near, 0.3 * routes.MOST_SPREAD)
     np.testing.assert_allclose(0.5 * (up + near), [0.1, 0.2, 0.2, 0.3, 0.3, 0.4, 0.4])
 
 
@@ -269,6 +259,28 @@ def test_scenes_on_a_route_are_named(routes_drawn):
     """Those with the values of the other parameters."""
     texts = [[text.get_text() for text in axes.texts] for axes in routes_drawn.axes]
     assert texts == [[], [], [], ["on it"], [], []]
+
+
+def test_route_along_the_history():
+    """All dots are within the axes; a fixed point is at v = 1, without its transient maxima."""
+    rows, runs = [], {}
+    for run, met in (("near", "fixed point"), ("slip", "cycle")):
+        places = [0.5, 1.5, 2.5]
+        rows += [a_row(met, 0.5, 7.0) | {"theta": 0.0, "u": 0.0, "v": v} for v in places]
+        maxima = (("point", "kept"), [[2.0, 2.001]] * 3)
+        runs["in_v", run] = xr.Dataset({"history_v": ("point", places), "maximum": maxima})
+        rows[-3:] = [row | {"route": "in_v", "run": run} for row in rows[-3:]]
+    figure = routes.draw(rows, runs, PLACES)
+    assert_on_page(figure)
+    above = figure.axes[0]
+    assert title_of(above).startswith(r"$\tau = 7$, $\varepsilon = 0.5$")
+    near, slip = (line.get_xydata() for line in above.lines)
+    np.testing.assert_allclose(near, [[0.494, 1], [1.494, 1], [2.494, 1]])
+    assert {y for _, y in slip} == {2.0, 2.001}
+    (left, right), (bottom, top) = above.get_xlim(), above.get_ylim()
+    for points in (near, slip):
+        assert np.all((points > [left, bottom]) & (points < [right, 0.9 * top]))
+    assert figure.axes[2].get_xlabel() == "velocity before the start $v$"
 
 
 def test_failed_points_of_a_route_are_crossed(routes_drawn):

@@ -23,6 +23,7 @@ from scripts.claims.claims_results import (
     NOT_TESTABLE,
     REPRODUCED,
     VERDICTS,
+    Finding,
     read_results,
 )
 from scripts.files.tsv import write_table
@@ -85,6 +86,13 @@ def test_another_result_is_another_verdict():
     before, after = ledger_of("cycle"), ledger_of("fixed point")
     assert after[0]["verdict"] == NOT_REPRODUCED
     assert before[1:] == after[1:]
+
+
+@pytest.mark.parametrize(("verdict", "instead"), [(NOT_REPRODUCED, ""), (REPRODUCED, "It rests.")])
+def test_what_is_true_instead_is_said_where_a_claim_fails(verdict, instead):
+    """A test of claims that leaves it out, or says it of a claim that holds, is an error."""
+    with pytest.raises(ValueError, match=verdict):
+        Finding(verdict, "The evidence.", instead)
 
 
 def test_files_are_read_by_name(tmp_path):
@@ -153,8 +161,7 @@ def test_ledger_of_the_workflow(smoke):
         assert row["verdict"] in VERDICTS
         assert row["evidence"].endswith(".")
         assert "nan" not in row["evidence"].split()
-        assert not row["instead"] or row["verdict"] in (CORRECTED, NOT_REPRODUCED)
-        assert row["instead"].endswith(".") or row["verdict"] != CORRECTED
+        assert row["instead"].endswith(".") == (row["verdict"] in (CORRECTED, NOT_REPRODUCED))
         assert row["verdict"] == NOT_TESTABLE or (smoke.folder / row["look_at"]).is_file()
 
 

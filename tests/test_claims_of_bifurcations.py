@@ -80,6 +80,9 @@ def test_kinds_count_where_stability_changes():
     nowhere = changed(curves, unstable_pairs=2)
     found = test(on_plane(nowhere), planes=["plane"], expected=["supercritical"])
     assert found.verdict == NOT_REPRODUCED
+    assert found.instead == "Steady sliding does not change its stability."
+    found = test(on_plane(changed(curves, l1=0.1)), planes=["plane"], expected=["supercritical"])
+    assert found.instead == "All 9 points are subcritical."
 
 
 @pytest.mark.parametrize(
@@ -95,17 +98,18 @@ def test_delay_destabilises(cell, verdict):
 
 
 @pytest.mark.parametrize(
-    ("crossing", "verdict"),
+    ("crossing", "verdict", "instead"),
     [
-        (np.where(np.arange(12) < 3, 1, -1), REPRODUCED),
-        (1, NOT_REPRODUCED),
-        (-1, NOT_REPRODUCED),
+        (np.where(np.arange(12) < 3, 1, -1), REPRODUCED, ""),
+        (1, NOT_REPRODUCED, "A longer delay makes no pair stable."),
+        (-1, NOT_REPRODUCED, "A longer delay makes no pair unstable."),
     ],
 )
-def test_pairs_gained_and_lost(crossing, verdict):
+def test_pairs_gained_and_lost(crossing, verdict, instead):
     """Both signs are needed."""
     made = on_plane(changed(hopf_curve(), crossing=crossing))
-    assert TESTS["pairs_gained_and_lost"](made, plane="plane").verdict == verdict
+    found = TESTS["pairs_gained_and_lost"](made, plane="plane")
+    assert (found.verdict, found.instead) == (verdict, instead)
 
 
 @pytest.mark.parametrize(

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from conftest import ROOT, wait_for
+from disks import READ_ONLY, on_disk
 
 from scripts.console.error_words import in_one_line
 from scripts.console.run_progress import how_far
@@ -197,6 +198,14 @@ def test_wrong_option_is_refused_in_one_line(workflow, arguments, words):
     status, (*_, line) = lines_of(workflow, *arguments)
     assert status in (1, 2)
     assert line.startswith(words)
+
+
+def test_folder_that_cannot_be_written_is_refused_in_one_line(workflow):
+    """Also where Snakemake would have its log."""
+    run = on_disk(READ_ONLY, ".snakemake", workflow, *command())
+    assert run.returncode == 1
+    (line,) = run.stderr.splitlines()
+    assert line.startswith("error: nothing can be written in .snakemake; see that")
 
 
 @pytest.mark.parametrize(

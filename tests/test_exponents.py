@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 from config_refusals import line_about, refusal
 from conftest import of_trajectory
-from figure_contents import title_of, words_in
+from figure_contents import assert_on_page, title_of, words_in
 from matplotlib import pyplot as plt
 
 from scripts.config.check_config import checked
@@ -138,14 +138,10 @@ def test_figure_shows_time_tolerance_and_resolution(smoke):
     runs = [xr.load_dataset(results / f"exponents/{scene}.nc") for scene in SCENES]
     with plt.style.context(STYLE):
         figure = exponents.draw(runs, read_table(results / "tables/exponents.tsv"))
-        figure.canvas.draw()
     assert len(figure.axes) == 12
     for scene, axes in zip(SCENES, figure.axes[::3], strict=True):
         assert f"scene {scene.replace('_', ' ')}: " in title_of(axes)
         assert len([line for line in axes.lines if len(line.get_xdata()) > 10]) == 6
     assert "time averaged over" in words_in(figure)
-    box, (width, height) = figure.get_tightbbox(), figure.get_size_inches()
-    assert min(box.x0, box.y0) >= -0.02
-    assert box.x1 <= width + 0.02
-    assert box.y1 <= height + 0.02
+    assert_on_page(figure)
     plt.close(figure)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from conftest import ROOT
-from figure_contents import hyphens_before_numbers, points_in, title_of, words_in
+from figure_contents import assert_on_page, hyphens_before_numbers, points_in, title_of, words_in
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from matplotlib.text import Text
@@ -75,24 +75,9 @@ def these(*numbers: int):
 
 
 @these(*NUMBERS)
-def test_nothing_falls_outside_the_figure(figure):
-    """Text, lines and legends end inside the page."""
-    box = figure.get_tightbbox()
-    width, height = figure.get_size_inches()
-    slack = 0.02
-    assert box.x0 >= -slack
-    assert box.y0 >= -slack
-    assert box.x1 <= width + slack
-    assert box.y1 <= height + slack
-
-
-@these(*NUMBERS)
 def test_figure_fits_a_page(figure):
-    """Printed at the size drawn: no wider than a text of two columns, no letter below 5 points."""
-    assert figure.get_size_inches()[0] <= 7.0
-    sizes = [text.get_fontsize() for text in figure.findobj(Text) if text.get_text()]
-    assert min(sizes) >= 5
-    assert max(sizes) <= 12
+    """Printed at the size drawn: text, lines and legends end inside, letters can be read."""
+    assert_on_page(figure)
 
 
 @these(*NUMBERS[1:])

@@ -30,6 +30,8 @@ routes:
     kept: 20
   lines:
     my_route: { count: 2 }
+    my_start:
+      { along: v, window: [0.5, 1.5], count: 2, tau: 3.0, epsilon: 0.1, xi: 0.5, gamma: 0.8 }
 cycles:
   t_transient: 500.0
   intervals: 20
@@ -52,7 +54,7 @@ attractors:
 """The file that `./reproduce new` writes, small, and with what it does not have."""
 FIGURES = [
     *("scenes/my_scene", "exponents/my_scene", "planes/my_plane", "routes/my_route"),
-    *("cycles/my_cycles", "atlas/my_atlas"),
+    *("routes/my_start", "cycles/my_cycles", "atlas/my_atlas"),
 ]
 OWN = ("--configfile", "mine.yaml", "small.yaml")
 
@@ -93,12 +95,14 @@ def test_everything_that_the_file_adds_is_made(made):
     """Figures, tables with rows of these names alone, and the verdict on its claim."""
     results = made[0].folder / "results" / "mine-small"
     figures = {path.relative_to(results / "figures") for path in results.glob("figures/*/*")}
-    assert figures == {Path(f"{name}.{end}") for name in FIGURES for end in ("pdf", "png", "svg")}
+    endings = ("pdf", "png", "svg", "rst")
+    assert figures == {Path(f"{name}.{end}") for name in FIGURES for end in endings}
     tables = {
         "attractors": ("scene", "my_scene"),
         "linear-stability": ("scene", "my_scene"),
         "exponents": ("scene", "my_scene"),
         "routes/my_route": ("route", "my_route"),
+        "routes/my_start": ("route", "my_start"),
         "claims": ("id", "my_claim"),
     }
     for table, (column, name) in tables.items():
@@ -122,6 +126,17 @@ def test_page_of_ones_own_shows_all_of_it(made):
     assert [link for link in files if not (page.parent / link).is_file()] == []
     for part in ('id="trajectory-view"', 'id="claim-my_claim"', 'id="play-view"'):
         assert part in page.read_text()
+
+
+def test_captions_of_ones_own_have_numbers(made):
+    """Of what was computed; along a value of the history there are no sweeps."""
+    figures = made[0].folder / "results" / "mine-small" / "figures"
+    texts = {name: (figures / f"{name}.rst").read_text() for name in FIGURES}
+    assert [name for name, text in texts.items() if re.search(r"[{}]{2}|\bnan\b", text)] == []
+    place = r":math:`\tau = 3`, :math:`\varepsilon = 0.1`, :math:`\xi = 0.5`, :math:`\gamma = 0.8`"
+    assert texts["routes/my_start"].startswith(
+        f"Classes of motion along :math:`v` at {place}: fixed point at 0.5 to 1.5 (runs near and"
+    )
 
 
 def test_files_that_both_need_are_made_once(made):

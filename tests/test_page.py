@@ -340,6 +340,13 @@ def test_every_claim_stands_in_the_page_once(smoke, smoke_page):
         assert f"{verdict} {count} claim" in text
 
 
+def test_classes_of_motion_keep_their_colours_in_the_dark(smoke):
+    """Those of the view in which a reader moves the delay; other figures are light on dark."""
+    text = (smoke.folder / "results" / "index.html").read_text()
+    kept = re.findall(r'(?s)<figure class="one classes">.*?<img src="figures/(\w+)\.svg"', text)
+    assert kept == ["atlas", "routes"]
+
+
 def test_no_sentence_stands_in_the_page_twice(smoke):
     """Of the captions, of the findings and of what is true instead."""
     text = (smoke.folder / "results" / "index.html").read_text()

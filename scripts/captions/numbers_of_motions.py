@@ -1,6 +1,7 @@
 """Numbers in captions of figures of motions: velocities, spectra, exponents, events, friction."""
 
 import math
+from pathlib import Path
 
 import xarray as xr
 
@@ -100,10 +101,11 @@ def of_friction(given: dict, _params: dict) -> dict:
 
 
 def of_exponents(given: dict, _params: dict) -> dict:
-    """How many exponents of each scene are positive and zero, the largest one, the dimension."""
+    """How many exponents of each scene are positive and zero, their values, the dimension."""
     table = read_table(given["table"])
     scenes = []
-    for scene in dict.fromkeys(row["scene"] for row in table):
+    for path in given["runs"]:
+        scene = Path(path).stem
         rows = [row for row in table if row["scene"] == scene]
         own = [row for row in rows if row["mean_step"] == rows[0]["mean_step"]]
         signs = [row["sign"] for row in own]
@@ -113,6 +115,8 @@ def of_exponents(given: dict, _params: dict) -> dict:
                 "positive": signs.count("positive"),
                 "zero": signs.count("zero"),
                 "largest": with_error(own[0]["exponent"], own[0]["error"]),
+                "all": [with_error(row["exponent"], row["error"]) for row in own],
+                "dimension": with_error(own[0]["dimension"], own[0]["dimension_error"]),
             }
         )
     return {"scenes": scenes}

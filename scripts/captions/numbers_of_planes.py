@@ -9,13 +9,12 @@ import numpy as np
 import xarray as xr
 
 from scripts.captions.wording import count, joined, short
+from scripts.drawing.parameters import SYMBOLS
 from scripts.drawing.special_points import in_words, words_of
-from scripts.figures.cycles import branch_of
 from scripts.files.inputs import read
 from scripts.files.tsv import read_table
+from scripts.tables.cycle_branches import branch_of
 from scripts.tables.motion_rows import UNDECIDED, parameter_of, planes_of
-
-SYMBOLS = {"tau": r"\tau", "epsilon": r"\varepsilon", "xi": r"\xi", "gamma": r"\gamma"}
 
 
 def of_hopf_curves(given: dict, params: dict) -> dict:

@@ -1,8 +1,11 @@
 """Numbers and lists in sentences."""
 
+import re
 from collections.abc import Sequence
 
 COUNTS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
+MOST_LISTED = 8
+"""Values in a sentence."""
 
 
 def short(value: float, digits: int = 3) -> str:
@@ -26,9 +29,19 @@ def joined(words: Sequence[str]) -> str:
     return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
 
 
+def listed(values: Sequence[str]) -> str:
+    """Values in a sentence; of many the first and the last."""
+    return joined(values) if len(values) <= MOST_LISTED else f"{values[0]}, …, {values[-1]}"
+
+
+def as_formulas(words: str) -> str:
+    """Words of a figure, whose formulas stand between dollars, with formulas of a caption."""
+    return re.sub(r"\$([^$]*)\$", r":math:`\1`", words)
+
+
 def in_order(words: Sequence[str]) -> str:
     """A sentence begins with a capital."""
     return words[:1].upper() + words[1:]
 
 
-FILTERS = {"short": short, "count": count, "joined": joined, "capital": in_order}
+FILTERS = {"short": short, "count": count, "joined": joined, "listed": listed, "capital": in_order}

@@ -5,7 +5,12 @@ from pathlib import Path
 
 from jinja2 import Environment, StrictUndefined
 
-from scripts.captions import numbers_of_motions, numbers_of_planes, numbers_of_solver
+from scripts.captions import (
+    numbers_of_motions,
+    numbers_of_own_figures,
+    numbers_of_planes,
+    numbers_of_solver,
+)
 from scripts.captions.wording import FILTERS
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, NOT_TESTABLE, REPRODUCED
 from scripts.files.outputs import logged, written
@@ -14,8 +19,9 @@ NUMBERS = {
     **numbers_of_planes.NUMBERS,
     **numbers_of_motions.NUMBERS,
     **numbers_of_solver.NUMBERS,
+    **numbers_of_own_figures.NUMBERS,
 }
-"""For each figure a function of its input files and settings; a figure without has no numbers."""
+"""For each caption a function of the figure's input files and settings; others have no numbers."""
 IN_WORDS = {
     REPRODUCED: "**holds**",
     CORRECTED: "**holds with a correction**",
@@ -25,7 +31,7 @@ IN_WORDS = {
 
 
 def caption_of(figure: dict, claims: list[dict]) -> str:
-    """The caption of a figure, given by its name, template, inputs and params."""
+    """The caption of a figure, given by the caption's name and template, and inputs and params."""
     verdicts = {claim["id"]: IN_WORDS[claim["verdict"]] for claim in claims}
     environment = Environment(
         undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True
@@ -38,8 +44,10 @@ def caption_of(figure: dict, claims: list[dict]) -> str:
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        ledger = json.loads(Path(snakemake.input.claims).read_text())
+        # figures of a file of one's own say nothing of claims
+        path = snakemake.input.claims
+        ledger = json.loads(Path(path).read_text()) if path else []
         for shown, target in zip(snakemake.params.figures, snakemake.output, strict=True):
             caption = caption_of(shown, ledger)
-            with written(target) as path:
-                path.write_text(caption, encoding="utf-8")
+            with written(target) as file:
+                file.write_text(caption, encoding="utf-8")

@@ -35,7 +35,10 @@ def attractor_class(results: Results, *, scene: str, expected: str) -> Finding:
     if own["class"] == expected:
         return Finding(REPRODUCED, evidence)
     elsewhere = any(row["class"] == expected for row in others)
-    instead = f"The motion is {MOTIONS.get(in_words(own), in_words(own))}{exponents_of(own)}."
+    motion = MOTIONS.get(own["class"], own["class"])
+    if in_words(own) != own["class"]:
+        motion = f"a {in_words(own)}"
+    instead = f"The motion is {motion}{exponents_of(own)}."
     return Finding(CORRECTED if elsewhere else NOT_REPRODUCED, evidence, instead)
 
 
@@ -44,7 +47,8 @@ def positive_exponent(results: Results, *, scene: str) -> Finding:
     rows = results.attractors_of(scene)
     measured = [row for row in rows if not math.isnan(row["exponent_1"])]
     if not measured:
-        return decided(False, f"No exponent of scene {scene} is measured.")
+        evidence = f"No exponent of scene {scene} is measured."
+        return Finding(NOT_REPRODUCED, evidence, "No exponent is measured.")
     values = [row["exponent_1"] for row in measured]
     beyond = sum(row["exponent_1"] > ERRORS * row["error_1"] for row in measured)
     return decided(
@@ -53,6 +57,8 @@ def positive_exponent(results: Results, *, scene: str) -> Finding:
         f" {short(measured[0]['error_1'], 2)} v0/L from the first of {len(rows)} histories. From"
         f" all of them it is {short(min(values), 3)} to {short(max(values), 3)} v0/L. It is more"
         f" than {ERRORS} standard errors above zero in {beyond} of them.",
+        f"The largest exponent is positive beyond its error from {beyond} of {len(rows)}"
+        f" {'history' if len(rows) == 1 else 'histories'}.",
     )
 
 

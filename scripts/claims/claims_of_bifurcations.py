@@ -38,6 +38,7 @@ def hopf_by_delay(results: Results, *, scenes: list[str]) -> Finding:
         "Steady sliding is stable without delay, and a pair of roots crosses the imaginary axis"
         f" when only the delay grows, in {listed(parts)}. There is no such point in:"
         f" {listed(beside)}.",
+        "In none of the scenes does a delay make stable steady sliding unstable.",
     )
 
 
@@ -49,13 +50,13 @@ def hopf_only_by_delay(results: Results, *, plane: str) -> Finding:
         if row["of"] == plane and row["kind"] == "hopf_without_delay"
     ]
     if not points:
-        return decided(True, f"No Hopf point at tau = 0 in the plane {plane}.")
+        return Finding(REPRODUCED, f"No Hopf point at tau = 0 in the plane {plane}.")
     point = points[0]
     epsilon, xi, square = point["epsilon"], point["xi"], point["gamma"] ** 2
     expected = square * xi / (xi + square)
     kind = "supercritical" if point["l1_1"] < 0 else "subcritical"
-    return decided(
-        False,
+    return Finding(
+        NOT_REPRODUCED,
         f"At tau = 0, xi = {short(xi)} and gamma = {short(point['gamma'])} there is a Hopf point at"
         f" epsilon = {short(epsilon, 9)}. The Routh-Hurwitz criterion gives the same value,"
         f" gamma^2 xi/(xi + gamma^2) = {short(expected, 9)}. The bifurcation is {kind}: the first"
@@ -70,7 +71,8 @@ def hopf_depends_on(
     """Whether epsilon and xi alone, at constant gamma, decide where stability is lost."""
     with_tau, with_xi = (boundary(results.curves[plane]) for plane in (at_fixed_xi, at_fixed_tau))
     if not (with_tau and with_xi):
-        return decided(False, "One of the planes has no point where stability changes.")
+        evidence = "One of the planes has no point where stability changes."
+        return Finding(NOT_REPRODUCED, evidence, evidence)
     wide = [
         max(spread["epsilon"]) - min(spread["epsilon"]) > limit for spread in (with_tau, with_xi)
     ]
@@ -84,10 +86,12 @@ def hopf_depends_on(
             (at_fixed_tau, with_xi, "tau", "xi"),
         )
     ]
-    verdict = (CORRECTED if wide[0] else REPRODUCED) if wide[1] else NOT_REPRODUCED
-    if wide[0] and wide[1]:
-        return Finding(verdict, " ".join(parts), "It also depends on tau.")
-    return Finding(verdict, " ".join(parts))
+    evidence = " ".join(parts)
+    if not wide[1]:
+        return Finding(NOT_REPRODUCED, evidence, "The critical epsilon does not depend on xi.")
+    if wide[0]:
+        return Finding(CORRECTED, evidence, "It also depends on tau.")
+    return Finding(REPRODUCED, evidence)
 
 
 def boundary(curves) -> dict[str, list[float]]:
@@ -122,20 +126,27 @@ def kinds_of_hopf(results: Results, *, planes: list[str], expected: list[str]) -
     )
     if met == set(expected):
         return Finding(REPRODUCED, evidence)
-    instead = f"Both kinds occur: {' and '.join(counts)}." if len(met) > 1 else ""
+    instead = "Steady sliding does not change its stability."
+    if met:
+        both = f"Both kinds occur: {' and '.join(counts)}."
+        instead = both if len(met) > 1 else f"All {signs.size} points are {met.pop()}."
     return Finding(CORRECTED if met > set(expected) else NOT_REPRODUCED, evidence, instead)
 
 
 def delay_destabilises(results: Results, *, scenes: list[str]) -> Finding:
     """Whether each scene has a delay at which steady sliding loses its stability."""
-    parts, holds = [], True
+    parts, never = [], []
     for scene in scenes:
         row = results.stability_of(scene)
         lost = [place for place, before, _ in changes(row["tau_of_changes"]) if before == 0]
         where = f"at tau = {listed([short(place, 6) for place in lost])}" if lost else "at no tau"
         parts.append(f"{scene} {where}")
-        holds = holds and bool(lost)
-    return decided(holds, f"A longer delay makes steady sliding unstable: {'; '.join(parts)}.")
+        never += [] if lost else [scene]
+    return decided(
+        not never,
+        f"A longer delay makes steady sliding unstable: {'; '.join(parts)}.",
+        f"No longer delay makes steady sliding unstable in {listed(never)}.",
+    )
 
 
 def pairs_gained_and_lost(results: Results, *, plane: str) -> Finding:
@@ -146,6 +157,7 @@ def pairs_gained_and_lost(results: Results, *, plane: str) -> Finding:
         gained > 0 and lost > 0,
         f"With a longer delay a pair of roots becomes unstable at {gained} of {crossing.size}"
         f" points of the curves. A pair becomes stable at {lost} points.",
+        f"A longer delay makes no pair {'stable' if gained else 'unstable'}.",
     )
 
 
@@ -162,6 +174,7 @@ def amplitude_death(results: Results, *, scenes: list[str]) -> Finding:
     return decided(
         bool(parts),
         f"Scenes in which a longer delay restores stability: {'; '.join(parts) or 'none'}.",
+        "In none of the scenes does a longer delay restore stability.",
     )
 
 
@@ -189,6 +202,8 @@ def roots_decide(results: Results, *, least_motion: float) -> Finding:
         f" {len(unstable)} are at parameters with unstable roots: {len(rests)} come to rest, and in"
         f" the others the largest v is at least 1 + {short(least, 2)}. {undecided} more motions are"
         " undecided.",
+        f"{len(rests)} of {len(unstable)} motions come to rest where a root is unstable, and"
+        f" {sum(at_rest)} of {len(stable)} where none is.",
     )
 
 
@@ -198,7 +213,8 @@ def independent_of_spring(results: Results, *, plane: str, limit: float) -> Find
     at_boundary = curves.unstable_pairs.values == 0
     epsilon, xi = (curves[key].values[at_boundary] for key in ("epsilon", "xi"))
     if not at_boundary.any():
-        return decided(False, f"In {plane} steady sliding does not change its stability.")
+        evidence = f"In {plane} steady sliding does not change its stability."
+        return Finding(NOT_REPRODUCED, evidence, evidence)
     delays = curves.tau.values
     delay = short(delays[0]) if np.ptp(delays) == 0 else "various values"
     return decided(

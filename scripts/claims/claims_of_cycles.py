@@ -51,7 +51,8 @@ def second_hopf(results: Results, *, scene: str) -> Finding:
         f" scene: {'; '.join(parts) or 'none'}."
     )
     if not elsewhere:
-        return Finding(NOT_REPRODUCED, evidence)
+        instead = "No torus bifurcation of a stable cycle is known on these lines."
+        return Finding(NOT_REPRODUCED, evidence, instead)
     if own["by_exponents"] == "torus" and not has_stable(found):
         return Finding(REPRODUCED, evidence)
     instead = f"With all other parameters the same it occurs {' or '.join(elsewhere)}."

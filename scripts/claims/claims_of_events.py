@@ -32,7 +32,7 @@ def aperiodic_events(results: Results, *, scene: str, periodic: str) -> Finding:
         events = results.events_of(name)
         times, slip = (events[key].values for key in ("recurrence_time", "slip"))
         if times.size < FEWEST:
-            return few(name, times.size)
+            return few(name, times.size, "to show whether they repeat")
         after, repeats[name] = best_repeat(times)
         parts.append(
             f"Scene {name} has {times.size} events. The mean recurrence time is"
@@ -42,9 +42,11 @@ def aperiodic_events(results: Results, *, scene: str, periodic: str) -> Finding:
             f" times repeats best after {after} event{'' if after == 1 else 's'}, with differences"
             f" of {percent(repeats[name])} of the mean."
         )
+    repeating = f"The recurrence times of scene {scene} repeat."
     return decided(
         repeats[scene] > PERIODIC >= repeats[periodic],
         " ".join(parts),
+        repeating if repeats[scene] <= PERIODIC else f"Those of scene {periodic} do not repeat.",
     )
 
 
@@ -52,10 +54,11 @@ def power_law_of_sizes(results: Results, *, scene: str, spread: float) -> Findin
     """Whether the number of events with at least a slip is a power of the slip."""
     slip = np.sort(results.events_of(scene).slip.values)
     if slip.size < FEWEST:
-        return few(scene, slip.size)
+        return few(scene, slip.size, "for a distribution of their sizes")
     ends = np.quantile(slip, 1 - np.array(RANKS))
     if np.any(np.diff(ends) <= 0):
-        return decided(False, f"All slips of {scene} between these quantiles are equal.")
+        evidence = f"All slips of {scene} between two of the quantiles are equal."
+        return Finding(NOT_REPRODUCED, evidence, "The sizes are not a power law: many are equal.")
     powers = -np.diff(np.log(RANKS)) / np.diff(np.log(ends))
     ranges = [f"{short(a, 3)} to {short(b, 3)}" for a, b in pairwise(ends)]
     fits = [f"{short(power, 3)} (slip {here})" for power, here in zip(powers, ranges, strict=True)]
@@ -91,6 +94,7 @@ def relaxation(results: Results, *, scenes: list[str], ratio: float, stick: floa
         holds,
         f"{' '.join(parts)} The test asks for a factor of {ratio:g} in every event, and for"
         f" {percent(stick)} of the time.",
+        "In none of the scenes does the block stick and slip like this.",
     )
 
 
@@ -115,11 +119,10 @@ def percent(share: float) -> str:
     return f"{100 * share:.3g} %"
 
 
-def few(scene: str, events: int) -> Finding:
-    """The scene has too few events."""
-    return Finding(
-        NOT_REPRODUCED, f"Scene {scene} has {events} complete events. The test needs {FEWEST}."
-    )
+def few(scene: str, events: int, why: str) -> Finding:
+    """The scene has too few events to show something."""
+    evidence = f"Scene {scene} has {events} complete events. The test needs {FEWEST}."
+    return Finding(NOT_REPRODUCED, evidence, f"Scene {scene} has too few events {why}.")
 
 
 TESTS = {

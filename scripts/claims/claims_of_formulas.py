@@ -66,6 +66,7 @@ def equation_6(results: Results, *, planes: list[str], limit: float) -> Finding:
         largest <= limit,
         f"Largest residual of (6) as printed on the curves of {' and '.join(planes)}:"
         f" {short(largest)}. The right side of (6) has absolute value 1.",
+        f"The residual of (6) is up to {short(largest, 2)}.",
     )
 
 
@@ -106,6 +107,7 @@ def equation_9(results: Results, *, plane: str, limit: float) -> Finding:
         f" error of xi by (9) as printed is at most {short(on_curve)}. Remark: (9) also gives a xi"
         f" where (6) asks for 1 + epsilon < 0. This happens at {false} of {kept.sum()} frequencies"
         " with a xi within the figure.",
+        f"The relative error of xi by (9) is up to {short(on_curve, 2)}.",
     )
 
 

@@ -55,6 +55,8 @@ def velocity_step(results: Results) -> Finding:
         f"v rises from {short(friction.attrs['v0'])} m/s by {short(friction.attrs['delta_v'])} m/s."
         f" Friction jumps by {short(direct)}, then changes by {short(evolution)}. After the step"
         f" back it ends {short(last)} from its first value.",
+        f"Friction changes by {short(direct)} at the step and by {short(evolution)} over the slip"
+        " that follows.",
     )
 
 

@@ -45,7 +45,8 @@ def route(results: Results, *, routes: list[str], expected: list[str]) -> Findin
     lines = [results.route(name) for name in routes]
     found = [sequences(rows, expected) for rows in lines]
     told = [in_a_sentence(rows, met) for rows, met in zip(lines, found, strict=True)]
-    return decided(any(any(met.values()) for met in found), " ".join(told))
+    instead = f"No run shows {', then '.join(expected)}."
+    return decided(any(any(met.values()) for met in found), " ".join(told), instead)
 
 
 def torus_route(results: Results, *, routes: list[str], expected: list[str]) -> Finding:
@@ -56,7 +57,10 @@ def torus_route(results: Results, *, routes: list[str], expected: list[str]) -> 
         f"{in_a_sentence(rows, met)} {bifurcations_in_words(rows, results)}"
         for rows, met in zip(lines, found, strict=True)
     ]
-    return decided(any(any(met.values()) for met in found), " ".join(told))
+    instead = (
+        f"No run shows {', then '.join(expected)} with a torus bifurcation between cycle and torus."
+    )
+    return decided(any(any(met.values()) for met in found), " ".join(told), instead)
 
 
 def leads_to(results: Results, *, routes: list[str], before: list[str], after: str) -> Finding:
@@ -69,7 +73,9 @@ def leads_to(results: Results, *, routes: list[str], before: list[str], after: s
         return Finding(REPRODUCED, evidence)
     if any(holds):
         return Finding(CORRECTED, evidence, f"It does along {sum(holds)} of {len(holds)} lines.")
-    return decided(False, evidence)
+    parameters = " or ".join(dict.fromkeys(parameter_of(rows) for rows in lines))
+    instead = f"No run along {parameters} shows {after} beyond {' or '.join(before)}."
+    return Finding(NOT_REPRODUCED, evidence, instead)
 
 
 def delays_in_turn(
@@ -93,8 +99,10 @@ def delays_in_turn(
     )
     if grow and [row["class"] for row in own] == expected:
         return Finding(REPRODUCED, evidence)
-    instead = "At fixed parameters a longer delay gives this order." if any(found.values()) else ""
-    return Finding(CORRECTED if instead else NOT_REPRODUCED, evidence, instead)
+    if any(found.values()):
+        instead = "At fixed parameters a longer delay gives this order."
+        return Finding(CORRECTED, evidence, instead)
+    return Finding(NOT_REPRODUCED, evidence, f"Nor does the route {route} show this order.")
 
 
 def at_bifurcations(rows: list[dict], found: Turns, results: Results) -> Turns:

@@ -24,6 +24,10 @@ class Finding:
     instead: str = ""
     """What is true instead, in one sentence, where the claim does not hold as printed."""
 
+    def __post_init__(self) -> None:
+        if bool(self.instead) != (self.verdict in (CORRECTED, NOT_REPRODUCED)):
+            raise ValueError(f"verdict '{self.verdict}' with this on what is true: {self.instead}")
+
 
 @dataclass
 class Results:
@@ -122,7 +126,7 @@ def listed(words: list[str]) -> str:
     return ", ".join(words) if words else "none"
 
 
-def decided(holds: bool, evidence: str, instead: str = "") -> Finding:
+def decided(holds: bool, evidence: str, instead: str) -> Finding:
     """A claim that holds or does not."""
     return Finding(REPRODUCED, evidence) if holds else Finding(NOT_REPRODUCED, evidence, instead)
 
@@ -133,4 +137,6 @@ def decided_after_correction(
     """A claim that may hold as printed, or only as corrected, or not at all."""
     if printed:
         return Finding(REPRODUCED, evidence)
-    return Finding(CORRECTED, evidence, instead) if corrected else decided(False, evidence)
+    if corrected:
+        return Finding(CORRECTED, evidence, instead)
+    return Finding(NOT_REPRODUCED, evidence, "It does not hold after the known correction either.")

@@ -20,6 +20,7 @@ from snakemake import cli
 from snakemake.exceptions import CliException, WorkflowError
 
 from scripts.console.error_words import in_one_line, meant
+from scripts.workflow import before_run
 
 SAYS_OTHER_THINGS = re.compile(
     r"-[a-zA-Z]*[npqtDS]|--(dry-?run|quiet|verbose|debug|logger|print|list|lint|report|summary"
@@ -70,6 +71,8 @@ def main(arguments: list[str]) -> None:
         # without the line that names profiles/default
         with contextlib.redirect_stderr(io.StringIO()):
             parser, options = cli.parse_args(arguments)
+        # Snakemake would first say that it has no place for its log
+        before_run.refuse_unwritable(Path(options.directory or "."))
         done = cli.args_to_api(options, parser)
     except KeyboardInterrupt:
         # a second one, while Snakemake ends what the first one stopped

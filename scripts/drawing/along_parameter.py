@@ -24,7 +24,7 @@ def mark_scenes(axes: Axes, scenes: dict[str, dict], place: dict, along: str) ->
                 textcoords="offset points",
                 ha="left" if scene[along] < middle else "right",
                 va="top",
-                fontsize=6,
+                fontsize=7,
             )
 
 

@@ -12,7 +12,7 @@ from scripts.drawing.trajectory_rows import title_columns
 
 BASE, HARMONIC, SECOND_BASE, COMBINATION, OTHER = range(5)
 """Values of peak_kind."""
-WIDTH_OF_A_CHARACTER = 0.0150
+WIDTH_OF_A_CHARACTER = 0.0162
 """Of a label, as a share of the wider axis."""
 LEAST_SHOWN = 1e-10
 """Power below this share of the highest peak is not shown."""
@@ -87,7 +87,7 @@ def label_peaks(axes: Axes, spectrum: xr.Dataset, frequency_shown: float, letter
             xytext=(0, 4),
             textcoords="offset points",
             ha="center",
-            fontsize=6.5,
+            fontsize=7,
             color=colour,
             path_effects=[withStroke(linewidth=1.5, foreground="white")],
         )

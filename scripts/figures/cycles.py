@@ -55,7 +55,7 @@ def draw(lines: dict[str, xr.Dataset], sweeps: Sweeps, scenes: dict[str, dict]) 
             ylabel="maxima of $v$ (units of $v_0$)",
         )
         # the names of scenes stand above the dots
-        axes.margins(x=0.01, y=0.12)
+        axes.margins(x=0.01, y=0.18)
         axes.set_ylim(bottom=0)
         mark_scenes(axes, scenes, cycles.attrs, along)
         words = f"{parameters.in_words(cycles.attrs, along)}: {count_in_words(cycles)}"

@@ -51,6 +51,8 @@ class Entry:
     """Name of its script, where that is not its own."""
     caption: str = ""
     """Name of its caption, where that is not its own."""
+    shows_classes: bool = False
+    """Whether its colours are those of classes of motion, which the page keeps in the dark."""
 
 
 ENTRIES = {
@@ -103,6 +105,7 @@ ENTRIES = {
             "cycles": cycles_in_atlas,
         },
         params={"scenes": places_in_atlas},
+        shows_classes=True,
     ),
     "true_torus": Entry(
         category="Atlas",
@@ -114,6 +117,7 @@ ENTRIES = {
         category="Atlas",
         inputs={"tables": tables_of_routes, "runs": runs_of_routes},
         params={"scenes": places_in_atlas},
+        shows_classes=True,
     ),
     "cycles": Entry(
         category="Atlas",
@@ -162,6 +166,7 @@ def entry_of_route(line: str) -> Entry:
         },
         params={"scenes": places_in_atlas},
         script="routes",
+        shows_classes=True,
         caption="own/route",
     )
 
@@ -177,6 +182,7 @@ def entry_of_atlas(plane: str) -> Entry:
         },
         params={"scenes": places_in_atlas},
         script="atlas",
+        shows_classes=True,
         caption="own/atlas",
     )
 
@@ -240,14 +246,19 @@ def script_of(figure: str) -> str:
     return entry_of(figure).script or figure
 
 
+def name_of_caption(figure: str) -> str:
+    """Name of its caption, which figures of one kind in a file of one's own share."""
+    return entry_of(figure).caption or figure
+
+
 def template_of(figure: str) -> str:
     """Its caption before numbers and verdicts are filled in, in the project's folder."""
-    return f"{FOLDER}/{entry_of(figure).caption or figure}.rst"
+    return f"{FOLDER}/{name_of_caption(figure)}.rst"
 
 
 def caption_of(figure: str) -> str:
-    """Its caption: of the paper's figures the one that a run fills."""
-    return f"<results>/figures/{figure}.rst" if figure in ENTRIES else template_of(figure)
+    """Its caption as a run fills it."""
+    return f"<results>/figures/{figure}.rst"
 
 
 def title_of(figure: str) -> str:

@@ -28,7 +28,7 @@ LEAST_SCALE = 1e-3
 """Exponents closer to zero than this are drawn on a linear scale."""
 LEAST_SPREAD = 0.05
 """Half of the axes of the section, as a share of the size of its points."""
-LETTER = 0.0125
+LETTER = 0.0135
 """How wide a letter is, as a share of the widest axis."""
 DOTS = {"ls": "", "marker": "o", "color": "C1", "ms": 2.5, "mew": 0}
 
@@ -66,7 +66,7 @@ def draw(
     name = trajectory.attrs["scene"].replace("_", " ")
     above.suptitle(
         f"scene {name} ({parameters.in_words(trajectory.attrs)}): {class_in_words(attractors)}\n"
-        f"{roots_in_words(roots)}",
+        f"steady sliding: {roots_in_words(roots)}",
         fontsize=8,
     )
     return figure
@@ -156,16 +156,16 @@ def class_in_words(attractors: xr.Dataset) -> str:
 
 
 def roots_in_words(roots: xr.Dataset) -> str:
-    """Unstable pairs of steady sliding, and its rightmost root."""
+    """Whether steady sliding is stable, its unstable pairs, and its rightmost root."""
     pairs = int(roots.attrs["unstable_pairs"])
     state = "stable" if pairs == 0 else "unstable"
-    words = f"steady sliding: {state}, {pairs} unstable pair{'' if pairs == 1 else 's'} of roots"
+    words = f"{state} ({pairs} unstable pair{'' if pairs == 1 else 's'} of roots"
     if not roots.sizes["root"]:
-        return f"{words}; all roots have a real part below {roots.attrs['root_bound']:g}"
+        return f"{words}, all real parts below ${roots.attrs['root_bound']:g}$)"
     first = int(roots.root_real.values.argmax())
     real, imaginary = float(roots.root_real[first]), abs(float(roots.root_imag[first]))
     value = f"{real:.4g}" + (rf" \pm {imaginary:.4g}\,i" if imaginary else "")
-    return rf"{words}, rightmost $\lambda = {value}$"
+    return rf"{words}, rightmost $\lambda = {value}$)"
 
 
 if __name__ == "__main__":

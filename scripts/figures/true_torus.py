@@ -17,7 +17,7 @@ from scripts.files.tsv import read_table
 from scripts.tables.exponents_table import sign
 
 EXPONENTS = (1, 2, 3)
-LETTER = 0.0155
+LETTER = 0.0167
 """How wide a letter is, as a share of the narrower axis."""
 DOTS = {"ls": "", "marker": "o", "color": "C1", "ms": 2.5, "mew": 0}
 NUMBERS = {0: "no", 1: "one", 2: "two", 3: "three"}

@@ -82,7 +82,7 @@ def draw(rows: list[dict], others: list[dict], date: str) -> Figure:
         loc="outside lower center",
         ncols=columns,
         title=f"dashed: other solvers, measured on {date}" if others else None,
-        title_fontsize="small",
+        title_fontsize=7,
     )
     return figure
 

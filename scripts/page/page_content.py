@@ -32,8 +32,8 @@ def title_of(figure: str) -> str:
 def sections(figures: list[dict], claims: list[dict]) -> dict[str, list[dict]]:
     """Figures by category, in order but for the last, each with all that stands beside it.
 
-    A figure is given by its `name`, `category`, `caption` (a file) and `data` (files), and by its
-    `drawing` (a file) where its size is to be known.
+    A figure is given by its `name`, `category`, `caption` (a file) and `data` (files), by its
+    `drawing` (a file) where its size is to be known, and by `shows_classes` where it does.
     """
     grouped = {}
     placed = claims_by_figure(figures, claims)
@@ -58,6 +58,7 @@ def described(figure: dict, title: str, folder: str) -> dict:
         "alternative": captions.first_sentence(caption),
         "data": [os.path.relpath(path, folder) for path in figure["data"]],
         "size": size_of(figure.get("drawing", "")),
+        "shows_classes": figure.get("shows_classes", False),
     }
 
 

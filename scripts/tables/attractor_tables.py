@@ -8,6 +8,7 @@ import xarray as xr
 from scripts.files.inputs import read
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
+from scripts.tables.motion_rows import has_problem
 
 SAME_MAXIMUM = 0.02
 """Maxima of v on one and the same cycle or torus differ by no more than this share: near a fold a
@@ -107,7 +108,7 @@ def route_rows(path: Path, run: xr.Dataset) -> list[dict]:
 
 def same_attractor(one: dict, other: dict) -> bool:
     """Whether two runs came to one and the same attractor, as far as can be told."""
-    if one["class"] != other["class"] or one["problem"]:
+    if one["class"] != other["class"] or has_problem(one):
         return False
     if one["class"] == "fixed point":
         return True

@@ -54,10 +54,9 @@ def motions_beside(known: list[dict], place: dict, on_routes: list[dict]) -> lis
     others: list[dict] = []
     for row in on_routes:
         here = all(np.isclose(row[key], place[key], rtol=1e-6, atol=0) for key in PARAMETERS)
-        if here and row["class"] != UNDECIDED:
-            one = {**row, "problem": ""}
-            if not any(same_attractor(one, other) for other in [*known, *others]):
-                others.append(one)
+        alike = any(same_attractor(row, other) for other in [*known, *others])
+        if here and row["class"] != UNDECIDED and not alike:
+            others.append(row)
     return others
 
 

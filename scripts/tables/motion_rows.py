@@ -18,8 +18,8 @@ apart."""
 
 
 def has_problem(row: dict) -> bool:
-    """Whether the run of a row failed; an empty cell is no text."""
-    return isinstance(row["problem"], str)
+    """Whether the run of a row failed; an empty cell of a table is not a text."""
+    return isinstance(row["problem"], str) and bool(row["problem"])
 
 
 def is_computed(row: dict) -> bool:

@@ -72,6 +72,9 @@ def start_jobs_at_once(workflow) -> None:
     every second that follows. Snakemake has no settings yet while it reads the rules."""
     expect(workflow, "scheduling_settings", "which holds the limit of jobs a second")
     settings = workflow.scheduling_settings
+    # a report needs no jobs
+    if settings is None:
+        return
     expect(settings, "max_jobs_per_timespan", "the limit of jobs a second")
     settings.max_jobs_per_timespan = None
 
