@@ -10,8 +10,8 @@ module attractors
    use exponent_averages, only: exponent_type
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, measure_growth
-   use motion_classes, only: chaos, cycle_motion, fixed_point, not_stationary, torus, undecided, &
-                             unstable_rest
+   use motion_classes, only: chaos, cycle_motion, fixed_point, none, not_stationary, torus, &
+                             undecided, unstable_rest
    use motion_path, only: follow_path
    use section_motion, only: drifts
    use steady_sliding, only: settles, sliding_exponents
@@ -151,6 +151,7 @@ contains
       if (.not. all(exponents%value < 0.0_wp)) return
       attractor%exponents = exponents
       attractor%class = fixed_point
+      attractor%reason = none
       attractor%by_exponents = fixed_point
       attractor%by_section = fixed_point
       attractor%by_spectrum = fixed_point
