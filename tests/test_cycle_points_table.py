@@ -82,6 +82,17 @@ def test_columns_of_a_torus_point():
     assert [row[key] for key in keys] == ["not determined", "", ""]
 
 
+def test_criticality_comes_from_the_program(programs, good_inputs):
+    """A torus point beside which simulations show a torus that shrinks to the cycle."""
+    line = {"along": "tau", "window": [14.0, 15.2], "starts": [], "most_orbits": 30}
+    place = {"epsilon": 0.4, "xi": 0.5, "gamma": 0.8}
+    values = {key: value for key, value in good_inputs["cycles"].items() if key != "tau"}
+    (row,) = rows_of("mine", programs.made_by("cycles", values | line | place), [])
+    assert (row["kind"], row["criticality"]) == ("torus", "supercritical")
+    assert float(row["coefficient"]) < 0
+    assert float(row["coefficient_error"]) < 1e-8
+
+
 def test_a_cusp_lies_beside_the_line():
     """It has parameters and errors, but neither branch nor stability."""
     row = rows_of("mine", cycles_to_a_torus(cusps=1), [])[1]

@@ -166,18 +166,30 @@ def last_small_cycle() -> list[float]:
     return [row["epsilon"] for row in rows if row["largest_maximum"] == small]
 
 
-def cycle_points(of: str, kind: str, column: str) -> list[float]:
-    """A column of the special points of the cycles on a line, ascending along it."""
+def special_points(of: str, kind: str) -> list[dict]:
+    """The special points of the cycles on a line, ascending along it."""
     along = settings("cycles", "lines", of, "along")
     rows = [row for row in table("cycle-points.tsv") if (row["of"], row["kind"]) == (of, kind)]
-    return [float(row[column]) for row in sorted(rows, key=lambda row: float(row[along]))]
+    return sorted(rows, key=lambda row: float(row[along]))
+
+
+def cycle_points(of: str, kind: str, column: str) -> list[float]:
+    """A column of these points."""
+    return [float(row[column]) for row in special_points(of, kind)]
 
 
 def torus_starts(of: str, number: int = 0) -> list:
-    """Where a cycle turns into a torus, the angle of its pair, the first torus of the sweep up."""
+    """A torus bifurcation, the angle of its pair, the first torus of the sweep up, its kind."""
     along = settings("cycles", "lines", of, "along")
-    found = [cycle_points(of, "torus", column)[number] for column in (along, "angle")]
-    return [*found, *begins(of, ("torus", number))]
+    found = special_points(of, "torus")[number]
+    place = [float(found[column]) for column in (along, "angle")]
+    return [*place, *begins(of, ("torus", number)), found["criticality"]]
+
+
+def torus_and_kinds(of: str, other: str) -> list:
+    """The delay of the torus bifurcation on a line, and the criticality there and on another."""
+    kinds = {row["criticality"] for line in (of, other) for row in special_points(line, "torus")}
+    return [*cycle_points(of, "torus", "tau"), *kinds]
 
 
 def stable_modulus(claim: str) -> list[str]:
@@ -454,18 +466,19 @@ SAID = [
         lambda: [len(cycle_points("torus_in_epsilon", "torus", "tau")) or "no"],
     ),
     Said(
-        "docs/findings.md", "| `chaos_in_tau` | tau = {:.3f} | {:.3f} | {} |",
+        "docs/findings.md", "| `chaos_in_tau` | tau = {:.3f} | {:.3f} | {} | {} |",
         lambda: torus_starts("chaos_in_tau"),
     ),
     *(
         Said(
-            "docs/findings.md", f"| `torus_in_tau`{again} | tau = {{:.3f}} | {{:.3f}} | {{}} |",
+            "docs/findings.md",
+            f"| `torus_in_tau`{again} | tau = {{:.3f}} | {{:.3f}} | {{}} | {{}} |",
             lambda number=number: torus_starts("torus_in_tau", number),
         )
         for number, again in enumerate(("", ", again"))
     ),
     Said(
-        "docs/findings.md", "| `chaos_in_epsilon` | epsilon = {:.4f} | {:.3f} | {} |",
+        "docs/findings.md", "| `chaos_in_epsilon` | epsilon = {:.4f} | {:.3f} | {} | {} |",
         lambda: torus_starts("chaos_in_epsilon"),
     ),
     Said(
@@ -473,8 +486,8 @@ SAID = [
         lambda: cycle_points("upper_torus", "torus", "tau"),
     ),
     Said(
-        "docs/findings.md", "bifurcation at tau = {:.3f}. So tori",
-        lambda: cycle_points("fault_in_tau", "torus", "tau"),
+        "docs/findings.md", "bifurcation at tau = {:.3f}. Both are {}.",
+        lambda: torus_and_kinds("fault_in_tau", "upper_torus"),
     ),
     Said(
         "docs/findings.md", "multiplier but 1 has the modulus {}. So",

@@ -11,7 +11,7 @@ module test_torus_normal_form
    use periodic_orbit, only: periodic_orbit_type
    use special_points, only: fold, special_point_type, torus_bifurcation
    use torus_normal_form, only: find_torus_coefficient
-   use twin_waves, only: omega1, twin_waves_family
+   use twin_waves, only: omega1, on_cycle, twin_waves_family
    implicit none (type, external)
    private
    public :: collect_torus_normal_form
@@ -28,7 +28,8 @@ contains
                    new_unittest("criticality", test_criticality)]
    end subroutine collect_torus_normal_form
 
-   !> Tori of rotating waves, stable and unstable ones, with an angle in each half of the circle.
+   !> Tori of rotating waves, stable and unstable ones: with delay at Gauss points, with an uneven
+   !> course of time at the points of Radau.
    subroutine test_exact(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
@@ -37,7 +38,7 @@ contains
       type(twin_waves_family) :: family
       real(wp), parameter :: p22(2) = [-2.5_wp, 1.5_wp], omega2(2) = [0.4_wp, 2.3_wp]
       real(wp) :: coefficient, expected
-      integer :: i, points
+      integer :: i, j, points
 
       do points = gauss_points, radau_points
          family%delayed = points == gauss_points
@@ -47,11 +48,7 @@ contains
             orbit%parameters = [p22(i), omega2(i)]
             orbit%period = turn/omega1
             associate (s => orbit%node_times())
-               orbit%nodes = reshape(spread(0.0_wp, 1, 4*size(s)), [4, size(s)])
-               orbit%nodes(1, :) = cos(turn*s)
-               orbit%nodes(2, :) = sin(turn*s)
-               orbit%nodes(3, :) = 0.7_wp*cos(turn*s)*sin(turn*s)
-               orbit%nodes(4, :) = sin(turn*s)
+               orbit%nodes = reshape([(on_cycle(turn*s(j)), j=1, size(s))], [4, size(s)])
             end associate
             call correct(family, orbit, newton, failure)
             call expect_success(error, failure)
@@ -76,8 +73,8 @@ contains
       call expect(error, point%criticality() == "", "none of a fold")
       point%kind = torus_bifurcation
       point%multiplier = exp(cmplx(0.0_wp, 0.22_wp*turn, kind=wp))
-      call expect(error, point%criticality() == "not determined", "without coefficient")
       point%coefficient = -0.1_wp
+      call expect(error, point%criticality() == "not determined", "found on one mesh only")
       point%coefficient_error = 1.0e-6_wp
       call expect(error, point%criticality() == "supercritical", "stable tori")
       point%coefficient = 0.1_wp

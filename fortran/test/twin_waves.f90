@@ -16,7 +16,7 @@ module twin_waves
    use problem_family, only: problem_family_type
    implicit none (type, external)
    private
-   public :: omega1, twin_waves_family
+   public :: omega1, on_cycle, twin_waves_family
 
    complex(wp), parameter :: p11 = (-0.8_wp, 0.3_wp), p12 = (-0.5_wp, 0.7_wp), &
                              p21 = (-0.4_wp, -0.6_wp), k1 = (0.3_wp, 0.2_wp), &
@@ -141,6 +141,14 @@ contains
       y(4) = x(4) + x(2)
    end function state_of
 
+   !> The state of the cycle where z1 has an angle.
+   pure function on_cycle(angle) result(y)
+      real(wp), intent(in) :: angle
+      real(wp) :: y(4)
+
+      y = real(state_of(real_parts([exp(cmplx(0.0_wp, angle, kind=wp)), (0.0_wp, 0.0_wp)])))
+   end function on_cycle
+
    !> x by the state.
    pure function from_state(y) result(x)
       complex(wp), intent(in) :: y(4)
@@ -188,7 +196,7 @@ contains
       class(twin_waves_type), intent(in) :: self
       real(wp), intent(out) :: y(self%n)
 
-      y = real(state_of(real_parts([(1.0_wp, 0.0_wp), (0.0_wp, 0.0_wp)])))
+      y = on_cycle(0.0_wp)
    end subroutine initial
 
    !> A constant past.

@@ -179,11 +179,11 @@ contains
       if (point%kind /= torus_bifurcation) return
       call find_torus_coefficient(family, point%orbit, point%multiplier, &
                                   settings%refinement%multipliers, coefficient, failure)
+      if (allocated(point%coefficient_error)) deallocate (point%coefficient_error)
       if (allocated(failure)) then
          if (allocated(point%coefficient)) deallocate (point%coefficient)
          return
       end if
-      point%coefficient_error = huge(coefficient)
       if (allocated(point%coefficient)) then
          point%coefficient_error = abs(coefficient - point%coefficient)
       end if

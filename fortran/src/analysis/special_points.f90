@@ -34,7 +34,7 @@ module special_points
       !> Unstable multipliers before and behind it on the branch
       integer :: unstable(2) = 0
       !> Of a torus point: coefficient of its normal form (`torus_normal_form`) and the difference
-      !> between the two meshes; not allocated where it was not found
+      !> between the two meshes; not allocated where they were not found
       real(wp), allocatable :: coefficient, coefficient_error
    contains
       !> Share of a turn of the critical pair
@@ -64,7 +64,7 @@ contains
       word = ""
       if (self%kind /= torus_bifurcation) return
       word = "not determined"
-      if (.not. allocated(self%coefficient)) return
+      if (.not. allocated(self%coefficient_error)) return
       if (.not. abs(self%coefficient) > certain*self%coefficient_error) return
       if (is_strong_resonance(self%angle())) return
       word = merge("supercritical", "subcritical  ", self%coefficient < 0.0_wp)

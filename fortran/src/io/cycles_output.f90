@@ -190,9 +190,8 @@ contains
                columns(row, 6) = exp(maxval(point%orbit%range_of(index_of_ln_v)))
                columns(row, 7:11) = [real(point%multiplier), aimag(point%multiplier), &
                                      point%angle(), point%trivial_error, point%mesh_error]
-               if (allocated(point%coefficient)) then
-                  columns(row, 12:) = [point%coefficient, point%coefficient_error]
-               end if
+               if (allocated(point%coefficient)) columns(row, 12) = point%coefficient
+               if (allocated(point%coefficient_error)) columns(row, 13) = point%coefficient_error
                numbers(row, :) = [i, point%unstable, nearest_resonance(abs(point%angle()))]
             end associate
          end do
