@@ -7,7 +7,8 @@ module test_attractors
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use motion_classes, only: chaos, class_names, cycle_motion, fixed_point, torus, undecided
+   use motion_classes, only: chaos, class_names, cycle_motion, fixed_point, none, torus, &
+                             undecided
    use observed_motion, only: observed_motion_type
    use solving, only: at_tolerance
    use spring_block, only: spring_block_type
@@ -22,6 +23,7 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("fixed point of the paper", test_fixed_point), &
+                   new_unittest("rest that comes late", test_late_rest), &
                    new_unittest("oscillation of the paper", test_oscillation), &
                    new_unittest("torus of the paper is a cycle", test_paper_torus), &
                    new_unittest("chaos of the paper", test_chaos), &
@@ -126,6 +128,20 @@ contains
       call expect_close(error, found%exponents%value, &
                         [-0.5_wp*(1.8_wp + s), -0.5_wp*(1.8_wp + s), s], 1.0e-12_wp, "exponents")
    end subroutine test_fixed_point
+
+   !> Undecided at first, since the oscillation decays slowly.
+   subroutine test_late_rest(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(attractor_settings_type) :: settings
+      type(attractor_type) :: found
+
+      settings = after(200.0_wp, 100.0_wp)
+      settings%doublings = 3
+      call find(disturbed(1.6_wp, 0.63_wp, 0.5_wp), settings, fixed_point, found, error)
+      if (allocated(error)) return
+      call expect_between(error, found%time, 350.0_wp, 1000.0_wp, "time")
+      call expect(error, found%reason == none, "no reason to be undecided")
+   end subroutine test_late_rest
 
    !> Fig. 4b.
    subroutine test_oscillation(error)
