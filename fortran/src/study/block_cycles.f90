@@ -4,7 +4,7 @@ module block_cycles
    use block_family, only: block_family_type, parameters_of, vector_of
    use block_parameters, only: block_history_type, block_parameters_type
    use branch_ends, only: branch_settings_type
-   use collocation_basis, only: collocation_basis_type, gauss_points, radau_points
+   use collocation_basis, only: collocation_basis_type, radau_points
    use cycle_lines, only: cycle_line_type, find_hopf_starts, hopf_start_type
    use dde, only: continuation_type, integrate, integration_options, integration_result
    use dde_errors, only: error_type
@@ -61,8 +61,6 @@ module block_cycles
       character(len=120) :: reason = ""
    end type left_out_type
 
-   !> From this gamma on w = ln v is in balance but for slip: the points are those of Radau.
-   real(wp), parameter :: stiff_gamma = 100.0_wp
    !> Amplitude of the first orbit at a Hopf point and at a period doubling
    real(wp), parameter :: first_amplitude = 0.01_wp
    !> Tolerance of trajectories, and the time in which a period is looked for
@@ -104,8 +102,7 @@ contains
          how%longest_period = settings%longest_period
          how%most_orbits = settings%most_orbits
          how%least_amplitude = first_amplitude
-         basis = collocation_basis_type(settings%degree, merge(radau_points, gauss_points, &
-                                                               line%parameters%gamma > stiff_gamma))
+         basis = collocation_basis_type(settings%degree, radau_points)
       end associate
       allocate (found(0), left_out(0))
       do i = 1, size(hopf)
