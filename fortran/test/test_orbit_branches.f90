@@ -346,7 +346,7 @@ contains
       family = known_family(equation=neurons)
       settings%scale = orbit_scale_type([1], [1.0_wp])
       settings%window = [0.0_wp, 5.0_wp]
-      settings%longest_step = 3.0_wp
+      settings%longest_step = 1.5_wp
       settings%longest_period = 120.0_wp
       settings%refinement%accuracy = 1.0e-4_wp
       call orbit_at_hopf_point(family, [0.8071232250_wp], [0.0_wp, 0.0_wp], 0.7819651621_wp, &

@@ -30,7 +30,8 @@ contains
 
       testsuite = [new_unittest("torus curves end at published points", test_torus_curves), &
                    new_unittest("a fold curve ends at a published point", test_fold_curve), &
-                   new_unittest("a known fold curve and its cusp", test_cusp)]
+                   new_unittest("a known fold curve and its cusp", test_cusp), &
+                   new_unittest("a cusp among short steps", test_cusp_short_steps)]
    end subroutine collect_orbit_curves
 
    !> A Hopf point of the Duffing equation: (a + b - omega^2)^2 + (d omega)^2 = b^2.
@@ -137,16 +138,22 @@ contains
       end associate
    end subroutine test_fold_curve
 
-   !> Cycles sqrt(1 + s) sin t of a cubic have folds at a = -2 s^3, b = 3 s^2 and a cusp at s = 0.
-   subroutine test_cusp(error)
-      type(error_type), allocatable, intent(out) :: error
+   !> The curve of folds of cycles sqrt(1 + s) sin t of a cubic towards smaller b. The folds are at
+   !> a = -2 s^3, b = 3 s^2, with a cusp at s = 0.
+   subroutine curve_of_cubic(first, most_b, longest_step, curve, error)
+      !> s at the first point
+      real(wp), intent(in) :: first
+      !> Greatest b
+      real(wp), intent(in) :: most_b
+      !> Longest step
+      real(wp), intent(in) :: longest_step
+      !> The curve
+      type(curve_type), intent(out) :: curve
+      type(error_type), allocatable, intent(inout) :: error
       integer, parameter :: degree = 5, intervals = 20
-      real(wp), parameter :: first = 0.4_wp
       type(curve_settings_type) :: settings
-      type(curve_type) :: curve
       type(failure_type), allocatable :: failure
       type(special_point_type) :: start
-      integer :: i
 
       associate (orbit => start%orbit)
          orbit%basis = collocation_basis_type(degree, gauss_points)
@@ -158,19 +165,12 @@ contains
       end associate
       start%kind = fold
       settings%scale = orbit_scale_type([1, 2], [1.0_wp, 1.0_wp])
-      settings%window = reshape([-1.0_wp, 1.0_wp, -1.0_wp, 0.6_wp], [2, 2])
+      settings%window = reshape([-1.0_wp, 1.0_wp, -1.0_wp, most_b], [2, 2])
+      settings%longest_step = longest_step
       call follow_curve(known_family(equation=delayed_cubic), settings, start, -1, curve, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
       call expect(error, curve%ending == "window", "the curve turns back to greater b")
-      do i = 2, size(curve%points)
-         associate (p => curve%points(i)%orbit%parameters)
-            call expect_close(error, p(1)**2/4.0_wp, (p(2)/3.0_wp)**3, 1.0e-7_wp, "a fold")
-         end associate
-      end do
-      associate (last => curve%points(size(curve%points))%orbit%parameters)
-         call expect(error, last(1) > 0.1_wp, "the other side of the cusp")
-      end associate
       call expect(error, size(curve%cusps) == 1, "one cusp")
       if (allocated(error)) return
       associate (found => curve%cusps(1))
@@ -179,5 +179,32 @@ contains
          call expect_close(error, found%orbit%amplitude(), 2.0_wp, 1.0e-3_wp, "its amplitude")
          call expect(error, found%mesh_error < 1.0e-9_wp, "two meshes agree")
       end associate
+   end subroutine curve_of_cubic
+
+   !> Points of the curve are folds, on both sides of the cusp.
+   subroutine test_cusp(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(curve_settings_type) :: default
+      type(curve_type) :: curve
+      integer :: i
+
+      call curve_of_cubic(0.4_wp, 0.6_wp, default%longest_step, curve, error)
+      if (allocated(error)) return
+      do i = 2, size(curve%points)
+         associate (p => curve%points(i)%orbit%parameters)
+            call expect_close(error, p(1)**2/4.0_wp, (p(2)/3.0_wp)**3, 1.0e-7_wp, "a fold")
+         end associate
+      end do
+      associate (last => curve%points(size(curve%points))%orbit%parameters)
+         call expect(error, last(1) > 0.1_wp, "the other side of the cusp")
+      end associate
    end subroutine test_cusp
+
+   !> Directions that lag behind the curve by steps would miss this cusp.
+   subroutine test_cusp_short_steps(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(curve_type) :: curve
+
+      call curve_of_cubic(0.05_wp, 0.008_wp, 0.001_wp, curve, error)
+   end subroutine test_cusp_short_steps
 end module test_orbit_curves

@@ -6,9 +6,9 @@ module branch_ends
    use periodic_orbit, only: periodic_orbit_type
    implicit none (type, external)
    private
-   public :: branch_settings_type, has_ended, is_closed, longer, shorter
+   public :: branch_settings_type, has_ended, is_closed, longer_step, shorter
 
-   !> Factors of the step after one that was easy, or hard
+   !> Factors of the step after one that was easy, or failed
    real(wp), parameter :: longer = 1.5_wp, shorter = 0.5_wp
 
    !> How far a branch is followed, and how.
@@ -17,8 +17,8 @@ module branch_ends
       type(orbit_scale_type) :: scale
       !> Window on the parameter
       real(wp) :: window(2) = [-huge(1.0_wp), huge(1.0_wp)]
-      !> First, least and longest step, in units of arclength
-      real(wp) :: first_step = 0.01_wp, least_step = 1.0e-6_wp, longest_step = 0.1_wp
+      !> First and least step, in units of arclength, and longest step over the amplitude
+      real(wp) :: first_step = 0.01_wp, least_step = 1.0e-6_wp, longest_step = 0.05_wp
       !> Most orbits
       integer :: most_orbits = 200
       !> The branch ends where no component has a larger range.
@@ -29,7 +29,22 @@ module branch_ends
       type(refinement_type) :: refinement
    end type branch_settings_type
 
+   !> A smaller amplitude counts as this one: near a Hopf point the parameters make the step.
+   real(wp), parameter :: least_amplitude = 2.0_wp
+
 contains
+
+   !> The step after one that was easy.
+   pure real(wp) function longer_step(step, longest, orbit) result(next)
+      !> That step
+      real(wp), intent(in) :: step
+      !> The longest step over the amplitude
+      real(wp), intent(in) :: longest
+      !> The orbit it led to
+      type(periodic_orbit_type), intent(in) :: orbit
+
+      next = min(longer*step, longest*max(least_amplitude, orbit%amplitude()))
+   end function longer_step
 
    !> Whether a branch ends at its last orbit, and why.
    logical function has_ended(settings, orbits, step, same_direction, reason) result(value)

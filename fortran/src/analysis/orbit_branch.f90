@@ -1,10 +1,10 @@
 !> Branches of periodic orbits in one parameter by pseudo-arclength continuation, through folds. The
 !> step is controlled by the effort of Newton's method.
 module orbit_branch
-   use branch_ends, only: branch_settings_type, has_ended, longer, shorter
+   use branch_ends, only: branch_settings_type, has_ended, longer_step, shorter
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use floquet_multipliers, only: find_multipliers, multipliers_type
+   use floquet_multipliers, only: multipliers_type
    use orbit_change, only: inner_product, orbit_change_type
    use orbit_equations, only: correct_orbit, newton_type, turn_to_tangent
    use orbit_passes, only: orbit_scale_type
@@ -24,14 +24,15 @@ module orbit_branch
       !> Multipliers
       type(multipliers_type), allocatable :: multipliers(:)
       !> Why it ends: 'window', 'amplitude', 'period', 'closed', 'shorter_period' (at a cycle of a
-      !> part of its period), 'orbits', 'convergence'
+      !> part of its period), 'intervals' (more than the most are needed), 'orbits',
+      !> 'convergence'
       character(len=:), allocatable :: ending
       !> Iterations of Newton's method, also of steps that failed
       integer :: iterations = 0
    end type branch_type
 
-   !> Iterations with which a step is longer next time, and those with which it is shorter
-   integer, parameter :: easy = 3, hard = 6
+   !> Iterations up to which the next step is longer
+   integer, parameter :: easy = 4
    !> Iterations after which a step has failed
    integer, parameter :: most_iterations = 8
    !> Least cosine of the angle between tangents of neighbours
@@ -113,8 +114,14 @@ contains
             i = i + 1
             if (has_ended(settings, branch%orbits(:i), step, branch%tangents(1)%parameters(1) &
                           *branch%tangents(i)%parameters(1) > 0.0_wp, branch%ending)) exit
-            if (newton%iterations <= easy) step = min(longer*step, settings%longest_step)
-            if (newton%iterations >= hard) step = shorter*step
+            ! near a fold the trivial multiplier is double, and its error the root of others
+            if (branch%multipliers(i)%trivial_error > sqrt(settings%refinement%accuracy)) then
+               branch%ending = "intervals"
+               exit
+            end if
+            if (newton%iterations <= easy) then
+               step = longer_step(step, settings%longest_step, branch%orbits(i))
+            end if
          end do
       end associate
       call cut(branch, i)
@@ -215,25 +222,33 @@ contains
       type(error_type), allocatable :: error
       type(multipliers_type) :: multipliers
       type(newton_type) :: newton
-      type(orbit_change_type) :: along(1)
-      type(periodic_orbit_type) :: orbit
+      type(orbit_change_type) :: along(1), move
+      type(periodic_orbit_type) :: orbit, reference
       real(wp) :: edge
-      integer :: last
+      integer :: i, last
 
       last = size(branch%orbits)
       associate (scale => settings%scale, p => settings%scale%free(1))
          orbit = branch%orbits(last)
          edge = min(max(orbit%parameters(p), settings%window(1)), settings%window(2))
-         orbit%parameters(p) = edge
-         along(1) = parameter_direction(orbit)
-         call correct_orbit(family, scale, orbit, along, [0.0_wp], orbit, newton, error)
-         if (allocated(error)) return
-         orbit%parameters(p) = edge
          along(1) = branch%tangents(last)
-         call turn_to_tangent(family, scale, orbit, along(1), error)
-         if (allocated(error)) return
-         call find_multipliers(family, orbit, settings%refinement%multipliers, multipliers, error)
-         if (allocated(error)) return
+         move = along(1)%times((edge - orbit%parameters(p))/(along(1)%parameters(1)*scale%unit(1)))
+         call move%add_to(orbit, scale)
+         do i = 1, 2
+            orbit%parameters(p) = edge
+            reference = orbit
+            call correct_orbit(family, scale, reference, [parameter_direction(orbit)], [0.0_wp], &
+                               orbit, newton, error)
+            if (allocated(error)) return
+            orbit%parameters(p) = edge
+            call turn_to_tangent(family, scale, orbit, along(1), error)
+            if (allocated(error)) return
+            if (i == 2) exit
+            ! a finer mesh changes the parameter a little
+            call make_accurate(family, scale, settings%refinement, orbit, along(1), multipliers, &
+                               .false., error)
+            if (allocated(error)) return
+         end do
          branch%orbits(last) = orbit
          branch%tangents(last) = along(1)
          branch%multipliers(last) = multipliers

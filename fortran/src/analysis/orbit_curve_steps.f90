@@ -3,17 +3,17 @@
 module orbit_curve_steps
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use orbit_change, only: difference_of, inner_product, orbit_change_type
+   use orbit_change, only: orbit_change_type
    use orbit_mesh, only: adapted_mesh
    use orbit_passes, only: orbit_scale_type
-   use orbit_refinement, only: refinement_type
-   use orbit_surface, only: frame_type, judge_point, test_beside, turn_frame
+   use orbit_refinement, only: growth, most_rounds, refinement_type
+   use orbit_surface, only: frame_type, judge_point, test_beside, turn_along
    use periodic_orbit, only: periodic_orbit_type
    use problem_family, only: problem_family_type
    use special_points, only: fold, special_point_type
    implicit none (type, external)
    private
-   public :: curve_settings_type, frame_on, take_step
+   public :: accurate, curve_settings_type, frame_on, take_step
 
    !> How far a curve is followed, and how.
    type :: curve_settings_type
@@ -21,8 +21,8 @@ module orbit_curve_steps
       type(orbit_scale_type) :: scale
       !> Windows on them, shape (2, parameters)
       real(wp) :: window(2, 2) = reshape([-1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp], [2, 2])
-      !> First, least and longest step, in units of arclength
-      real(wp) :: first_step = 0.01_wp, least_step = 1.0e-6_wp, longest_step = 0.1_wp
+      !> First and least step, in units of arclength, and longest step over the amplitude
+      real(wp) :: first_step = 0.01_wp, least_step = 1.0e-6_wp, longest_step = 0.05_wp
       !> Most points
       integer :: most_points = 200
       !> The curve ends at a Hopf curve where no component has a larger range.
@@ -41,15 +41,10 @@ module orbit_curve_steps
    real(wp), parameter :: resolved = 1.0e-6_wp
    !> Most that a point may lie beside its prediction, in steps
    real(wp), parameter :: most_bend = 0.5_wp
-   !> How the intervals grow where the mesh is not accurate
-   real(wp), parameter :: growth = 1.3_wp
-   !> The direction at a point is that of the step to it, turned by this share of the angle by which
-   !> the step turned. A share of 1 would be exact on a circle, but errors would not decay.
-   real(wp), parameter :: turning = 0.5_wp
 
 contains
 
-   !> The next point of a curve.
+   !> The next point of a curve, on a mesh that is adapted to it until it is accurate.
    subroutine take_step(family, settings, step, point, frame, evaluations, passes, error)
       !> The problems
       class(problem_family_type), intent(in) :: family
@@ -67,39 +62,46 @@ contains
       logical, intent(out) :: passes
       !> The step is too long
       type(error_type), allocatable, intent(out) :: error
-      type(orbit_change_type) :: move
       type(periodic_orbit_type) :: before
-      real(wp) :: g
-      integer :: intervals
+      real(wp) :: ahead, g, most_beside
+      integer :: intervals, more, round
 
       passes = .false.
+      evaluations = 0
+      ahead = step
+      most_beside = most_bend*max(step, settings%least_step)
       associate (scale => settings%scale, refinement => settings%refinement)
          intervals = point%orbit%intervals()
-         if (.not. accurate(point, refinement)) then
-            intervals = max(intervals, min(ceiling(growth*intervals), refinement%most_intervals))
-         end if
-         before = point%orbit%on_mesh(adapted_mesh(point%orbit, intervals))
-         frame = frame_on(frame, point%orbit, before)
-         call find_beside(family, settings, before, frame, step, point, evaluations, error)
-         if (allocated(error)) return
-         passes = point%orbit%opposite_parts(before) > 0
-         if (passes) then
-            call raise(error, "the step passes through a shorter cycle")
-            return
-         end if
-         if (point%kind == fold) then
-            call judge_point(family, refinement%multipliers, point, g, error)
+         do round = 1, most_rounds
+            before = point%orbit%on_mesh(adapted_mesh(point%orbit, intervals))
+            frame = frame_on(frame, point%orbit, before)
+            call find_beside(family, settings, before, frame, ahead, most_beside, point, more, &
+                             error)
             if (allocated(error)) return
-         end if
-         move = difference_of(point%orbit, before, scale)
-         move = move%times((1.0_wp + turning)/sqrt(inner_product(before, move, move)))
-         frame%directions(1) = move%plus(frame%directions(1), -turning)
-         call turn_frame(family, scale, point%orbit, frame%directions, error)
+            if (round == 1) then
+               evaluations = more
+               passes = point%orbit%opposite_parts(before) > 0
+               if (passes) then
+                  call raise(error, "the step passes through a shorter cycle")
+                  return
+               end if
+            end if
+            if (point%kind == fold) then
+               call judge_point(family, refinement%multipliers, point, g, error)
+               if (allocated(error)) return
+            end if
+            if (accurate(point, refinement)) exit
+            if (round > 1) then
+               intervals = max(intervals, min(ceiling(growth*intervals), refinement%most_intervals))
+            end if
+            ahead = 0.0_wp
+         end do
+         call turn_along(family, scale, refinement%multipliers, point, frame, error)
       end associate
    end subroutine take_step
 
    !> The root of the test function on the line beside the end of a step, by the secant method.
-   subroutine find_beside(family, settings, before, frame, step, point, evaluations, error)
+   subroutine find_beside(family, settings, before, frame, ahead, most, point, evaluations, error)
       !> The problems
       class(problem_family_type), intent(in) :: family
       !> How far and how
@@ -109,31 +111,38 @@ contains
       !> Directions there, and the slope of the test function, which is improved
       type(frame_type), intent(inout) :: frame
       !> Length of the step
-      real(wp), intent(in) :: step
+      real(wp), intent(in) :: ahead
+      !> Most that the root may lie beside it
+      real(wp), intent(in) :: most
       !> The point, of known kind
       type(special_point_type), intent(inout) :: point
       !> Evaluations of the test function
       integer, intent(out) :: evaluations
       !> There is none
       type(error_type), allocatable, intent(out) :: error
+      type(orbit_change_type) :: change
       real(wp) :: at, g, g_before, move
 
+      point%orbit = before
+      change = frame%directions(1)%times(ahead)
       at = 0.0_wp
       move = 0.0_wp
       do evaluations = 1, most_evaluations
+         call change%add_to(point%orbit, settings%scale)
          call test_beside(family, settings%scale, settings%refinement%multipliers, before, &
-                          frame%directions, [step, at], point, g, error)
+                          frame%directions, [ahead, at], point, g, error)
          if (allocated(error)) return
          ! at a shorter distance the difference is one of rounding errors
          if (abs(move) > resolved) frame%slope = (g - g_before)/move
          move = -g/frame%slope
          if (abs(move) <= share) return
+         change = frame%directions(2)%times(move)
          at = at + move
          g_before = g
-         if (.not. abs(at) <= most_bend*step) exit
+         if (.not. abs(at) <= most) exit
       end do
       call raise(error, "the curve bends: its next point is "//text(at)//" beside a step of " &
-                 //text(step))
+                 //text(ahead))
    end subroutine find_beside
 
    !> Directions on the mesh of another orbit.

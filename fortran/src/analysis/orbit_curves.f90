@@ -1,10 +1,10 @@
 !> Curves of special points of periodic orbits in two parameters. The orbits near a point are a
 !> surface over its tangent plane. The curve is where a test function of the point is 0 on it.
 module orbit_curves
-   use branch_ends, only: is_closed, longer, shorter
+   use branch_ends, only: is_closed, longer_step, shorter
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use orbit_curve_steps, only: curve_settings_type, frame_on, take_step
+   use orbit_curve_steps, only: accurate, curve_settings_type, frame_on, take_step
    use orbit_mesh, only: adapted_mesh
    use orbit_surface, only: first_plane, frame_type, turn_along
    use problem_family, only: problem_family_type
@@ -20,7 +20,7 @@ module orbit_curves
       type(special_point_type), allocatable :: points(:)
       !> Why it ends: 'window', 'generalised_hopf' (folds) or 'double_hopf' (others), '1:1' or
       !> '1:2' (resonances), 'closed', 'shorter_period' (at a cycle of a part of the period),
-      !> 'period', 'points', 'convergence'
+      !> 'period', 'intervals' (more than the most are needed), 'points', 'convergence'
       character(len=:), allocatable :: ending
       !> Points where a curve of folds turns back in both parameters
       type(special_point_type), allocatable :: cusps(:)
@@ -53,11 +53,11 @@ contains
       !> The point has no curve
       type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: failure
-      type(frame_type) :: earlier(2), frame, next_frame
+      type(frame_type) :: frame, next_frame
       type(special_point_type) :: next
-      real(wp) :: step, steps(2)
-      integer :: evaluations, i, j
-      logical :: exact, found, passed, passes
+      real(wp) :: step
+      integer :: evaluations, i
+      logical :: passed, passes
 
       allocate (curve%points(settings%most_points), curve%cusps(0))
       curve%points(1) = start
@@ -70,9 +70,7 @@ contains
       end associate
       curve%ending = "points"
       passed = .false.
-      exact = .true.
       step = settings%first_step
-      steps = step
       i = 1
       do while (i < settings%most_points)
          next = curve%points(i)
@@ -81,42 +79,27 @@ contains
          if (allocated(failure)) then
             step = shorter*step
             passed = passed .or. passes
-            if (.not. exact) then
-               call turn_along(family, settings%scale, settings%refinement%multipliers, &
-                               curve%points(i), frame, failure)
-            end if
-            exact = .true.
             if (step >= settings%least_step) cycle
             curve%ending = trim(merge("shorter_period", "convergence   ", passed))
             exit
          end if
          passed = .false.
-         exact = .false.
-         if (start%kind == fold .and. i > 1) then
-            if (dot_product(earlier(1)%directions(1)%parameters, frame%directions(1)%parameters) &
-                < 0.0_wp) then
-               ! the directions may not be exact, so the cusp may lie in the step before
-               do j = 1, min(2, i - 1)
-                  call find_cusp(family, settings, curve%points(i - j), earlier(j), steps(j), &
-                                 curve%cusps, found)
-                  if (found) exit
-               end do
-            end if
+         curve%points(i + 1) = next
+         if (start%kind == fold .and. dot_product(frame%directions(1)%parameters, &
+                                                  next_frame%directions(1)%parameters) &
+             < 0.0_wp) then
+            call find_cusp(family, settings, curve%points(i), frame, step, curve%cusps)
          end if
-         earlier(2) = earlier(1)
-         earlier(1) = frame
-         steps = [step, steps(1)]
          frame = next_frame
          i = i + 1
-         curve%points(i) = next
          if (has_ended(settings, curve%points, i, step, curve%ending)) exit
-         if (evaluations <= easy) step = min(longer*step, settings%longest_step)
+         if (evaluations <= easy) step = longer_step(step, settings%longest_step, next%orbit)
       end do
       call cut(curve%points, i)
    end subroutine follow_curve
 
    !> Find the cusp on a curve of folds within a step from a point, on two meshes, and append it.
-   subroutine find_cusp(family, settings, before, frame, step, cusps, found)
+   subroutine find_cusp(family, settings, before, frame, step, cusps)
       !> The problems
       class(problem_family_type), intent(in) :: family
       !> How far and how
@@ -129,12 +112,9 @@ contains
       real(wp), intent(in) :: step
       !> Cusps
       type(special_point_type), allocatable, intent(inout) :: cusps(:)
-      !> Whether there is one
-      logical, intent(out) :: found
       type(error_type), allocatable :: error
       type(special_point_type) :: coarse, fine, first
 
-      found = .false.
       call locate_cusp(family, settings, before, frame, step, coarse, error)
       if (allocated(error)) return
       first = before
@@ -146,7 +126,6 @@ contains
       associate (free => settings%scale%free)
          fine%mesh_error = maxval(abs(fine%orbit%parameters(free) - coarse%orbit%parameters(free)))
       end associate
-      found = .true.
       fine%kind = cusp
       cusps = [cusps, fine]
    end subroutine find_cusp
@@ -169,16 +148,14 @@ contains
       !> It was not found
       type(error_type), allocatable, intent(out) :: error
       type(sign_change_type) :: change
-      real(wp) :: at, g, moved, way(size(settings%scale%free))
+      real(wp) :: at, g, moved
       integer :: i
 
-      way = frame%directions(1)%parameters
       change%places = [0.0_wp, step]
-      do i = 1, 2
-         call part_along(change%places(i), change%values(i))
-         if (allocated(error)) return
-      end do
-      if (product(change%values) > 0.0_wp) then
+      change%values(1) = sum(frame%directions(1)%parameters**2)
+      call part_along(step, change%values(2))
+      if (allocated(error)) return
+      if (change%values(2) > 0.0_wp) then
          call raise(error, "cusp: the curve does not turn back within a step of "//text(step))
          return
       end if
@@ -206,13 +183,9 @@ contains
          value = 0.0_wp
          point = before
          turned = frame
-         if (length > 0.0_wp) then
-            call take_step(family, settings, length, point, turned, evaluations, passes, error)
-            if (allocated(error)) return
-         end if
-         call turn_along(family, settings%scale, settings%refinement%multipliers, point, turned, &
-                         error)
-         value = dot_product(way, turned%directions(1)%parameters)
+         call take_step(family, settings, length, point, turned, evaluations, passes, error)
+         if (allocated(error)) return
+         value = dot_product(frame%directions(1)%parameters, turned%directions(1)%parameters)
       end subroutine part_along
    end subroutine locate_cusp
 
@@ -242,6 +215,8 @@ contains
             reason = "1:2"
          else if (point%orbit%period > settings%longest_period) then
             reason = "period"
+         else if (.not. accurate(point, settings%refinement)) then
+            reason = "intervals"
          else if (point%orbit%comes_to_shorter(points(last - 1)%orbit)) then
             reason = "shorter_period"
          else if (is_closed(settings%scale, points(:last)%orbit, step)) then

@@ -11,7 +11,7 @@ module orbit_refinement
    use problem_family, only: problem_family_type
    implicit none (type, external)
    private
-   public :: make_accurate, refinement_type
+   public :: growth, make_accurate, most_rounds, refinement_type
 
    !> What is accurate.
    type :: refinement_type
@@ -24,8 +24,8 @@ module orbit_refinement
       integer :: most_intervals = 200
    end type refinement_type
 
-   !> Adaptions of a mesh that is not accurate, and how its intervals grow each time
-   integer, parameter :: most_rounds = 5
+   !> Adaptions of a mesh that is not accurate, and how its intervals grow after the second
+   integer, parameter :: most_rounds = 4
    real(wp), parameter :: growth = 1.3_wp
 
 contains
@@ -76,8 +76,9 @@ contains
          orbit = adapted
          along = direction(1)
          multipliers = better
-         if (round > 1 .and. intervals >= refinement%most_intervals) return
-         intervals = max(intervals, min(ceiling(growth*intervals), refinement%most_intervals))
+         if (round > 1) then
+            intervals = max(intervals, min(ceiling(growth*intervals), refinement%most_intervals))
+         end if
       end do
    end subroutine make_accurate
 end module orbit_refinement

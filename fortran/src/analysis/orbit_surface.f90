@@ -11,7 +11,7 @@ module orbit_surface
    use special_points, only: fold, special_point_type, test_value
    implicit none (type, external)
    private
-   public :: first_plane, frame_type, judge_point, test_beside, turn_along, turn_frame
+   public :: first_plane, frame_type, judge_point, test_beside, turn_along
 
    !> Where a curve goes, at a point of it.
    type :: frame_type
@@ -36,30 +36,29 @@ contains
       integer, intent(in) :: wanted
       !> The point
       type(special_point_type), intent(in) :: point
-      !> Orthonormal directions of the tangent plane; the first keeps its sense
+      !> Orthonormal directions, near the tangent plane; the first keeps its sense
       type(frame_type), intent(inout) :: frame
       !> There are none
       type(error_type), allocatable, intent(out) :: error
       type(orbit_change_type) :: plane(2)
-      type(special_point_type) :: near
-      real(wp) :: g(2), length, slope(2)
+      real(wp) :: g(2), slope(2)
       integer :: i, j
 
-      near = point
+      call turn_frame(family, scale, point%orbit, frame%directions, error)
+      if (allocated(error)) return
       do i = 1, 2
          do j = 1, 2
-            call test_beside(family, scale, wanted, point%orbit, frame%directions, &
-                             (3 - 2*j)*beside*[2 - i, i - 1], near, g(j), error)
+            call test_near(family, scale, wanted, point, frame, (3 - 2*j)*beside*[2 - i, i - 1], &
+                           g(j), error)
             if (allocated(error)) return
          end do
          slope(i) = (g(1) - g(2))/(2.0_wp*beside)
       end do
-      length = norm2(slope)
-      plane(1) = combination(frame%directions, sign(1.0_wp, slope(2))*[slope(2), -slope(1)]/length)
-      plane(2) = combination(frame%directions, slope/length)
-      frame%directions(1) = plane(1)
-      frame%directions(2) = plane(2)
-      frame%slope = length
+      associate (across => slope/norm2(slope))
+         plane(1) = combination(frame%directions, sign(1.0_wp, slope(2))*[across(2), -across(1)])
+         plane(2) = combination(frame%directions, across)
+      end associate
+      frame = frame_type(plane, norm2(slope))
    end subroutine turn_along
 
    !> Orthonormal directions of the tangent plane at an orbit.
@@ -111,6 +110,33 @@ contains
       directions = plane
    end subroutine turn_frame
 
+   !> The test function at a place of the plane near a point.
+   subroutine test_near(family, scale, wanted, point, frame, place, g, error)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> The two free parameters
+      type(orbit_scale_type), intent(in) :: scale
+      !> Number of multipliers
+      integer, intent(in) :: wanted
+      !> The point
+      type(special_point_type), intent(in) :: point
+      !> Directions of the plane
+      type(frame_type), intent(in) :: frame
+      !> Place
+      real(wp), intent(in) :: place(2)
+      !> The test function
+      real(wp), intent(out) :: g
+      !> There is no orbit
+      type(error_type), allocatable, intent(out) :: error
+      type(orbit_change_type) :: move
+      type(special_point_type) :: near
+
+      near = point
+      move = combination(frame%directions, place)
+      call move%add_to(near%orbit, scale)
+      call test_beside(family, scale, wanted, point%orbit, frame%directions, place, near, g, error)
+   end subroutine test_near
+
    !> The orbit at a place of the plane about an orbit, and the test function of a point there.
    subroutine test_beside(family, scale, wanted, before, directions, place, point, g, error)
       !> The problems
@@ -125,19 +151,16 @@ contains
       type(orbit_change_type), intent(in) :: directions(2)
       !> Place
       real(wp), intent(in) :: place(2)
-      !> The point, of known kind
+      !> The point, of known kind; its orbit is first an approximation
       type(special_point_type), intent(inout) :: point
       !> The test function
       real(wp), intent(out) :: g
       !> There is no orbit
       type(error_type), allocatable, intent(out) :: error
       type(newton_type) :: newton
-      type(orbit_change_type) :: move, plane(2)
+      type(orbit_change_type) :: plane(2)
 
       g = 0.0_wp
-      point%orbit = before
-      move = combination(directions, place)
-      call move%add_to(point%orbit, scale)
       call correct_orbit(family, scale, before, directions, place, point%orbit, newton, error)
       if (allocated(error)) return
       if (point%kind /= fold) then
