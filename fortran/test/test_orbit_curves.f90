@@ -136,6 +136,7 @@ contains
          call expect_close(error, parameters(3), 0.036906_wp, 1.0e-6_wp, "b")
          call expect_close(error, parameters(1), 14.8348_wp, 2.0e-4_wp, "tau")
       end associate
+      call expect(error, size(curve%cusps) == 0, "no cusp at the generalised Hopf point")
    end subroutine test_fold_curve
 
    !> The curve of folds of cycles sqrt(1 + s) sin t of a cubic towards smaller b. The folds are at

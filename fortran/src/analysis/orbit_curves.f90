@@ -57,7 +57,7 @@ contains
       type(special_point_type) :: next
       real(wp) :: step
       integer :: evaluations, i
-      logical :: passed, passes
+      logical :: ended, passed, passes, turns
 
       allocate (curve%points(settings%most_points), curve%cusps(0))
       curve%points(1) = start
@@ -85,14 +85,16 @@ contains
          end if
          passed = .false.
          curve%points(i + 1) = next
-         if (start%kind == fold .and. dot_product(frame%directions(1)%parameters, &
-                                                  next_frame%directions(1)%parameters) &
-             < 0.0_wp) then
-            call find_cusp(family, settings, curve%points(i), frame, step, curve%cusps)
-         end if
-         frame = next_frame
          i = i + 1
-         if (has_ended(settings, curve%points, i, step, curve%ending)) exit
+         ended = has_ended(settings, curve%points, i, step, curve%ending)
+         turns = dot_product(frame%directions(1)%parameters, next_frame%directions(1)%parameters) &
+                 < 0.0_wp
+         ! at a generalised Hopf point, too, the parameters turn back, with the other phase
+         if (start%kind == fold .and. turns .and. curve%ending /= "generalised_hopf") then
+            call find_cusp(family, settings, curve%points(i - 1), frame, step, curve%cusps)
+         end if
+         if (ended) exit
+         frame = next_frame
          if (evaluations <= easy) step = longer_step(step, settings%longest_step, next%orbit)
       end do
       call cut(curve%points, i)
