@@ -26,8 +26,8 @@ module cycle_curves
    !> Trivial multipliers are accurate to this: curves are drawn, not tabulated.
    real(wp), parameter :: accuracy = 1.0e-5_wp
    !> A curve starts with a third of the intervals of its point, but not with less than the first of
-   !> these; most points
-   integer, parameter :: first_intervals = 50, most_points = 200
+   !> these; most intervals and points
+   integer, parameter :: first_intervals = 50, most_intervals = 120, most_points = 200
 
 contains
 
@@ -58,6 +58,7 @@ contains
          how%longest_period = settings%longest_period
          how%most_points = most_points
          how%refinement%accuracy = accuracy
+         how%refinement%most_intervals = most_intervals
          do i = 1, size(found)
             if (present(progress)) call progress%advance(i - 1, size(found))
             do j = 1, size(found(i)%points)
