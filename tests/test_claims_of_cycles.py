@@ -78,7 +78,7 @@ def test_evidence_of_the_second_hopf():
         "A second Hopf bifurcation of a cycle is a torus bifurcation: a pair of multipliers leaves"
         " the unit circle. Class of scene mine by its exponents: cycle. Cycles followed to these"
         " parameters, and the modulus of their largest Floquet multiplier but 1: stable with v up"
-        " to 1.15 (modulus 0.5). Torus bifurcations of stable cycles on lines through the scene:"
+        " to 1.15 (modulus 0.7). Torus bifurcations of stable cycles on lines through the scene:"
         " at tau = 0.25 along tau (epsilon = 0.15, xi = 0.8, gamma = 0.8); none along epsilon"
         " (tau = 0.15, xi = 0.8, gamma = 0.8)."
     )

@@ -32,11 +32,22 @@ def cycles_there(cycles: xr.Dataset, place: float) -> list[CycleThere]:
         for i in np.flatnonzero((away[:-1] * away[1:] <= 0) & (away[:-1] != away[1:])):
             share = away[i] / (away[i] - away[i + 1])
             here = float((1 - share) * most[i] + share * most[i + 1])
-            distance = np.hypot(orbits[along].values - place, orbits.v_most.values - here)
-            nearest = orbits.isel(orbit=distance.argmin(), multiplier=0)
-            modulus = float(np.hypot(nearest.multiplier_real, nearest.multiplier_imaginary))
-            found.append(CycleThere(number, int(unstable[i]), here, modulus))
+            found.append(
+                CycleThere(number, int(unstable[i]), here, modulus_at(orbits, place, here))
+            )
     return found
+
+
+def modulus_at(orbits: xr.Dataset, place: float, most: float) -> float:
+    """Modulus of the largest multiplier but 1, between the nearest orbit and the next."""
+    away = orbits[orbits.attrs["along"]].values - place
+    nearest = int(np.hypot(away, orbits.v_most.values - most).argmin())
+    moduli = np.hypot(orbits.multiplier_real[:, 0], orbits.multiplier_imaginary[:, 0]).values
+    for other in (nearest - 1, nearest + 1):
+        if 0 <= other < away.size and away[nearest] * away[other] < 0:
+            share = away[nearest] / (away[nearest] - away[other])
+            return float((1 - share) * moduli[nearest] + share * moduli[other])
+    return float(moduli[nearest])
 
 
 def branch_of(cycles: xr.Dataset, number: int, along: str) -> tuple[np.ndarray, ...]:
