@@ -120,11 +120,14 @@ def unfinished(path: Path) -> set[Path]:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Tests with a copy of the project run Snakemake; they come last."""
+    """Tests with a copy of the project run Snakemake; they come last, but for one that makes the
+    smoke run: while it waits for Snakemake, the other process of `./test` has tests to run."""
     for item in items:
         if {"smoke_run", "project", "fresh"} & set(item.fixturenames):
             item.add_marker("workflow")
     items.sort(key=lambda item: item.get_closest_marker("workflow") is not None)
+    smoke = [item for item in items if "smoke_run" in item.fixturenames]
+    items.sort(key=lambda item: item not in smoke[:1])
 
 
 def wait_for(done: Callable[[], bool]) -> None:
