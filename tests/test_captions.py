@@ -72,7 +72,7 @@ def test_claim_that_is_not_listed_is_an_error(tmp_path):
         (0.0984, "0.0984"),
         (-0.0112, "\N{MINUS SIGN}0.0112"),
         (1e8, ":math:`10^{8}`"),
-        (2.5e-7, r":math:`2.5 \cdot 10^{-7}`"),
+        (2.5e-7, r":math:`2.5 \times 10^{-7}`"),
     ],
 )
 def test_numbers_in_sentences(value, words):

@@ -277,7 +277,7 @@ def test_scenes_at_one_place_share_a_label():
         (1e8, "10^{8}"),
         (1e4, "10^{4}"),
         (1e-9, "10^{-9}"),
-        (-2.5e-7, r"-2.5 \cdot 10^{-7}"),
+        (-2.5e-7, r"-2.5 \times 10^{-7}"),
     ],
 )
 def test_numbers_of_formulas(value, words):

@@ -15,7 +15,7 @@ def short(value: float, digits: int = 3) -> str:
         return text.replace("-", "\N{MINUS SIGN}")
     factor, exponent = text.split("e")
     power = f"10^{{{int(exponent)}}}"
-    return f":math:`{power}`" if factor == "1" else rf":math:`{factor} \cdot {power}`"
+    return f":math:`{power}`" if factor == "1" else rf":math:`{factor} \times {power}`"
 
 
 def count(number: int, word: str = "", plural: str = "") -> str:

@@ -23,7 +23,7 @@ def number(value: float) -> str:
     digits, exponent = f"{value:.5e}".split("e")
     power = f"10^{{{int(exponent)}}}"
     digits = digits.rstrip("0").rstrip(".")
-    return power if digits == "1" else rf"{digits} \cdot {power}"
+    return power if digits == "1" else rf"{digits} \times {power}"
 
 
 def true_minus(text: str) -> str:

@@ -89,7 +89,7 @@ def with_error(value: float, error: float) -> str:
     digits = power - finest + (1 if power == finest else 0)
     number, bar = (round(x / 10.0**power, digits) + 0.0 for x in (value, error))
     scaled = parameters.true_minus(f"{number:.{digits}f} ± {bar:.{digits}f}")
-    return f"({scaled})$\\cdot 10^{{{power}}}$" if power else scaled
+    return f"({scaled})$\\times 10^{{{power}}}$" if power else scaled
 
 
 def draw_spectrum(axes: Axes, spectrum: xr.Dataset, frequency_shown: float) -> None:
