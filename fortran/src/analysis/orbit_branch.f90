@@ -183,7 +183,7 @@ contains
       logical, intent(out) :: passes
       !> The step is too long
       type(error_type), allocatable, intent(out) :: error
-      type(orbit_change_type) :: along(1), move
+      type(orbit_change_type) :: along(1), fixed(1), move
       type(periodic_orbit_type) :: orbit
 
       passes = .false.
@@ -222,7 +222,7 @@ contains
       type(error_type), allocatable :: error
       type(multipliers_type) :: multipliers
       type(newton_type) :: newton
-      type(orbit_change_type) :: along(1), move
+      type(orbit_change_type) :: along(1), fixed(1), move
       type(periodic_orbit_type) :: orbit, reference
       real(wp) :: edge
       integer :: i, last
@@ -237,8 +237,8 @@ contains
          do i = 1, 2
             orbit%parameters(p) = edge
             reference = orbit
-            call correct_orbit(family, scale, reference, [parameter_direction(orbit)], [0.0_wp], &
-                               orbit, newton, error)
+            fixed(1) = parameter_direction(orbit)
+            call correct_orbit(family, scale, reference, fixed, [0.0_wp], orbit, newton, error)
             if (allocated(error)) return
             orbit%parameters(p) = edge
             call turn_to_tangent(family, scale, orbit, along(1), error)
