@@ -30,7 +30,7 @@ module branch_ends
    end type branch_settings_type
 
    !> A smaller amplitude counts as this one: near a Hopf point the parameters make the step.
-   real(wp), parameter :: least_amplitude = 2.0_wp
+   real(wp), parameter :: amplitude_of_steps = 2.0_wp
 
 contains
 
@@ -43,7 +43,7 @@ contains
       !> The orbit it led to
       type(periodic_orbit_type), intent(in) :: orbit
 
-      next = min(longer*step, longest*max(least_amplitude, orbit%amplitude()))
+      next = min(longer*step, longest*max(amplitude_of_steps, orbit%amplitude()))
    end function longer_step
 
    !> Whether a branch ends at its last orbit, and why.

@@ -183,7 +183,7 @@ contains
       logical, intent(out) :: passes
       !> The step is too long
       type(error_type), allocatable, intent(out) :: error
-      type(orbit_change_type) :: along(1), fixed(1), move
+      type(orbit_change_type) :: along(1), move
       type(periodic_orbit_type) :: orbit
 
       passes = .false.

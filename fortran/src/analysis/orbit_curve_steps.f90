@@ -6,7 +6,7 @@ module orbit_curve_steps
    use orbit_change, only: orbit_change_type
    use orbit_mesh, only: adapted_mesh
    use orbit_passes, only: orbit_scale_type
-   use orbit_refinement, only: growth, most_rounds, refinement_type
+   use orbit_refinement, only: most_rounds, refinement_type
    use orbit_surface, only: frame_type, judge_point, test_beside, turn_along
    use periodic_orbit, only: periodic_orbit_type
    use problem_family, only: problem_family_type
@@ -91,9 +91,7 @@ contains
                if (allocated(error)) return
             end if
             if (accurate(point, refinement)) exit
-            if (round > 1) then
-               intervals = max(intervals, min(ceiling(growth*intervals), refinement%most_intervals))
-            end if
+            if (round > 1) intervals = refinement%next_intervals(intervals)
             ahead = 0.0_wp
          end do
          call turn_along(family, scale, refinement%multipliers, point, frame, error)

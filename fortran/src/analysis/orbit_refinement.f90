@@ -11,7 +11,7 @@ module orbit_refinement
    use problem_family, only: problem_family_type
    implicit none (type, external)
    private
-   public :: growth, make_accurate, most_rounds, refinement_type
+   public :: make_accurate, most_rounds, refinement_type
 
    !> What is accurate.
    type :: refinement_type
@@ -22,6 +22,9 @@ module orbit_refinement
       real(wp) :: accuracy = 1.0e-7_wp
       !> Most intervals
       integer :: most_intervals = 200
+   contains
+      !> Intervals of the next mesh where one is not accurate
+      procedure :: next_intervals
    end type refinement_type
 
    !> Adaptions of a mesh that is not accurate, and how its intervals grow after the second
@@ -29,6 +32,16 @@ module orbit_refinement
    real(wp), parameter :: growth = 1.3_wp
 
 contains
+
+   !> Intervals of the next mesh where one is not accurate.
+   pure integer function next_intervals(self, intervals) result(next)
+      !> What is accurate
+      class(refinement_type), intent(in) :: self
+      !> Intervals of that mesh
+      integer, intent(in) :: intervals
+
+      next = max(intervals, min(ceiling(growth*intervals), self%most_intervals))
+   end function next_intervals
 
    !> Find the multipliers, on an adapted mesh where that is due or where the trivial multiplier is
    !> not accurate, and on more intervals where that is not enough.
@@ -76,9 +89,7 @@ contains
          orbit = adapted
          along = direction(1)
          multipliers = better
-         if (round > 1) then
-            intervals = max(intervals, min(ceiling(growth*intervals), refinement%most_intervals))
-         end if
+         if (round > 1) intervals = refinement%next_intervals(intervals)
       end do
    end subroutine make_accurate
 end module orbit_refinement
