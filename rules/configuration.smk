@@ -52,9 +52,9 @@ if not IS_MODULE:
 RESULTS = snakemake_internals.folder_of_results(workflow)
 OWN = bool(OVERLAY) and (IS_MODULE or RESULTS != own_file.RESULTS)
 """Whether the run is for what a file adds."""
-NAMES = own_file.added(OVERLAY if OWN else {})
 try:
     written = read_config.merged(defaults, [])
+    NAMES = own_file.added(OVERLAY if OWN else {}, written)
     CONFIGS = {}
     if OWN and not IS_MODULE:
         CONFIGS[own_file.RESULTS] = check_config.checked(copy.deepcopy(written))

@@ -27,11 +27,16 @@ def test_default_config_is_accepted_as_it_stands(config, default_config):
         assert {key: scenes[name][key] for key in scene} == scene
 
 
-def test_smoke_config_names_only_keys_that_there_are(config):
-    """A misspelt key would shrink nothing."""
-    overlay = read(ROOT / "config" / "smoke.yaml")
-    assert set(overlay["scenes"]) == set(config["scenes"])
+@pytest.mark.parametrize("name", ["smoke", "fine_atlas"])
+def test_overlays_name_only_keys_that_there_are(config, name):
+    """A misspelt key would change nothing."""
+    overlay = read(ROOT / "config" / f"{name}.yaml")
     assert set(places(overlay)) <= {*places(checked(config)), ("pathvars", "results")}
+
+
+def test_smoke_config_has_all_scenes(config):
+    """None is computed at full length."""
+    assert set(read(ROOT / "config" / "smoke.yaml")["scenes"]) == set(config["scenes"])
 
 
 def test_missing_keys_get_their_defaults(config):

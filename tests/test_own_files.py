@@ -230,11 +230,12 @@ def test_no_folder_of_the_paper_is_taken():
 
 
 def test_list_of_what_a_file_adds():
-    """Names alone, also where a section has no names or is no section."""
-    overlay = read(ROOT / "config" / "new.yaml") | {"atlas": {"parts": 2}, "cycles": 3}
-    assert own_file.added(overlay) == {
+    """Names alone; all of a section whose shared settings change; none where it is no section."""
+    config = read(ROOT / "config" / "config.yaml")
+    overlay = read(ROOT / "config" / "new.yaml") | {"atlas": {"tau_count": 9}, "cycles": 3}
+    assert own_file.added(overlay, config) == {
         **{"scenes": ["my_scene"], "planes": ["my_plane"], "routes": ["my_route"]},
-        **{"atlas": [], "cycles": [], "basins": [], "families": []},
+        **{"atlas": list(config["atlas"]["planes"]), "cycles": [], "basins": [], "families": []},
     }
 
 

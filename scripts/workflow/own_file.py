@@ -42,9 +42,17 @@ def folder_of(files: list[str | Path], entries: list[str]) -> str:
     return f"{RESULTS}/{name}"
 
 
-def added(overlay: dict) -> dict[str, list[str]]:
-    """Names of what a file adds or changes, by section."""
-    return {section: list(_inside(overlay, path)) for section, path in SECTIONS.items()}
+def added(overlay: dict, config: dict) -> dict[str, list[str]]:
+    """Names of what a file adds or changes, by section.
+
+    A file that changes what all of a section of the configuration share, and names none, changes
+    all.
+    """
+    names = {section: list(_inside(overlay, path)) for section, path in SECTIONS.items()}
+    for section, path in SECTIONS.items():
+        if not names[section] and _inside(overlay, path[:-1]) and len(path) > 1:
+            names[section] = list(_inside(config, path))
+    return names
 
 
 def listed(config: dict, *groups: dict[str, list[str]]) -> dict:
