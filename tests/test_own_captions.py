@@ -149,11 +149,16 @@ def test_caption_of_a_route(tmp_path):
     )
 
 
-def test_long_sequences_of_classes_are_cut():
-    """To the classes, how often they change, and the ends."""
-    rows = route_rows(*["cycle/1", "torus"] * 8)[::-1]
-    words = numbers.sequence(rows, "tau")
-    assert words == "cycle and torus, with 15 changes between cycle at 0.1 and torus at 1.6"
+def test_long_sequences_of_classes_are_counted():
+    """At how many values each class is met, where first and last, and how often it changes."""
+    rows = route_rows(*["cycle/1", "torus"] * 6, "chaos", "torus", "torus")[::-1]
+    assert numbers.sequence(rows, "tau") == (
+        "among 15 values, cycle at 6 (first 0.1, last 1.1), torus at 8 (first 0.2, last 1.5) and"
+        " chaos at 1 (1.3), with 13 changes"
+    )
+    listed = numbers.sequence(rows[:12], "tau")
+    assert listed.startswith("cycle at 0.1, torus at 0.2, cycle at 0.3")
+    assert listed.endswith("cycle at 1.1 and torus at 1.2")
 
 
 def test_caption_of_an_atlas(tmp_path):

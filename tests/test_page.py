@@ -67,11 +67,12 @@ def test_caption_has_a_first_sentence_in_plain_signs(name, smoke):
 
 
 def test_caption_with_formulas(tmp_path):
-    """Set by the browser, and in words without spaces."""
-    (tmp_path / "caption.rst").write_text("Curves :math:`\\tau = 2` & more. The rest.")
+    """Set by the browser, in words without spaces; a line ends neither at % nor after ±."""
+    (tmp_path / "caption.rst").write_text("Curves :math:`\\tau = 2` & 1 ± 2 %. The rest.")
     markup = captions.as_html(tmp_path / "caption.rst")
     assert "<math" in markup
-    assert captions.first_sentence(markup) == "Curves τ=2 & more."
+    assert "1 ±\N{NO-BREAK SPACE}2\N{NO-BREAK SPACE}%" in markup
+    assert captions.first_sentence(markup) == "Curves τ=2 & 1 ± 2 %."
 
 
 def test_caption_that_cannot_be_read_is_an_error(tmp_path):
@@ -111,7 +112,8 @@ def test_claims_that_fail_stand_first():
     ("words", "expected"),
     [
         ("gamma^2 xi/(xi + gamma^2)", "γ2 ξ/(ξ + γ2)"),
-        ("0.0174 +- 0.0029 v0/L", "0.0174 ± 0.0029 v0/L"),
+        ("0.0174 +- 0.0029 v0/L", "0.0174 ±\N{NO-BREAK SPACE}0.0029 v0/L"),
+        ("38 % of it", "38\N{NO-BREAK SPACE}% of it"),
         (
             "by -8.3e-07, at 1e4 to 1e+12",
             "by −8.3\N{NO-BREAK SPACE}×\N{NO-BREAK SPACE}10−7, at 104 to 1012",

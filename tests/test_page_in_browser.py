@@ -168,6 +168,12 @@ def test_text_of_figures_is_nine_pixels_high_on_a_phone(seen):
     assert min(pixels) >= 9
 
 
+def test_indices_in_formulas_are_lowered(seen):
+    """As they are only in a font with a table of mathematics; without one they stay beside."""
+    assert seen["indices"]
+    assert min(seen["indices"]) > 0.1
+
+
 def test_reader_moves_the_parameters(visited):
     """Of the made-up page each place has its class and its motion, by keyboard, map and button."""
     page, seen = visited

@@ -19,7 +19,7 @@ from scripts.tables.attractor_tables import rows_of, same_attractor
 from scripts.tables.motion_rows import UNDECIDED, has_problem, kind_of, parameter_of
 
 MOST_STRETCHES = 12
-"""So many stretches of one class are listed along a route."""
+"""So many stretches of one class are listed along a route; of more, how often each class is met."""
 
 
 def place_of(given: dict, *left_out: str) -> str:
@@ -118,7 +118,7 @@ def of_route(given: dict, _params: dict) -> dict:
 
 
 def sequence(rows: list[dict], along: str) -> str:
-    """The classes of a run in the order of the parameter, with the values where each is met."""
+    """The classes of a run as the parameter grows, with the values where each is met."""
     stretches = [
         (kind, [row[along] for row in stretch]) for kind, stretch in groupby(rows, key=kind_of)
     ]
@@ -128,8 +128,17 @@ def sequence(rows: list[dict], along: str) -> str:
     ]
     if len(words) <= MOST_STRETCHES:
         return joined(words)
-    kinds = list(dict.fromkeys(kind for kind, _ in stretches))
-    return f"{joined(kinds)}, with {len(words) - 1} changes between {words[0]} and {words[-1]}"
+    places: dict[str, list[float]] = {}
+    for kind, at in stretches:
+        places.setdefault(kind, []).extend(at)
+    counts = [f"{kind} at {len(at)} ({ends_of(at)})" for kind, at in places.items()]
+    return f"among {len(rows)} values, {joined(counts)}, with {len(words) - 1} changes"
+
+
+def ends_of(places: list[float]) -> str:
+    """The first and the last of some ascending values."""
+    first, last = short(places[0]), short(places[-1])
+    return f"first {first}, last {last}" if len(places) > 1 else first
 
 
 def coexist(rows: list[dict]) -> bool:

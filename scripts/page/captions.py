@@ -6,6 +6,8 @@ from pathlib import Path
 
 from docutils.core import publish_parts
 
+from scripts.page import mathematics
+
 SETTINGS = {
     "math_output": "MathML",
     "input_encoding": "unicode",
@@ -21,7 +23,7 @@ SETTINGS = {
 def as_html(path: str | Path) -> str:
     """The caption as paragraphs."""
     parts = publish_parts(Path(path).read_text(), writer="html5", settings_overrides=SETTINGS)
-    return parts["body"].strip()
+    return mathematics.unbroken(parts["body"].strip())
 
 
 def as_words(markup: str) -> str:

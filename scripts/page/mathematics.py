@@ -48,8 +48,13 @@ def of_words(words: str) -> Markup:
     for found in WORDS.finditer(words):
         parts += [escape(words[end : found.start()]), Markup(_html(found))]
         end = found.end()
-    html = "".join([*parts, escape(words[end:])])
+    html = unbroken("".join([*parts, escape(words[end:])]))
     return Markup(re.sub(r"(?<=[>]) = (?=[\d−])", "\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}", html))
+
+
+def unbroken(html: str) -> str:
+    """HTML with no end of a line before a percent sign or after a plus-minus sign."""
+    return re.sub(r"(?<=\d)\s(?=%)|(?<=±)\s(?=\S)", "\N{NO-BREAK SPACE}", html)
 
 
 def in_signs(numbers: str) -> str:

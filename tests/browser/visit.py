@@ -32,6 +32,14 @@ DRAWN = "const done = arguments[0]; requestAnimationFrame(() => requestAnimation
 SCALES = "return [...document.images].map((i) => i.clientWidth / i.naturalWidth)"
 """Of images, against the size that they are drawn for."""
 
+INDICES = """
+return [...document.querySelectorAll("msub")].filter((m) => m.checkVisibility()).map((m) => {
+  const [base, index] = [...m.children].map((part) => part.getBoundingClientRect().bottom);
+  return (index - base) / parseFloat(getComputedStyle(m).fontSize);
+});
+"""
+"""How far the index of each variable in a formula ends below it, in letter heights."""
+
 
 def browser() -> Chrome:
     """Debian's Chromium without a window, that keeps what it says and asks for."""
@@ -237,6 +245,7 @@ def visit(chrome: Chrome, page: Path, folder: Path) -> dict:
             photograph(chrome, folder / f"{scheme}-{width}.png")
             if width == WIDTHS[0]:
                 seen |= {"reading": reading(chrome), "scales": chrome.execute_script(SCALES)}
+                seen |= {"indices": chrome.execute_script(INDICES)}
         seen["axe"][scheme] = violations(chrome, scheme)
     emulate(chrome, 700, media="print")
     seen["too_wide"]["print"] = too_wide(chrome)
