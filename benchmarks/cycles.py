@@ -1,4 +1,4 @@
-"""Cycles by DDE-BIFTOOL and by this project: special points side by side, and the cost of an orbit."""
+"""Cycles by DDE-BIFTOOL and by this project: special points, and the cost of an orbit."""
 
 import argparse
 import os

@@ -7,6 +7,7 @@ import sys
 
 import classes
 import compare
+import cycles
 import exponents
 import long_runs
 import numpy as np
@@ -351,3 +352,36 @@ def test_classes_are_compared_where_both_are_known():
         "other_class": 1,
         "spurious_maxima": 1,
     }
+
+
+def test_answer_of_biftool_is_read():
+    """Branches are added up; words of DDE-BIFTOOL are passed over."""
+    said = (
+        "BR_CONTN warning: boundary hit.\nbranch 10 4.0 1.0 2e-9\nfold 0.5 6.25\n\n"
+        "branch 10 2.0 1.0 1e-6\ntorus 0.75 8.5\n"
+    )
+    row, points = cycles.read_answer("a line", said)
+    assert list(row.values()) == ["a line", "DDE-BIFTOOL", 20, 0.4, 1e-6]
+    assert points == [("fold", 0.5), ("torus", 0.75)]
+    assert cycles.read_answer("a line", "nothing")[0]["seconds_per_orbit"] is None
+
+
+def test_special_points_are_paired_by_kind_and_place():
+    """The nearest of one kind; what one of the two has alone keeps its row."""
+    ours = [("fold", 0.5), ("torus", 0.75)]
+    theirs = [("fold", 0.5004), ("fold", 0.5000001), ("period_doubling", 0.75)]
+    rows = [tuple(row.values())[1:] for row in cycles.side_by_side("a line", ours, theirs)]
+    assert rows == [
+        ("fold", "0.5", "0.5000001", pytest.approx(1e-7)),
+        ("torus", "0.75", "", None),
+        ("fold", "", "0.5004", None),
+        ("period_doubling", "", "0.75", None),
+    ]
+
+
+def test_folder_without_biftool_is_refused(monkeypatch, tmp_path, capsys):
+    """Before anything is computed."""
+    monkeypatch.setattr(sys, "argv", ["cycles.py", "--biftool", str(tmp_path)])
+    with pytest.raises(SystemExit):
+        cycles.main()
+    assert f"{tmp_path}: a folder with ddebiftool/br_contn.m expected" in capsys.readouterr().err
