@@ -37,7 +37,7 @@ def classified(tolerance: float, folder: Path) -> tuple[float, xr.Dataset]:
     write_groups(namelist, atlas_groups(config, PLANE, 1))
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     run = subprocess.run(
-        [BUILD / "fortran" / "bin" / "attractors", namelist, output],
+        [BUILD / "bin" / "attractors", namelist, output],
         capture_output=True,
         text=True,
         env={**os.environ, "OMP_NUM_THREADS": "1"},

@@ -53,7 +53,7 @@ def by_us(config: dict, line: str) -> tuple[dict, list[tuple[str, float]]]:
     with tempfile.TemporaryDirectory() as folder:
         namelist, output = Path(folder) / "line.nml", Path(folder) / "line.nc"
         write_groups(namelist, {"cycles": cycles_values(config, line)})
-        seconds, _ = seconds_of([BUILD / "fortran" / "bin" / "cycles", namelist, output])
+        seconds, _ = seconds_of([BUILD / "bin" / "cycles", namelist, output])
         with xr.open_dataset(output) as found:
             orbits = found["branch"].size
             points = list(

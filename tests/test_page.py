@@ -211,6 +211,7 @@ def test_citation_names_this_work_and_the_paper():
     assert own.startswith("The maintainers of this reproduction")
     assert paper.startswith("Kostić, Srđan, Vasović, Nebojša, Franović, Igor, Todorović, Kristina")
     assert "Time-delay in spring-block model for aperiodicity in earthquakes" in paper
+    assert re.search(r"<https://studylib\.net/doc/18071566/\S+>", paper)
 
 
 def test_size_of_a_drawing(tmp_path):

@@ -40,7 +40,8 @@ def reference(given: dict) -> str:
     journal = f"{given['journal']} {given.get('volume', '')}".strip() if "journal" in given else ""
     version = f"Version {given['version']}" if "version" in given else ""
     doi = f"doi:{given['doi']}" if "doi" in given else ""
-    rest = [part for part in (given["title"], journal, version, doi) if part]
+    address = f"<{given['url']}>" if "url" in given else ""
+    rest = [part for part in (given["title"], journal, version, doi, address) if part]
     return f"{', '.join(map(author, given['authors']))}{dated}. {'. '.join(rest)}."
 
 
