@@ -82,6 +82,7 @@ function locate(problem, branch, i, kind, set_up, settings)
 end
 
 warning('off', 'all');
+sigterm_dumps_octave_core(false);  % an interrupted run leaves no file
 given = argv();
 for folder = {'ddebiftool', 'ddebiftool_extra_psol', 'ddebiftool_extra_nmfm', 'ddebiftool_utilities'}
   addpath(fullfile(given{1}, folder{1}));
