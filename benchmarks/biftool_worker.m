@@ -41,11 +41,9 @@ end
 
 function follow(problem, steady, at, settings)
   branch = SetupPsol(problem, steady, at, 'intervals', settings.intervals, 'degree', settings.degree, ...
-                     'radius', 0.05, settings.bounds{:}, ...
+                     'radius', 0.05, 'matrix', 'sparse', settings.bounds{:}, ...
                      'max_step', [0, 0.3; settings.parameter, diff(settings.window)/50]);
   branch.method.continuation.plot = 0;
-  branch.method.point.adapt_mesh_before_correct = 1;
-  branch.method.point.adapt_mesh_after_correct = 1;
   start = cputime;
   branch = br_contn(problem, branch, settings.orbits);
   between = cputime;
