@@ -63,8 +63,9 @@ MEASURE = {
     "least_seconds": 1e-4,
 }
 REFERENCE = {
-    "method": "radau13",
+    "method": "auto",
     "tolerance": 1e-18,
+    "check_method": "radau13",
     "check_tolerance": 1e-16,
     "disturbance": 1e-15,
     "most_steps": 100000,

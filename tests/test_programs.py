@@ -106,6 +106,7 @@ def test_hint_about_nan_is_given_for_nan_only(programs, good_groups):
         ("method", "rk4_cubic", "method = 'rk4_cubic'; expected one of"),
         ("tolerance", 1e-23, "tolerance = 1.0E-023; expected"),
         ("tolerance", None, "tolerance = NaN; expected"),
+        ("check_method", "rk4_cubic", "check_method = 'rk4_cubic'; expected one of"),
         ("check_tolerance", 1e-18, "check_tolerance = 1.0E-018; expected"),
         ("disturbance", 0.0, "disturbance = 0.0; expected"),
     ],

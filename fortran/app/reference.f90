@@ -31,7 +31,7 @@ program reference
    associate (options => settings)
       best = run_type(options%method, options%tolerance)
       disturbed = best
-      checking = run_type(options%method, options%check_tolerance)
+      checking = run_type(options%check_method, options%check_tolerance)
       report = progress_type("references", parts=3*size(cases))
       do i = 1, size(cases)
          call report%begin_part(3*i - 2)

@@ -281,10 +281,10 @@ contains
 
       do i = 1, size(t_transient)
          options = at_tolerance(1.0e-8_wp, "auto")
-         options%most_steps = 20
+         options%most_steps = 5
          call find_attractor(disturbed(10.0_wp, 0.5_wp, 0.8_wp), after(t_transient(i), 500.0_wp), &
                              options, found, failure)
-         call expect_failure(error, failure, "20 steps (most_steps) were used up")
+         call expect_failure(error, failure, "5 steps (most_steps) were used up")
          call expect(error, found%class == undecided .and. .not. allocated(found%exponents), &
                      "nothing found")
       end do
@@ -325,8 +325,9 @@ contains
                         continuation=motion(i)%continuation)
          call expect_success(error, failure)
          if (allocated(error)) return
+         motion(i)%sample_interval = 0.1_wp
          call motion(i)%clear()
-         call motion(i)%observe(stuck, 1000.0_wp, 0.1_wp, options, failure)
+         call motion(i)%observe(stuck, 1000.0_wp, options, failure)
          call expect_success(error, failure)
          if (allocated(error)) return
          call expect_between(error, minval(motion(i)%maxima), 1.0e-3_wp, 10.0_wp, "maximum")

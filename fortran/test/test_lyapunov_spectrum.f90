@@ -8,6 +8,7 @@ module test_lyapunov_spectrum
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use exponent_averages, only: average_growth, exponent_type
    use dde_kinds, only: wp
+   use interval_observer, only: interval_observer_type
    use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, measure_growth
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use steady_sliding, only: sliding_exponents
@@ -16,6 +17,16 @@ module test_lyapunov_spectrum
    implicit none (type, external)
    private
    public :: collect_lyapunov_spectrum
+
+   !> An observer that keeps the beginning and end of each interval, shape (2, intervals).
+   type, extends(interval_observer_type) :: witness_type
+      real(wp), allocatable :: kept(:, :)
+      !> The last interval, and how many were tried
+      real(wp) :: last(2) = 0.0_wp
+      integer :: tried = 0
+   contains
+      procedure :: observe_interval, keep_interval
+   end type witness_type
 
 contains
 
@@ -30,6 +41,7 @@ contains
                    new_unittest("halved intervals, steady sliding", test_halved_at_rest), &
                    new_unittest("halved intervals, divergence of the flow", test_divergence), &
                    new_unittest("vectors lost give a bound or an error", test_lost), &
+                   new_unittest("an observer", test_observed), &
                    new_unittest("refusals", test_refusals)]
    end subroutine collect_lyapunov_spectrum
 
@@ -191,6 +203,66 @@ contains
                         0.1_wp/12.5_wp, "the third over the root")
       call expect_close(error, sum(exponents(:2)%value), sum(known%value), 1.0e-2_wp, "the pair")
    end subroutine test_halved_at_rest
+
+   !> An observer sees the whole time once, also where intervals are halved, and changes nothing.
+   subroutine test_observed(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(growth_settings_type) :: settings
+      type(growth_type) :: alone, observed
+      type(witness_type) :: witness
+
+      settings = four_intervals(0.02_wp)
+      call measure_growth(stiff(0.0_wp), settings, at_tolerance(1.0e-8_wp, "radau9"), alone, &
+                          failure)
+      call expect_success(error, failure)
+      call measure_growth(stiff(0.0_wp), settings, at_tolerance(1.0e-8_wp, "radau9"), observed, &
+                          failure, observer=witness)
+      call extend_growth(stiff(0.0_wp), settings, at_tolerance(1.0e-8_wp, "radau9"), observed, &
+                         failure, witness)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect_close(error, pack(observed%growth(:, :4), .true.), pack(alone%growth, .true.), &
+                        0.0_wp, "growth")
+      associate (n => size(witness%kept, 2))
+         call expect(error, witness%tried > n .and. n > 8, "intervals were halved")
+         call expect_close(error, witness%kept(1, 2:), witness%kept(2, :n - 1), 0.0_wp, &
+                           "one interval begins where the last one ended")
+         call expect_close(error, witness%kept(2, n), observed%continuation%time(1), 0.0_wp, "end")
+      end associate
+   end subroutine test_observed
+
+   !> Integrate and note the interval.
+   subroutine observe_interval(self, problem, time, options, outcome, error, continuation)
+      !> The witness
+      class(witness_type), intent(inout) :: self
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Where to
+      real(wp), intent(in) :: time
+      !> Method and tolerances
+      type(integration_options), intent(in) :: options
+      !> The result
+      type(integration_result), intent(out) :: outcome
+      !> The run ended before its time
+      type(failure_type), allocatable, intent(out) :: error
+      !> Where the run stands
+      type(continuation_type), intent(inout) :: continuation
+
+      self%last = [continuation%time(1), time]
+      self%tried = self%tried + 1
+      call integrate(problem, continuation%time(1), time, options, outcome, error, &
+                     continuation=continuation)
+   end subroutine observe_interval
+
+   !> Keep the interval.
+   subroutine keep_interval(self)
+      !> The witness
+      class(witness_type), intent(inout) :: self
+
+      if (.not. allocated(self%kept)) allocate (self%kept(2, 0))
+      self%kept = reshape([self%kept, self%last], [2, size(self%kept, 2) + 1])
+   end subroutine keep_interval
 
    !> Far from rest: the logarithm of the volume that three vectors span grows by the integral of
    !> the divergence, -v - (gamma^2/xi)/v - dw/dt in (theta, u, w = ln v).

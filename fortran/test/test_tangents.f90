@@ -12,7 +12,7 @@ module test_tangents
    use solving, only: at_tolerance
    use spring_block, only: spring_block_type
    use tangent_problem, only: tangent_problem_type
-   use tangent_vectors, only: orthonormalise, start_vectors
+   use tangent_vectors, only: orthonormalise, start_vectors, undisturbed_part
    use test_problems, only: linear
    implicit none (type, external)
    private
@@ -95,7 +95,7 @@ contains
    subroutine test_smooth_restart(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(continuation_type) :: continuation, undisturbed
+      type(continuation_type) :: alone, continuation, undisturbed
       type(integration_result) :: outcome
       type(tangent_problem_type) :: tangent
       real(wp) :: norm(2), share
@@ -108,10 +108,17 @@ contains
       call expect_success(error, failure)
       call expect(error, outcome%breaking_points == 7, "the start makes a kink")
       call orthonormalise(tangent, 1.0_wp, .false., continuation, norm, share)
+      alone = undisturbed_part(continuation, 1)
       call integrate(tangent, 40.3_wp, 50.3_wp, at_tolerance(1.0e-9_wp), outcome, failure, &
                      continuation=continuation)
       call expect_success(error, failure)
       call expect(error, outcome%breaking_points == 0, "orthonormalisation makes none")
+      call integrate(tangent%base, 40.3_wp, 50.3_wp, at_tolerance(1.0e-9_wp), outcome, failure, &
+                     continuation=alone)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect(error, outcome%breaking_points == 0, "nor does going on without vectors")
+      call expect_close(error, alone%y, continuation%y(:1), 1.0e-8_wp, "the same solution")
    end subroutine test_smooth_restart
 
    !> y' = -y(t - 1) with 1 as its past, run to a time and given its start vectors.

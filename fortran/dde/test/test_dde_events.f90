@@ -1,8 +1,8 @@
 !> Events: where they are found, in what order, and that one can end a run.
 module test_dde_events
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use dde, only: event_met, event_table, integrate, integration_options, integration_result, &
-                  methods, reached_end, table_sampler
+   use dde, only: continuation_type, event_met, event_table, integrate, integration_options, &
+                  integration_result, methods, reached_end, table_sampler
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_success
    use dde_kinds, only: int64, wp
@@ -51,7 +51,8 @@ contains
                    new_unittest("a value that is not finite", test_not_finite), &
                    new_unittest("a fast function of time", test_fast), &
                    new_unittest("steps without events are not searched", test_bounds), &
-                   new_unittest("work", test_work)]
+                   new_unittest("work", test_work), &
+                   new_unittest("the state of an event is whole", test_whole)]
    end subroutine collect_dde_events
 
    !> sin t = 1/2 at pi/6, 5 pi/6 and 13 pi/6: rising, falling, both.
@@ -146,6 +147,34 @@ contains
          call expect(error, all(table%which(:4) == [1, 2, 2, 1]), "which")
       end do
    end subroutine test_pair
+
+   !> A table looks at one component, of (cos t, -sin t); events give all of them.
+   !> So does the last event, which ends the run, to the run that goes on.
+   subroutine test_whole(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(continuation_type) :: here
+      type(event_table) :: table
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      integer :: i
+
+      do i = 1, size(methods)
+         here = continuation_type()
+         table = event_table([1, 1], [0.5_wp, -0.5_wp], [0, 0], terminal=[.false., .true.])
+         call integrate(swing(), 0.0_wp, 8.0_wp, at_tolerance(1.0e-11_wp, methods(i)), outcome, &
+                        failure, watcher=table, continuation=here)
+         call expect_success(error, failure)
+         call expect(error, table%received == 2, "two events")
+         if (allocated(error)) return
+         call expect_close(error, table%y(:, 1), [cos(pi/3), -sin(pi/3)], 1.0e-9_wp, &
+                           trim(methods(i))//", first event")
+         call expect_close(error, table%y(:, 2), [cos(2*pi/3), -sin(2*pi/3)], 1.0e-9_wp, &
+                           trim(methods(i))//", second event")
+         call expect_close(error, outcome%y, table%y(:, 2), 0.0_wp, "end")
+         call expect_close(error, here%slope, [here%y(2), -here%y(1)], 1.0e-8_wp, &
+                           trim(methods(i))//", slope")
+      end do
+   end subroutine test_whole
 
    !> t passes seven levels in one step, given in disorder: events come in order of time.
    subroutine test_order(error)

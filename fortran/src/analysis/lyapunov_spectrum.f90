@@ -6,6 +6,7 @@ module lyapunov_spectrum
                   integration_result
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: int64, wp
+   use interval_observer, only: interval_observer_type
    use progress_receiver, only: progress_receiver_type
    use tangent_problem, only: tangent_problem_type
    use tangent_vectors, only: orthonormalise, start_vectors
@@ -84,7 +85,8 @@ contains
    !> Growth of tangent vectors along a solution that begins at t = 0, or goes on from where an
    !> earlier run ended: then the vectors begin there, or where the delays are over, and turn before
    !> measuring begins.
-   subroutine measure_growth(problem, settings, options, measured, error, undisturbed, progress)
+   subroutine measure_growth(problem, settings, options, measured, error, undisturbed, progress, &
+                             observer)
       !> The problem, with derivatives of its own
       class(dde_problem_type), intent(in) :: problem
       !> How many exponents, and when
@@ -99,6 +101,8 @@ contains
       type(continuation_type), intent(in), optional :: undisturbed
       !> Receiver of the number of intervals done
       class(progress_receiver_type), intent(inout), optional :: progress
+      !> Receiver of the solution, from the beginning of the vectors on
+      class(interval_observer_type), intent(inout), optional :: observer
       type(continuation_type) :: approach
       type(integration_result) :: outcome
       type(tangent_problem_type) :: tangent
@@ -124,10 +128,9 @@ contains
          return
       end if
 
-      if (start > begun) then
-         call integrate(problem, begun, start, options, outcome, error, continuation=approach)
-         if (allocated(error)) return
-      end if
+      ! at the least this gives the slope, which a run with other vectors leaves out
+      call integrate(problem, begun, start, options, outcome, error, continuation=approach)
+      if (allocated(error)) return
       tangent = tangent_problem_type(problem, settings%vectors())
       call start_vectors(tangent, approach, measured%continuation)
       call orthonormalise(tangent, settings%vector_size, settings%across_flow, &
@@ -138,18 +141,18 @@ contains
       turning = ceiling((measured%t_begin - start)/settings%interval)
       do i = 1, turning
          call pass(tangent, settings, options, start + (measured%t_begin - start)*i/turning, &
-                   most_halvings, measured, growth, error)
+                   most_halvings, measured, growth, error, observer)
          if (allocated(error)) return
          if (present(progress)) call progress%advance(i, turning + intervals)
       end do
       allocate (measured%growth(settings%vectors(), 0), measured%length(0))
       call go_on(tangent, settings, options, settings%t_end, intervals, turning, measured, &
-                 error, progress)
+                 error, progress, observer)
    end subroutine measure_growth
 
    !> Go on measuring from where it ended, for as long again and in intervals as long, so that all
    !> of them count alike.
-   subroutine extend_growth(problem, settings, options, measured, error)
+   subroutine extend_growth(problem, settings, options, measured, error, observer)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> How many exponents
@@ -160,16 +163,20 @@ contains
       type(growth_type), intent(inout) :: measured
       !> It cannot be measured
       type(error_type), allocatable, intent(out) :: error
+      !> Receiver of the solution
+      class(interval_observer_type), intent(inout), optional :: observer
 
       associate (intervals => size(measured%growth, 2), start => measured%continuation%time(1))
          call go_on(tangent_problem_type(problem, settings%vectors()), settings, options, &
-                    start + intervals*measured%interval, intervals, 0, measured, error)
+                    start + intervals*measured%interval, intervals, 0, measured, error, &
+                    observer=observer)
       end associate
    end subroutine extend_growth
 
    !> Measure interval by interval. Intervals are of uneven length, so that a period of the motion
    !> that is nearly a multiple of them looks no slow drift.
-   subroutine go_on(tangent, settings, options, t_end, intervals, done, measured, error, progress)
+   subroutine go_on(tangent, settings, options, t_end, intervals, done, measured, error, &
+                    progress, observer)
       !> The problem with its tangent vectors
       type(tangent_problem_type), intent(in) :: tangent
       !> How many exponents
@@ -188,6 +195,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Receiver of the number of intervals done
       class(progress_receiver_type), intent(inout), optional :: progress
+      !> Receiver of the solution
+      class(interval_observer_type), intent(inout), optional :: observer
       real(wp), allocatable :: growth(:, :)
       real(wp) :: time(0:intervals)
       integer :: i
@@ -199,7 +208,7 @@ contains
       allocate (growth(settings%vectors(), intervals))
       do i = 1, intervals
          call pass(tangent, settings, options, time(i), most_halvings, measured, growth(:, i), &
-                   error)
+                   error, observer)
          if (allocated(error)) return
          if (present(progress)) call progress%advance(done + i, done + intervals)
       end do
@@ -231,7 +240,8 @@ contains
 
    !> Go on up to `time`: in one interval, or in two halves where a vector becomes a combination of
    !> the others on the way.
-   recursive subroutine pass(tangent, settings, options, time, halvings, measured, growth, error)
+   recursive subroutine pass(tangent, settings, options, time, halvings, measured, growth, error, &
+                             observer)
       !> The problem with its tangent vectors
       type(tangent_problem_type), intent(in) :: tangent
       !> Size of the vectors, and what to do where one is lost
@@ -248,6 +258,8 @@ contains
       real(wp), intent(out) :: growth(:)
       !> It cannot be measured
       type(error_type), allocatable, intent(out) :: error
+      !> Receiver of the solution
+      class(interval_observer_type), intent(inout), optional :: observer
       type(continuation_type) :: before
       type(integration_result) :: outcome
       real(wp) :: first_half(size(growth)), lost, norm(size(growth)), share
@@ -255,8 +267,13 @@ contains
       growth = 0.0_wp
       lost = noise*max(options%relative, epsilon(1.0_wp))/min(1.0_wp, settings%vector_size)
       before = measured%continuation
-      call integrate(tangent, before%time(1), time, options, outcome, error, &
-                     continuation=measured%continuation)
+      if (present(observer)) then
+         call observer%observe_interval(tangent, time, options, outcome, error, &
+                                        measured%continuation)
+      else
+         call integrate(tangent, before%time(1), time, options, outcome, error, &
+                        continuation=measured%continuation)
+      end if
       if (allocated(error)) return
       measured%evaluations = measured%evaluations + outcome%evaluations
       measured%time = measured%time + (time - before%time(1))
@@ -267,9 +284,11 @@ contains
       if (share > lost) then
          measured%least_share = min(measured%least_share, share)
          growth = log(norm/settings%vector_size)
+         if (present(observer)) call observer%keep_interval()
       else if (halvings == 0 .and. settings%bounds) then
          measured%bounds = .true.
          growth = log(max(norm, tiny(1.0_wp))/settings%vector_size)
+         if (present(observer)) call observer%keep_interval()
       else if (halvings == 0) then
          call raise(error, "exponents: at t = "//text(time)//" a share of "//text(share) &
                     //" is left of a tangent vector without those before it; expected > " &
@@ -278,9 +297,10 @@ contains
       else
          measured%continuation = before
          call pass(tangent, settings, options, 0.5_wp*(before%time(1) + time), halvings - 1, &
-                   measured, first_half, error)
+                   measured, first_half, error, observer)
          if (allocated(error)) return
-         call pass(tangent, settings, options, time, halvings - 1, measured, growth, error)
+         call pass(tangent, settings, options, time, halvings - 1, measured, growth, error, &
+                   observer)
          growth = first_half + growth
       end if
    end subroutine pass

@@ -11,7 +11,7 @@ module tangent_vectors
    use tangent_problem, only: tangent_problem_type
    implicit none (type, external)
    private
-   public :: orthonormalise, start_vectors
+   public :: orthonormalise, start_vectors, undisturbed_part
 
    !> Nodes of Gauss's rule of three nodes on [0, 1], and its weights.
    integer, parameter :: gauss_nodes = 3
@@ -64,6 +64,23 @@ contains
          end do
       end associate
    end subroutine start_vectors
+
+   !> Where the undisturbed problem is in a run with tangent vectors.
+   pure type(continuation_type) function undisturbed_part(continuation, n) result(part)
+      !> Where the run stands
+      type(continuation_type), intent(in) :: continuation
+      !> Number of equations of the undisturbed problem
+      integer, intent(in) :: n
+      integer :: kept
+
+      part = continuation
+      kept = count(part%kept <= n)
+      part%kept = part%kept(:kept)
+      part%y = part%y(:n)
+      part%slope = part%slope(:min(n, size(part%slope)))
+      part%rate = part%rate(:min(n, size(part%rate)))
+      part%coefficients = part%coefficients(:, :kept, :)
+   end function undisturbed_part
 
    !> Time from now to the start of kept step k, negative.
    pure real(wp) function before(continuation, k) result(value)

@@ -1,20 +1,22 @@
 !> How references are computed, from the namelist group &reference.
 module reference_input
+   use dde, only: methods
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
    use namelist_input, only: close_namelist, not_given, open_namelist, word_length
-   use solver_checks, only: check_method
-   use value_checks, only: check_count, check_number
+   use value_checks, only: check_choice, check_count, check_number
    implicit none (type, external)
    private
    public :: read_reference, reference_settings_type
 
    !> How each case is computed.
    type :: reference_settings_type
-      !> One of the solver's methods
+      !> Method and tolerance of the reference
       character(len=10) :: method = ""
-      !> The tolerance of the reference, and a larger one to check it by
-      real(wp) :: tolerance = 0.0_wp, check_tolerance = 0.0_wp
+      real(wp) :: tolerance = 0.0_wp
+      !> Method and larger tolerance of the run that it is checked by
+      character(len=10) :: check_method = ""
+      real(wp) :: check_tolerance = 0.0_wp
       !> Change of theta and u, and relative change of v, for t <= 0, that measures the conditioning
       real(wp) :: disturbance = 0.0_wp
       !> Most steps of a run
@@ -31,13 +33,14 @@ contains
       type(reference_settings_type), intent(out) :: settings
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
-      character(len=word_length) :: method
+      character(len=word_length) :: check_method, method
       real(wp) :: tolerance, check_tolerance, disturbance
       character(len=256) :: reason
       integer :: most_steps, status, unit
-      namelist /reference/ method, tolerance, check_tolerance, disturbance, most_steps
+      namelist /reference/ method, tolerance, check_method, check_tolerance, disturbance, most_steps
 
       method = ""
+      check_method = ""
       tolerance = not_given()
       check_tolerance = not_given()
       disturbance = not_given()
@@ -46,7 +49,8 @@ contains
       if (allocated(error)) return
       read (unit, nml=reference, iostat=status, iomsg=reason)
       call close_namelist(path, "reference", unit, status, reason, error)
-      call check_method(error, path, method)
+      call check_choice(error, path, "method", method, methods)
+      call check_choice(error, path, "check_method", check_method, methods)
       call check_number(error, path, "tolerance", tolerance, at_least=1.0e-22_wp, &
                         at_most=1.0e-10_wp)
       call check_number(error, path, "check_tolerance", check_tolerance, above=tolerance, &
@@ -55,6 +59,7 @@ contains
                         at_most=1.0e-10_wp)
       call check_count(error, path, "most_steps", most_steps, 1)
       settings = reference_settings_type(method=method(:10), tolerance=tolerance, &
+                                         check_method=check_method(:10), &
                                          check_tolerance=check_tolerance, &
                                          disturbance=disturbance, most_steps=int(most_steps, int64))
    end subroutine read_reference

@@ -13,6 +13,7 @@ module attractor_verdict
    use spectral_peaks, only: find_peaks, peak_type
    use spectrum, only: power_spectrum
    use spectrum_verdict, only: continuum, line_share, one_base, spectrum_kind, two_bases
+   use spring_block, only: index_of_ln_v
    implicit none (type, external)
    private
    public :: attractor_settings_type, attractor_type, judge, on_cycle
@@ -107,7 +108,7 @@ contains
                attractor%bases = [1.0_wp/(time(n) - time(n - attractor%period)), 0.0_wp]
             end associate
          else if (.not. clear(attractor%exponents)) then
-            call judge_spectrum(exp(motion%samples(3, :)), settings, attractor, error)
+            call judge_spectrum(exp(motion%samples(index_of_ln_v)), settings, attractor, error)
             if (allocated(error)) return
             call judge_section(motion%section, motion%section_time, motion%scale(), &
                                attractor%bases, in_section)

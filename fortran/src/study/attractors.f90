@@ -13,9 +13,11 @@ module attractors
    use motion_classes, only: chaos, cycle_motion, fixed_point, none, not_stationary, torus, &
                              undecided, unstable_rest
    use motion_path, only: follow_path
+   use observed_motion, only: observed_motion_type
    use section_motion, only: drifts
    use steady_sliding, only: settles, sliding_exponents
-   use spring_block, only: spring_block_type
+   use spring_block, only: index_of_ln_v, spring_block_type
+   use tangent_vectors, only: undisturbed_part
    implicit none (type, external)
    private
    public :: attractor_settings_type, attractor_type, find_attractor
@@ -52,6 +54,7 @@ contains
                         continuation=attractor%motion%continuation)
          if (allocated(error)) return
       end if
+      attractor%motion%sample_interval = settings%sample_interval
       associate (now => attractor%motion%continuation%time)
          attractor%time = now(1)
          call approach(block_model, settings, options, attractor, error)
@@ -114,12 +117,13 @@ contains
       do part = 1, most_parts
          call attractor%motion%clear()
          call attractor%motion%observe(block_model, settings%t_transient/approach_parts, &
-                                       settings%sample_interval, options, error)
+                                       options, error)
          if (allocated(error)) return
          call judge_rest(block_model, settings, attractor, error)
          if (allocated(error) .or. attractor%class == fixed_point) return
          if (on_cycle(attractor%motion)) return
-         if (part >= approach_parts .and. .not. settles(attractor%motion%samples(3, :))) return
+         if (part < approach_parts) cycle
+         if (.not. settles(attractor%motion%samples(index_of_ln_v))) return
       end do
       attractor%reason = unstable_rest
    end subroutine approach
@@ -145,7 +149,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(exponent_type), allocatable :: exponents(:)
 
-      if (.not. settles(attractor%motion%samples(3, :))) return
+      if (.not. settles(attractor%motion%samples(index_of_ln_v))) return
       call sliding_exponents(block_model, exponents_of(block_model, settings), exponents, error)
       if (allocated(error)) return
       if (.not. all(exponents%value < 0.0_wp)) return
@@ -190,10 +194,8 @@ contains
       spent = 0.0_wp
       time = settings%t_observed
       if (.not. reached) call attractor%motion%clear()
-      call begin_growth(block_model, settings, options, time, attractor, measured, error)
       do
-         if (allocated(error)) return
-         call attractor%motion%observe(block_model, time, settings%sample_interval, options, error)
+         call go_on(block_model, settings, options, time, attractor%motion, measured, error)
          if (allocated(error)) return
          spent = spent + time
          last = spent >= longest_time(settings)
@@ -210,7 +212,7 @@ contains
             turned = .true.
             reached = .not. reached
             time = settings%t_observed
-            call begin_growth(block_model, settings, options, time, attractor, measured, error)
+            measured = growth_type()
             cycle
          end if
          call judge(settings, measured, last, attractor, error)
@@ -222,7 +224,7 @@ contains
             if (last) return
             call attractor%motion%clear()
             time = spent
-            call begin_growth(block_model, settings, options, time, attractor, measured, error)
+            measured = growth_type()
             cycle
          end if
          if (attractor%class == chaos .and. .not. surviving) then
@@ -237,15 +239,48 @@ contains
             if (on_cycle(attractor%motion)) then
                attractor%class = undecided
                time = settings%t_observed
+               measured = growth_type()
+               reached = .true.
                cycle
             end if
          end if
          if (attractor%class /= undecided .or. last) return
          time = sum(measured%length)
-         call extend_growth(block_model, growth_settings(block_model, settings, 0.0_wp), options, &
-                            measured, error)
       end do
    end subroutine judge_motion
+
+   !> Observe the block for a time, and measure exponents: go on, or begin if nothing was measured.
+   subroutine go_on(block_model, settings, options, time, motion, measured, error)
+      !> The block
+      type(spring_block_type), intent(in) :: block_model
+      !> How
+      type(attractor_settings_type), intent(in) :: settings
+      !> Method and tolerances
+      type(integration_options), intent(in) :: options
+      !> How long
+      real(wp), intent(in) :: time
+      !> The motion
+      type(observed_motion_type), intent(inout) :: motion
+      !> The growth
+      type(growth_type), intent(inout) :: measured
+      !> Exponents cannot be measured
+      type(error_type), allocatable, intent(out) :: error
+      type(continuation_type) :: now
+      type(growth_settings_type) :: wanted
+
+      now = motion%continuation
+      wanted = growth_settings_type(exponents=exponents_of(block_model, settings), &
+                                    t_turning=settings%t_turning, &
+                                    t_end=now%time(1) + settings%t_turning + time, &
+                                    interval=settings%interval, bounds=.true., across_flow=.true.)
+      if (allocated(measured%growth)) then
+         call extend_growth(block_model, wanted, options, measured, error, motion)
+      else
+         call measure_growth(block_model, wanted, options, measured, error, now, observer=motion)
+      end if
+      if (allocated(error)) return
+      call motion%arrive(undisturbed_part(measured%continuation, block_model%n))
+   end subroutine go_on
 
    !> Chaos may be transient: see what the block does after some more time.
    subroutine outlive(block_model, settings, options, attractor, error)
@@ -267,47 +302,6 @@ contains
       end associate
       if (allocated(error)) return
       call attractor%motion%clear()
-      call attractor%motion%observe(block_model, settings%t_observed, settings%sample_interval, &
-                                    options, error)
+      call attractor%motion%observe(block_model, settings%t_observed, options, error)
    end subroutine outlive
-
-   !> Begin to measure exponents where the motion is.
-   subroutine begin_growth(block_model, settings, options, time, attractor, measured, error)
-      !> The block
-      type(spring_block_type), intent(in) :: block_model
-      !> How
-      type(attractor_settings_type), intent(in) :: settings
-      !> Method and tolerances
-      type(integration_options), intent(in) :: options
-      !> How long
-      real(wp), intent(in) :: time
-      !> The attractor
-      type(attractor_type), intent(in) :: attractor
-      !> The growth
-      type(growth_type), intent(out) :: measured
-      !> Exponents cannot be measured
-      type(error_type), allocatable, intent(out) :: error
-
-      associate (now => attractor%motion%continuation)
-         call measure_growth(block_model, &
-                             growth_settings(block_model, settings, &
-                                             now%time(1) + settings%t_turning + time), &
-                             options, measured, error, now)
-      end associate
-   end subroutine begin_growth
-
-   !> What growth is measured over.
-   pure type(growth_settings_type) function growth_settings(block_model, settings, t_end) &
-      result(wanted)
-      !> The block
-      type(spring_block_type), intent(in) :: block_model
-      !> How attractors are judged
-      type(attractor_settings_type), intent(in) :: settings
-      !> When it ends
-      real(wp), intent(in) :: t_end
-
-      wanted = growth_settings_type(exponents=exponents_of(block_model, settings), &
-                                    t_turning=settings%t_turning, t_end=t_end, &
-                                    interval=settings%interval, bounds=.true., across_flow=.true.)
-   end function growth_settings
 end module attractors

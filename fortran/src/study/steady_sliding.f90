@@ -60,6 +60,9 @@ contains
       !> Samples of ln v
       real(wp), intent(in) :: w(:)
 
+      ! one sample shows no approach
+      value = size(w) > 1
+      if (.not. value) return
       associate (half => size(w)/2)
          associate (first => maxval(abs(w(:half))), second => maxval(abs(w(half + 1:))))
             value = second <= small .or. (second <= near .and. second <= shrunk*first)

@@ -26,6 +26,8 @@ module dde_events
       !> functions that change faster than the solution
       real(wp) :: look_every = huge(1.0_wp)
    contains
+      !> Components that the functions depend on
+      procedure :: reads => all_components
       !> Refuse what cannot be watched
       procedure :: check => check_directions
       !> Whether bounds of state and slope show that no function is zero
@@ -37,7 +39,8 @@ module dde_events
    end type event_watcher_type
 
    abstract interface
-      !> All event functions. A value that is not finite is ignored.
+      !> All event functions. A value that is not finite is ignored. Of state and slope only the
+      !> components that `reads` names are those of this time.
       pure subroutine event_values(self, t, y, slope, g)
          import :: event_watcher_type, wp
          implicit none (type, external)
@@ -88,6 +91,7 @@ module dde_events
       !> State, shape (n, at least received)
       real(wp), allocatable :: y(:, :)
    contains
+      procedure :: reads => components_of_table
       procedure :: check => check_table
       procedure :: never_zero => never_at_level
       procedure :: values => less_level
@@ -155,6 +159,18 @@ contains
                  //" of the watcher; a time > 0 expected")
    end subroutine check_directions
 
+   !> Functions in general may depend on all components.
+   pure function all_components(self, n) result(components)
+      !> The watcher
+      class(event_watcher_type), intent(in) :: self
+      !> Number of equations
+      integer, intent(in) :: n
+      integer, allocatable :: components(:)
+      integer :: i
+
+      components = [(i, i=1, n)]
+   end function all_components
+
    !> Nothing is known of functions in general.
    pure logical function not_known(self, least, most, least_slope, most_slope) result(value)
       !> The watcher
@@ -194,6 +210,21 @@ contains
          return
       end do
    end subroutine check_table
+
+   !> Components of the table. An extension may have other functions: nothing is known of those.
+   pure function components_of_table(self, n) result(components)
+      !> The table
+      class(event_table), intent(in) :: self
+      !> Number of equations
+      integer, intent(in) :: n
+      integer, allocatable :: components(:)
+      type(event_table) :: plain
+      integer :: i
+
+      components = all_components(self, n)
+      if (.not. same_type_as(self, plain)) return
+      components = pack(components, [(any(self%component == i), i=1, n)])
+   end function components_of_table
 
    !> Whether components and slopes keep from their levels. An extension may have other functions:
    !> nothing is known of those.

@@ -95,7 +95,7 @@ contains
          call deliver(run, problem, step_end, ended, sampler, watcher)
          if (ended) then
             call run%arrive(goal, .false., step_end)
-            run%step%y = run%search%here%y
+            run%step%y = run%search%event%y
             outcome%reason = event_met
             exit
          end if

@@ -314,7 +314,7 @@ contains
       continuation%origin = [self%past%origin%hi, self%past%origin%lo]
       continuation%y = self%step%y
       continuation%slope = self%step%slope_here()
-      if (allocated(self%search%here%slope)) continuation%slope = self%search%here%slope
+      call self%search%read_slope(continuation%slope)
       call prepare_start(self, problem, options)
       continuation%rate = self%step%slope
       continuation%next_step = self%h

@@ -1,6 +1,7 @@
-!> State and slope at any place of an accepted step, from its dense output.
+!> State and slope at any place of an accepted step, from its dense output, of the components that
+!> are looked at.
 module dde_dense_state
-   use dde_interpolant, only: newton_state
+   use dde_interpolant, only: highest_degree, newton_state, taylor_coefficients
    use dde_step, only: step_type
    use dde_time, only: instant, later
    use dde_kinds, only: wp
@@ -11,7 +12,7 @@ module dde_dense_state
    !> Relative rounding error of a state. Over a step length it is the error of the slope.
    real(wp), parameter :: rounding = 16.0_wp*epsilon(1.0_wp)
 
-   !> A place of a step.
+   !> A place of a step. Components that are not looked at keep their values of the first instant.
    type :: dense_state
       !> When
       type(instant) :: t
@@ -19,19 +20,24 @@ module dde_dense_state
       real(wp), allocatable :: y(:), slope(:)
       !> Bounds of each component over the step, and of its time derivative, shape (n)
       real(wp), allocatable, dimension(:) :: least, most, least_slope, most_slope
+      !> Components looked at
+      integer, allocatable :: components(:)
       !> Start and end of the step
       type(instant), private :: start, finish
       !> Its length
       real(wp) :: h = 0.0_wp
-      !> State at its end, shape (n)
+      !> State at its end, shape (components)
       real(wp), allocatable, private :: y_end(:)
       !> Newton nodes of its dense output, shape (degree)
       real(wp), allocatable, private :: nodes(:)
-      !> Newton coefficients, shape (n, 0:degree)
+      !> Whether all of them are 0
+      logical, private :: powers = .false.
+      !> Newton coefficients, shape (0:degree, components)
       real(wp), allocatable, private :: coefficients(:, :)
-      !> Slopes at both ends, times h, shape (n, 2)
+      !> Slopes at both ends, times h, shape (2, components)
       real(wp), allocatable, private :: ends(:, :)
-      !> Whether the step is so short that the slope is interpolated between its ends, shape (n)
+      !> Whether the step is so short that the slope is interpolated between its ends, shape
+      !> (components)
       logical, allocatable, private :: straight(:)
    contains
       !> The state at the first instant
@@ -49,7 +55,7 @@ module dde_dense_state
 contains
 
    !> The state at the first instant, before any step.
-   pure subroutine begin(self, t, y, slope)
+   pure subroutine begin(self, t, y, slope, components)
       !> The state
       class(dense_state), intent(inout) :: self
       !> When
@@ -58,11 +64,15 @@ contains
       real(wp), intent(in) :: y(:)
       !> Its time derivative, shape (n)
       real(wp), intent(in) :: slope(:)
+      !> Components to look at
+      integer, intent(in) :: components(:)
 
       self%t = t
       self%y = y
       self%slope = slope
-      allocate (self%ends(size(y), 2), self%coefficients(size(y), 0:0))
+      self%components = components
+      allocate (self%ends(2, size(components)), self%straight(size(components)))
+      allocate (self%y_end(size(components)), self%coefficients(0:0, size(components)))
       allocate (self%least(size(y)), self%most(size(y)))
       allocate (self%least_slope(size(y)), self%most_slope(size(y)))
    end subroutine begin
@@ -77,25 +87,29 @@ contains
       type(instant), intent(in) :: start
       !> Its end
       type(instant), intent(in) :: finish
-      integer :: i
+      real(wp) :: ignored
+      integer :: i, j
 
       self%start = start
       self%finish = finish
       self%h = step%h
-      self%y_end = step%y_new
       self%nodes = step%nodes
-      if (ubound(self%coefficients, 2) /= size(step%nodes)) then
+      self%powers = step%powers
+      if (ubound(self%coefficients, 1) /= size(step%nodes)) then
          deallocate (self%coefficients)
-         allocate (self%coefficients(size(step%y), 0:size(step%nodes)))
+         allocate (self%coefficients(0:size(step%nodes), size(self%components)))
       end if
-      do i = 1, size(step%y)
-         call step%interpolant(i, self%coefficients(i, :))
+      do j = 1, size(self%components)
+         i = self%components(j)
+         call step%interpolant(i, self%coefficients(:, j))
+         associate (a => self%coefficients(:, j), ends => self%ends(:, j))
+            call newton_state(self%nodes, a, 0.0_wp, ignored, ends(1))
+            call newton_state(self%nodes, a, 1.0_wp, ignored, ends(2))
+            self%straight(j) = abs(ends(2) - ends(1)) <= rounding*abs(step%y(i))
+         end associate
+         self%y_end(j) = step%y_new(i)
       end do
-      call newton_state(self%nodes, self%coefficients, 0.0_wp, self%y, self%ends(:, 1))
-      call newton_state(self%nodes, self%coefficients, 1.0_wp, self%y, self%ends(:, 2))
-      self%straight = abs(self%ends(:, 2) - self%ends(:, 1)) <= rounding*abs(step%y)
-      self%slope = self%ends(:, 2)/self%h
-      call stop_at_end(self)
+      call self%go_to(1.0_wp)
    end subroutine take_up
 
    !> Go to a place of the step.
@@ -104,24 +118,20 @@ contains
       class(dense_state), intent(inout) :: self
       !> The place, 0..1
       real(wp), intent(in) :: place
+      real(wp) :: slope
+      integer :: i, j
 
       self%t = later(self%start, place*self%h)
-      call newton_state(self%nodes, self%coefficients, place, self%y, self%slope)
-      where (self%straight)
-         self%slope = (1.0_wp - place)*self%ends(:, 1) + place*self%ends(:, 2)
-      end where
-      self%slope = self%slope/self%h
-      if (.not. place < 1.0_wp) call stop_at_end(self)
+      ! at the end of the step time and state are those of the next start, without rounding
+      if (.not. place < 1.0_wp) self%t = self%finish
+      do j = 1, size(self%components)
+         i = self%components(j)
+         call newton_state(self%nodes, self%coefficients(:, j), place, self%y(i), slope)
+         if (.not. place < 1.0_wp) self%y(i) = self%y_end(j)
+         if (self%straight(j)) slope = (1.0_wp - place)*self%ends(1, j) + place*self%ends(2, j)
+         self%slope(i) = slope/self%h
+      end do
    end subroutine go_to
-
-   !> At the end of the step the state is that of the next start, without rounding.
-   pure subroutine stop_at_end(self)
-      !> The state
-      class(dense_state), intent(inout) :: self
-
-      self%t = self%finish
-      self%y = self%y_end
-   end subroutine stop_at_end
 
    !> Degree of dense output.
    pure integer function degree(self) result(value)
@@ -131,26 +141,27 @@ contains
       value = size(self%nodes)
    end function degree
 
-   !> Bounds over the step: places and nodes lie in 0..1, so that a factor (s - x) of a term is at
-   !> most 1, and term k has the sum of k products as its derivative.
+   !> Bounds over the step: by powers of x = 2 s - 1, all of them at most 1.
    pure subroutine find_bounds(self)
       !> The state, in a step
       class(dense_state), intent(inout) :: self
-      real(wp) :: bend, change, term
-      integer :: i, k
+      real(wp) :: bend, change, powers(0:highest_degree)
+      integer :: i, j, k
 
-      do i = 1, size(self%least)
-         change = abs(self%coefficients(i, 1))
+      do j = 1, size(self%components)
+         i = self%components(j)
+         call taylor_coefficients(size(self%nodes), self%nodes, self%powers, &
+                                  self%coefficients(:, j), 0.5_wp, 0.5_wp, powers)
+         change = abs(powers(1))
          bend = 0.0_wp
          do k = 2, size(self%nodes)
-            term = abs(self%coefficients(i, k))
-            change = change + term
-            bend = bend + k*term
+            change = change + abs(powers(k))
+            bend = bend + k*abs(powers(k))
          end do
-         self%least(i) = self%coefficients(i, 0) - change
-         self%most(i) = self%coefficients(i, 0) + change
-         self%least_slope(i) = (self%coefficients(i, 1) - bend)/self%h
-         self%most_slope(i) = (self%coefficients(i, 1) + bend)/self%h
+         self%least(i) = powers(0) - change
+         self%most(i) = powers(0) + change
+         self%least_slope(i) = 2.0_wp*(powers(1) - bend)/self%h
+         self%most_slope(i) = 2.0_wp*(powers(1) + bend)/self%h
       end do
    end subroutine find_bounds
 end module dde_dense_state

@@ -23,8 +23,12 @@ module dde_event_search
 
    !> The search, at one place of one step.
    type :: event_search
-      !> The place, and time, state and slope there
-      type(dense_state) :: here
+      !> The place, and time, state and slope there of the components that the functions read
+      type(dense_state), private :: here
+      !> The last event: time, and state and slope of all components
+      type(dense_state) :: event
+      !> Whether it ended the run
+      logical, private :: ended = .false.
       !> Event functions there
       real(wp), allocatable, private :: g(:)
       !> Sign of each function at the last place: -1, 1, or 0 at zero
@@ -34,6 +38,8 @@ module dde_event_search
       procedure :: begin
       !> Search a step
       procedure :: search_step
+      !> The slope that the functions were given last
+      procedure :: read_slope
       procedure, private :: choose_places, go_to, report, locate, stays
    end type event_search
 
@@ -51,8 +57,10 @@ contains
       real(wp), intent(in) :: y(:)
       !> Its time derivative, shape (n)
       real(wp), intent(in) :: slope(:)
+      integer :: i
 
-      call self%here%begin(t, y, slope)
+      call self%here%begin(t, y, slope, watcher%reads(size(y)))
+      call self%event%begin(t, y, slope, [(i, i=1, size(y))])
       allocate (self%g(size(watcher%direction)))
       allocate (self%side(size(watcher%direction)), source=0)
       call watcher%values(t%hi, y, slope, self%g)
@@ -93,8 +101,10 @@ contains
          share = places(i)
          side = sign_of(g(:, i), self%side)
          if (any(side /= self%side .and. self%side /= 0)) then
-            call self%report(watcher, before, share, side, ended)
-            if (ended) step_end = self%here%t
+            call self%event%take_up(step, start, step_end)
+            call self%report(watcher, before, share, side)
+            ended = self%ended
+            if (ended) step_end = self%event%t
             if (ended) return
          end if
          self%side = side
@@ -158,7 +168,7 @@ contains
    end subroutine choose_places
 
    !> Report the events between two places, in order of time, up to the end of the run.
-   subroutine report(self, watcher, before, share, side, ended)
+   subroutine report(self, watcher, before, share, side)
       !> The search
       class(event_search), intent(inout) :: self
       !> The watcher
@@ -169,8 +179,6 @@ contains
       real(wp), intent(inout) :: share
       !> Signs at the later place
       integer, intent(in) :: side(:)
-      !> Whether an event ends the run
-      logical, intent(out) :: ended
       real(wp) :: root(size(side))
       logical :: passed(size(side))
       integer :: i
@@ -180,19 +188,33 @@ contains
       do i = 1, size(side)
          if (passed(i)) call self%locate(watcher, i, before, root(i))
       end do
-      ended = .false.
       do while (any(passed))
          i = minloc(root, dim=1, mask=passed)
-         if (ended .and. root(i) > share) exit
+         if (self%ended .and. root(i) > share) exit
          passed(i) = .false.
-         call self%go_to(watcher, root(i))
-         call watcher%take(i, self%here%t, self%here%y, self%here%slope)
+         call self%event%go_to(root(i))
+         call watcher%take(i, self%event%t, self%event%y, self%event%slope)
          if (watcher%terminal(i)) then
-            ended = .true.
+            self%ended = .true.
             share = root(i)
          end if
       end do
    end subroutine report
+
+   !> Replace the slope where the search is by the one that the functions were given last, of the
+   !> components that they read; of all, if an event ended the run.
+   pure subroutine read_slope(self, slope)
+      !> The search; nothing is replaced before it began
+      class(event_search), intent(in) :: self
+      !> The slope, shape (n)
+      real(wp), intent(inout) :: slope(:)
+
+      if (self%ended) then
+         slope = self%event%slope
+      else if (allocated(self%here%components)) then
+         slope(self%here%components) = self%here%slope(self%here%components)
+      end if
+   end subroutine read_slope
 
    !> First place after `before` where function `i` has no longer its sign, by the method of
    !> Oliveira and Takahashi (2020), "An Enhancement of the Bisection Method Average Performance

@@ -183,27 +183,25 @@ contains
       end do
    end subroutine shift
 
-   !> Values at s of several polynomials over the same nodes, and their derivatives by s.
-   pure subroutine newton_state(nodes, coefficients, s, values, slopes)
+   !> Value of p at s, and its derivative by s.
+   pure subroutine newton_state(nodes, coefficients, s, value, slope)
       !> Nodes x(1..degree) of the method
       real(wp), intent(in) :: nodes(:)
-      !> Coefficients a(0..degree) of each, shape (polynomials, 0:degree)
-      real(wp), intent(in) :: coefficients(:, 0:)
+      !> Coefficients a(0..degree)
+      real(wp), intent(in) :: coefficients(0:)
       !> Place in the step, 0..1
       real(wp), intent(in) :: s
-      !> Values, shape (polynomials)
-      real(wp), intent(out) :: values(:)
-      !> Derivatives, shape (polynomials)
-      real(wp), intent(out) :: slopes(:)
-      integer :: i, j
+      !> The value
+      real(wp), intent(out) :: value
+      !> The derivative
+      real(wp), intent(out) :: slope
+      integer :: j
 
-      do i = 1, size(values)
-         values(i) = coefficients(i, size(nodes))
-         slopes(i) = 0.0_wp
-         do j = size(nodes), 1, -1
-            slopes(i) = values(i) + (s - nodes(j))*slopes(i)
-            values(i) = coefficients(i, j - 1) + (s - nodes(j))*values(i)
-         end do
+      value = coefficients(size(nodes))
+      slope = 0.0_wp
+      do j = size(nodes), 1, -1
+         slope = value + (s - nodes(j))*slope
+         value = coefficients(j - 1) + (s - nodes(j))*value
       end do
    end subroutine newton_state
 end module dde_interpolant
