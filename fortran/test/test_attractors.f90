@@ -29,6 +29,7 @@ contains
                    new_unittest("chaos of the paper", test_chaos), &
                    new_unittest("a true torus", test_true_torus), &
                    new_unittest("another torus, time doubled", test_doublings), &
+                   new_unittest("chaos on the way to a torus", test_passing_chaos), &
                    new_unittest("cycle without delay", test_without_delay), &
                    new_unittest("unstable steady sliding", test_unstable), &
                    new_unittest("approach shorter than the delay", test_short_approach), &
@@ -268,6 +269,29 @@ contains
       call expect(error, size(found%exponents) == 4, "four exponents")
       call expect(error, found%by_exponents == cycle_motion, "a cycle by exponents")
    end subroutine test_short_approach
+
+   !> A torus, as from other histories, whose approach is certain chaos for a while by exponents
+   !> and spectrum.
+   subroutine test_passing_chaos(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(attractor_settings_type) :: settings
+      type(attractor_type) :: found
+      type(failure_type), allocatable :: failure
+
+      settings = after(2000.0_wp, 800.0_wp)
+      settings%t_lasting = 4000.0_wp
+      settings%t_turning = 500.0_wp
+      settings%interval = 20.0_wp
+      settings%exponents = 3
+      settings%longest_bar = 1.0e-4_wp
+      settings%doublings = 6
+      call find_attractor(disturbed(12.75_wp, 0.5_wp, 0.8_wp), settings, &
+                          at_tolerance(1.0e-8_wp, "auto"), found, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect(error, found%class == torus, "a torus")
+      call expect_between(error, found%time, 1.5e4_wp, 3.0e4_wp, "time: chaos came before")
+   end subroutine test_passing_chaos
 
    !> A run that takes too many steps is an error and leaves the class undecided, in the approach
    !> as in the observation.

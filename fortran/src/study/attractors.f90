@@ -10,8 +10,8 @@ module attractors
    use exponent_averages, only: exponent_type
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, measure_growth
-   use motion_classes, only: chaos, cycle_motion, fixed_point, none, not_stationary, torus, &
-                             undecided, unstable_rest
+   use motion_classes, only: chaos, contradicted, cycle_motion, fixed_point, none, &
+                             not_stationary, torus, undecided, unstable_rest
    use motion_path, only: follow_path
    use observed_motion, only: observed_motion_type
    use section_motion, only: drifts
@@ -184,6 +184,7 @@ contains
       type(attractor_type), intent(inout) :: attractor
       !> Exponents cannot be measured
       type(error_type), allocatable, intent(out) :: error
+      type(attractor_type) :: later
       type(growth_type) :: measured
       logical :: last, reached, surviving, turned
       real(wp) :: spent, time
@@ -236,11 +237,16 @@ contains
             end if
             call judge_rest(block_model, settings, attractor, error)
             if (allocated(error) .or. attractor%class == fixed_point) return
-            if (on_cycle(attractor%motion)) then
+            later = attractor
+            call judge(settings, measured, last, later, error)
+            if (allocated(error)) return
+            if (later%reason == contradicted) then
+               ! it was the approach to another motion
                attractor%class = undecided
+               reached = on_cycle(attractor%motion)
+               spent = 0.0_wp
                time = settings%t_observed
                measured = growth_type()
-               reached = .true.
                cycle
             end if
          end if
