@@ -78,10 +78,12 @@ contains
    pure subroutine clear(self)
       !> The motion
       class(observed_motion_type), intent(inout) :: self
+      type(even_sampler_type) :: empty
       real(wp) :: nothing(0)
 
-      self%sampler = even_sampler_type(wanted=[index_of_theta, index_of_u, index_of_ln_v], &
-                                       interval=self%sample_interval)
+      self%sampler = empty
+      self%sampler%wanted = [index_of_theta, index_of_u, index_of_ln_v]
+      self%sampler%interval = self%sample_interval
       allocate (self%sampler%rows(size(self%sampler%wanted), first_rows))
       self%section = reshape(nothing, [2, 0])
       self%section_time = nothing
@@ -93,9 +95,11 @@ contains
    pure subroutine forget_path(self)
       !> The motion
       class(observed_motion_type), intent(inout) :: self
+      type(even_sampler_type) :: empty
+      type(event_table) :: unused
 
-      self%sampler = even_sampler_type()
-      self%events = event_table()
+      self%sampler = empty
+      self%events = unused
       self%continuation = continuation_type()
    end subroutine forget_path
 
