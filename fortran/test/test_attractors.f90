@@ -283,7 +283,6 @@ contains
       settings%t_turning = 500.0_wp
       settings%interval = 20.0_wp
       settings%exponents = 3
-      settings%longest_bar = 1.0e-4_wp
       settings%doublings = 6
       call find_attractor(disturbed(12.75_wp, 0.5_wp, 0.8_wp), settings, &
                           at_tolerance(1.0e-8_wp, "auto"), found, failure)

@@ -62,14 +62,14 @@ contains
       call expect_class(error, [-1.01e-4_wp, -0.3_wp], [3.3e-5_wp, 0.0_wp], fixed_point)
    end subroutine test_fixed_point
 
-   !> One zero, by its level or by its error bar, the others negative.
+   !> One zero, the others negative.
    subroutine test_cycle(error)
       type(error_type), allocatable, intent(out) :: error
 
       call expect_class(error, [0.0_wp, -0.1_wp, -0.2_wp], [0.0_wp, 0.0_wp, 0.0_wp], cycle_motion)
       call expect_class(error, [9.9e-5_wp, -0.1_wp], [0.0_wp, 0.0_wp], cycle_motion)
       call expect_class(error, [-9.9e-5_wp, -0.1_wp], [0.0_wp, 0.0_wp], cycle_motion)
-      call expect_class(error, [8.9e-4_wp, -0.1_wp], [3.0e-4_wp, 0.0_wp], cycle_motion)
+      call expect_class(error, [9.9e-5_wp, -0.1_wp], [3.3e-4_wp, 0.0_wp], cycle_motion)
       call expect_class(error, [1.0e-5_wp, -1.1e-4_wp], [1.0e-6_wp, 1.0e-6_wp], cycle_motion)
    end subroutine test_cycle
 
@@ -78,7 +78,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       call expect_class(error, [1.0e-5_wp, -1.0e-5_wp, -0.1_wp], [0.0_wp, 0.0_wp, 0.0_wp], torus)
-      call expect_class(error, [8.9e-4_wp, -8.9e-4_wp, -0.1_wp], [3.0e-4_wp, 3.0e-4_wp, 0.0_wp], &
+      call expect_class(error, [9.9e-5_wp, -9.9e-5_wp, -0.1_wp], [3.3e-4_wp, 3.3e-4_wp, 0.0_wp], &
                         torus)
    end subroutine test_torus
 
@@ -94,7 +94,8 @@ contains
       call expect_class(error, [0.05_wp], [1.0e-3_wp], chaos)
    end subroutine test_chaos
 
-   !> A zero missed, one with a long bar, too many, or nothing but zeros.
+   !> A zero missed, one with a long bar, one without sign that is not zero, too many zeros, or
+   !> nothing but zeros.
    subroutine test_undecided(error)
       type(error_type), allocatable, intent(out) :: error
 
@@ -102,6 +103,7 @@ contains
                         undecided)
       call expect_class(error, [1.1e-4_wp, -0.3_wp], [0.0_wp, 0.0_wp], undecided)
       call expect_class(error, [0.0_wp, -0.1_wp], [3.4e-4_wp, 0.0_wp], undecided)
+      call expect_class(error, [1.1e-4_wp, -0.1_wp], [3.0e-4_wp, 0.0_wp], undecided)
       call expect_class(error, [0.0_wp, -1.0e-3_wp, -0.1_wp], [0.0_wp, 3.4e-4_wp, 0.0_wp], &
                         undecided)
       call expect_class(error, [0.0_wp, 0.0_wp, 0.0_wp, -0.1_wp], &

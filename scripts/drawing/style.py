@@ -26,16 +26,17 @@ METADATA = {"pdf": {"CreationDate": None}, "png": None, "svg": {"Date": None}}
 
 def save(figure: Figure, output) -> None:
     """Write a figure for print, as picture and for the page; `output` names the three files."""
-    # the layout once, for all three
+    # the layout once for all three: without an engine none of them draws twice
     figure.draw_without_rendering()
-    figure.set_layout_engine("none")
-    for ending, metadata in METADATA.items():
-        final = getattr(output, ending)
-        # to memory first: matplotlib hides that a disk is full
-        drawn = io.BytesIO()
-        figure.savefig(drawn, format=ending, metadata=metadata)
-        with outputs.written(final) as path:
-            path.write_bytes(drawn.getvalue())
+    with plt.rc_context({"figure.constrained_layout.use": False}):
+        figure.set_layout_engine(None)
+        for ending, metadata in METADATA.items():
+            final = getattr(output, ending)
+            # to memory first: matplotlib hides that a disk is full
+            drawn = io.BytesIO()
+            figure.savefig(drawn, format=ending, metadata=metadata)
+            with outputs.written(final) as path:
+                path.write_bytes(drawn.getvalue())
     plt.close(figure)
 
 

@@ -40,8 +40,8 @@ contains
 
    !> The class by leading exponents: all negative, a fixed point; one zero, the others negative, a
    !> cycle; two zero, a torus; positive ones, chaos. It is undecided if there are positive and
-   !> negative exponents but no zero one, if all or more than two are zero, or if the error bar of a
-   !> zero exponent is too long.
+   !> negative exponents but no zero one, if all or more than two are zero, if the error bar of a
+   !> zero exponent is too long, or if one that is not zero has no sign.
    pure integer function class_by_exponents(exponents, zero_level, longest_bar) result(found)
       !> Exponents, descending
       type(exponent_type), intent(in) :: exponents(:)
@@ -49,17 +49,18 @@ contains
       real(wp), intent(in) :: zero_level
       !> Longest error bar (of three standard errors) of a zero exponent
       real(wp), intent(in) :: longest_bar
-      logical :: zero(size(exponents))
+      logical :: signless(size(exponents)), zero(size(exponents))
       integer :: positive, zeros
 
-      zero = without_sign(exponents, zero_level)
-      positive = count(exponents%value > 0.0_wp .and. .not. zero)
+      signless = without_sign(exponents, zero_level)
+      zero = abs(exponents%value) <= zero_level &
+             .and. error_bars*exponents%error <= longest_bar
+      positive = count(exponents%value > 0.0_wp .and. .not. signless)
       zeros = count(zero)
       found = undecided
       if (positive > 0) then
-         if (zeros > 0 .or. positive == size(exponents)) found = chaos
-      else if (zeros < size(exponents) &
-               .and. .not. any(zero .and. error_bars*exponents%error > longest_bar)) then
+         if (any(signless) .or. positive == size(exponents)) found = chaos
+      else if (zeros < size(exponents) .and. all(zero .eqv. signless)) then
          select case (zeros)
          case (0)
             found = fixed_point
