@@ -20,10 +20,11 @@ LONG_RULES = {
     "work_precision_runs",
 }
 # Priorities: the paper's figures can be looked at while long runs go on. Long runs start before short
-# ones, so that no core is idle at the end. Snakemake adds the priorities of jobs that fit at the same
-# time: a build, which takes two cores, must have more than two jobs of the paper.
+# ones, the longest first, so that no core is idle at the end. Snakemake adds the priorities of jobs
+# that fit at the same time: a build, which takes two cores, must have more than two jobs of the paper.
 OF_PROGRAMS = 10
-OF_PAPER = 2
+OF_PAPER = 3
+OF_LONGEST = 2
 OF_LONG = 1
 
 

@@ -27,7 +27,7 @@ rule cycles_runs:
         "{results}/logs/cycles/{cycle_line}.log",
     benchmark:
         "{results}/benchmarks/cycles/{cycle_line}.tsv"
-    priority: OF_LONG
+    priority: OF_LONGEST
     params:
         values=of_config(result_values.cycles_values, "cycle_line"),
         sources=digest_of("cycles"),
