@@ -9,6 +9,7 @@ rule cycles_namelist:
         "{results}/namelists/cycles/{cycle_line}.nml",
     log:
         "{results}/logs/namelists/cycles/{cycle_line}.log",
+    priority: OF_LONGEST
     params:
         group="cycles",
         values=of_config(result_values.cycles_values, "cycle_line"),

@@ -165,7 +165,7 @@ contains
       !> Right-hand sides; those of further forcings are given
       real(wp), intent(inout) :: right(:, :)
       type(point_type) :: point
-      real(wp) :: h, row_size, values(self%degree + 1)
+      real(wp) :: h, row_size(size(local, 1)), values(self%degree + 1)
       integer :: column, first, interval, j, k, l, last, r
 
       h = orbit%mesh(i + 1) - orbit%mesh(i)
@@ -206,10 +206,12 @@ contains
             right(r + 1:r + n, n + m*size(problem%lag) + 1:last) = point%forcing
          end do
          right(:, :n) = -local(:, :n)
-         do r = 1, size(local, 1)
-            row_size = maxval(abs(local(r, n + 1:)))
-            local(r, :) = local(r, :)/row_size
-            right(r, :) = right(r, :)/row_size
+         row_size = maxval(abs(local(:, n + 1:)), dim=2)
+         do column = n + 1, size(local, 2)
+            local(:, column) = local(:, column)/row_size
+         end do
+         do column = 1, size(right, 2)
+            right(:, column) = right(:, column)/row_size
          end do
       end associate
    end subroutine local_system
