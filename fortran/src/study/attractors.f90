@@ -213,7 +213,7 @@ contains
             turned = .true.
             reached = .not. reached
             time = settings%t_observed
-            measured = growth_type()
+            deallocate (measured%growth)
             cycle
          end if
          call judge(settings, measured, last, attractor, error)
@@ -225,7 +225,7 @@ contains
             if (last) return
             call attractor%motion%clear()
             time = spent
-            measured = growth_type()
+            deallocate (measured%growth)
             cycle
          end if
          if (attractor%class == chaos .and. .not. surviving) then
@@ -246,7 +246,7 @@ contains
                reached = on_cycle(attractor%motion)
                spent = 0.0_wp
                time = settings%t_observed
-               measured = growth_type()
+               deallocate (measured%growth)
                cycle
             end if
          end if
