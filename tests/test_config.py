@@ -27,7 +27,7 @@ def test_default_config_is_accepted_as_it_stands(config, default_config):
         assert {key: scenes[name][key] for key in scene} == scene
 
 
-@pytest.mark.parametrize("name", ["smoke", "fine_atlas", "small_tori"])
+@pytest.mark.parametrize("name", ["smoke", "fine_atlas"])
 def test_overlays_name_only_keys_that_there_are(config, name):
     """A misspelt key would change nothing."""
     overlay = read(ROOT / "config" / f"{name}.yaml")
