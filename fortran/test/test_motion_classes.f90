@@ -5,9 +5,9 @@ module test_motion_classes
    use exponent_averages, only: exponent_type
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use motion_classes, only: agree, chaos, class_by_exponents, class_names, clear, contradicted, &
-                             cycle_motion, fixed_point, no_class_by_exponents, none, &
-                             not_confirmed, torus, undecided
+   use motion_classes, only: agree, chaos, class_by_exponents, class_names, clear_by_exponents, &
+                             contradicted, cycle_motion, fixed_point, leaves_cycle, &
+                             no_class_by_exponents, none, not_confirmed, torus, undecided
    implicit none (type, external)
    private
    public :: collect_motion_classes
@@ -26,6 +26,8 @@ contains
                    new_unittest("torus", test_torus), &
                    new_unittest("chaos", test_chaos), &
                    new_unittest("undecided", test_undecided), &
+                   new_unittest("clear exponents", test_clear), &
+                   new_unittest("near an unstable cycle", test_leaving), &
                    new_unittest("verdict of three", test_agreement), &
                    new_unittest("names", test_names)]
    end subroutine collect_motion_classes
@@ -43,8 +45,7 @@ contains
       character(len=:), allocatable :: words
       integer :: found, i
 
-      found = class_by_exponents([(exponent_type(values(i), errors(i)), i=1, size(values))], &
-                                 zero_level, longest_bar)
+      found = class_by_exponents(exponents_of(values, errors), zero_level, longest_bar)
       words = ""
       do i = 1, size(values)
          words = words//" "//text(values(i))//" +- "//text(errors(i))
@@ -52,6 +53,18 @@ contains
       call expect(error, found == class, "exponents"//words//" tell "//trim(class_names(class)) &
                   //" (they told "//trim(class_names(found))//")")
    end subroutine expect_class
+
+   !> Exponents with their errors.
+   pure function exponents_of(values, errors) result(exponents)
+      !> Values, descending
+      real(wp), intent(in) :: values(:)
+      !> Standard errors
+      real(wp), intent(in) :: errors(:)
+      type(exponent_type) :: exponents(size(values))
+
+      exponents%value = values
+      exponents%error = errors
+   end function exponents_of
 
    !> All negative.
    subroutine test_fixed_point(error)
@@ -113,17 +126,68 @@ contains
       call expect_class(error, [1.0e-5_wp, 1.0e-5_wp, 0.0_wp], [0.0_wp, 0.0_wp, 0.0_wp], undecided)
    end subroutine test_undecided
 
+   !> All but one at least six standard errors and three e-foldings from zero.
+   subroutine test_clear(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call expect_clear(error, [0.05_wp, 0.0_wp, -0.1_wp], 8.3e-3_wp, 61.0_wp, .true.)
+      call expect_clear(error, [0.05_wp, 0.0_wp, -0.1_wp], 8.4e-3_wp, 61.0_wp, .false.)
+      call expect_clear(error, [0.05_wp, 0.0_wp, -0.1_wp], 8.3e-3_wp, 59.0_wp, .false.)
+      call expect_clear(error, [0.0_wp, 0.0_wp, -0.1_wp], 1.0e-6_wp, 1.0e3_wp, .false.)
+      call expect_clear(error, [0.05_wp, -0.05_wp, -0.1_wp], 1.0e-6_wp, 1.0e3_wp, .false.)
+   end subroutine test_clear
+
+   !> Exponents with one error bar must be clear, or not.
+   subroutine expect_clear(error, values, bar, time, expected)
+      !> The first failure of the test
+      type(error_type), allocatable, intent(inout) :: error
+      !> Values, descending
+      real(wp), intent(in) :: values(:)
+      !> Standard error of each
+      real(wp), intent(in) :: bar
+      !> Time in which they were measured
+      real(wp), intent(in) :: time
+      !> Whether they are clear
+      logical, intent(in) :: expected
+      integer :: i
+
+      call expect(error, expected .eqv. &
+                  clear_by_exponents(exponents_of(values, [(bar, i=1, size(values))]), time), &
+                  text(values(1))//" and others +- "//text(bar)//" in "//text(time))
+   end subroutine expect_clear
+
+   !> Two positive exponents that are equal.
+   subroutine test_leaving(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call expect_leaving(error, [2.0e-3_wp, 1.971e-3_wp, 0.0_wp], .true.)
+      call expect_leaving(error, [2.0e-3_wp, 1.969e-3_wp, 0.0_wp], .false.)
+      call expect_leaving(error, [2.9e-5_wp, 2.9e-5_wp, 0.0_wp], .false.)
+      call expect_leaving(error, [2.0e-3_wp], .false.)
+   end subroutine test_leaving
+
+   !> Exponents must be those near an unstable cycle, or not.
+   subroutine expect_leaving(error, values, expected)
+      !> The first failure of the test
+      type(error_type), allocatable, intent(inout) :: error
+      !> Values, descending
+      real(wp), intent(in) :: values(:)
+      !> Whether they are
+      logical, intent(in) :: expected
+      integer :: i
+
+      call expect(error, expected .eqv. &
+                  leaves_cycle(exponents_of(values, [(1.0e-5_wp, i=1, size(values))])), &
+                  text(values(1))//" and "//text(size(values) - 1)//" others")
+   end subroutine expect_leaving
+
    !> Every class by exponents with every two opinions, where the exponents are clear and where
    !> they are not.
    subroutine test_agreement(error)
       type(error_type), allocatable, intent(out) :: error
       integer :: by_exponents, by_section, by_spectrum, found, known, reason, sharp, witness
-      type(exponent_type) :: exponents(3)
 
-      exponents%value = [0.05_wp, 0.0_wp, -0.1_wp]
       do sharp = 0, 1
-         exponents%error = merge(1.0e-3_wp, 1.0e-2_wp, sharp == 1)*[1, 0, 1]
-         call expect(error, clear(exponents) .eqv. sharp == 1, "clear")
          do by_exponents = undecided, chaos
             do by_section = undecided, chaos
                do by_spectrum = undecided, chaos
@@ -132,7 +196,7 @@ contains
                   if (by_section == undecided) witness = by_spectrum
                   if (witness == undecided .and. sharp == 0) known = undecided
                   if (witness /= undecided .and. witness /= by_exponents) known = undecided
-                  call agree(exponents, by_exponents, by_section, by_spectrum, found, reason)
+                  call agree(by_exponents, sharp == 1, by_section, by_spectrum, found, reason)
                   call expect(error, found == known, trim(class_names(by_exponents))//", " &
                               //trim(class_names(by_section))//" and " &
                               //trim(class_names(by_spectrum))//" make " &
@@ -142,15 +206,11 @@ contains
             end do
          end do
       end do
-      call expect(error, .not. clear([exponent_type(2.0e-3_wp, 1.0e-5_wp), &
-                                      exponent_type(1.99e-3_wp, 1.0e-5_wp), &
-                                      exponent_type(0.0_wp, 0.0_wp)]), "an unstable cycle")
-      call agree(exponents, undecided, torus, torus, found, reason)
+      call agree(undecided, .true., torus, torus, found, reason)
       call expect(error, reason == no_class_by_exponents, "no class by exponents")
-      call agree(exponents, cycle_motion, torus, undecided, found, reason)
+      call agree(cycle_motion, .true., torus, undecided, found, reason)
       call expect(error, reason == contradicted, "contradicted")
-      exponents(1)%error = 1.0_wp
-      call agree(exponents, torus, undecided, undecided, found, reason)
+      call agree(torus, .false., undecided, undecided, found, reason)
       call expect(error, reason == not_confirmed, "not confirmed")
    end subroutine test_agreement
 

@@ -4,8 +4,8 @@ module motion_classes
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: agree, chaos, class_by_exponents, class_names, clear, cycle_motion, fixed_point, torus
-   public :: undecided
+   public :: agree, chaos, class_by_exponents, class_names, clear_by_exponents, cycle_motion
+   public :: fixed_point, leaves_cycle, torus, undecided
    public :: contradicted, no_class_by_exponents, none, not_confirmed, not_stationary, reason_names
    public :: unstable_rest
 
@@ -32,9 +32,10 @@ module motion_classes
                                                         "unstable rest        ", &
                                                         "not stationary       "]
 
-   !> An exponent so many standard errors from zero is far from it: during an approach those of a
-   !> cycle may be three, by chance.
-   real(wp), parameter :: far = 6.0_wp
+   !> A rate of growth that is far from zero is so many standard errors from it: during an approach
+   !> those of a cycle may be three, by chance. In the time of the measurement it makes so many
+   !> e-foldings: where a vector neither grows nor shrinks, a slow motion changes it by fewer.
+   real(wp), parameter :: least_distance = 6.0_wp, least_change = 3.0_wp
 
 contains
 
@@ -77,11 +78,11 @@ contains
    !> The class by exponents, if the section confirms it, or the spectrum where the section shows
    !> nothing, or if it is clear by the exponents alone. A section that is smooth or repeats
    !> outweighs a spectrum: lines too close to each other look like a continuum.
-   pure subroutine agree(exponents, by_exponents, by_section, by_spectrum, found, reason)
-      !> Exponents, descending
-      type(exponent_type), intent(in) :: exponents(:)
+   pure subroutine agree(by_exponents, clear, by_section, by_spectrum, found, reason)
       !> Class by exponents
       integer, intent(in) :: by_exponents
+      !> Whether it is so clear that it needs no confirmation
+      logical, intent(in) :: clear
       !> Class by the section; `undecided` neither confirms nor contradicts
       integer, intent(in) :: by_section
       !> Class by the spectrum; `undecided` neither confirms nor contradicts
@@ -97,7 +98,7 @@ contains
             reason = no_class_by_exponents
          else if (witness /= undecided .and. witness /= by_exponents) then
             reason = contradicted
-         else if (witness == undecided .and. .not. clear(exponents)) then
+         else if (witness == undecided .and. .not. clear) then
             reason = not_confirmed
          else
             found = by_exponents
@@ -106,18 +107,29 @@ contains
       end associate
    end subroutine agree
 
-   !> Whether one exponent is the flow's and all others are far from zero: then they need no
-   !> confirmation. If all of them are negative, the attractor is a cycle. Two equal ones that are
-   !> positive may be those of an unstable cycle that the motion has not left yet.
-   pure logical function clear(exponents) result(value)
+   !> Whether the leading exponents are two equal ones that are positive, as those of an unstable
+   !> cycle that the motion has not left yet.
+   pure logical function leaves_cycle(exponents) result(value)
       !> Exponents, descending
       type(exponent_type), intent(in) :: exponents(:)
 
-      value = count(abs(exponents%value) <= far*exponents%error) == 1
-      if (.not. value .or. size(exponents) < 2) return
+      value = .false.
+      if (size(exponents) < 2) return
       associate (first => exponents(1), second => exponents(2))
-         value = first%value <= 0.0_wp &
-                 .or. first%value - second%value > far*max(first%error, second%error)
+         value = second%value > error_bars*second%error &
+                 .and. first%value - second%value <= error_bars*max(first%error, second%error)
       end associate
-   end function clear
+   end function leaves_cycle
+
+   !> Whether one exponent is the flow's and all others are far from zero: then they need no
+   !> confirmation. If all of them are negative, the attractor is a cycle.
+   pure logical function clear_by_exponents(exponents, time) result(value)
+      !> Exponents, descending
+      type(exponent_type), intent(in) :: exponents(:)
+      !> Time in which they were measured
+      real(wp), intent(in) :: time
+
+      value = count(abs(exponents%value) > least_distance*exponents%error &
+                    .and. abs(exponents%value)*time >= least_change) == size(exponents) - 1
+   end function clear_by_exponents
 end module motion_classes

@@ -6,8 +6,8 @@ module attractor_verdict
    use exponent_averages, only: average_growth, exponent_type
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: growth_type
-   use motion_classes, only: agree, chaos, class_by_exponents, clear, cycle_motion, &
-                             no_class_by_exponents, none, torus, undecided
+   use motion_classes, only: agree, chaos, class_by_exponents, clear_by_exponents, &
+                             cycle_motion, no_class_by_exponents, none, torus, undecided
    use observed_motion, only: observed_motion_type
    use section_motion, only: judge_section, period_of_tail, section_verdict_type
    use spectral_peaks, only: find_peaks, peak_type
@@ -91,10 +91,12 @@ contains
       !> Too few samples
       type(error_type), allocatable, intent(out) :: error
       type(section_verdict_type) :: in_section
+      logical :: clear
 
       attractor%exponents = average_growth(measured%growth, measured%length, blocks=1, flow=.true.)
       attractor%by_exponents = class_by_exponents(attractor%exponents, settings%zero_level, &
                                                   settings%longest_bar)
+      clear = clear_by_exponents(attractor%exponents, sum(measured%length))
       attractor%by_section = undecided
       attractor%by_spectrum = undecided
       attractor%reason = no_class_by_exponents
@@ -107,7 +109,7 @@ contains
             associate (time => motion%section_time, n => size(motion%section_time))
                attractor%bases = [1.0_wp/(time(n) - time(n - attractor%period)), 0.0_wp]
             end associate
-         else if (.not. clear(attractor%exponents)) then
+         else if (.not. clear) then
             call judge_spectrum(exp(motion%samples(index_of_ln_v)), settings, attractor, error)
             if (allocated(error)) return
             call judge_section(motion%section, motion%section_time, motion%scale(), &
@@ -117,8 +119,8 @@ contains
             attractor%roughness = in_section%roughness
          end if
       end associate
-      call agree(attractor%exponents, attractor%by_exponents, attractor%by_section, &
-                 attractor%by_spectrum, attractor%class, attractor%reason)
+      call agree(attractor%by_exponents, clear, attractor%by_section, attractor%by_spectrum, &
+                 attractor%class, attractor%reason)
    end subroutine judge
 
    !> The class by the lines in the spectrum of v.

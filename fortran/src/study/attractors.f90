@@ -10,8 +10,8 @@ module attractors
    use exponent_averages, only: exponent_type
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, measure_growth
-   use motion_classes, only: chaos, contradicted, cycle_motion, fixed_point, none, &
-                             not_stationary, torus, undecided, unstable_rest
+   use motion_classes, only: chaos, contradicted, cycle_motion, fixed_point, leaves_cycle, &
+                             none, not_stationary, torus, undecided, unstable_rest
    use motion_path, only: follow_path
    use observed_motion, only: observed_motion_type
    use section_motion, only: drifts
@@ -219,7 +219,7 @@ contains
          call judge(settings, measured, last, attractor, error)
          if (allocated(error)) return
          if (any(attractor%by_exponents == [torus, chaos]) &
-             .and. drifts(attractor%motion%maxima)) then
+             .and. (drifts(attractor%motion%maxima) .or. leaves_cycle(attractor%exponents))) then
             attractor%class = undecided
             attractor%reason = not_stationary
             if (last) return
