@@ -4,18 +4,17 @@ module test_section_motion
    use expectations, only: expect, expect_between, expect_close
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use motion_classes, only: cycle_motion, torus, undecided
    use pseudo_random, only: uniform
-   use section_motion, only: drifts, judge_section, period_of_tail, section_verdict_type
+   use section_motion, only: drifts, period_of_tail, section_roughness, torus_roughness
    implicit none (type, external)
    private
    public :: collect_section_motion
 
    !> One turn.
    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
-   !> Two base frequencies, their ratio the golden mean's inverse, and none.
+   !> Two base frequencies, their ratio the golden mean's inverse.
    real(wp), parameter :: f1 = 0.37_wp, f2 = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp)*f1
-   real(wp), parameter :: both(2) = [f1, f2], none(2) = 0.0_wp
+   real(wp), parameter :: both(2) = [f1, f2]
    !> How far the made-up motions reach.
    real(wp), parameter :: reach(2) = [1.0_wp, 0.5_wp]
 
@@ -26,8 +25,6 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("cycles", test_cycles), &
-                   new_unittest("cycles with scatter", test_scatter), &
-                   new_unittest("how long a cycle is watched", test_turns), &
                    new_unittest("torus of one loop", test_one_loop), &
                    new_unittest("torus of several loops", test_several_loops), &
                    new_unittest("doubled torus", test_doubled_torus), &
@@ -40,8 +37,8 @@ contains
                    new_unittest("drift of maxima", test_drift)]
    end subroutine collect_section_motion
 
-   !> A section judged.
-   pure type(section_verdict_type) function judged(points, times, bases) result(verdict)
+   !> Roughness of a section.
+   pure real(wp) function roughness(points, times, bases)
       !> Points, shape (2, points)
       real(wp), intent(in) :: points(:, :)
       !> When each was met
@@ -49,8 +46,8 @@ contains
       !> Base frequencies
       real(wp), intent(in) :: bases(2)
 
-      call judge_section(points, times, reach, bases, verdict)
-   end function judged
+      roughness = section_roughness(points, times, reach, bases)
+   end function roughness
 
    !> So many times, one each turn of the first phase.
    pure function turns(n) result(times)
@@ -102,78 +99,35 @@ contains
    !> Cycles of period 1, 2, 7 and 128 have their period; one of period 129 is none.
    subroutine test_cycles(error)
       type(error_type), allocatable, intent(out) :: error
-      type(section_verdict_type) :: verdict
       integer :: i
       integer, parameter :: n = 600, periods(4) = [1, 2, 7, 128]
 
       do i = 1, size(periods)
-         verdict = judged(cycle(periods(i), n), turns(n), none)
-         call expect(error, verdict%class == cycle_motion, "a cycle of "//text(periods(i)))
-         call expect(error, verdict%period == periods(i), "its period")
+         call expect(error, period_of_tail(cycle(periods(i), n), reach, .false.) == periods(i), &
+                     "a cycle of "//text(periods(i)))
       end do
-      verdict = judged(cycle(129, n), turns(n), none)
-      call expect(error, verdict%class /= cycle_motion .and. verdict%period == 0, &
-                  "129 are too many")
+      call expect(error, period_of_tail(cycle(129, n), reach, .false.) == 0, "129 are too many")
    end subroutine test_cycles
-
-   !> Even scatter up to a in x and b in y makes the root mean square distance of two points of the
-   !> same place sqrt(2/3 (a^2 + b^2)): just below and just above the level of 1e-3.
-   subroutine test_scatter(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(section_verdict_type) :: verdict
-      integer, parameter :: n = 1000
-      real(wp) :: scatter(2, n)
-      integer :: i, period
-
-      ! in units of the reach, the same in x and y
-      scatter = noise(3, 1.0_wp/sqrt(4.0_wp/3), n)
-      do i = 1, 2
-         scatter(i, :) = scatter(i, :)*reach(i)
-      end do
-      do period = 1, 7, 6
-         verdict = judged(cycle(period, n) + 0.95e-3_wp*scatter, turns(n), none)
-         call expect(error, verdict%class == cycle_motion .and. verdict%period == period, &
-                     "a cycle of "//text(period)//" with scatter below the level")
-         verdict = judged(cycle(period, n) + 1.05e-3_wp*scatter, turns(n), none)
-         call expect(error, verdict%class /= cycle_motion .and. verdict%period == 0, &
-                     "a cycle of "//text(period)//" with scatter above the level")
-      end do
-   end subroutine test_scatter
-
-   !> A cycle must come again four times.
-   subroutine test_turns(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(section_verdict_type) :: verdict
-
-      verdict = judged(cycle(20, 80), turns(80), none)
-      call expect(error, verdict%period == 20, "four times")
-      verdict = judged(cycle(20, 79), turns(79), none)
-      call expect(error, verdict%period == 0, "less than four times")
-   end subroutine test_turns
 
    !> A point each turn, when the first phase is 0, also where a turn takes longer or shorter by
    !> the second phase.
    subroutine test_one_loop(error)
       type(error_type), allocatable, intent(out) :: error
-      type(section_verdict_type) :: verdict
       integer, parameter :: n = 300
       real(wp) :: times(n)
 
       times = turns(n)
-      verdict = judged(loop(f2*times), times, both)
-      call expect(error, verdict%class == torus .and. verdict%period == 0, "a torus")
       ! neighbours are less than a turn/300 apart on a curve of length about 5
-      call expect_between(error, verdict%roughness, 0.0_wp, 1.0e-3_wp, "roughness")
+      call expect_between(error, roughness(loop(f2*times), times, both), 0.0_wp, 1.0e-3_wp, &
+                          "a torus")
       times = times + 0.1_wp/f1*sin(turn*f2*times)
-      verdict = judged(loop(f2*times), times, both)
-      call expect(error, verdict%class == torus, "a torus with uneven turns")
-      call expect_between(error, verdict%roughness, 0.0_wp, 1.0e-2_wp, "roughness")
+      call expect_between(error, roughness(loop(f2*times), times, both), 0.0_wp, 1.0e-2_wp, &
+                          "a torus with uneven turns")
    end subroutine test_one_loop
 
    !> The section is met three times a turn, each time on a loop of its own.
    subroutine test_several_loops(error)
       type(error_type), allocatable, intent(out) :: error
-      type(section_verdict_type) :: verdict
       integer, parameter :: n = 600
       real(wp), parameter :: first_phase(0:2) = [0.0_wp, 0.3_wp, 0.55_wp]
       real(wp), parameter :: place(0:2) = [0.0_wp, 2.5_wp, -1.5_wp]
@@ -183,15 +137,14 @@ contains
       times = [(((i + first_phase(k))/f1, k=0, 2), i=1, n/3)]
       points = loop(f2*times)
       points(1, :) = points(1, :) + [((place(k), k=0, 2), i=1, n/3)]
-      verdict = judged(points, times, both)
-      call expect(error, verdict%class == torus, "a torus of three loops")
+      call expect_between(error, roughness(points, times, both), 0.0_wp, torus_roughness, &
+                          "a torus of three loops")
    end subroutine test_several_loops
 
    !> Two loops in turn: half the frequency is a base. With the whole frequency, of which the points
    !> are no function, it is no torus.
    subroutine test_doubled_torus(error)
       type(error_type), allocatable, intent(out) :: error
-      type(section_verdict_type) :: verdict
       integer, parameter :: n = 600
       real(wp) :: points(2, n), times(n)
       integer :: i
@@ -199,46 +152,40 @@ contains
       times = turns(n)
       points = loop(f2*times)
       points(2, :) = points(2, :) + [((-1)**i*0.7_wp, i=1, n)]
-      verdict = judged(points, times, [0.5_wp*f1, f2])
-      call expect(error, verdict%class == torus, "a doubled torus")
-      verdict = judged(points, times, both)
-      call expect(error, verdict%class == undecided, "no function of the whole turn")
+      call expect_between(error, roughness(points, times, [0.5_wp*f1, f2]), 0.0_wp, &
+                          torus_roughness, "a doubled torus")
+      call expect(error, roughness(points, times, both) > torus_roughness, &
+                  "no function of the whole turn")
    end subroutine test_doubled_torus
 
    !> A torus is not seen with another second frequency, nor without.
    subroutine test_other_bases(error)
       type(error_type), allocatable, intent(out) :: error
-      type(section_verdict_type) :: verdict
       integer, parameter :: n = 300
       real(wp) :: times(n)
 
       times = turns(n)
-      verdict = judged(loop(f2*times), times, [f1, 0.413_wp*f1])
-      call expect(error, verdict%class == undecided, "another second frequency")
-      verdict = judged(loop(f2*times), times, [f1, 0.0_wp])
-      call expect(error, verdict%class == undecided, "no second frequency")
-      call expect_close(error, verdict%roughness, 1.0_wp, 0.0_wp, "roughness without one")
+      call expect(error, roughness(loop(f2*times), times, [f1, 0.413_wp*f1]) > torus_roughness, &
+                  "another second frequency")
+      call expect_close(error, roughness(loop(f2*times), times, [f1, 0.0_wp]), 1.0_wp, 0.0_wp, &
+                        "no second frequency")
    end subroutine test_other_bases
 
    !> Points in random order: roughness 1.
    subroutine test_noise(error)
       type(error_type), allocatable, intent(out) :: error
-      type(section_verdict_type) :: verdict
       integer, parameter :: n = 1000
 
-      verdict = judged(noise(9, 1.0_wp, n), turns(n), both)
-      call expect(error, verdict%class == undecided .and. verdict%period == 0, "noise")
       ! twice the variance in the mean over a thousand pairs, within four standard errors
-      call expect_between(error, verdict%roughness, 0.85_wp, 1.15_wp, "roughness")
+      call expect_between(error, roughness(noise(9, 1.0_wp, n), turns(n), both), 0.85_wp, 1.15_wp, &
+                          "noise")
    end subroutine test_noise
 
    !> Noise that holds 2 or 10 per cent of the variance: roughness is its share.
    subroutine test_noise_on_torus(error)
       type(error_type), allocatable, intent(out) :: error
-      type(section_verdict_type) :: verdict
       integer, parameter :: n = 1000
       real(wp), parameter :: shares(2) = [0.02_wp, 0.10_wp]
-      integer, parameter :: classes(2) = [torus, undecided]
       real(wp) :: most, times(n)
       integer :: i
 
@@ -247,17 +194,14 @@ contains
          ! (1 + 0.04)/2 and 0.36/2 over the squares of the reach against 2/3 of most^2/2 each
          most = sqrt(3.0_wp*shares(i)/(1.0_wp - shares(i))*(0.52_wp + 0.18_wp/0.25_wp) &
                      /(1.0_wp + 1.0_wp/0.25_wp))
-         verdict = judged(loop(f2*times) + noise(4, most, n), times, both)
-         call expect(error, verdict%class == classes(i), "noise of "//text(shares(i)))
-         call expect_between(error, verdict%roughness, 0.8_wp*shares(i), 1.2_wp*shares(i), &
-                             "roughness")
+         call expect_between(error, roughness(loop(f2*times) + noise(4, most, n), times, both), &
+                             0.8_wp*shares(i), 1.2_wp*shares(i), "noise of "//text(shares(i)))
       end do
    end subroutine test_noise_on_torus
 
    !> The logistic map in full chaos and in two bands, beside a part that is smooth in both phases.
    subroutine test_logistic(error)
       type(error_type), allocatable, intent(out) :: error
-      type(section_verdict_type) :: verdict
       integer, parameter :: n = 1000
       real(wp), parameter :: r(2) = [4.0_wp, 3.6_wp]
       real(wp) :: map(n), points(2, n), times(n)
@@ -272,8 +216,7 @@ contains
          points(1, :) = map
          points(2, :) = 0.1_wp*sin(turn*f2*times)
          ! two bands in turn are a smooth function of half the frequency, but for their width
-         verdict = judged(points, times, [0.5_wp*f1, f2])
-         call expect(error, verdict%class == undecided .and. verdict%period == 0, &
+         call expect(error, roughness(points, times, [0.5_wp*f1, f2]) > torus_roughness, &
                      "the logistic map at "//text(r(k)))
       end do
    end subroutine test_logistic
@@ -281,24 +224,20 @@ contains
    !> Fewer than 40 points tell nothing; of many the last 1000 count.
    subroutine test_number_of_points(error)
       type(error_type), allocatable, intent(out) :: error
-      type(section_verdict_type) :: verdict
-      real(wp) :: points(2, 1500)
-      integer :: n
+      integer, parameter :: n = 1500
+      real(wp) :: points(2, n), times(n)
 
-      do n = 0, 39, 13
-         verdict = judged(cycle(1, n), turns(n), both)
-         call expect(error, verdict%class == undecided .and. verdict%period == 0, &
-                     text(n)//" points")
-      end do
-      verdict = judged(cycle(1, 40), turns(40), both)
-      call expect(error, verdict%class == cycle_motion, "40 points")
-      points = cycle(7, 1500)
+      times = turns(n)
+      points = loop(f2*times)
+      call expect_close(error, roughness(points(:, :39), times(:39), both), 1.0_wp, 0.0_wp, &
+                        "39 points")
+      call expect_between(error, roughness(points(:, :40), times(:40), both), 0.0_wp, &
+                          torus_roughness, "40 points")
       points(:, :500) = noise(8, 1.0_wp, 500)
-      verdict = judged(points, turns(1500), none)
-      call expect(error, verdict%period == 7, "a cycle in the last 1000")
-      points(:, 501:503) = points(:, 498:500)
-      verdict = judged(points, turns(1500), none)
-      call expect(error, verdict%period == 0, "but for three of them")
+      call expect_close(error, roughness(points, times, both), &
+                        roughness(points(:, 501:), times(501:), both), 0.0_wp, "the last 1000")
+      call expect(error, roughness(points(:, :1000), times(:1000), both) > torus_roughness, &
+                  "half of them noise")
    end subroutine test_number_of_points
 
    !> A cycle is reached where the last points repeat within 1e-5, closer and closer, whatever came

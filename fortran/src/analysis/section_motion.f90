@@ -4,21 +4,20 @@
 !> not smooth at their resolution.
 module section_motion
    use dde_kinds, only: wp
-   use motion_classes, only: cycle_motion, torus, undecided
    implicit none (type, external)
    private
-   public :: drifts, judge_section, period_of_tail, section_verdict_type
+   public :: drifts, period_of_tail, section_roughness, torus_roughness
 
-   !> Fewest points for a class, fewest repetitions of a cycle, and most points used.
-   integer, parameter :: fewest_points = 40, fewest_turns = 4, most_points = 1000
+   !> Fewest and most points whose roughness is found.
+   integer, parameter :: fewest_points = 40, most_points = 1000
    !> Longest period of a cycle, in points.
    integer, parameter :: longest_period = 128
-   !> Points of a cycle repeat within this share of the scale.
-   real(wp), parameter :: same_point = 1.0e-3_wp
-   !> The last points of a cycle that is reached repeat within the first share of the scale, so many
-   !> times and in so many points at least. From the first half of them to the second the largest
-   !> distance may not grow by more than this factor, unless it is below the second share.
-   real(wp), parameter :: reached = 1.0e-5_wp, negligible = 1.0e-6_wp, most_growth = 1.1_wp
+   !> The last points of a cycle that is reached repeat within the first share of the scale, those
+   !> of one that is near within the second, so many times and in so many points at least. From the
+   !> first half of them to the second the largest distance may not grow by more than this factor,
+   !> unless it is below the third share.
+   real(wp), parameter :: reached = 1.0e-5_wp, near = 1.0e-3_wp, negligible = 1.0e-6_wp
+   real(wp), parameter :: most_growth = 1.1_wp
    integer, parameter :: last_turns = 3, last_points = 12
    !> Maxima drift if, of the 66 pairs of the means of so many blocks of them, so many more are in
    !> one order than in the other (by chance: 1 in 1000), and if the means differ by this share.
@@ -27,21 +26,12 @@ module section_motion
    !> Largest roughness of a torus.
    real(wp), parameter :: torus_roughness = 0.05_wp
 
-   !> What was found.
-   type :: section_verdict_type
-      !> cycle_motion, torus or undecided
-      integer :: class = undecided
-      !> Points after which a cycle repeats, 0 where it is none
-      integer :: period = 0
-      !> Mean square distance of the points that are nearest in phase, over twice the variance: 1
-      !> for points in random order, 0 for a smooth function of the phases; 1 without two phases
-      real(wp) :: roughness = 1.0_wp
-   end type section_verdict_type
-
 contains
 
-   !> Judge the last points of a section.
-   pure subroutine judge_section(points, times, scale, bases, verdict)
+   !> Roughness of the last points of a section as a function of two phases: the mean square
+   !> distance of the points that are nearest in phase, over twice the variance. It is 1 for points
+   !> in random order, 0 for a smooth function of the phases, and 1 without two phases.
+   pure real(wp) function section_roughness(points, times, scale, bases) result(roughness)
       !> Points in order of time, shape (coordinates, points)
       real(wp), intent(in) :: points(:, :)
       !> When each was met, shape (points)
@@ -50,27 +40,18 @@ contains
       real(wp), intent(in) :: scale(:)
       !> Base frequencies, 0 where there is none
       real(wp), intent(in) :: bases(2)
-      !> What was found
-      type(section_verdict_type), intent(out) :: verdict
       real(wp), allocatable :: scaled(:, :)
       integer :: first, i
 
-      if (size(times) < fewest_points) return
+      roughness = 1.0_wp
+      if (size(times) < fewest_points .or. .not. all(bases > 0.0_wp)) return
       first = max(1, size(times) - most_points + 1)
       scaled = points(:, first:)
       do i = 1, size(scaled, 2)
          scaled(:, i) = scaled(:, i)/scale
       end do
-      verdict%period = period_of(scaled)
-      if (verdict%period > 0) then
-         verdict%class = cycle_motion
-         return
-      end if
-      if (all(bases > 0.0_wp)) then
-         verdict%roughness = roughness_of(scaled, times(first:)*bases(1), times(first:)*bases(2))
-      end if
-      if (verdict%roughness <= torus_roughness) verdict%class = torus
-   end subroutine judge_section
+      roughness = roughness_of(scaled, times(first:)*bases(1), times(first:)*bases(2))
+   end function section_roughness
 
    !> Points after which the last ones repeat so closely that the cycle is reached, 0 if it is not.
    pure integer function period_of_tail(points, scale, on_the_way) result(period)
@@ -89,7 +70,7 @@ contains
             if (repeats + period > n) exit
             do i = n - repeats + 1, n
                distance(i) = norm2((points(:, i) - points(:, i - period))/scale)
-               if (distance(i) > merge(same_point, reached, on_the_way)) exit
+               if (distance(i) > merge(near, reached, on_the_way)) exit
             end do
             if (i <= n) cycle
             associate (first => maxval(distance(n - repeats + 1:n - repeats/2)), &
@@ -132,22 +113,6 @@ contains
       value = abs(score) >= least_score .and. &
               maxval(mean) - minval(mean) > least_drift*abs(sum(mean)/drift_blocks)
    end function has_trend
-
-   !> Points after which all come again, 0 when they do not.
-   pure integer function period_of(points) result(period)
-      !> Points
-      real(wp), intent(in) :: points(:, :)
-      real(wp) :: distance
-
-      associate (n => size(points, 2))
-         do period = 1, min(longest_period, n/fewest_turns)
-            distance = norm2(points(:, 1 + period:) - points(:, :n - period)) &
-                       /sqrt(real(n - period, wp))
-            if (distance <= same_point) return
-         end do
-      end associate
-      period = 0
-   end function period_of
 
    !> Roughness of points as a function of two phases.
    pure real(wp) function roughness_of(points, first_phase, second_phase) result(roughness)

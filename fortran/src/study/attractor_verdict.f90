@@ -9,7 +9,7 @@ module attractor_verdict
    use motion_classes, only: agree, chaos, class_by_exponents, clear_by_exponents, &
                              cycle_motion, no_class_by_exponents, none, torus, undecided
    use observed_motion, only: observed_motion_type
-   use section_motion, only: judge_section, period_of_tail, section_verdict_type
+   use section_motion, only: period_of_tail, section_roughness, torus_roughness
    use spectral_peaks, only: find_peaks, peak_type
    use spectrum, only: power_spectrum
    use spectrum_verdict, only: continuum, line_share, one_base, spectrum_kind, two_bases
@@ -64,7 +64,7 @@ module attractor_verdict
       type(exponent_type), allocatable :: exponents(:)
       !> Points after which a cycle repeats in the section, 0 where none
       integer :: period = 0
-      !> Roughness of the section as a function of two phases, see `section_verdict_type`
+      !> Roughness of the section as a function of two phases, see `section_roughness`
       real(wp) :: roughness = 1.0_wp
       !> Base frequencies of v, 0 where none
       real(wp) :: bases(2) = 0.0_wp
@@ -90,7 +90,6 @@ contains
       type(attractor_type), intent(inout) :: attractor
       !> Too few samples
       type(error_type), allocatable, intent(out) :: error
-      type(section_verdict_type) :: in_section
       logical :: clear
 
       attractor%exponents = average_growth(measured%growth, measured%length, blocks=1, flow=.true.)
@@ -112,11 +111,9 @@ contains
          else if (.not. clear) then
             call judge_spectrum(exp(motion%samples(index_of_ln_v)), settings, attractor, error)
             if (allocated(error)) return
-            call judge_section(motion%section, motion%section_time, motion%scale(), &
-                               attractor%bases, in_section)
-            attractor%by_section = in_section%class
-            attractor%period = in_section%period
-            attractor%roughness = in_section%roughness
+            attractor%roughness = section_roughness(motion%section, motion%section_time, &
+                                                    motion%scale(), attractor%bases)
+            if (attractor%roughness <= torus_roughness) attractor%by_section = torus
          end if
       end associate
       call agree(attractor%by_exponents, clear, attractor%by_section, attractor%by_spectrum, &
