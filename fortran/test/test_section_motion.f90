@@ -38,7 +38,7 @@ contains
    end subroutine collect_section_motion
 
    !> Roughness of a section.
-   pure real(wp) function roughness(points, times, bases)
+   pure real(wp) function roughness(points, times, bases) result(value)
       !> Points, shape (2, points)
       real(wp), intent(in) :: points(:, :)
       !> When each was met
@@ -46,7 +46,7 @@ contains
       !> Base frequencies
       real(wp), intent(in) :: bases(2)
 
-      roughness = section_roughness(points, times, reach, bases)
+      value = section_roughness(points, times, reach, bases)
    end function roughness
 
    !> So many times, one each turn of the first phase.
