@@ -76,15 +76,16 @@ contains
       real(wp), intent(in) :: matrix(:, :)
       real(wp) :: columns(size(matrix, 1), size(matrix, 1))
       real(wp) :: factors(size(matrix, 1), size(matrix, 1)), row_scale(size(matrix, 1))
-      integer :: i, pivot(size(matrix, 1))
+      integer, dimension(size(matrix, 1)) :: first, last, pivot
+      integer :: i
       logical :: singular
 
       factors = matrix
-      call factorise(factors, pivot, row_scale, singular)
+      call factorise(factors, pivot, first, last, row_scale, singular)
       columns = 0.0_wp
       do i = 1, size(pivot)
          columns(i, i) = 1.0_wp
-         call solve(factors, pivot, columns(:, i))
+         call solve(factors, pivot, first, last, columns(:, i))
       end do
    end function inverse
 

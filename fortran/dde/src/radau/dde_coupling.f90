@@ -19,6 +19,8 @@ module dde_coupling
       real(wp), allocatable, private :: row_scale(:)
       !> Rows exchanged
       integer, allocatable, private :: pivot(:)
+      !> First and last row of each column of the factors that is not 0
+      integer, allocatable, dimension(:), private :: first, last
       !> The unknowns
       real(wp), allocatable, private :: q(:)
    contains
@@ -46,6 +48,7 @@ contains
 
       allocate (coupling%weights(n, unknowns), coupling%replies(n, unknowns))
       allocate (coupling%factors(unknowns, unknowns), coupling%pivot(unknowns))
+      allocate (coupling%first(unknowns), coupling%last(unknowns))
       allocate (coupling%row_scale(unknowns), coupling%q(unknowns))
    end function new_coupling
 
@@ -72,7 +75,7 @@ contains
          end do
          self%factors(j, j) = 1.0_wp + self%factors(j, j)
       end do
-      call factorise(self%factors, self%pivot, self%row_scale, singular)
+      call factorise(self%factors, self%pivot, self%first, self%last, self%row_scale, singular)
    end subroutine prepare
 
    !> Replace the solution of A x = r by that with q.
@@ -86,7 +89,7 @@ contains
       do i = 1, size(self%q)
          self%q(i) = sum(self%weights(:, i)*x)
       end do
-      call solve(self%factors, self%pivot, self%q)
+      call solve(self%factors, self%pivot, self%first, self%last, self%q)
       do i = 1, size(self%q)
          x = x + self%q(i)*self%replies(:, i)
       end do

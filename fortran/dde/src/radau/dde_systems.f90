@@ -23,6 +23,8 @@ module dde_systems
       real(wp), allocatable :: a(:, :)
       !> Rows exchanged, shape (n)
       integer, allocatable :: pivot(:)
+      !> First and last row of each column of the factors that is not 0, shape (n)
+      integer, allocatable, dimension(:) :: first, last
       !> Factor of each equation that makes its largest coefficient 1, shape (n). Otherwise a stiff
       !> equation would be the pivot for the others.
       real(wp), allocatable :: row(:)
@@ -45,6 +47,8 @@ module dde_systems
       complex(wp), allocatable :: a(:, :)
       !> Rows exchanged, shape (n)
       integer, allocatable :: pivot(:)
+      !> First and last row of each column of the factors that is not 0, shape (n)
+      integer, allocatable, dimension(:) :: first, last
       !> Factor of each equation that makes its largest coefficient 1, shape (n). Otherwise a stiff
       !> equation would be the pivot for the others.
       real(wp), allocatable :: row(:)
@@ -80,7 +84,7 @@ contains
       self%upper = jacobian%upper
       if (.not. allocated(self%a)) then
          allocate (self%a(merge(1 + 2*self%lower + self%upper, n, self%banded), n))
-         allocate (self%pivot(n), self%row(n))
+         allocate (self%pivot(n), self%first(n), self%last(n), self%row(n))
          self%factor_operations = factor_operations(n, self%banded, self%lower, self%upper)
          self%solve_operations = 2.0_wp*size(self%a)
       end if
@@ -100,7 +104,7 @@ contains
          call scale_rows(self%a, self%row)
          call factorise_by_lapack(self%a, self%pivot, singular)
       else
-         call factorise(self%a, self%pivot, self%row, singular)
+         call factorise(self%a, self%pivot, self%first, self%last, self%row, singular)
       end if
    end subroutine prepare_real
 
@@ -118,7 +122,7 @@ contains
          b = self%row*b
          call solve_by_lapack(self%a, self%pivot, b)
       else
-         call solve(self%a, self%pivot, b)
+         call solve(self%a, self%pivot, self%first, self%last, b)
       end if
    end subroutine solve_real
 
@@ -140,7 +144,7 @@ contains
       self%upper = jacobian%upper
       if (.not. allocated(self%a)) then
          allocate (self%a(merge(1 + 2*self%lower + self%upper, n, self%banded), n))
-         allocate (self%pivot(n), self%row(n))
+         allocate (self%pivot(n), self%first(n), self%last(n), self%row(n))
          self%factor_operations = complex_over_real &
                                   *factor_operations(n, self%banded, self%lower, self%upper)
          self%solve_operations = complex_over_real*2.0_wp*size(self%a)
@@ -161,7 +165,7 @@ contains
          call scale_rows(self%a, self%row)
          call factorise_by_lapack(self%a, self%pivot, singular)
       else
-         call factorise(self%a, self%pivot, self%row, singular)
+         call factorise(self%a, self%pivot, self%first, self%last, self%row, singular)
       end if
    end subroutine prepare_complex
 
@@ -179,7 +183,7 @@ contains
          b = self%row*b
          call solve_by_lapack(self%a, self%pivot, b)
       else
-         call solve(self%a, self%pivot, b)
+         call solve(self%a, self%pivot, self%first, self%last, b)
       end if
    end subroutine solve_complex
 
