@@ -1,11 +1,13 @@
 !> Attractors of the delayed block: those of the scenes, and what cannot be told.
 module test_attractors
    use block_builder, only: build_block
+   use attractor_verdict, only: judge
    use attractors, only: attractor_settings_type, attractor_type, find_attractor
    use dde, only: integrate, integration_options, integration_result
    use dde_errors, only: failure_type => error_type
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use dde_kinds, only: wp
+   use lyapunov_spectrum, only: growth_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use motion_classes, only: chaos, class_names, cycle_motion, fixed_point, none, torus, &
                              undecided
@@ -27,6 +29,7 @@ contains
                    new_unittest("oscillation of the paper", test_oscillation), &
                    new_unittest("torus of the paper is a cycle", test_paper_torus), &
                    new_unittest("chaos of the paper", test_chaos), &
+                   new_unittest("chaos that becomes clear", test_clear_chaos), &
                    new_unittest("a true torus", test_true_torus), &
                    new_unittest("another torus, time doubled", test_doublings), &
                    new_unittest("chaos on the way to a torus", test_passing_chaos), &
@@ -176,6 +179,34 @@ contains
                           huge(1.0_wp), "leading exponent in error bars")
       call expect(error, found%period == 0, "no period")
    end subroutine test_chaos
+
+   !> Chaos is clear by exponents in a second judgement: nothing is left of section and spectrum of
+   !> the first.
+   subroutine test_clear_chaos(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: intervals = 50
+      type(failure_type), allocatable :: failure
+      type(attractor_settings_type) :: settings
+      type(attractor_type) :: found
+      type(growth_type) :: measured
+
+      settings = after(1000.0_wp, 500.0_wp)
+      call find_attractor(disturbed(7.0_wp, 0.7_wp, 0.5_wp), settings, &
+                          at_tolerance(1.0e-8_wp, "auto"), found, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect(error, found%roughness >= 0.0_wp .and. found%line_share >= 0.0_wp &
+                  .and. found%bases(1) > 0.0_wp, "section and spectrum at first")
+      measured%growth = spread([1.0_wp, -1.0_wp, -2.0_wp], 2, intervals)
+      measured%length = spread(10.0_wp, 1, intervals)
+      call judge(settings, measured, .true., found, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect(error, found%class == chaos .and. found%by_section == undecided &
+                  .and. found%by_spectrum == undecided, "chaos by exponents alone")
+      call expect(error, found%roughness < 0.0_wp .and. found%line_share < 0.0_wp &
+                  .and. all(found%bases <= 0.0_wp), "nothing of the first judgement")
+   end subroutine test_clear_chaos
 
    !> The delay of Fig. 5a made longer. The section is a closed curve.
    subroutine test_true_torus(error)

@@ -6,7 +6,7 @@ module section_motion
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: drifts, period_of_tail, section_roughness, torus_roughness
+   public :: drifts, not_measured, period_of_tail, section_roughness, torus_roughness
 
    !> Fewest and most points whose roughness is found.
    integer, parameter :: fewest_points = 40, most_points = 1000
@@ -23,6 +23,8 @@ module section_motion
    !> one order than in the other (by chance: 1 in 1000), and if the means differ by this share.
    integer, parameter :: drift_blocks = 12, least_score = 48
    real(wp), parameter :: least_drift = 1.0e-3_wp
+   !> Where the roughness is not measured.
+   real(wp), parameter :: not_measured = -1.0_wp
    !> Largest roughness of a torus.
    real(wp), parameter :: torus_roughness = 0.05_wp
 
@@ -30,7 +32,7 @@ contains
 
    !> Roughness of the last points of a section as a function of two phases: the mean square
    !> distance of the points that are nearest in phase, over twice the variance. It is 1 for points
-   !> in random order, 0 for a smooth function of the phases, and 1 without two phases.
+   !> in random order, 0 for a smooth function of the phases, and `not_measured` without two phases.
    pure real(wp) function section_roughness(points, times, scale, bases) result(roughness)
       !> Points in order of time, shape (coordinates, points)
       real(wp), intent(in) :: points(:, :)
@@ -43,7 +45,7 @@ contains
       real(wp), allocatable :: scaled(:, :)
       integer :: first, i
 
-      roughness = 1.0_wp
+      roughness = not_measured
       if (size(times) < fewest_points .or. .not. all(bases > 0.0_wp)) return
       first = max(1, size(times) - most_points + 1)
       scaled = points(:, first:)

@@ -92,17 +92,17 @@ contains
          call file%put(file%real_variable(name, rows, long_name, "1"), values)
       end subroutine put
 
-      !> A real number at each computed point, NaN at the others.
+      !> A number at each point where it was measured, NaN at the others.
       subroutine put_found(name, values, long_name)
          !> Its name
          character(len=*), intent(in) :: name
-         !> Its values
+         !> Its values, negative where it was not measured
          real(wp), intent(in) :: values(:)
          !> What it is
          character(len=*), intent(in) :: long_name
 
-         call put(name, merge(values, ieee_value(1.0_wp, ieee_quiet_nan), findings%computed), &
-                  long_name)
+         call put(name, merge(values, ieee_value(1.0_wp, ieee_quiet_nan), &
+                              findings%computed .and. values >= 0.0_wp), long_name)
       end subroutine put_found
 
       !> An integer at each point.

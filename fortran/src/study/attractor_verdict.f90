@@ -9,7 +9,7 @@ module attractor_verdict
    use motion_classes, only: agree, chaos, class_by_exponents, clear_by_exponents, &
                              cycle_motion, no_class_by_exponents, none, torus, undecided
    use observed_motion, only: observed_motion_type
-   use section_motion, only: period_of_tail, section_roughness, torus_roughness
+   use section_motion, only: not_measured, period_of_tail, section_roughness, torus_roughness
    use spectral_peaks, only: find_peaks, peak_type
    use spectrum, only: power_spectrum
    use spectrum_verdict, only: continuum, line_share, one_base, spectrum_kind, two_bases
@@ -65,11 +65,11 @@ module attractor_verdict
       !> Points after which a cycle repeats in the section, 0 where none
       integer :: period = 0
       !> Roughness of the section as a function of two phases, see `section_roughness`
-      real(wp) :: roughness = 1.0_wp
+      real(wp) :: roughness = not_measured
       !> Base frequencies of v, 0 where none
       real(wp) :: bases(2) = 0.0_wp
-      !> Share of the power of v in the lines of these
-      real(wp) :: line_share = 0.0_wp
+      !> Share of the power of v in the lines of these, or `not_measured`
+      real(wp) :: line_share = not_measured
       !> What was seen of it
       type(observed_motion_type) :: motion
       !> A piece of it to be drawn, see `follow_path`; none of steady sliding
@@ -98,6 +98,9 @@ contains
       clear = clear_by_exponents(attractor%exponents, sum(measured%length))
       attractor%by_section = undecided
       attractor%by_spectrum = undecided
+      attractor%roughness = not_measured
+      attractor%bases = 0.0_wp
+      attractor%line_share = not_measured
       attractor%reason = no_class_by_exponents
       if (attractor%by_exponents == undecided .and. .not. last) return
       associate (motion => attractor%motion)
@@ -113,7 +116,9 @@ contains
             if (allocated(error)) return
             attractor%roughness = section_roughness(motion%section, motion%section_time, &
                                                     motion%scale(), attractor%bases)
-            if (attractor%roughness <= torus_roughness) attractor%by_section = torus
+            if (attractor%roughness >= 0.0_wp .and. attractor%roughness <= torus_roughness) then
+               attractor%by_section = torus
+            end if
          end if
       end associate
       call agree(attractor%by_exponents, clear, attractor%by_section, attractor%by_spectrum, &
