@@ -168,8 +168,8 @@ contains
       times = turns(n)
       call expect(error, roughness(loop(f2*times), times, [f1, 0.413_wp*f1]) > torus_roughness, &
                   "another second frequency")
-      call expect_close(error, roughness(loop(f2*times), times, [f1, 0.0_wp]), not_measured, 0.0_wp, &
-                        "no second frequency")
+      call expect_close(error, roughness(loop(f2*times), times, [f1, 0.0_wp]), not_measured, &
+                        0.0_wp, "no second frequency")
    end subroutine test_other_bases
 
    !> Points in random order: roughness 1.

@@ -1,7 +1,7 @@
 !> Small dense linear systems by Gaussian elimination, real and complex. Each pivot is the largest
 !> of its column relative to its row. Otherwise a row of huge numbers in a stiff system would be the
 !> pivot for the others. LAPACK does not scale rows and is slower for a few equations (dde_systems).
-!> Zeros at both ends of a column are left out: the Jacobian of a trajectory with its tangent vectors
+!> Zeros at both ends of a column are left out: the Jacobian of a trajectory with tangent vectors
 !> has blocks on its diagonal.
 module dde_linear
    use dde_kinds, only: wp
