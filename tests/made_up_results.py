@@ -180,6 +180,7 @@ def cycles_to_a_torus(along: str = "tau", cusps: int = 0, **fixed: float) -> xr.
         "criticality": ["supercritical"],
         "coefficient": [-0.123456789],
         "coefficient_error": [3.21e-10],
+        "amplitude": [0.54321],
     }
     cusp = {**PLACE, "tau": 3.5, "period": 9.0, "v_most": 2.5}
     cusp |= {"multiplier_error": 1e-4, "mesh_error": 1e-10}

@@ -1,5 +1,6 @@
 """The table of special points of cycles, from a made-up line with a torus bifurcation at 0.25."""
 
+import numpy as np
 import pytest
 from made_up_results import PLACE, cycles_to_a_torus, followed_cycles
 
@@ -68,22 +69,22 @@ def test_a_point_of_unstable_cycles_is_not_simulated():
 
 
 def test_columns_of_a_torus_point():
-    """The coefficient and its error are empty where they were not found."""
+    """The coefficient, its error and the amplitude are empty where they were not found."""
     cycles = cycles_to_a_torus()
     (row,) = rows_of("mine", cycles, [])
     assert list(row) == COLUMNS
     assert (row["tau"], row["angle"], row["resonance"]) == ("0.25", "0.24", "1:4")
-    keys = ("criticality", "coefficient", "coefficient_error")
-    assert [row[key] for key in keys] == ["supercritical", "-0.1234568", "3.2e-10"]
+    keys = ("criticality", "coefficient", "coefficient_error", "amplitude")
+    assert [row[key] for key in keys] == ["supercritical", "-0.1234568", "3.2e-10", "0.5432"]
     cycles["special_criticality"] = ("special", ["not determined"])
     for key in keys[1:]:
         cycles[f"special_{key}"] = ("special", [float("nan")])
     (row,) = rows_of("mine", cycles, [])
-    assert [row[key] for key in keys] == ["not determined", "", ""]
+    assert [row[key] for key in keys] == ["not determined", "", "", ""]
 
 
-def test_criticality_comes_from_the_program(programs, good_inputs):
-    """A torus point beside which simulations show a torus that shrinks to the cycle."""
+def test_a_simulated_torus_has_the_amplitude_of_the_table(programs, good_inputs, good_groups):
+    """Beside a torus point a simulation comes to a torus of the amplitude that it predicts."""
     line = {"along": "tau", "window": [14.0, 15.2], "starts": [], "most_orbits": 30}
     place = {"epsilon": 0.4, "xi": 0.5, "gamma": 0.8}
     values = {key: value for key, value in good_inputs["cycles"].items() if key != "tau"}
@@ -91,6 +92,18 @@ def test_criticality_comes_from_the_program(programs, good_inputs):
     assert (row["kind"], row["criticality"]) == ("torus", "supercritical")
     assert float(row["coefficient"]) < 0
     assert float(row["coefficient_error"]) < 1e-8
+    distance = 0.02
+    groups = good_groups["attractors"]
+    groups["observation"] |= {"t_transient": 4e4, "t_observed": 2000.0, "tolerance": 1e-8}
+    groups["observation"] |= {"most_steps": 10_000_000}
+    place["tau"] = float(row["tau"]) + distance
+    for name, value in place.items():
+        groups["points"] |= {f"{name}_window": [value, value], f"{name}_count": 1}
+        groups["points"] |= {f"{name}_part": [1, 1]}
+    groups["points"] |= {"theta": [0.0], "u": [0.0], "v": [1.1]}
+    found = programs.made_of("attractors", groups)
+    simulated = np.log(found.largest_maximum / found.smallest_maximum).item() / 2
+    assert simulated == pytest.approx(float(row["amplitude"]) * np.sqrt(distance), rel=0.02)
 
 
 def test_a_cusp_lies_beside_the_line():

@@ -192,6 +192,21 @@ def torus_and_kinds(of: str, other: str) -> list:
     return [*cycle_points(of, "torus", "tau"), *kinds]
 
 
+TORI = (
+    ("upper_torus", "0.0028", "0.0110"),
+    ("fault_in_tau", "0.0050", "0.0202"),
+    ("chaos_in_tau", "0.0009", "0.0037"),
+    ("torus_in_tau", "0.0015", "0.0058"),
+    ("chaos_in_epsilon", "0.0002"),
+)
+"""Lines, and distances from their first torus bifurcations."""
+
+
+def torus_amplitude(of: str, distance: float) -> float:
+    """Amplitude of the torus at a distance from the first torus bifurcation of a line."""
+    return float(special_points(of, "torus")[0]["amplitude"]) * math.sqrt(distance)
+
+
 def stable_modulus(claim: str) -> list[str]:
     """The modulus of the largest multiplier but 1 of the stable cycle in a claim's evidence."""
     (row,) = [row for row in table("claims.tsv") if row["id"] == claim]
@@ -480,6 +495,14 @@ SAID = [
     Said(
         "docs/findings.md", "| `chaos_in_epsilon` | epsilon = {:.4f} | {:.3f} | {} | {} |",
         lambda: torus_starts("chaos_in_epsilon"),
+    ),
+    *(
+        Said(
+            "docs/method.md", f"| {distance} | {{:.4f}} |",
+            lambda of=of, distance=distance: [torus_amplitude(of, float(distance))],
+        )
+        for of, *distances in TORI
+        for distance in distances
     ),
     Said(
         "docs/findings.md", "a torus bifurcation at tau = {:.3f} leads",

@@ -11,7 +11,7 @@ module test_torus_normal_form
    use periodic_orbit, only: periodic_orbit_type
    use special_points, only: fold, special_point_type, torus_bifurcation
    use torus_normal_form, only: find_torus_coefficient
-   use twin_waves, only: omega1, on_cycle, twin_waves_family
+   use twin_waves, only: kappa, omega1, on_cycle, sigma, twin_waves_family
    implicit none (type, external)
    private
    public :: collect_torus_normal_form
@@ -37,7 +37,7 @@ contains
       type(periodic_orbit_type) :: orbit
       type(twin_waves_family) :: family
       real(wp), parameter :: p22(2) = [-2.5_wp, 1.5_wp], omega2(2) = [0.4_wp, 2.3_wp]
-      real(wp) :: coefficient, expected
+      real(wp) :: coefficient, disturbed(4), expected
       integer :: i, j, points
 
       do points = gauss_points, radau_points
@@ -55,11 +55,19 @@ contains
             if (allocated(error)) return
             call find_torus_coefficient(family, orbit, exp(cmplx(0.0_wp, &
                                                                  turn*omega2(i)/omega1, kind=wp)), &
-                                        6, coefficient, failure)
+                                        6, coefficient, disturbed, failure)
             call expect_success(error, failure)
             expected = family%coefficient(orbit%parameters)
             call expect_close(error, coefficient, expected, 1.0e-8_wp, "coefficient "//text(i))
             call expect(error, (expected < 0.0_wp) .eqv. i == 1, "one stable, one unstable torus")
+            if (.not. family%delayed) cycle
+            ! q = (kappa x2, 0, 1 + sigma kappa x2^2, -i) Re z2 along the cycle, where |x2| is 0, 1,
+            ! 1/sqrt(2) and anything when the state is greatest
+            associate (k => sigma*kappa)
+               call expect_close(error, disturbed, [0.0_wp, 0.0_wp, 1.0_wp + 0.5_wp*k, 1.0_wp] &
+                                 /sqrt(0.5_wp*kappa**2 + 2.0_wp + k + 0.375_wp*k**2), &
+                                 1.0e-8_wp, "disturbance")
+            end associate
          end do
       end do
    end subroutine test_exact

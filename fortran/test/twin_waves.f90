@@ -16,7 +16,7 @@ module twin_waves
    use problem_family, only: problem_family_type
    implicit none (type, external)
    private
-   public :: omega1, on_cycle, twin_waves_family
+   public :: kappa, omega1, on_cycle, sigma, twin_waves_family
 
    complex(wp), parameter :: p11 = (-0.8_wp, 0.3_wp), p12 = (-0.5_wp, 0.7_wp), &
                              p21 = (-0.4_wp, -0.6_wp), k1 = (0.3_wp, 0.2_wp), &

@@ -20,8 +20,8 @@ ERRORS = ["multiplier_error", "mesh_error"]
 """Columns with two digits."""
 COLUMNS = [
     *("of", "branch", "origin", "kind", *NUMBERS, "angle", "resonance"),
-    *("unstable_before", "unstable_behind", "criticality", "coefficient", "confirmed"),
-    *(*ERRORS, "coefficient_error"),
+    *("unstable_before", "unstable_behind", "criticality", "coefficient", "amplitude"),
+    *("confirmed", *ERRORS, "coefficient_error"),
 ]
 JUMP = 0.1
 """Share by which the greatest v changes where a sweep leaves a cycle for another one."""
@@ -45,6 +45,7 @@ def rows_of(line: str, cycles: xr.Dataset, swept: list[dict]) -> list[dict]:
             "unstable_behind": int(point.special_unstable_behind),
             "criticality": str(point.special_criticality.values.astype(str)),
             "coefficient": if_known(point.special_coefficient, 7),
+            "amplitude": if_known(point.special_amplitude, 4),
             "confirmed": confirmed(point, cycles, swept),
             **{key: f"{float(point[f'special_{key}']):.2g}" for key in ERRORS},
             "coefficient_error": if_known(point.special_coefficient_error, 2),

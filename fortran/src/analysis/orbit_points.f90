@@ -29,6 +29,8 @@ module orbit_points
    real(wp), parameter :: share = 1.0e-11_wp
    !> A test function is 0 where it is this small; a jump is larger.
    real(wp), parameter :: small = 1.0e-6_wp
+   !> Distance from a torus point at which the growth is found, over the segment
+   real(wp), parameter :: beside = 0.01_wp
    !> Halvings of a segment with several special points
    integer, parameter :: most_halvings = 8
 
@@ -174,11 +176,11 @@ contains
       !> The point
       type(special_point_type), intent(inout) :: point
       type(error_type), allocatable :: failure
-      real(wp) :: coefficient
+      real(wp) :: coefficient, disturbed(size(point%orbit%nodes, 1))
 
       if (point%kind /= torus_bifurcation) return
       call find_torus_coefficient(family, point%orbit, point%multiplier, &
-                                  settings%refinement%multipliers, coefficient, failure)
+                                  settings%refinement%multipliers, coefficient, disturbed, failure)
       if (allocated(point%coefficient_error)) deallocate (point%coefficient_error)
       if (allocated(failure)) then
          if (allocated(point%coefficient)) deallocate (point%coefficient)
@@ -188,6 +190,7 @@ contains
          point%coefficient_error = abs(coefficient - point%coefficient)
       end if
       point%coefficient = coefficient
+      point%disturbed = disturbed
    end subroutine set_coefficient
 
    !> Find a point on a segment.
@@ -226,8 +229,39 @@ contains
       if (abs(g) > small) then
          call raise(error, "special point "//trim(point%kind)//": test function "//text(g) &
                     //" where it changes sign; at most "//text(small)//" expected")
+      else if (point%kind == torus_bifurcation) then
+         call set_growth(family, settings, segment, at, point)
       end if
    end subroutine locate
+
+   !> Set the growth of a torus point by the multipliers on both sides.
+   subroutine set_growth(family, settings, segment, at, point)
+      !> The problems
+      class(problem_family_type), intent(in) :: family
+      !> How the branch was followed
+      type(branch_settings_type), intent(in) :: settings
+      !> The segment
+      type(segment_type), intent(in) :: segment
+      !> Place of the point on it
+      real(wp), intent(in) :: at
+      !> The point
+      type(special_point_type), intent(inout) :: point
+      type(error_type), allocatable :: failure
+      type(special_point_type) :: side
+      real(wp) :: parameter(2), rate(2)
+      integer :: i
+
+      if (allocated(point%growth)) deallocate (point%growth)
+      side%kind = point%kind
+      do i = 1, 2
+         call test_at(family, settings, segment, at + merge(-beside, beside, i == 1), side, &
+                      rate(i), failure)
+         if (allocated(failure)) return
+         rate(i) = log(1.0_wp + rate(i))/side%orbit%period
+         parameter(i) = side%orbit%parameters(settings%scale%free(1))
+      end do
+      point%growth = (rate(2) - rate(1))/(parameter(2) - parameter(1))
+   end subroutine set_growth
 
    !> The orbit at a place on a segment, and the test function of the point there.
    subroutine test_at(family, settings, segment, place, point, g, error)

@@ -36,8 +36,8 @@ module periodic_orbit
       procedure :: opposite_parts
       !> Whether it is almost one of a part of its period, more so than the orbit before it
       procedure :: comes_to_shorter
-      !> Least and greatest value of a component
-      procedure :: range_of
+      !> Least and greatest value of a component, and when it is greatest
+      procedure :: range_of, time_of_highest
       !> Weights of an inner product
       procedure :: functional
    end type periodic_orbit_type
@@ -225,42 +225,57 @@ contains
       !> Component of the state
       integer, intent(in) :: component
       real(wp) :: range(2)
-      integer :: last
+      real(wp) :: time
 
-      associate (x => self%nodes(component, :), times => self%node_times())
-         last = size(x) - 1
-         range(1) = -highest(self, component, -1.0_wp, times, minloc(x(:last), dim=1))
-         range(2) = highest(self, component, 1.0_wp, times, maxloc(x(:last), dim=1))
-      end associate
+      call find_highest(self, component, -1.0_wp, range(1), time)
+      range(1) = -range(1)
+      call find_highest(self, component, 1.0_wp, range(2), time)
    end function range_of
 
-   !> Maximum of a component times a sign about a node.
-   pure real(wp) function highest(self, component, sign, times, node) result(value)
+   !> Time at which a component is greatest, in periods.
+   pure real(wp) function time_of_highest(self, component) result(time)
+      !> The orbit
+      class(periodic_orbit_type), intent(in) :: self
+      !> Component of the state
+      integer, intent(in) :: component
+      real(wp) :: value
+
+      call find_highest(self, component, 1.0_wp, value, time)
+   end function time_of_highest
+
+   !> Maximum of a component times a sign.
+   pure subroutine find_highest(self, component, sign, value, time)
       !> The orbit
       class(periodic_orbit_type), intent(in) :: self
       !> Component of the state
       integer, intent(in) :: component
       !> 1 or -1
       real(wp), intent(in) :: sign
-      !> Times of the nodes
-      real(wp), intent(in) :: times(:)
-      !> Node of the highest value
-      integer, intent(in) :: node
+      !> The maximum
+      real(wp), intent(out) :: value
+      !> When it is there, in periods
+      real(wp), intent(out) :: time
       real(wp), parameter :: golden = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp)
       integer, parameter :: sections = 40
-      real(wp) :: left, p, q, right, state(size(self%nodes, 1))
-      integer :: i
+      real(wp) :: left, p, q, right, state(size(self%nodes, 1)), times(size(self%nodes, 2))
+      integer :: i, node
 
+      times = self%node_times()
+      node = maxloc(sign*self%nodes(component, :size(times) - 1), dim=1)
       left = times(max(node, 2) - 1)
       if (node == 1) left = times(size(times) - 1) - 1.0_wp
       right = times(node + 1)
+      time = times(node)
       value = sign*self%nodes(component, node)
       do i = 1, sections
          p = right - golden*(right - left)
          q = left + golden*(right - left)
          state = self%at(p)
          associate (at_p => sign*state(component))
-            value = max(value, at_p)
+            if (at_p > value) then
+               value = at_p
+               time = p
+            end if
             state = self%at(q)
             if (at_p > sign*state(component)) then
                right = q
@@ -269,7 +284,7 @@ contains
             end if
          end associate
       end do
-   end function highest
+   end subroutine find_highest
 
    !> Weights g of the nodes with sum(g x) = integral of a . x over the period, for a function a and
    !> all piecewise polynomials x.

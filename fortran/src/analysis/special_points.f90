@@ -36,11 +36,17 @@ module special_points
       !> Of a torus point: coefficient of its normal form (`torus_normal_form`) and the difference
       !> between the two meshes; not allocated where they were not found
       real(wp), allocatable :: coefficient, coefficient_error
+      !> Of a torus point: |q| of each component when that is greatest, shape (n)
+      real(wp), allocatable :: disturbed(:)
+      !> Of a torus point: the rate at which q grows along the cycle, by the parameter
+      real(wp), allocatable :: growth
    contains
       !> Share of a turn of the critical pair
       procedure :: angle
       !> On which side of a torus point the tori are
       procedure :: criticality
+      !> Size of these tori
+      procedure :: torus_amplitude
    end type special_point_type
 
 contains
@@ -69,6 +75,17 @@ contains
       if (is_strong_resonance(self%angle())) return
       word = merge("supercritical", "subcritical  ", self%coefficient < 0.0_wp)
    end function criticality
+
+   !> Half the range of the maxima of a component on the tori, over the root of the distance of the
+   !> parameter from the point, to first order.
+   pure real(wp) function torus_amplitude(self, component) result(value)
+      !> The torus point, its coefficient and growth known
+      class(special_point_type), intent(in) :: self
+      !> Which component
+      integer, intent(in) :: component
+
+      value = 2.0_wp*self%disturbed(component)*sqrt(abs(self%growth/self%coefficient))
+   end function torus_amplitude
 
    !> Whether an angle in turns is that of a resonance 1:1 to 1:4, where there is another normal
    !> form.

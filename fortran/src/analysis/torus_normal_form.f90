@@ -50,7 +50,8 @@ module torus_normal_form
 contains
 
    !> The coefficient Re d/T: d|z|/dt = Re d/T |z|^3, where the mean of |q|^2 over the period is 1.
-   subroutine find_torus_coefficient(family, orbit, multiplier, wanted, coefficient, error)
+   subroutine find_torus_coefficient(family, orbit, multiplier, wanted, coefficient, disturbed, &
+                                     error)
       !> The problems
       class(problem_family_type), intent(in) :: family
       !> The orbit
@@ -61,18 +62,21 @@ contains
       integer, intent(in) :: wanted
       !> The coefficient
       real(wp), intent(out) :: coefficient
+      !> |q| of each component at the time when that is greatest, shape (n)
+      real(wp), intent(out) :: disturbed(:)
       !> A linear equation has no solution
       type(error_type), allocatable, intent(out) :: error
       complex(wp), allocatable :: disturbances(:, :, :), h21(:, :)
-      complex(wp) :: a, d
+      complex(wp) :: a, d, terms(size(disturbed), 0:3)
       type(torus_expansion_type) :: x
       type(multipliers_type) :: found
       type(orbit_change_type) :: phase
       type(orbit_scale_type) :: none
       type(term_map_type) :: map
-      integer :: critical
+      integer :: critical, i
 
       coefficient = 0.0_wp
+      disturbed = 0.0_wp
       call find_multipliers(family, orbit, wanted, found, error, disturbances)
       if (allocated(error)) return
       critical = minloc(abs(found%values - multiplier), dim=1)
@@ -84,6 +88,10 @@ contains
       associate (q_nodes => disturbances(:, :, critical))
          x%nodes(:, :, q) = q_nodes/sqrt(real(sum(weights_with(orbit, q_nodes)*q_nodes)))
       end associate
+      do i = 1, size(disturbed)
+         terms = x%terms_at(orbit%time_of_highest(i))
+         disturbed(i) = abs(terms(i, q))
+      end do
 
       allocate (none%free(0), none%unit(0))
       call linearise_orbit(family, orbit, none, .true., map%linear, error, x%second_order())

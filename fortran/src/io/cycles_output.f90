@@ -149,13 +149,13 @@ contains
       real(wp), allocatable :: columns(:, :)
       integer, allocatable :: numbers(:, :)
       integer :: all, i, id, j, row, rows
-      character(len=*), parameter :: names(13) = [character(len=24) :: &
+      character(len=*), parameter :: names(14) = [character(len=24) :: &
                                                   "tau", "epsilon", "xi", "gamma", "period", &
                                                   "v_most", "multiplier_real", &
                                                   "multiplier_imaginary", "angle", &
                                                   "multiplier_error", "mesh_error", &
-                                                  "coefficient", "coefficient_error"]
-      character(len=*), parameter :: meanings(13) = [character(len=60) :: &
+                                                  "coefficient", "coefficient_error", "amplitude"]
+      character(len=*), parameter :: meanings(14) = [character(len=60) :: &
                                                      "its tau", "its epsilon", "its xi", &
                                                      "its gamma", "its period", &
                                                      "its greatest velocity", &
@@ -165,7 +165,9 @@ contains
                                                      "distance of the trivial multiplier from 1", &
                                                      "difference of the parameter on two meshes", &
                                                      "cubic coefficient of a torus point", &
-                                                     "difference of it on two meshes"]
+                                                     "difference of it on two meshes", &
+                                                     "half range of maxima of ln v of tori, &
+                                                     &over root of distance"]
       character(len=*), parameter :: counts(5) = [character(len=24) :: &
                                                   "branch", "unstable_before", "unstable_behind", &
                                                   "resonance_turns", "resonance_periods"]
@@ -192,6 +194,9 @@ contains
                                      point%angle(), point%trivial_error, point%mesh_error]
                if (allocated(point%coefficient)) columns(row, 12) = point%coefficient
                if (allocated(point%coefficient_error)) columns(row, 13) = point%coefficient_error
+               if (allocated(point%coefficient) .and. allocated(point%growth)) then
+                  columns(row, 14) = point%torus_amplitude(index_of_ln_v)
+               end if
                numbers(row, :) = [i, point%unstable, nearest_resonance(abs(point%angle()))]
             end associate
          end do
