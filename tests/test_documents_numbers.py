@@ -199,12 +199,13 @@ TORI = (
     ("torus_in_tau", "0.0015", "0.0058"),
     ("chaos_in_epsilon", "0.0002"),
 )
-"""Lines, and distances from their first torus bifurcations."""
+"""Lines, and distances from their supercritical torus bifurcations."""
 
 
 def torus_amplitude(of: str, distance: float) -> float:
-    """Amplitude of the torus at a distance from the first torus bifurcation of a line."""
-    return float(special_points(of, "torus")[0]["amplitude"]) * math.sqrt(distance)
+    """Amplitude of the stable torus at a distance from the torus bifurcation of a line."""
+    (found,) = [row for row in special_points(of, "torus") if row["criticality"] == "supercritical"]
+    return float(found["amplitude"]) * math.sqrt(distance)
 
 
 def stable_modulus(claim: str) -> list[str]:
