@@ -35,7 +35,7 @@ rule bad:
     shell: "echo 'error: it cannot go on' >&2; exit 1"
 rule long:
     output: "results/{scene,torus|chaos}.nc"
-    shell: "touch begun; sleep 60"
+    shell: ": > begun; exec sleep 60"
 """
 CLAIMS = '[{"verdict": "reproduced"}, {"verdict": "not reproduced"}, {"verdict": "reproduced"}]'
 FIRST = r"(\d+ jobs?); all messages are in (\.snakemake/log/\S+)"

@@ -6,8 +6,10 @@ Snakemake's own messages and the words of jobs are in its log file in .snakemake
 import atexit
 import contextlib
 import logging
+import signal
 import threading
 import time
+from types import FrameType
 
 from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
@@ -22,8 +24,8 @@ PAUSE = 30.0
 """Seconds between two lines of progress where there is no terminal."""
 NOTHING = "Nothing to be done"
 """Snakemake's first words where all results are up to date."""
-STOPPING = "Terminating processes on user request"
-"""Its first words after Ctrl-C; the jobs that this ends have not failed by themselves."""
+GRACE = 0.2
+"""Seconds in which a job that Ctrl-C ended may be heard of before Ctrl-C itself."""
 OF_FAILURES = (
     "RuleException: CalledProcessError",
     "WorkflowError: At least one job",
@@ -53,8 +55,10 @@ class LogHandler(LogHandlerBase):
         """Before the Snakefile is read."""
         self.run = RunProgress()
         self.log = ""
-        self.up_to_date = self.stopping = False
+        self.up_to_date = False
         self.closed = threading.Event()
+        self.interrupted = threading.Event()
+        signal.signal(signal.SIGINT, self.on_interrupt)
         self.screen = Screen(self.note)
         self.events = {
             LogEvent.RUN_INFO: self.on_run,
@@ -79,8 +83,6 @@ class LogHandler(LogHandlerBase):
             self.on_problem(record)
         elif record.getMessage().startswith(NOTHING):
             self.up_to_date = True
-        elif record.getMessage().startswith(STOPPING):
-            self.stopping = True
 
     def on_run(self, record: logging.LogRecord) -> None:
         """Before the first job."""
@@ -99,12 +101,17 @@ class LogHandler(LogHandlerBase):
 
     def on_failure(self, record: logging.LogRecord) -> None:
         """The job's own words came before, through standard error."""
-        if self.stopping:
+        if self.interrupted.wait(GRACE):
             return
         self.run.fail(record.jobid)
         made = f"{self.run.seen(record.output[0])} " if record.output else ""
         log = f"; log: {self.run.seen(record.log[0])}" if record.log else ""
         self.screen.say(f"failed: {made}(rule {record.rule_name}){log}")
+
+    def on_interrupt(self, number: int, frame: FrameType | None) -> None:
+        """Ctrl-C: the jobs that it ends have not failed by themselves."""
+        self.interrupted.set()
+        signal.default_int_handler(number, frame)
 
     def on_problem(self, record: logging.LogRecord) -> None:
         """A warning as it stands, an error in one line."""
