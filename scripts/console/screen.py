@@ -20,6 +20,7 @@ class Screen:
         self.heard = heard
         self.lock = threading.Lock()
         self.shown = ""
+        self.hides_others = False
         self.stderr = os.dup(2)
         self.rewrites = os.isatty(2) and os.environ.get("TERM") != "dumb"
         self.pipe, writing = os.pipe()
@@ -40,8 +41,9 @@ class Screen:
             self.pass_on(rest)
 
     def pass_on(self, line: str) -> None:
-        """Show a line of others, and let it be heard."""
-        self.say(line)
+        """Show a line of others unless they are hidden, and let it be heard."""
+        if not self.hides_others:
+            self.say(line)
         self.heard(line)
 
     def say(self, line: str) -> None:

@@ -58,8 +58,8 @@ class LogHandler(LogHandlerBase):
         self.up_to_date = False
         self.closed = threading.Event()
         self.interrupted = threading.Event()
-        signal.signal(signal.SIGINT, self.on_interrupt)
         self.screen = Screen(self.note)
+        signal.signal(signal.SIGINT, self.on_interrupt)
         self.events = {
             LogEvent.RUN_INFO: self.on_run,
             LogEvent.JOB_INFO: self.on_job,
@@ -109,8 +109,9 @@ class LogHandler(LogHandlerBase):
         self.screen.say(f"failed: {made}(rule {record.rule_name}){log}")
 
     def on_interrupt(self, number: int, frame: FrameType | None) -> None:
-        """Ctrl-C: the jobs that it ends have not failed by themselves."""
+        """Ctrl-C: the jobs that it ends have not failed by themselves; their words tell nothing."""
         self.interrupted.set()
+        self.screen.hides_others = True
         signal.default_int_handler(number, frame)
 
     def on_problem(self, record: logging.LogRecord) -> None:
