@@ -7,6 +7,8 @@ from collections.abc import Callable
 
 CLEAR = "\r\x1b[K"
 """Back to the start of the line, which becomes empty."""
+GRACE = 0.1
+"""Seconds by which a job that Ctrl-C ends may be heard of before Ctrl-C itself."""
 
 
 class Screen:
@@ -15,12 +17,15 @@ class Screen:
     Jobs inherit the pipe that replaces it. A thread passes on what they write, line by line.
     """
 
-    def __init__(self, heard: Callable[[str], None]) -> None:
-        """`heard` is called with each line that a job, or Snakemake itself, writes."""
+    def __init__(self, heard: Callable[[str], None], interrupted: threading.Event) -> None:
+        """`heard` is called with each line that a job, or Snakemake itself, writes.
+
+        These lines are no longer shown once the run is interrupted.
+        """
         self.heard = heard
+        self.interrupted = interrupted
         self.lock = threading.Lock()
         self.shown = ""
-        self.hides_others = False
         self.stderr = os.dup(2)
         self.rewrites = os.isatty(2) and os.environ.get("TERM") != "dumb"
         self.pipe, writing = os.pipe()
@@ -34,17 +39,19 @@ class Screen:
         decoder = codecs.getincrementaldecoder("utf-8")(errors="replace")
         rest = ""
         while some := os.read(self.pipe, 65536):
-            *lines, rest = (rest + decoder.decode(some)).split("\n")
-            for line in lines:
-                self.pass_on(line)
+            rest = self.pass_on(rest + decoder.decode(some))
         if rest:
-            self.pass_on(rest)
+            self.pass_on(f"{rest}\n")
 
-    def pass_on(self, line: str) -> None:
-        """Show a line of others unless they are hidden, and let it be heard."""
-        if not self.hides_others:
-            self.say(line)
-        self.heard(line)
+    def pass_on(self, text: str) -> str:
+        """Show the lines of others, and let them be heard; return the line that has no end yet."""
+        *lines, rest = text.split("\n")
+        hidden = self.interrupted.wait(GRACE)
+        for line in lines:
+            if not hidden:
+                self.say(line)
+            self.heard(line)
+        return rest
 
     def say(self, line: str) -> None:
         """A line that stays."""

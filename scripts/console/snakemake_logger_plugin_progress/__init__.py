@@ -16,7 +16,7 @@ from snakemake_interface_logger_plugins.common import LogEvent
 
 from scripts.console.error_words import in_one_line
 from scripts.console.run_progress import Job, RunProgress, counted
-from scripts.console.screen import Screen
+from scripts.console.screen import GRACE, Screen
 
 TICK = 0.5
 """Seconds between two times at which a terminal's line is rewritten."""
@@ -24,8 +24,6 @@ PAUSE = 30.0
 """Seconds between two lines of progress where there is no terminal."""
 NOTHING = "Nothing to be done"
 """Snakemake's first words where all results are up to date."""
-GRACE = 0.2
-"""Seconds in which a job that Ctrl-C ended may be heard of before Ctrl-C itself."""
 OF_FAILURES = (
     "RuleException: CalledProcessError",
     "WorkflowError: At least one job",
@@ -58,7 +56,7 @@ class LogHandler(LogHandlerBase):
         self.up_to_date = False
         self.closed = threading.Event()
         self.interrupted = threading.Event()
-        self.screen = Screen(self.note)
+        self.screen = Screen(self.note, self.interrupted)
         signal.signal(signal.SIGINT, self.on_interrupt)
         self.events = {
             LogEvent.RUN_INFO: self.on_run,
@@ -100,8 +98,8 @@ class LogHandler(LogHandlerBase):
             self.screen.say(f"made {self.run.seen(path)}")
 
     def on_failure(self, record: logging.LogRecord) -> None:
-        """The job's own words came before, through standard error."""
-        if self.interrupted.wait(GRACE):
+        """The job's own words come before, through standard error."""
+        if self.interrupted.wait(2 * GRACE):
             return
         self.run.fail(record.jobid)
         made = f"{self.run.seen(record.output[0])} " if record.output else ""
@@ -111,7 +109,6 @@ class LogHandler(LogHandlerBase):
     def on_interrupt(self, number: int, frame: FrameType | None) -> None:
         """Ctrl-C: the jobs that it ends have not failed by themselves; their words tell nothing."""
         self.interrupted.set()
-        self.screen.hides_others = True
         signal.default_int_handler(number, frame)
 
     def on_problem(self, record: logging.LogRecord) -> None:
