@@ -35,8 +35,8 @@ rule attractors_runs:
         groups=of_config(result_values.survey_groups, "survey", "part"),
         sources=digest_of("attractors"),
     shell:
-        "OMP_NUM_THREADS={threads} {input.program:q} {input.namelist} {output}"
-        " 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
+        "OMP_NUM_THREADS={threads} {input.program:q} {input.namelist:q} {output:q}"
+        " 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"
 
 
 rule attractors_table:

@@ -21,4 +21,4 @@ rule build:
         " && cmake --preset release -S {params.fortran:q}"
         " && cmake --build {params.build:q}/release --parallel {threads}"
         " --target {wildcards.program}_program)"
-        " > {log} 2>&1 9> {params.build:q}/lock || {{ {params.needs:q} && cat {log} >&2; exit 1; }}"
+        " > {log:q} 2>&1 9> {params.build:q}/lock || {{ {params.needs:q} && cat {log:q} >&2; exit 1; }}"

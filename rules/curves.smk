@@ -33,7 +33,7 @@ rule hopf_curves:
         values=of_config(result_values.plane_values, "plane"),
         sources=digest_of("hopf"),
     shell:
-        "{input.program:q} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
+        "{input.program:q} {input.namelist:q} {output:q} 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"
 
 
 rule hopf_points:

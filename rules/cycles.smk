@@ -33,7 +33,7 @@ rule cycles_runs:
         values=of_config(result_values.cycles_values, "cycle_line"),
         sources=digest_of("cycles"),
     shell:
-        "{input.program:q} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
+        "{input.program:q} {input.namelist:q} {output:q} 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"
 
 
 rule cycle_points:

@@ -19,7 +19,7 @@ rule docs:
     threads: 2
     shell:
         "(setup/setup.sh docs"
-        " && docs/.venv/bin/ford --quiet {input.project}"
-        " && docs/.venv/bin/python {input.offline} {output})"
-        " > {log} 2>&1 || {{ cat {log} >&2; exit 1; }};"
-        " ! grep -i warning {log} >&2"
+        " && docs/.venv/bin/ford --quiet {input.project:q}"
+        " && docs/.venv/bin/python {input.offline:q} {output:q})"
+        " > {log:q} 2>&1 || {{ cat {log:q} >&2; exit 1; }};"
+        " ! grep -i warning {log:q} >&2"

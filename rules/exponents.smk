@@ -31,7 +31,7 @@ rule exponents_runs:
         groups=of_config(result_values.exponents_groups, "scene"),
         sources=digest_of("exponents"),
     shell:
-        "{input.program:q} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
+        "{input.program:q} {input.namelist:q} {output:q} 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"
 
 
 rule exponents_table:

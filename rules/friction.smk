@@ -31,4 +31,4 @@ rule velocity_step:
         values=config["velocity_step"],
         sources=digest_of("velocity_step"),
     shell:
-        "{input.program:q} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
+        "{input.program:q} {input.namelist:q} {output:q} 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"

@@ -31,7 +31,7 @@ rule linear_stability:
         values=of_config(result_values.linear_stability_values, "scene"),
         sources=digest_of("linear_stability"),
     shell:
-        "{input.program:q} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
+        "{input.program:q} {input.namelist:q} {output:q} 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"
 
 
 rule linear_stability_table:

@@ -48,7 +48,7 @@ rule reference:
         groups=of_config(result_values.study_groups, "study", "family"),
         sources=digest_of("reference"),
     shell:
-        "{input.program:q} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
+        "{input.program:q} {input.namelist:q} {output:q} 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"
 
 
 rule measurement:
@@ -66,7 +66,7 @@ rule measurement:
         groups=of_config(result_values.study_groups, "study", "family"),
         sources=digest_of("measure"),
     shell:
-        "{input.program:q} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
+        "{input.program:q} {input.namelist:q} {output:q} 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"
 
 
 rule stability_table:
@@ -140,7 +140,7 @@ rule work_precision_runs:
         study=MEASURED,
         sources=digest_of("measure"),
     shell:
-        "{input.program:q} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
+        "{input.program:q} {input.namelist:q} {output:q} 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"
 
 
 rule work_precision_table:

@@ -33,4 +33,4 @@ rule trajectory:
         values=of_config(result_values.scene_values, "scene"),
         sources=digest_of("trajectory"),
     shell:
-        "{input.program:q} {input.namelist} {output} 2> {log} || {{ grep -v ' %, ' {log} >&2; exit 1; }}"
+        "{input.program:q} {input.namelist:q} {output:q} 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"

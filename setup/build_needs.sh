@@ -14,7 +14,7 @@ first_of() {
 
 missing=()
 first_of cmake >/dev/null || missing+=(cmake)
-first_of ninja ninja-build >/dev/null || missing+=(ninja)
+first_of make >/dev/null || missing+=(make)
 first_of "${CC:-cc}" gcc clang >/dev/null || missing+=(gcc)
 first_of gfortran >/dev/null || missing+=(gfortran)
 if pkg_config=$(first_of pkg-config pkgconf); then

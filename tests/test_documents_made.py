@@ -195,7 +195,7 @@ def run_of(tmp_path_factory):
     def run_of(source: str) -> list[str]:
         (folder / "mackey_glass.f90").write_text(source)
         for command in (
-            ["cmake", "-G", "Ninja", "-S", folder, "-B", build, *settings],
+            ["cmake", "-S", folder, "-B", build, *settings],
             ["cmake", "--build", build],
             [build / "mine"],
         ):

@@ -110,7 +110,7 @@ def test_missing_compiler_and_libraries_are_named(project, tmp_path, monkeypatch
 @pytest.mark.parametrize(
     ("lacking", "named"),
     [
-        (("cmake", "ninja"), "cmake ninja"),
+        (("cmake", "make"), "cmake make"),
         (("pkg-config", "pkgconf"), "pkg-config"),
         (("cc", "gcc", "clang"), "gcc"),
     ],

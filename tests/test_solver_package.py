@@ -31,7 +31,7 @@ def installed(tmp_path_factory) -> Path:
     """Folder of an installed copy, with LAPACK; its sources and its build are gone."""
     folder = tmp_path_factory.mktemp("solver")
     source = shutil.copytree(PACKAGE, folder / "source")
-    settings = ["-G", "Ninja", "-D", "DDE_LAPACK=ON", "-D", "DDE_TESTS=OFF"]
+    settings = ["-D", "DDE_LAPACK=ON", "-D", "DDE_TESTS=OFF"]
     prefix = folder / "prefix"
     run(
         "cmake", *settings, f"-DCMAKE_INSTALL_PREFIX={prefix}", "-S", source, "-B", folder / "build"
@@ -45,7 +45,7 @@ def installed(tmp_path_factory) -> Path:
 
 def test_cmake_finds_it(installed, tmp_path):
     """In a project whose modules and targets have names that this project has, too."""
-    where = ["-G", "Ninja", f"-DCMAKE_PREFIX_PATH={installed}"]
+    where = [f"-DCMAKE_PREFIX_PATH={installed}"]
     run("cmake", *where, "-S", OUTSIDE / "by_cmake", "-B", tmp_path)
     run("cmake", "--build", tmp_path)
     assert "100% tests passed" in run("ctest", "--test-dir", tmp_path)
@@ -88,6 +88,6 @@ def test_it_stays_quiet_in_another_project(tmp_path):
         f'add_subdirectory("{PACKAGE}" solver)\n'
     )
     build = tmp_path / "build"
-    run("cmake", "-G", "Ninja", "-S", tmp_path, "-B", build)
+    run("cmake", "-S", tmp_path, "-B", build)
     assert "Total Tests: 0" in run("ctest", "--show-only", "--test-dir", build)
     assert "file(INSTALL" not in (build / "solver" / "cmake_install.cmake").read_text()

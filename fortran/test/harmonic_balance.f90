@@ -86,23 +86,22 @@ contains
       real(wp) :: value(unknowns)
       type(block_parameters_type) :: there
       type(spring_block_type) :: block
-      real(wp) :: coefficients(points, 3), slope(3), t
+      real(wp) :: coefficients(points, 3), frequency, slope(3), t
       integer :: i
 
       coefficients = reshape(x, [points, 3])
       there = parameters
       there%epsilon = coefficients(cosine, index_of_ln_v)
-      associate (frequency => x(place(index_of_ln_v, sine)))
-         coefficients(cosine:sine, index_of_ln_v) = [amplitude, 0.0_wp]
-         block = spring_block_type(there, block_history_type())
-         do i = 1, points
-            t = two_pi*i/points
-            call block%rhs(0.0_wp, matmul(functions(t), coefficients), &
-                           matmul(functions(t - frequency*there%tau), &
-                                  coefficients(:, index_of_ln_v:index_of_ln_v)), slope)
-            value(3*i - 2:3*i) = frequency*matmul(slopes(t), coefficients) - slope
-         end do
-      end associate
+      frequency = x(place(index_of_ln_v, sine))
+      coefficients(cosine:sine, index_of_ln_v) = [amplitude, 0.0_wp]
+      block = spring_block_type(there, block_history_type())
+      do i = 1, points
+         t = two_pi*i/points
+         call block%rhs(0.0_wp, matmul(functions(t), coefficients), &
+                        matmul(functions(t - frequency*there%tau), &
+                               coefficients(:, index_of_ln_v:index_of_ln_v)), slope)
+         value(3*i - 2:3*i) = frequency*matmul(slopes(t), coefficients) - slope
+      end do
    end function residual
 
    !> 1, cos t, sin t, cos 2t, ...
