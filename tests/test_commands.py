@@ -1,6 +1,8 @@
 """./reproduce, ./test and the set-up, with stand-ins for what would install something."""
 
+import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -124,7 +126,7 @@ def test_test_runs_one_part(recording, part, tools):
 
 def test_other_compilers_are_refused_where_packages_are_missing(recording):
     """The set-up's own words and status, and nothing is built."""
-    write_script(recording / "setup" / "setup.sh", "[[ ${1-} != compilers ]] || exit 7")
+    write_script(recording / "setup" / "setup.sh", "[[ ${1-} != compilers/* ]] || exit 7")
     status, calls = calls_of(recording / "test", "compilers")
     assert (status, calls) == (7, [])
 
@@ -219,17 +221,26 @@ def test_missing_packages_without_root_are_asked_for(bare):
 def test_packages_of_other_compilers_are_asked_for(bare):
     """One line to copy; once they are there the part needs no Python packages of its own."""
     shutil.copytree(ROOT / "compilers", bare / "compilers")
-    wanted = debian_packages("compilers")
+    wanted = debian_packages("compilers/bookworm")
     assert {"flang-19", "gfortran-11"} <= set(wanted)
     pretend_installed(bare, [name for name in wanted if name not in ("flang-19", "gfortran-11")])
     write_script(bare / "bin" / "apt-get", "exit 1")
-    run = set_up_in(bare, part=("compilers",))
+    run = set_up_in(bare, part=("compilers/bookworm",))
     assert run.returncode == 1
     assert "--no-install-recommends flang-19 gfortran-11\n" in run.stderr
     pretend_installed(bare, wanted)
-    run = set_up_in(bare, part=("compilers",))
+    run = set_up_in(bare, part=("compilers/bookworm",))
     assert (run.returncode, run.stderr) == (0, "")
-    assert not (bare / "compilers" / ".venv").exists()
+    assert not (bare / "compilers" / "bookworm" / ".venv").exists()
+
+
+def test_each_compiler_has_a_preset():
+    """By the name of its package, which compilers/run builds with."""
+    presets = json.loads((ROOT / "fortran" / "CMakePresets.json").read_text())["configurePresets"]
+    names = {preset["name"] for preset in presets}
+    lists = [path.parent for path in ROOT.glob("compilers/*/apt-packages.txt")]
+    wanted = {name for folder in lists for name in debian_packages(str(folder.relative_to(ROOT)))}
+    assert {name for name in wanted if re.match("(gfortran|flang)-", name)} <= names
 
 
 def test_packages_of_slurm_are_asked_for(bare):
@@ -304,7 +315,7 @@ def test_snakemake_that_cannot_be_mended_is_told(bare, to_mend, file):
 
 @pytest.mark.parametrize("character", list('$;"\\|<'))
 def test_folder_in_which_nothing_can_be_built_is_refused(tmp_path, character):
-    """At once: CMake and Ninja give the character a meaning of their own."""
+    """At once: CMake and Make give the character a meaning of their own."""
     folder = tmp_path / f"a{character}b"
     shutil.copytree(ROOT / "setup", folder / "setup")
     run = subprocess.run([folder / "setup" / "setup.sh"], capture_output=True, text=True)
