@@ -68,11 +68,3 @@ def test_values_come_as_words_and_coordinates(smoke, files):
     assert set(read["attractors/atlas"]["class"].coords) == {"epsilon", "tau", "xi", "gamma"}
     flags = read["attractors/atlas"]["class"].attrs
     assert flags["flag_values"].tolist() == list(range(len(flags["flag_meanings"].split())))
-
-
-def test_long_variables_are_compressed(smoke, files):
-    """A trajectory; the short ones of linear stability are not: they would become longer."""
-    long = xr.open_dataset(smoke.folder / "results" / files["trajectories"])
-    short = xr.open_dataset(smoke.folder / "results" / files["linear_stability"])
-    assert all(variable.encoding["zlib"] for variable in long.variables.values())
-    assert not any(variable.encoding["zlib"] for variable in short.variables.values())

@@ -1,5 +1,7 @@
 """Files of scripts are whole or absent, and what goes wrong is told in one line."""
 
+import os
+
 import pytest
 import xarray as xr
 
@@ -20,6 +22,20 @@ def test_file_is_there_when_complete(tmp_path):
         "table.tsv",
     ]
     assert path.read_text() == "whole"
+
+
+def test_file_is_on_the_disk_before_it_has_its_name(tmp_path, monkeypatch):
+    """And its folder thereafter: a loss of power leaves no empty file under a final name."""
+    path = tmp_path / "table.tsv"
+    synced = []
+
+    def fsync(descriptor: int) -> None:
+        synced.append((os.readlink(f"/proc/self/fd/{descriptor}"), path.exists()))
+
+    monkeypatch.setattr(os, "fsync", fsync)
+    with written(path) as unfinished:
+        unfinished.write_text("whole")
+    assert synced == [(str(unfinished), False), (str(tmp_path), True)]
 
 
 @pytest.mark.parametrize("first_to_end", ["older", "newer"])

@@ -312,6 +312,14 @@ def test_missing_value_is_an_error():
         write_page.rendered(made_up_page.TEMPLATE, **given)
 
 
+def test_page_lets_nothing_lead_elsewhere():
+    """Its policy: nothing is loaded by default, no base changes its links, no form is sent."""
+    page = Elements(write_page.rendered(made_up_page.TEMPLATE, **content()))
+    policies = [a["content"] for tag, a in page.found if a.get("http-equiv", "").endswith("Policy")]
+    (directives,) = [[one.strip() for one in policy.split(";")] for policy in policies]
+    assert {"default-src 'none'", "base-uri 'none'", "form-action 'none'"} <= {*directives}
+
+
 def test_words_of_the_ledger_are_no_markup():
     """What looks like a tag is text."""
     text = write_page.rendered(made_up_page.TEMPLATE, **content())

@@ -8,11 +8,12 @@ import os
 import re
 import shutil
 import stat
+import subprocess
 from pathlib import Path
 
 import pytest
 import xarray as xr
-from conftest import PROGRAMS, Programs
+from conftest import PROGRAMS, ROOT, Programs
 
 REFUSED = {
     "trajectory": ("scene", "tau", -1.0, "scene 'torus': tau = -1.0; expected a finite number >= "),
@@ -57,6 +58,23 @@ def test_good_input_makes_one_file(programs, good_groups, program):
         assert again == programs.output.read_bytes()
 
 
+@pytest.mark.parametrize("program", ["linear_stability", "reference"])
+def test_result_is_on_the_disk_before_it_has_its_name(programs, good_groups, program, monkeypatch):
+    """And its folder thereafter: a loss of power leaves no empty file under a final name."""
+    preloaded = programs.folder.with_name("fsync_order.so")
+    source = ROOT / "tests" / "fsync_order.c"
+    subprocess.run(["cc", "-shared", "-fPIC", "-o", preloaded, source, "-ldl"], check=True)
+    monkeypatch.setenv("LD_PRELOAD", str(preloaded))
+    programs.write(good_groups[program])
+    run = programs.run(program, "input.nml", programs.output)
+    assert run.returncode == 0
+    calls = [line.replace(str(programs.folder), "") for line in run.stdout.splitlines()]
+    file, named, folder = [re.sub(r"nc\.[0-9-]+\.part", "part", call) for call in calls]
+    assert file == "fsync /output.part"
+    assert named == "rename /output.part /output.nc"
+    assert folder == "fsync "
+
+
 @every_program
 def test_bad_input_is_refused(programs, good_groups, program):
     """The line names the file, and group, key and range where they are wrong."""
@@ -89,6 +107,71 @@ def test_file_without_the_group_is_refused(programs, text):
     line = refusal(programs, programs.run("trajectory", "input.nml", "output.nc"))
     assert "input.nml" in line
     assert "&scene" in line
+
+
+@every_program
+def test_key_or_group_given_twice_is_refused(programs, good_groups, program):
+    """Where Fortran would take the last. Every key of every group: fortran/test/test_io_*.f90."""
+    namelist = programs.write(good_groups[program])
+    text = namelist.read_text()
+    for group in good_groups[program]:
+        begin = text.index(f"&{group}\n")
+        line = text[:begin].count("\n") + 1
+        first = text[begin:].splitlines(keepends=True)[1]
+        key = first.split()[0]
+        once_more = text[begin:].replace(first, first.upper() + first, 1)
+        namelist.write_text(text[:begin] + once_more)
+        said = refusal(programs, programs.run(program, "input.nml", "output.nc"))
+        assert said.startswith(
+            f"error: input.nml: namelist group &{group}: {key} stands in lines {line + 1} and "
+        )
+        namelist.write_text(text + text[begin : text.index("\n/\n", begin) + 3])
+        said = refusal(programs, programs.run(program, "input.nml", "output.nc"))
+        lines = f"{line} and {text.count(chr(10)) + 1}"
+        assert f"input.nml: namelist group &{group} stands in lines {lines}; expected once" in said
+
+
+@pytest.mark.parametrize(
+    ("line", "key"),
+    [
+        ("history = 0.0, 0.0, 1.1", "history%theta"),
+        ("variables(2) = 'u'", "variables"),
+        ("variables (1)\n=\n'u'", "variables"),
+        ("xi = 1.0, name = 'a'' ! tau = 1 /'", "xi"),
+        ("xi = 1.0 ! it's a comment /", "xi"),
+    ],
+)
+def test_key_given_in_parts_is_refused(programs, good_groups, line, key):
+    """A structure and its component, a list and its element; comments and strings have no keys."""
+    scene = good_groups["trajectory"]["scene"]
+    if "name" in line:
+        del scene["name"]
+    namelist = programs.write({"scene": scene})
+    text = namelist.read_text()
+    namelist.write_text(text.replace("&scene\n", f"&scene\n{line}\n"))
+    said = refusal(programs, programs.run("trajectory", "input.nml", "output.nc"))
+    assert re.search(rf"namelist group &scene: {key} stands in lines [23] and \d+; expected", said)
+
+
+def test_signs_in_comments_and_strings_are_no_keys(programs, good_groups):
+    """Nor groups; a file for several programs has other groups with the same keys."""
+    scene = good_groups["trajectory"]["scene"]
+    scene["name"] = "a = b, tau = / '' ! &other tau = 1"
+    namelist = programs.write({"other": {"tau": 1.0, "name": "a"}, "scene": scene})
+    text = namelist.read_text()
+    comment = "! it's tau = 1 / &scene tau = 1\n"
+    namelist.write_text(comment + text.replace("&scene\n", f"&scene {comment}"))
+    run = programs.run("trajectory", "input.nml", "output.nc")
+    assert (run.returncode, run.stderr) == (0, "")
+    assert xr.load_dataset(programs.output).attrs["tau"] == scene["tau"]
+
+
+def test_namelist_that_is_too_long_is_refused(programs, good_groups):
+    """Without reading it."""
+    namelist = programs.write(good_groups["trajectory"])
+    os.truncate(namelist, 10_000_000_000)
+    said = refusal(programs, programs.run("trajectory", "input.nml", "output.nc"))
+    assert "input.nml: size = 10000000000 bytes; expected a namelist of at most 1000000" in said
 
 
 def test_hint_about_nan_is_given_for_nan_only(programs, good_groups):
@@ -147,6 +230,29 @@ def test_output_that_cannot_be_written_is_refused(programs, good_groups, program
         assert stat.S_IFMT(path.lstat().st_mode) != stat.S_IFREG
         assert [left.name for left in place.iterdir()] == [name][: name != "device"]
         shutil.rmtree(place)
+
+
+@every_program
+def test_empty_path_is_refused(programs, good_groups, program):
+    """As such: an empty path of the output was a run that has started elsewhere."""
+    programs.write(good_groups[program])
+    said = refusal(programs, programs.run(program, "input.nml", ""))
+    assert said == "error: the output path is empty; expected the path of a file"
+    said = refusal(programs, programs.run(program, "", "output.nc"))
+    assert said == "error: the namelist path is empty; expected the path of a file"
+
+
+@every_program
+def test_input_that_is_no_file_is_refused(programs, good_groups, program):
+    """A pipe to which no one writes would be waited for, a device read without end."""
+    os.mkfifo(programs.folder / "pipe.nml")
+    for path in ("pipe.nml", "/dev/zero", "."):
+        said = refusal(programs, programs.run(program, path, "output.nc"))
+        assert said.startswith(f"error: {path}: cannot be read: a folder, a device or a pipe is ")
+        if program == "spectrum":
+            good_groups[program][program]["trajectory"] = path
+            run = programs.run_groups(program, good_groups[program])
+            assert refusal(programs, run) == said
 
 
 @every_program

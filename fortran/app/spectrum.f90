@@ -3,7 +3,7 @@ program spectrum_program
    use base_frequencies, only: bases_type, label_peaks
    use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use program_arguments, only: get_paths, refuse_input, stop_on
+   use program_arguments, only: check_input, get_paths, stop_on
    use spectral_peaks, only: find_peaks, peak_type
    use spectrum, only: power_spectrum
    use spectrum_input, only: read_spectrum_settings, spectrum_settings_type
@@ -23,7 +23,7 @@ program spectrum_program
    call stop_on(error)
    call read_spectrum_settings(namelist_path, settings, error)
    call stop_on(error)
-   call refuse_input(trim(settings%trajectory), output_path, error)
+   call check_input(trim(settings%trajectory), output_path, error)
    call stop_on(error)
    call read_trajectory(trim(settings%trajectory), "v", trajectory, error)
    call stop_on(error)

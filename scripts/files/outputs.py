@@ -15,6 +15,15 @@ class FileError(Exception):
     """A file that cannot be read or written: which, why, and what to do."""
 
 
+def send_to_disk(path: Path) -> None:
+    """Return when a file or folder is on the disk, where it outlasts a loss of power."""
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
 @contextlib.contextmanager
 def written(path: str | Path) -> Iterator[Path]:
     """The path to write to: what is there at the end becomes `path`, of a failure nothing stays.
@@ -33,7 +42,11 @@ def written(path: str | Path) -> Iterator[Path]:
             raise FileError(
                 f"{path}: another run has started to write this file; only the last one keeps it"
             )
+        send_to_disk(unfinished)
         os.replace(unfinished, path)
+        # not all file systems can send a folder to the disk
+        with contextlib.suppress(OSError):
+            send_to_disk(path.parent)
     except OSError as problem:
         raise FileError(f"{path}: cannot write: {problem.strerror}; {REMEDY}") from problem
     finally:

@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Answers beside 0 (done) and error numbers; `files` has the same. */
+/* Answers beside 0 (done) and error numbers; `file_system` has the same. */
 enum { missing = -1, occupied = -2 };
 
 static int reason(void)
@@ -33,6 +33,24 @@ int file_is_same(const char *one, const char *other)
            a.st_ino == b.st_ino;
 }
 
+/* 1 where something is at `path` that is no regular file. */
+int file_is_special(const char *path)
+{
+    struct stat found;
+    return stat(path, &found) == 0 && !S_ISREG(found.st_mode);
+}
+
+/* Whether `length` more bytes have room at the end of a file that is there. */
+int file_room(const char *path, size_t length)
+{
+    int file = open(path, O_WRONLY);
+    if (file < 0)
+        return reason();
+    int why = posix_fallocate(file, lseek(file, 0, SEEK_END), (off_t)length);
+    close(file);
+    return why;
+}
+
 /* Write all of a file: one that is there, or one where nothing is yet. */
 int file_write(const char *path, const char *content, size_t length, int there)
 {
@@ -46,9 +64,26 @@ int file_write(const char *path, const char *content, size_t length, int there)
     return why;
 }
 
-int file_rename(const char *from, const char *to)
+/* Send what is at `path` to the disk, so that it outlasts a loss of power. */
+static int sync_to_disk(const char *path)
 {
-    return rename(from, to) == 0 ? 0 : reason();
+    int file = open(path, O_RDONLY);
+    if (file < 0)
+        return reason();
+    int why = fsync(file) == 0 ? 0 : reason();
+    close(file);
+    return why;
+}
+
+/* Rename a file in `folder` once it is on the disk; not all file systems can send a folder there. */
+int file_rename(const char *folder, const char *from, const char *to)
+{
+    int why = sync_to_disk(from);
+    if (why == 0 && rename(from, to) != 0)
+        why = reason();
+    if (why == 0)
+        sync_to_disk(folder);
+    return why;
 }
 
 /* Remove the files of `folder` named `name`, a point, digits and hyphens, and `ending`. */

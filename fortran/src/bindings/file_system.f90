@@ -4,8 +4,8 @@ module file_system
    use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_null_char, c_ptr, c_size_t
    implicit none (type, external)
    private
-   public :: is_same_file, missing, occupied, place_of_file, reason_of, remove_file, &
-             remove_marked, rename_file, write_file
+   public :: is_same_file, is_special, missing, occupied, place_of_file, reason_of, remove_file, &
+             remove_marked, rename_file, room_in_file, write_file
 
    !> Answers beside 0 (done) and the numbers of errors: there is no such path; there is something
    !> that is no regular file.
@@ -24,6 +24,19 @@ module file_system
          character(kind=c_char), intent(in) :: one(*), other(*)
       end function c_is_same
 
+      integer(c_int) function c_is_special(path) result(value) bind(c, name="file_is_special")
+         import :: c_char, c_int
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_is_special
+
+      integer(c_int) function c_room(path, length) result(value) bind(c, name="file_room")
+         import :: c_char, c_int, c_size_t
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_size_t), value :: length
+      end function c_room
+
       integer(c_int) function c_write(path, content, length, there) result(value) &
          bind(c, name="file_write")
          import :: c_char, c_int, c_size_t
@@ -33,10 +46,10 @@ module file_system
          integer(c_int), value :: there
       end function c_write
 
-      integer(c_int) function c_rename(from, to) result(value) bind(c, name="file_rename")
+      integer(c_int) function c_rename(folder, from, to) result(value) bind(c, name="file_rename")
          import :: c_char, c_int
          implicit none (type, external)
-         character(kind=c_char), intent(in) :: from(*), to(*)
+         character(kind=c_char), intent(in) :: folder(*), from(*), to(*)
       end function c_rename
 
       integer(c_int) function c_remove(path) result(value) bind(c, name="remove")
@@ -84,6 +97,24 @@ contains
       value = c_is_same(one//c_null_char, other//c_null_char) == 1
    end function is_same_file
 
+   !> Whether something is at a path that is no regular file: a folder, a device or a pipe.
+   logical function is_special(path) result(value)
+      !> The path
+      character(len=*), intent(in) :: path
+
+      value = c_is_special(path//c_null_char) == 1
+   end function is_special
+
+   !> Whether a file that is there could be longer: 0, `missing` or an error.
+   integer function room_in_file(path, bytes) result(answer)
+      !> Its path
+      character(len=*), intent(in) :: path
+      !> How much longer
+      integer, intent(in) :: bytes
+
+      answer = c_room(path//c_null_char, int(bytes, c_size_t))
+   end function room_in_file
+
    !> Write a file that is there, and is not longer than this, or a new one where nothing is: 0,
    !> `missing` (the file, or its folder) or an error.
    integer function write_file(path, content, there) result(answer)
@@ -98,14 +129,15 @@ contains
                        merge(1_c_int, 0_c_int, there))
    end function write_file
 
-   !> Give a file another name, replacing what had it, all or nothing: 0, `missing` or an error.
+   !> Give a file another name in its folder, replacing what had it, all or nothing, also when the
+   !> power fails: 0, `missing` or an error.
    integer function rename_file(from, to) result(answer)
       !> Present path
       character(len=*), intent(in) :: from
-      !> New path on the same file system
+      !> New path in the same folder
       character(len=*), intent(in) :: to
 
-      answer = c_rename(from//c_null_char, to//c_null_char)
+      answer = c_rename(folder_of(to)//c_null_char, from//c_null_char, to//c_null_char)
    end function rename_file
 
    !> Remove a file if it is there.

@@ -65,7 +65,7 @@ contains
       v = tau
       t_end = tau
       sample_interval = tau
-      call open_namelist(path, unit, error)
+      call open_namelist(path, "cases_list", unit, error)
       if (allocated(error)) return
       read (unit, nml=cases_list, iostat=status, iomsg=reason)
       call close_namelist(path, "cases_list", unit, status, reason, error)

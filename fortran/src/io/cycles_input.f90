@@ -105,7 +105,7 @@ contains
       degree = 0
       intervals = 0
       most_orbits = 0
-      call open_namelist(path, unit, error)
+      call open_namelist(path, "cycles", unit, error)
       if (.not. allocated(error)) then
          read (unit, nml=cycles, iostat=status, iomsg=reason)
          call close_namelist(path, "cycles", unit, status, reason, error)

@@ -112,7 +112,7 @@ contains
       zero_level = t_end
       check_tolerances = t_end
       check_steps = t_end
-      call open_namelist(path, unit, error)
+      call open_namelist(path, "exponents", unit, error)
       if (allocated(error)) return
       read (unit, nml=exponents, iostat=status, iomsg=reason)
       call close_namelist(path, "exponents", unit, status, reason, error)

@@ -84,7 +84,7 @@ contains
       epsilon_window = fixed
       ordinate_window = fixed
       cells = 0
-      call open_namelist(path, unit, error)
+      call open_namelist(path, "hopf_curves", unit, error)
       if (allocated(error)) return
       read (unit, nml=hopf_curves, iostat=status, iomsg=reason)
       call close_namelist(path, "hopf_curves", unit, status, reason, error)

@@ -57,7 +57,7 @@ contains
       root_bound = tau
       tau_most = tau
       epsilon_most = tau
-      call open_namelist(path, unit, error)
+      call open_namelist(path, "linear_stability", unit, error)
       if (allocated(error)) return
       read (unit, nml=linear_stability, iostat=status, iomsg=reason)
       call close_namelist(path, "linear_stability", unit, status, reason, error)

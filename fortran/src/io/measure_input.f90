@@ -51,7 +51,7 @@ contains
       most_steps = -1
       repeats = -1
       least_seconds = not_given()
-      call open_namelist(path, unit, error)
+      call open_namelist(path, "measure", unit, error)
       if (allocated(error)) return
       read (unit, nml=measure, iostat=status, iomsg=reason)
       call close_namelist(path, "measure", unit, status, reason, error)

@@ -3,6 +3,7 @@ module namelist_input
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde_errors, only: error_type, raise
    use dde_kinds, only: wp
+   use namelist_text, only: check_given_once
    implicit none (type, external)
    private
    public :: close_namelist, not_given, open_namelist, word_length
@@ -18,17 +19,21 @@ contains
       value = ieee_value(1.0_wp, ieee_quiet_nan)
    end function not_given
 
-   !> Open a namelist file for reading.
-   subroutine open_namelist(path, unit, error)
+   !> Open a namelist file for reading a group.
+   subroutine open_namelist(path, group, unit, error)
       !> Path of the file
       character(len=*), intent(in) :: path
+      !> Namelist group, in small letters
+      character(len=*), intent(in) :: group
       !> Unit it is open on
       integer, intent(out) :: unit
-      !> It cannot be opened
+      !> It cannot be opened, or the group or a key of it is given twice
       type(error_type), allocatable, intent(out) :: error
       character(len=256) :: reason
       integer :: status
 
+      call check_given_once(path, group, error)
+      if (allocated(error)) return
       open (newunit=unit, file=path, status="old", action="read", iostat=status, iomsg=reason)
       if (status /= 0) call raise(error, path//": "//trim(reason))
    end subroutine open_namelist

@@ -14,9 +14,6 @@ module netcdf_output
    private
    public :: output_file_type
 
-   !> Fewest values of a variable that are compressed: the parts of a compressed variable need an
-   !> index, which costs more than it saves where there are few
-   integer, parameter :: fewest_compressed = 1024
    !> Level of compression: trajectories shrink to 0.35 to 0.55 of their size; higher levels take
    !> longer and save at most 1 % more
    integer, parameter :: level = 4
@@ -99,10 +96,13 @@ contains
       class(output_file_type), intent(inout) :: self
       !> What a NetCDF call returned
       integer, intent(in) :: status
+      character(len=:), allocatable :: reason
 
       if (status == nf90_noerr .or. allocated(self%error)) return
-      call raise(self%error, self%place%path//": cannot write: "//trim(nf90_strerror(status)) &
-                 //remedy)
+      ! a positive status is the system's own number of an error
+      reason = trim(nf90_strerror(status))
+      if (status < 0) reason = self%place%why_not_written(reason)
+      call raise(self%error, self%place%path//": cannot write: "//reason//remedy)
       call self%discard()
    end subroutine note
 
@@ -124,7 +124,8 @@ contains
       if (present(coordinates)) self%axes(size(self%axes))%coordinates = coordinates
    end function dimension
 
-   !> Define a variable, compressed where that pays.
+   !> Define a variable, compressed and with a checksum: a value that was damaged on the disk is an
+   !> error for all readers.
    integer function variable(self, name, kind, dimensions, long_name) result(id)
       !> The file
       class(output_file_type), intent(inout) :: self
@@ -141,12 +142,8 @@ contains
 
       id = -1
       if (allocated(self%error)) return
-      if (product(self%axes(dimensions)%length) < fewest_compressed) then
-         call self%note(nf90_def_var(self%id, name, kind, dimensions, id))
-      else
-         call self%note(nf90_def_var(self%id, name, kind, dimensions, id, deflate_level=level, &
-                                     shuffle=.true.))
-      end if
+      call self%note(nf90_def_var(self%id, name, kind, dimensions, id, deflate_level=level, &
+                                  shuffle=.true., fletcher32=.true.))
       call self%attribute("long_name", long_name, id)
       coordinates = ""
       do i = 1, size(dimensions)

@@ -105,7 +105,7 @@ contains
       most_steps = 0
       method = ""
       window = ""
-      call open_namelist(path, unit, error)
+      call open_namelist(path, "observation", unit, error)
       if (allocated(error)) return
       read (unit, nml=observation, iostat=status, iomsg=reason)
       call close_namelist(path, "observation", unit, status, reason, error)

@@ -266,7 +266,7 @@ contains
       gamma_part = 0
       refinements = -1
       kept = -1
-      call open_namelist(path, unit, error)
+      call open_namelist(path, "points", unit, error)
       if (allocated(error)) return
       read (unit, nml=points, iostat=status, iomsg=reason)
       call close_namelist(path, "points", unit, status, reason, error)

@@ -2,12 +2,12 @@
 module program_arguments
    use, intrinsic :: iso_fortran_env, only: error_unit
    use dde_errors, only: error_type, raise
-   use file_system, only: is_same_file
+   use file_system, only: is_same_file, is_special
    use process, only: end_at_once
    use unfinished_file, only: check_place
    implicit none (type, external)
    private
-   public :: get_paths, program_name, refuse_input, stop_on
+   public :: check_input, get_paths, program_name, stop_on
 
 contains
 
@@ -17,33 +17,40 @@ contains
       character(len=:), allocatable, intent(out) :: namelist_path
       !> Second argument
       character(len=:), allocatable, intent(out) :: output_path
-      !> There are not two, or the output cannot be written
+      !> There are not two, or the input cannot be read, or the output cannot be written
       type(error_type), allocatable, intent(out) :: error
 
       namelist_path = argument(1)
       output_path = argument(2)
       if (command_argument_count() /= 2) then
          call raise(error, "usage: "//argument(0)//" NAMELIST OUTPUT")
+      else if (namelist_path == "") then
+         call raise(error, "the namelist path is empty; expected the path of a file")
+      else if (output_path == "") then
+         call raise(error, "the output path is empty; expected the path of a file")
       else
          call check_place(output_path, error)
-         if (.not. allocated(error)) call refuse_input(namelist_path, output_path, error)
+         if (.not. allocated(error)) call check_input(namelist_path, output_path, error)
       end if
    end subroutine get_paths
 
-   !> Refuse to replace what the program reads.
-   subroutine refuse_input(input_path, output_path, error)
+   !> Refuse to read what may have no end, and to replace what the program reads.
+   subroutine check_input(input_path, output_path, error)
       !> What it reads
       character(len=*), intent(in) :: input_path
       !> What it is to write
       character(len=*), intent(in) :: output_path
-      !> They are the same file
+      !> The input is no regular file, or is the output
       type(error_type), allocatable, intent(out) :: error
 
-      if (is_same_file(input_path, output_path)) then
+      if (is_special(input_path)) then
+         call raise(error, input_path//": cannot be read: a folder, a device or a pipe is there; " &
+                    //"expected a file")
+      else if (is_same_file(input_path, output_path)) then
          call raise(error, output_path//": cannot write: it is the input "//input_path &
                     //"; expected another path")
       end if
-   end subroutine refuse_input
+   end subroutine check_input
 
    !> Name of this program, without its folder.
    function program_name() result(name)

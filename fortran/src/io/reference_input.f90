@@ -45,7 +45,7 @@ contains
       check_tolerance = not_given()
       disturbance = not_given()
       most_steps = -1
-      call open_namelist(path, unit, error)
+      call open_namelist(path, "reference", unit, error)
       if (allocated(error)) return
       read (unit, nml=reference, iostat=status, iomsg=reason)
       call close_namelist(path, "reference", unit, status, reason, error)

@@ -84,7 +84,7 @@ contains
       t_transient = tau
       sample_interval = tau
       tolerance = tau
-      call open_namelist(path, unit, error)
+      call open_namelist(path, "scene", unit, error)
       if (allocated(error)) return
       read (unit, nml=scene, iostat=status, iomsg=reason)
       call close_namelist(path, "scene", unit, status, reason, error)

@@ -92,7 +92,7 @@ contains
       overlap = not_given()
       peak_floor = overlap
       peak_prominence = overlap
-      call open_namelist(path, unit, error)
+      call open_namelist(path, "spectrum", unit, error)
       if (allocated(error)) return
       read (unit, nml=spectrum, iostat=status, iomsg=reason)
       call close_namelist(path, "spectrum", unit, status, reason, error)

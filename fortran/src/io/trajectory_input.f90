@@ -22,6 +22,10 @@ module trajectory_input
       real(wp), allocatable :: samples(:)
    end type trajectory_type
 
+   !> What to do with a file that is damaged; the end of a message.
+   character(len=*), parameter :: unread = &
+      " cannot be read (remove the file; the next run makes it again)"
+
 contains
 
    !> Read one variable.
@@ -41,17 +45,17 @@ contains
       if (allocated(error)) return
       call check(nf90_inq_varid(file, variable, id), "holds no variable '"//variable &
                  //"' (add it to the variables of its scene)")
-      call check(nf90_get_att(file, nf90_global, "scene", trajectory%scene), "attribute 'scene'")
+      call check(nf90_get_att(file, nf90_global, "scene", trajectory%scene), &
+                 "attribute 'scene'"//unread)
       call check(nf90_get_att(file, nf90_global, "sample_interval", trajectory%sample_interval), &
-                 "attribute 'sample_interval'")
+                 "attribute 'sample_interval'"//unread)
       call check(nf90_get_att(file, nf90_global, "t_transient", trajectory%t_transient), &
-                 "attribute 't_transient'")
-      call check(nf90_inq_dimid(file, "t", dimension), "dimension 't'")
+                 "attribute 't_transient'"//unread)
+      call check(nf90_inq_dimid(file, "t", dimension), "dimension 't'"//unread)
       if (.not. allocated(error)) then
-         call check(nf90_inquire_dimension(file, dimension, len=length), "dimension 't'")
+         call check(nf90_inquire_dimension(file, dimension, len=length), "dimension 't'"//unread)
          allocate (trajectory%samples(length))
-         call check(nf90_get_var(file, id, trajectory%samples), "variable '"//variable &
-                    //"' cannot be read (remove the file; the next run makes it again)")
+         call check(nf90_get_var(file, id, trajectory%samples), "variable '"//variable//"'"//unread)
       end if
       if (.not. allocated(error)) then
          if (.not. all(ieee_is_finite(trajectory%samples))) then

@@ -6,7 +6,7 @@
 module unfinished_file
    use dde_errors, only: error_type, raise, text
    use file_system, only: missing, occupied, place_of_file, reason_of, remove_file, remove_marked, &
-                          rename_file, write_file
+                          rename_file, room_in_file, write_file
    use dde_kinds, only: int64
    use process, only: number_of_process
    implicit none (type, external)
@@ -16,6 +16,8 @@ module unfinished_file
    !> What to do where a file cannot be written; the end of a message.
    character(len=*), parameter :: remedy = &
       "; check that its folder exists, is writable and has free space, then run again"
+   !> Bytes that a library writes at once, at most: the largest chunk of NetCDF.
+   integer, parameter :: longest_write = 2**24
    !> End of the other name.
    character(len=*), parameter :: ending = ".part"
 
@@ -34,6 +36,8 @@ module unfinished_file
       procedure :: write => write_all
       !> Give the complete file its name
       procedure :: publish
+      !> Why a library could not write to it
+      procedure :: why_not_written
       !> Leave nothing behind
       procedure :: discard
       procedure, private :: conclude
@@ -114,6 +118,21 @@ contains
 
       call self%conclude(rename_file(self%other_path, self%path), error)
    end subroutine publish
+
+   !> Why a library, which keeps the reason to itself, could not write to the file: what the system
+   !> says when the file is to become longer; otherwise the words of the library.
+   function why_not_written(self, words) result(reason)
+      !> The file, not yet discarded
+      class(unfinished_type), intent(in) :: self
+      !> The library's own words
+      character(len=*), intent(in) :: words
+      character(len=:), allocatable :: reason
+      integer :: answer
+
+      reason = words
+      answer = room_in_file(self%other_path, longest_write)
+      if (answer > 0) reason = reason_of(answer)
+   end function why_not_written
 
    !> Leave nothing behind.
    subroutine discard(self)

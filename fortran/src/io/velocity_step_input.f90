@@ -63,7 +63,7 @@ contains
       slip_after = mu0
       tolerance = mu0
       samples = 0
-      call open_namelist(path, unit, error)
+      call open_namelist(path, "velocity_step", unit, error)
       if (allocated(error)) return
       read (unit, nml=velocity_step, iostat=status, iomsg=reason)
       call close_namelist(path, "velocity_step", unit, status, reason, error)
