@@ -89,6 +89,19 @@ def test_reproduce_takes_files_from_the_current_folder(set_up, tmp_path):
     assert rules_in(run.stdout) == {"build", "scene_namelist", "trajectory"}
 
 
+def test_reproduce_ignores_settings_of_python(set_up):
+    """With PYTHONSAFEPATH Python does not look for modules beside a script."""
+    write_script(set_up / ".venv" / "bin" / "python", f"exec '{sys.executable}' \"$@\"")
+    run = subprocess.run(
+        [set_up / "reproduce", "results/namelists/velocity_step.nml"],
+        env={**os.environ, "PYTHONSAFEPATH": "1"},
+        capture_output=True,
+        text=True,
+    )
+    assert run.returncode == 0, run.stderr
+    assert (set_up / "results" / "namelists" / "velocity_step.nml").exists()
+
+
 def test_test_runs_everything(recording, tmp_path):
     """Lint, Fortran and Python, from any folder."""
     status, calls = calls_of(recording / "test", cwd=tmp_path)

@@ -3,13 +3,15 @@
 docs/workflow-internals.md lists what each is for.
 """
 
+from pathlib import Path
+
 import snakemake.api  # first: the workflow and it import each other
 import snakemake.workflow
 from snakemake.dag import DAG
 from snakemake.exceptions import WorkflowError
 from snakemake.logging import logger
 
-from scripts.workflow import known_targets
+from scripts.workflow import before_run, known_targets
 from scripts.workflow.packages import PackageError
 
 PROGRAMS = "build"
@@ -33,6 +35,22 @@ class CompleteDAG(DAG):
         problem = known_targets.problem_of(self.targetfiles, self.rules)
         if problem:
             raise WorkflowError(problem)
+
+    async def init(self, progress=False) -> None:
+        """Called before Snakemake locks the files of this run, if it does."""
+        await super().init(progress)
+        workflow = self.workflow
+        for name in ("dryrun", "execution_settings", "persistence"):
+            expect(workflow, name, "by which a run that locks its files is known")
+        if workflow.dryrun or not getattr(workflow.execution_settings, "lock", False):
+            return
+        other = before_run.free_folder(Path.cwd())
+        expect(workflow.persistence, "locked", "by which files of another run are known")
+        if other and workflow.persistence.locked:
+            raise WorkflowError(
+                f"another run is active and has locked files of this one: {other}; wait until it"
+                " has ended, or end it"
+            )
 
     async def check_incomplete(self) -> None:
         """Called when all jobs are known, before it is judged which of them run."""
