@@ -31,6 +31,7 @@ from scripts.figures.entries import FIGURES
 from scripts.workflow import before_run, own_file
 
 try:
+    before_run.refuse_path(PROJECT, Path.cwd())
     if not IS_MODULE:
         before_run.refuse_unwritable(Path.cwd())
     OVERLAY = read_config.merged(overlays, entries_given)

@@ -315,9 +315,9 @@ def test_snakemake_that_cannot_be_mended_is_told(bare, to_mend, file):
     assert (to_mend / file).read_text() == "other\n"
 
 
-@pytest.mark.parametrize("character", list('$;"\\|<'))
+@pytest.mark.parametrize("character", list('$;"\\|<:[]'))
 def test_folder_in_which_nothing_can_be_built_is_refused(tmp_path, character):
-    """At once: CMake and Ninja give the character a meaning of their own."""
+    """At once: CMake, Make or PATH give the character a meaning of their own."""
     folder = tmp_path / f"a{character}b"
     shutil.copytree(ROOT / "setup", folder / "setup")
     run = subprocess.run([folder / "setup" / "setup.sh"], capture_output=True, text=True)

@@ -2,6 +2,7 @@
 
 import fcntl
 import os
+import re
 import shlex
 import struct
 import sys
@@ -11,6 +12,18 @@ from pathlib import Path
 
 class FolderError(ValueError):
     """Folders in which a run cannot write."""
+
+
+def refuse_path(project: Path, folder: Path) -> None:
+    """Raise FolderError where Snakemake would not take paths of the project as they are.
+
+    In the project itself they are relative to it.
+    """
+    if folder != project and re.search("[{}<>]", str(project)):
+        raise FolderError(
+            f"the project is in '{project}'; run it there, or move it to a path without {{ }} < >:"
+            " in other folders Snakemake gives them a meaning of their own"
+        )
 
 
 def refuse_unwritable(folder: Path) -> None:
