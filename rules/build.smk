@@ -20,5 +20,5 @@ rule build:
         "(flock 9"
         " && cmake --preset release -S {params.fortran:q}"
         " && cmake --build {params.build:q}/release --parallel {threads}"
-        " --target {wildcards.program}_program)"
+        " --target {wildcards.program:q}_program)"
         " > {log:q} 2>&1 9> {params.build:q}/lock || {{ {params.needs:q} && cat {log:q} >&2; exit 1; }}"

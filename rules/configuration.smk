@@ -31,9 +31,9 @@ from scripts.figures.entries import FIGURES
 from scripts.workflow import before_run, own_file
 
 try:
+    before_run.refuse_path(PROJECT, Path.cwd())
     if not IS_MODULE:
         before_run.refuse_unwritable(Path.cwd())
-        before_run.free_folder(Path.cwd())
     OVERLAY = read_config.merged(overlays, entries_given)
     if IS_MODULE and snakemake_internals.has_config_of_module(workflow):
         OVERLAY = copy.deepcopy(config)
@@ -53,6 +53,8 @@ RESULTS = snakemake_internals.folder_of_results(workflow)
 OWN = bool(OVERLAY) and (IS_MODULE or RESULTS != own_file.RESULTS)
 """Whether the run is for what a file adds."""
 try:
+    if IS_MODULE:
+        own_file.refuse_active(RESULTS)
     written = read_config.merged(defaults, [])
     NAMES = own_file.added(OVERLAY if OWN else {}, written)
     CONFIGS = {}

@@ -151,9 +151,9 @@ drop_moved_builds() {
 
 refuse() { say "$*" && exit 1; }
 
-# CMake and Ninja give some characters of a path a meaning of their own.
+# CMake and Make give some characters of a path a meaning of their own; : divides paths in PATH.
 case $PWD in
-    *[\$\;\"\\\|\<]*) refuse "cannot build in '$PWD': a path without \$ ; \" \\ | < is expected; move the project" ;;
+    *[]['$;"\|<>:'$'\t\n']*) refuse "cannot build in ${PWD@Q}: a path without \$ ; \" \\ | < > : [ ] tabs and line breaks is expected; move the project" ;;
 esac
 drop_moved_builds
 missing=$(missing_packages)

@@ -91,6 +91,19 @@ def test_reproduce_takes_files_from_the_current_folder(set_up, tmp_path):
     assert rules_in(run.stdout) == {"build", "scene_namelist", "trajectory"}
 
 
+def test_reproduce_ignores_settings_of_python(set_up):
+    """With PYTHONSAFEPATH Python does not look for modules beside a script."""
+    write_script(set_up / ".venv" / "bin" / "python", f"exec '{sys.executable}' \"$@\"")
+    run = subprocess.run(
+        [set_up / "reproduce", "results/namelists/velocity_step.nml"],
+        env={**os.environ, "PYTHONSAFEPATH": "1"},
+        capture_output=True,
+        text=True,
+    )
+    assert run.returncode == 0, run.stderr
+    assert (set_up / "results" / "namelists" / "velocity_step.nml").exists()
+
+
 def test_test_runs_everything(recording, tmp_path):
     """Lint, Fortran and Python, from any folder."""
     status, calls = calls_of(recording / "test", cwd=tmp_path)
@@ -313,15 +326,16 @@ def test_snakemake_that_cannot_be_mended_is_told(bare, to_mend, file):
     assert (to_mend / file).read_text() == "other\n"
 
 
-@pytest.mark.parametrize("character", list('$;"\\|<'))
+@pytest.mark.parametrize("character", list('$;"\\|<>:[]\n\t'))
 def test_folder_in_which_nothing_can_be_built_is_refused(tmp_path, character):
-    """At once: CMake and Make give the character a meaning of their own."""
+    """At once: CMake, Make or PATH give the character a meaning of their own."""
     folder = tmp_path / f"a{character}b"
     shutil.copytree(ROOT / "setup", folder / "setup")
     run = subprocess.run([folder / "setup" / "setup.sh"], capture_output=True, text=True)
     assert run.returncode == 1
     (line,) = run.stderr.splitlines()
-    assert line.startswith(f"set-up: cannot build in '{folder}': a path without ")
+    named = str(folder).replace("\n", "\\n").replace("\t", "\\t")
+    assert re.match(f"set-up: cannot build in .?'{re.escape(named)}': a path without ", line)
     assert [path.name for path in folder.iterdir()] == ["setup"]
 
 
@@ -387,3 +401,13 @@ def test_build_of_another_folder_is_dropped(bare):
         cache.write_text(f"CMAKE_HOME_DIRECTORY:INTERNAL={source}\n")
     set_up_in(bare)
     assert [path.name for path in (bare / "build").iterdir()] == ["own"]
+
+
+def test_folder_in_which_a_build_works_is_accepted(bare):
+    """Each of these characters was tried with a build and a run."""
+    pretend_installed(bare, [])
+    write_script(bare / "bin" / "apt-get", "exit 1")
+    folder = bare / "a #%={}()&*?~'!@,+`^éb"
+    shutil.copytree(bare / "setup", folder / "setup")
+    shutil.copytree(bare / "bin", folder / "bin")
+    assert "cannot build in" not in set_up_in(folder).stderr

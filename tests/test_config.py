@@ -203,11 +203,45 @@ def test_section_that_is_no_mapping_is_refused(config, path, value):
     assert f"{path[-1]} = {value!r}" in refusal(config)
 
 
-@pytest.mark.parametrize("name", ["Torus", "1st", "a b", "a-b", "a/b", "", "torus\n", "a" * 65])
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("Torus", "1st", "a b", "a-b", "a/b", "", "torus\n", "a" * 65),
+        # Snakemake takes them for an endless recursion
+        *("a" * 64, "torus" + "_1" * 20),
+    ],
+)
 def test_scene_name_that_makes_no_file_name_is_refused(config, name):
     """The line names the scene and says what a name may hold."""
     config["scenes"][name] = dict(config["scenes"]["torus"])
     assert f"config scenes: name {name!r}; expected small letters" in refusal(config)
+
+
+@pytest.mark.parametrize("name", ["a" * 19, "torus" + "_1" * 19, "a" * 40 + "b"])
+def test_scene_name_of_equal_parts_is_accepted(config, name):
+    """Up to 19 of them at the end."""
+    config["scenes"][name] = dict(config["scenes"]["torus"])
+    assert name in checked(config)["scenes"]
+
+
+@pytest.mark.parametrize(
+    "folder",
+    [
+        *("results/$(touch X)", ".", "../outside", "/abs", ".git", "scripts", "build"),
+        *("results/a b", "results/logs", "results/mine", "results/", "results\n", "", "<build>"),
+    ],
+)
+def test_other_folder_of_results_is_refused(config, folder):
+    """The folder is named after the file, or the paper's results are replaced."""
+    config["pathvars"] = {"results": folder}
+    assert f"config pathvars: results = {folder!r}; expected results (" in refusal(config)
+
+
+@pytest.mark.parametrize("name", ["build", "resources", "logs", "benchmarks"])
+def test_other_folder_is_refused(config, name):
+    """Of the programs, or one that Snakemake knows."""
+    config["pathvars"] = {"results": "results", name: "elsewhere"}
+    assert f"config pathvars: unknown key ['{name}']; allowed: results" in refusal(config)
 
 
 @pytest.mark.parametrize("name", [5, True, 1.5])

@@ -58,10 +58,18 @@ def test_too_many_combinations_are_refused(config):
     assert "families growth: 1002 combinations; expected at most 1000" in refusal(config)
 
 
+def test_endless_combinations_are_refused(config):
+    """They are counted, not made."""
+    for key in ("tau", "xi", "gamma", "theta", "u", "v"):
+        put(config, (*FAMILY, key), [float(i) for i in range(1, 1001)])
+    put(config, (*FAMILY, "epsilon"), [0.5])
+    assert f"{10**18} combinations; expected at most 1000" in refusal(config)
+
+
 def test_case_name_too_long_is_refused(config):
     """It would be cut."""
     families = config["stability"]["families"]
-    families["a" * 60] = families.pop("growth")
+    families["abcdefghij" * 6] = families.pop("growth")
     assert "gamma=10000' of 72 letters; expected at most 64" in refusal(config)
 
 

@@ -193,14 +193,26 @@ def test_snakemakes_own_messages_can_be_had(workflow):
         (["--cores", "0"], "error: --cores is '0'; expected 1, 2, ..., or all"),
         (["-cx"], "error: --cores is 'x'; expected 1, 2, ..., or all"),
         (["--snakefile=none"], 'error: Snakefile "none" not found.'),
+        (["--profile", "nope"], "error: profile directory given (nope), but no profile.yaml"),
+        (["--profile", "broken"], "error: Couldn't parse config file: while parsing a flow node"),
         (["--config", "1"], "error: Invalid config definition: Config entries have to be defined"),
     ],
 )
 def test_wrong_option_is_refused_in_one_line(workflow, arguments, words):
     """Snakemake alone prints all its options or waits for ever."""
-    status, (*_, line) = lines_of(workflow, *arguments)
+    (workflow / "broken").mkdir()
+    (workflow / "broken" / "config.yaml").write_text("cores: [")
+    status, (line,) = lines_of(workflow, *arguments)
     assert status in (1, 2)
     assert line.startswith(words)
+
+
+def test_profile_of_the_environment_that_is_not_there_is_named(workflow, monkeypatch):
+    """In the same words as one of the command line."""
+    monkeypatch.setenv("SNAKEMAKE_PROFILE", "nope")
+    status, (line,) = lines_of(workflow, "figure")
+    assert status == 1
+    assert line.startswith("error: profile directory given (nope), but no profile.yaml")
 
 
 def test_folder_that_cannot_be_written_is_refused_in_one_line(workflow):

@@ -3,6 +3,7 @@
 import contextlib
 import copy
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -171,15 +172,56 @@ def test_workflow_resumes(smoke, scratch, workflow, end):
     assert_resumes(scratch, smoke.outputs())
 
 
+AT_EXIT = """
+import atexit, sys
+
+if "--dry-run" in sys.orig_argv:
+    atexit.register(lambda: open({0!r}).close())
+"""
+"""What Python does before a script: a dry run waits at its end until somebody writes to a pipe."""
+
+
+@contextlib.contextmanager
+def unfinished_dry_run(project: Project) -> Iterator[None]:
+    """A dry run in the project that has said everything and lives on."""
+    folder = project.folder.parent / "waiting"
+    folder.mkdir()
+    pipe = folder / "pipe"
+    os.mkfifo(pipe)
+    (folder / "sitecustomize.py").write_text(AT_EXIT.format(str(pipe)))
+    with subprocess.Popen(
+        [SNAKEMAKE, "--dry-run", LONG, *SMOKE],
+        cwd=project.folder,
+        env={**os.environ, "PYTHONPATH": str(folder)},
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    ) as run:
+        # opens once the run is there to read
+        with open(pipe, "w"):
+            assert run.poll() is None
+            yield
+        assert run.wait(timeout=60) == 0
+
+
 def test_workflow_resumes_where_snakemake_itself_was_killed(smoke, scratch, workflow):
-    """Its lock held while it was alive, and no longer; its program lives on and does no harm."""
+    """The run that is alive is named; once it is killed nothing is locked.
+
+    Its program lives on and does no harm, nor does a dry run.
+    """
     program = program_of(workflow)
-    refused = scratch.snakemake(LONG, *SMOKE)
-    assert refused.returncode != 0
-    assert "LockException" in refused.stdout
-    os.kill(workflow.pid, signal.SIGKILL)
-    workflow.wait()
-    assert_resumes(scratch, smoke.outputs())
+    with unfinished_dry_run(scratch):
+        refused = scratch.snakemake(LONG, *SMOKE)
+        assert refused.returncode != 0
+        (line,) = [line for line in refused.stdout.splitlines() if "another run" in line]
+        assert re.match(
+            rf"another run is active .*: process {workflow.pid}, started \d{{4}}-\S+ [\d:]+: "
+            rf".*snakemake --cores 2 {LONG} .*; wait until it has ended",
+            line,
+        )
+        assert "unlock" not in refused.stdout
+        os.kill(workflow.pid, signal.SIGKILL)
+        workflow.wait()
+        assert_resumes(scratch, smoke.outputs())
     os.kill(program, signal.SIGCONT)
     wait_for(lambda: not Path(f"/proc/{program}").exists())
     assert scratch.outputs() == smoke.outputs()

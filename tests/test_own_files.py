@@ -229,6 +229,29 @@ def test_no_folder_of_the_paper_is_taken():
             own_file.folder_of([f"{name}.yaml"], [])
 
 
+@pytest.mark.parametrize("name", ["a" * 20, "mine" + "-1" * 20, "ab" * 51])
+def test_name_that_makes_no_folder_is_refused(name):
+    """Snakemake takes the first two for an endless recursion; the last one is too long."""
+    with pytest.raises(ConfigError, match=f"results/{name}/; expected at most 100 letters"):
+        own_file.folder_of([f"{name}.yaml"], [])
+
+
+@pytest.mark.parametrize("folders", ["{ results: 'results/$(touch X)' }", "{ results: . }", "5"])
+def test_file_that_names_another_folder_does_no_harm(made, folders):
+    """It is refused before anything is made or removed."""
+    project, *_ = made
+    (project.folder / "shared.yaml").write_text(f"pathvars: {folders}")
+    before = state_of(project.folder)
+    run = project.snakemake("figure_8", "--forceall", "--configfile", "shared.yaml")
+    assert run.returncode != 0
+    assert "athvars" in run.stdout
+    assert "Traceback" not in run.stdout
+    new = state_of(project.folder).items() - before.items()
+    records = [project.folder / name for name in (".snakemake", "scripts")]
+    assert [path for path, _ in new if not any(map(Path(path).is_relative_to, records))] == []
+    assert before.keys() <= state_of(project.folder).keys()
+
+
 def test_list_of_what_a_file_adds():
     """Names alone; all of a section whose shared settings change; none where it is no section."""
     config = read(ROOT / "config" / "config.yaml")
@@ -259,6 +282,20 @@ rule mine:
     output: "mine.txt"
     shell: "basename {{input}} > {{output}}"
 """
+
+
+@pytest.mark.parametrize("folder", ["block$(touch X)", "a;b", "a b", "{{block}}", "<x>", "a'b"])
+def test_folder_of_a_module_is_a_path_alone(smoke, tmp_path, folder):
+    """Its author's; no character of it may mean something to a shell or to Snakemake."""
+    other = Project(tmp_path / "other")
+    other.folder.mkdir()
+    text = MODULE.format(snakefile=smoke.folder / "Snakefile")
+    changed = text.replace('results="block"', f'results="{folder.format()}"')
+    (other.folder / "Snakefile").write_text(changed)
+    (other.folder / "config.yaml").write_text("block: {}")
+    run = other.snakemake("--dry-run")
+    assert run.returncode != 0
+    assert f"results = {folder.format()!r}; expected a path of letters, digits" in run.stdout
 
 
 def test_the_workflow_is_a_module_of_another(smoke, tmp_path):

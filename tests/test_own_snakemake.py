@@ -146,3 +146,16 @@ def test_missing_library_of_the_page_is_named(project):
         " (Debian's libjs-dygraphs); run ./reproduce, which sets up what is missing"
     )
     assert project.snakemake("--dry-run", "figure_1").returncode == 0
+
+
+def test_project_whose_path_snakemake_would_change_is_refused_elsewhere(project, tmp_path):
+    """Braces would be wildcards; in the project itself they do no harm."""
+    odd = project.folder.rename(tmp_path / "a{x}b")
+    other = tmp_path / "other"
+    other.mkdir()
+    given = ("--dry-run", "--snakefile", str(odd / "Snakefile"), "figure_8")
+    run = Project(other).snakemake(*given)
+    assert run.returncode == 1
+    assert f"the project is in '{odd}'; run it there, or move it" in run.stdout
+    run = Project(odd).snakemake(*given)
+    assert run.returncode == 0, run.stdout

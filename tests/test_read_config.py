@@ -1,6 +1,8 @@
 """Configuration files are read by YAML 1.2, and what cannot be read is named with its place."""
 
 import math
+import os
+from pathlib import Path
 
 import pytest
 
@@ -47,6 +49,18 @@ def test_scalar_is_what_yaml_1_2_says(text, value):
         (b"a: 2001-99-99\n", ": month must be in 1..12"),
         (b"a: \x00\n", ": unacceptable character"),
         (b"a: \xff\n", ": 'utf-8' codec can't decode byte 0xff in position 3"),
+        (b"a: 1_000\n", ", line 1: found 1_000; write a number without _"),
+        (b"a: 1\nb: [2, 1_0.5e3]\n", ", line 2: found 1_0.5e3; write a number without _"),
+        (b"a: !!int 1_0\n", ", line 1: found 1_0; write a number without _"),
+        (b"a: 1\nb: &b\n  c: *b\n", ", line 3: found *b inside of its own value &b"),
+        (b"a: &a [1, *a]\n", ", line 1: found *a inside of its own value &a"),
+        (b"a: " + b"[" * 20 + b"]" * 20, ", line 1: found more than 20 lists and mappings"),
+        (b"{a: " * 100_000, ": larger than 200000 bytes"),
+        (b"{a: " * 40_000, ", line 1: found more than 20 lists and mappings"),
+        (b"- 1\n" * 10_001, ", line 10000: found more than 10000 keys and values"),
+        (b"a: 1\n# " + b"x" * 200_000, ": larger than 200000 bytes; divide the file"),
+        (b"pathvars: 5\n", ": pathvars = 5; expected { results: results }"),
+        (b"pathvars:\n", ": pathvars = None; expected { results: results }"),
         (b"", ": None; expected keys with values below them"),
         (b"- a\n", ": ['a']; expected keys with values below them"),
         (None, ": cannot be read: No such file or directory"),
@@ -61,6 +75,30 @@ def test_what_cannot_be_read_is_named_in_one_line(tmp_path, text, words):
         read(path)
     assert str(caught.value).startswith(f"{path}{words}")
     assert "\n" not in str(caught.value)
+
+
+def test_aliases_count_with_what_they_stand_for():
+    """Ten lists of ten aliases each, in turn, stand for 10^10 values."""
+    lines = ["a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]"]
+    lines += [f"a{i}: &a{i} [{', '.join([f'*a{i - 1}'] * 10)}]" for i in range(1, 10)]
+    assert parsed("\n".join(lines[:3]))["a2"][9][9] == [1] * 10
+    with pytest.raises(ConfigError, match="line 4: found more than 10000 keys and values"):
+        parsed("\n".join(lines))
+
+
+@pytest.mark.parametrize("text", ["'1_000'", "_", "tau_1", "_1_"])
+def test_text_with_underscores_stays_text(text):
+    """In quotes, and where no number is meant."""
+    assert parsed(f"a: {text}")["a"] == text.strip("'")
+
+
+def test_what_is_no_regular_file_is_refused(tmp_path):
+    """A pipe into which nobody writes, a device without end, a folder, a link to one of them."""
+    os.mkfifo(tmp_path / "pipe")
+    (tmp_path / "link").symlink_to("pipe")
+    for path in (tmp_path / "pipe", tmp_path / "link", Path("/dev/zero"), tmp_path):
+        with pytest.raises(ConfigError, match=f"^{path}: is no regular file; write its text"):
+            read(path)
 
 
 def test_later_files_and_entries_win(tmp_path):

@@ -17,6 +17,9 @@ def made_up_workflow() -> SimpleNamespace:
     return SimpleNamespace(
         modifier=SimpleNamespace(namespace=None, skip_configfile=False),
         pathvars={"results": "results"},
+        dryrun=False,
+        execution_settings=SimpleNamespace(lock=True),
+        persistence=SimpleNamespace(locked=False),
         scheduling_settings=SimpleNamespace(max_jobs_per_timespan="100/1s"),
         configfiles=["mine.yaml", "config.yaml"],
         config_settings=SimpleNamespace(
@@ -51,6 +54,7 @@ def describe(workflow: SimpleNamespace) -> None:
     ("holder", "gone", "named"),
     [
         (snakemake.dag.DAG, "check_incomplete", r"DAG\.check_incomplete"),
+        (snakemake.dag.DAG, "init", r"DAG\.init"),
         (snakemake.workflow, "DAG", r"snakemake\.workflow\.DAG"),
     ],
 )
@@ -67,6 +71,11 @@ def test_snakemake_that_judges_otherwise_is_refused(monkeypatch, holder, gone, n
     [
         (internals.start_jobs_at_once, "scheduling_settings"),
         (internals.start_jobs_at_once, "scheduling_settings.max_jobs_per_timespan"),
+        (internals.lock_folder, "dryrun"),
+        (internals.lock_folder, "execution_settings"),
+        (internals.lock_folder, "execution_settings.lock"),
+        (internals.lock_folder, "persistence"),
+        (internals.lock_folder, "persistence.locked"),
         (internals.is_module, "modifier"),
         (internals.is_module, "modifier.namespace"),
         (internals.has_config_of_module, "modifier.skip_configfile"),
@@ -84,8 +93,9 @@ def test_snakemake_that_judges_otherwise_is_refused(monkeypatch, holder, gone, n
         (benchmarks_of, "rules.benchmark"),
     ],
 )
-def test_name_that_snakemake_lacks_is_named(use, path):
+def test_name_that_snakemake_lacks_is_named(use, path, tmp_path, monkeypatch):
     """One missing at a time."""
+    monkeypatch.chdir(tmp_path)
     holder = workflow = made_up_workflow()
     *parents, gone = path.split(".")
     for parent in parents:

@@ -41,6 +41,7 @@ class OneLine(logging.Handler):
 
 def refuse(parser: argparse.ArgumentParser, reason: str) -> NoReturn:
     """Say what is wrong with the options, without the list of all of them."""
+    reason = " ".join(reason.split())
     unknown = re.search(r"unrecognized arguments: (\S+)", reason)
     options = set(re.findall(r"--[a-z][a-z0-9-]+", parser.format_help()))
     print(f"error: {reason}{meant(unknown[1], options) if unknown else ''}", file=sys.__stderr__)
@@ -57,6 +58,19 @@ def wrong_cores(arguments: list[str]) -> str | None:
     return None
 
 
+def parse(arguments: list[str]) -> tuple[argparse.ArgumentParser, argparse.Namespace]:
+    """The options, without the line of Snakemake that names profiles/default."""
+    said = io.StringIO()
+    try:
+        with contextlib.redirect_stderr(said):
+            return cli.parse_args(arguments)
+    except SystemExit:
+        # words on a profile that is not there
+        if lines := re.findall(r"^Error: .*", said.getvalue(), re.MULTILINE):
+            raise SystemExit(in_one_line(lines[-1])) from None
+        raise
+
+
 def main(arguments: list[str]) -> None:
     """Check the arguments, then do as Snakemake's own command does."""
     number = wrong_cores(arguments)
@@ -68,9 +82,7 @@ def main(arguments: list[str]) -> None:
     argparse.ArgumentParser.error = refuse
     logging.getLogger("snakemake.logging").addHandler(OneLine())
     try:
-        # without the line that names profiles/default
-        with contextlib.redirect_stderr(io.StringIO()):
-            parser, options = cli.parse_args(arguments)
+        parser, options = parse(arguments)
         # Snakemake would first say that it has no place for its log
         before_run.refuse_unwritable(Path(options.directory or "."))
         done = cli.args_to_api(options, parser)

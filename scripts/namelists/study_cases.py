@@ -1,11 +1,17 @@
 """Cases of the studies of stability and of work against precision, as namelist groups."""
 
+import math
 from itertools import product
 
 PARAMETERS = ["tau", "epsilon", "xi", "gamma"]
 HISTORY = ["theta", "u", "v"]
 REFERENCE_STEPS = 10_000_000
 """Most steps of a reference: far above what any needs."""
+
+
+def number_of_cases(settings: dict) -> int:
+    """How many combinations a family's lists have."""
+    return math.prod(len(settings[key]) for key in [*PARAMETERS, *HISTORY])
 
 
 def cases_of_family(family: str, settings: dict) -> list[dict]:

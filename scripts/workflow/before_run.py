@@ -1,14 +1,29 @@
 """Before a run: what one that was killed left behind, and whether there is room to write."""
 
-import contextlib
 import fcntl
 import os
-import shutil
+import re
+import shlex
+import struct
+import sys
+import time
 from pathlib import Path
 
 
 class FolderError(ValueError):
     """Folders in which a run cannot write."""
+
+
+def refuse_path(project: Path, folder: Path) -> None:
+    """Raise FolderError where Snakemake would not take paths of the project as they are.
+
+    In the project itself they are relative to it.
+    """
+    if folder != project and re.search("[{}<>]", str(project)):
+        raise FolderError(
+            f"the project is in '{project}'; run it there, or move it to a path without {{ }} < >:"
+            " in other folders Snakemake gives them a meaning of their own"
+        )
 
 
 def refuse_unwritable(folder: Path) -> None:
@@ -24,20 +39,39 @@ def refuse_unwritable(folder: Path) -> None:
         )
 
 
-def free_folder(folder: Path) -> int | None:
-    """Remove Snakemake's lock where no run is alive, and mark this run as alive.
+def free_folder(folder: Path) -> str | None:
+    """Remove Snakemake's locks where no other run is alive, and mark this run as alive.
 
-    The mark is a lock of the operating system on the folder, shared by all runs in it, which ends
-    with the process however that ends. Return its file descriptor, or None where the file system
-    has no such locks: there nothing is removed.
+    The mark is a lock of the operating system, shared by all runs in the folder. It ends with the
+    process however that ends, and no child inherits it. Return which other run is alive, or None.
+    Where the file system has no such locks nothing is removed.
     """
-    mark = os.open(folder, os.O_RDONLY)
+    started = time.strftime("%Y-%m-%d %H:%M:%S")
+    words = f"process {os.getpid()}, started {started}: {shlex.join(sys.orig_argv)}"
+    other = None
     try:
-        with contextlib.suppress(BlockingIOError):
-            fcntl.flock(mark, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            shutil.rmtree(folder / ".snakemake" / "locks", ignore_errors=True)
-        fcntl.flock(mark, fcntl.LOCK_SH)
+        # left open: to close it would end the lock
+        mark = os.open(folder / ".snakemake" / "runs", os.O_RDWR | os.O_CREAT | os.O_APPEND)
+        try:
+            fcntl.lockf(mark, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            os.ftruncate(mark, 0)
+            for lock in folder.glob(".snakemake/locks/*.lock"):
+                lock.unlink()
+        except BlockingIOError:
+            other = words_of_run(mark)
+        fcntl.lockf(mark, fcntl.LOCK_SH)
+        os.write(mark, f"{words}\n".encode())
     except OSError:
-        os.close(mark)
         return None
-    return mark
+    return other
+
+
+def words_of_run(mark: int) -> str:
+    """What a run that holds a lock on the file of runs wrote into it."""
+    # the structure `flock` of fcntl(2): kind, whence, start, length, process
+    layout = struct.Struct("hhqqi")
+    asked = layout.pack(fcntl.F_WRLCK, os.SEEK_SET, 0, 0, 0)
+    *_, process = layout.unpack(fcntl.fcntl(mark, fcntl.F_GETLK, asked))
+    lines = os.pread(mark, os.fstat(mark).st_size, 0).decode(errors="replace").splitlines()
+    named = [line for line in lines if line.startswith(f"process {process}, ")]
+    return named[-1] if named else f"process {process}"

@@ -13,6 +13,9 @@ TAKEN = {
     *("slip_events", "spectra", "tables", "trajectories"),
 }
 """Folders of the paper's results."""
+NAME = re.compile(r"(?!.*?(.+?)\1{19}\Z).{1,100}")
+"""Names of folders of results. Snakemake takes a word that ends with 20 equal parts for an endless
+recursion."""
 SECTIONS = {
     "scenes": ("scenes",),
     "planes": ("hopf_curves",),
@@ -39,7 +42,21 @@ def folder_of(files: list[str | Path], entries: list[str]) -> str:
             f"{files[0]}: its results would be in {RESULTS}/{name}/, where the paper's are; give"
             " the file another name"
         )
+    if not NAME.fullmatch(name):
+        raise ConfigError(
+            f"its results would be in {RESULTS}/{name}/; expected at most 100 letters, and not 20"
+            " equal parts at the end; give the file another name"
+        )
     return f"{RESULTS}/{name}"
+
+
+def refuse_active(folder: str) -> None:
+    """Raise ConfigError where a folder that another workflow gives means more than a path."""
+    if not re.fullmatch(r"[\w./-]+", folder):
+        raise ConfigError(
+            f"pathvars of the module: results = {folder!r}; expected a path of letters, digits and"
+            " _ - . / alone"
+        )
 
 
 def added(overlay: dict, config: dict) -> dict[str, list[str]]:

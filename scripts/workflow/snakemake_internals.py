@@ -3,13 +3,15 @@
 docs/workflow-internals.md lists what each is for.
 """
 
+from pathlib import Path
+
 import snakemake.api  # first: the workflow and it import each other
 import snakemake.workflow
 from snakemake.dag import DAG
 from snakemake.exceptions import WorkflowError
 from snakemake.logging import logger
 
-from scripts.workflow import known_targets
+from scripts.workflow import before_run, known_targets
 from scripts.workflow.packages import PackageError
 
 PROGRAMS = "build"
@@ -33,6 +35,11 @@ class CompleteDAG(DAG):
         problem = known_targets.problem_of(self.targetfiles, self.rules)
         if problem:
             raise WorkflowError(problem)
+
+    async def init(self, progress=False) -> None:
+        """Called before Snakemake locks the files of this run, if it does."""
+        await super().init(progress)
+        lock_folder(self.workflow)
 
     async def check_incomplete(self) -> None:
         """Called when all jobs are known, before it is judged which of them run."""
@@ -59,6 +66,7 @@ def make_missing_files_again() -> None:
     """Let Snakemake judge by a CompleteDAG which jobs run."""
     use = "by which missing files are made again"
     expect(DAG, "check_incomplete", use)
+    expect(DAG, "init", use)
     if getattr(snakemake.workflow, "DAG", None) not in (DAG, CompleteDAG):
         raise PackageError(
             f"Snakemake {snakemake.__version__} has no snakemake.workflow.DAG, {use};"
@@ -77,6 +85,29 @@ def start_jobs_at_once(workflow) -> None:
         return
     expect(settings, "max_jobs_per_timespan", "the limit of jobs a second")
     settings.max_jobs_per_timespan = None
+
+
+def lock_folder(workflow) -> None:
+    """Remove locks of killed runs; raise WorkflowError where a live run has locked the same files.
+
+    A dry run and a job of a cluster lock nothing.
+    """
+    use = "by which a run that is alive is known"
+    for name in ("dryrun", "execution_settings", "persistence"):
+        expect(workflow, name, use)
+    settings = workflow.execution_settings
+    if workflow.dryrun or settings is None:
+        return
+    expect(settings, "lock", use)
+    if not settings.lock:
+        return
+    other = before_run.free_folder(Path.cwd())
+    expect(workflow.persistence, "locked", use)
+    if other and workflow.persistence.locked:
+        raise WorkflowError(
+            f"another run is active and has locked files of this one: {other}; wait until it has"
+            " ended, or end it"
+        )
 
 
 def is_module(workflow) -> bool:
