@@ -3,6 +3,7 @@
 
 rule build:
     """A Fortran program, built from its sources."""
+
     # by time too: a program built by CMake alone has no record of its digest
     input:
         sources_of,

@@ -58,7 +58,9 @@ def digest_of_files(paths):
     Snakemake judges inputs by their times, which an upgrade may keep. Files that are missing count
     as empty: who needs them refuses that.
     """
-    contents = [path.read_bytes() if path.exists() else b"" for path in map(Path, paths)]
+    contents = [
+        path.read_bytes() if path.exists() else b"" for path in map(Path, paths)
+    ]
     digests = [hashlib.sha256(content).digest() for content in contents]
     return hashlib.sha256(b"".join(digests)).hexdigest()
 
