@@ -1,11 +1,12 @@
 """Lists of digests: damage is noticed, and results of two people can be compared."""
 
 import os
+import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
-from conftest import SMOKE, Project, rules_in
+from conftest import ROOT, SMOKE, Project, rules_in
 
 from scripts.workflow import manifest
 
@@ -68,6 +69,19 @@ def test_run_that_is_killed(results):
     assert not Path(damaged).exists()
     manifest.record(["results"], [])
     assert sha256sum() == []
+
+
+def test_results_of_which_none_is_measured_can_be_compared(results):
+    """One list is empty."""
+    for path in results[3:]:
+        Path(path).unlink()
+    manifest.record(["results"], [])
+    shutil.copy(ROOT / "reproduce", "reproduce")
+    assert verify(Project(Path.cwd())) == (0, ["all 3 results agree"])
+    Path(results[0]).unlink()
+    status, lines = verify(Project(Path.cwd()))
+    assert status == 1
+    assert f"{results[0]}: FAILED open or read" in lines
 
 
 def verify(project: Project, *lists: str) -> tuple[int, list[str]]:
