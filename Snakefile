@@ -57,6 +57,19 @@ include: "rules/own.smk" if OWN else "rules/page.smk"
 include: "rules/documents.smk"
 
 
+# A module has none of these: they are those of the workflow that uses it.
+onstart:
+    snakemake_internals.forget_results(workflow)
+
+
+onsuccess:
+    snakemake_internals.record_results(workflow, CONFIGS)
+
+
+onerror:
+    snakemake_internals.record_results(workflow, CONFIGS)
+
+
 # All but the long rules take seconds.
 if not IS_MODULE:
     snakemake_internals.run_here_all_but(workflow, LONG_RULES)

@@ -6,8 +6,6 @@
 
 rule attractors_namelist:
     """Input of one part of a survey of attractors."""
-    input:
-        code=code_of("namelists/write_study_namelists.py"),
     output:
         runs="{results}/namelists/attractors/{survey}/{part}.nml",
     log:
@@ -15,6 +13,7 @@ rule attractors_namelist:
     priority: priority_of_survey
     params:
         groups=of_config(result_values.survey_groups, "survey", "part"),
+        code=code_of("namelists/write_study_namelists.py"),
     script:
         "../scripts/namelists/write_study_namelists.py"
 
@@ -43,7 +42,6 @@ rule attractors_table:
     """Table of the attractors of the scenes, with their classes."""
     input:
         runs=placed(result_files.attractors_of_scenes(LISTED)),
-        code=code_of("tables/attractor_tables.py"),
     output:
         "<results>/tables/attractors.tsv",
     log:
@@ -51,6 +49,7 @@ rule attractors_table:
     priority: OF_PAPER
     params:
         of="scenes",
+        code=code_of("tables/attractor_tables.py"),
     script:
         "../scripts/tables/attractor_tables.py"
 
@@ -59,13 +58,13 @@ rule route_table:
     """Table of the attractors along a route: one parameter changes, all others are fixed."""
     input:
         runs=runs_of_route,
-        code=code_of("tables/attractor_tables.py"),
     output:
         "<results>/tables/routes/{line}.tsv",
     log:
         "<results>/logs/tables/routes/{line}.log",
     params:
         of="route",
+        code=code_of("tables/attractor_tables.py"),
     script:
         "../scripts/tables/attractor_tables.py"
 
@@ -75,11 +74,12 @@ rule basins_table:
     input:
         runs=placed(result_files.runs_of_basins(LISTED)),
         routes=result_files.tables_of_routes(LISTED),
-        code=code_of("tables/basins_table.py"),
     output:
         "<results>/tables/basins.tsv",
     log:
         "<results>/logs/tables/basins.log",
+    params:
+        code=code_of("tables/basins_table.py"),
     script:
         "../scripts/tables/basins_table.py"
 
@@ -88,12 +88,12 @@ rule atlas_table:
     """Table of the atlas: the class of motion at points of epsilon and tau."""
     input:
         runs=placed(result_files.parts_of_atlas(LISTED)),
-        code=code_of("tables/attractor_tables.py"),
     output:
         "<results>/tables/atlas.tsv",
     log:
         "<results>/logs/tables/atlas.log",
     params:
         of="atlas",
+        code=code_of("tables/attractor_tables.py"),
     script:
         "../scripts/tables/attractor_tables.py"

@@ -3,6 +3,8 @@
 
 rule build:
     """A Fortran program, built from its sources."""
+
+    # by time too: a program built by CMake alone has no record of its digest
     input:
         sources_of,
     output:
@@ -15,6 +17,7 @@ rule build:
         fortran=of_project("fortran"),
         build=lambda wildcards, output: Path(output[0]).parents[2],
         needs=of_project("setup/build_needs.sh"),
+        digest=digest_of_sources,
     # two builds must not write one build folder at the same time
     shell:
         "(flock 9"

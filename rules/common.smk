@@ -52,10 +52,23 @@ def of_project(path):
     return path if Path.cwd() == PROJECT else str(PROJECT / path)
 
 
-def code_of(script):
-    """Modules that a script imports."""
-    modules = script_imports.modules_of(script)
-    return [of_project(os.path.relpath(path, PROJECT)) for path in modules]
+def digest_of_files(paths):
+    """A digest of contents: a parameter by which results of older contents are stale.
+
+    Snakemake judges inputs by their times, which an upgrade may keep. Files that are missing count
+    as empty: who needs them refuses that.
+    """
+    contents = [
+        path.read_bytes() if path.exists() else b"" for path in map(Path, paths)
+    ]
+    digests = [hashlib.sha256(content).digest() for content in contents]
+    return hashlib.sha256(b"".join(digests)).hexdigest()
+
+
+def code_of(script, *others):
+    """A digest of a script, of the modules that it imports and of other files of the project."""
+    files = [PROJECT / path for path in others]
+    return digest_of_files([*script_imports.modules_of(script), *files])
 
 
 def placed(given):
@@ -125,15 +138,24 @@ def sources_of_program(program):
     ]
 
 
+@functools.cache
 def digest_of(program):
     """A digest of a program's sources: what it computes is stale once they change, built or not."""
-    paths = [Path(path) for path in sources_of_program(program)]
-    return hashlib.sha256(b"".join(map(Path.read_bytes, paths))).hexdigest()
+    return digest_of_files(sources_of_program(program))
 
 
-def documented_sources():
-    """Modules and programs that the pages about the code explain."""
-    return files_in("dde/src", "src", "app", endings={".f90"})
+def digest_of_sources(wildcards):
+    """The same, of the program that a rule builds."""
+    return digest_of(wildcards.program)
+
+
+def documentation():
+    """Modules and programs that the pages about the code explain, and how these are made."""
+    made_with = ["ford.md", "offline_pages.py", "apt-packages.txt", "requirements.lock"]
+    return [
+        *files_in("dde/src", "src", "app", endings={".f90"}),
+        *(PROJECT / "docs" / name for name in made_with),
+    ]
 
 
 def trajectory_of(wildcards):
@@ -192,6 +214,12 @@ def everything_added(wildcards):
     ]
 
 
+def tables_read(figures):
+    """Tables of the project that figures read beside results."""
+    files = [path for figure in figures for path in entries.files_of(figure, DRAWN)]
+    return [path for path in files if not path.startswith("<results>/")]
+
+
 def caption_file(figure):
     """The caption of a figure."""
     return placed(entries.caption_of(figure))
@@ -236,10 +264,10 @@ def trajectories_on_page():
     return placed(list(dict.fromkeys(kept)))
 
 
-def assets_of_page(wildcards):
-    """What lies beside the page; where some of it is missing, one line says so and ends the run."""
+def library_of_page(wildcards):
+    """Debian's files for the page; where one is missing, one line says so and ends the run."""
     try:
-        return list(map(of_project, page_assets.sources()))
+        return page_assets.library()
     except page_assets.AssetError as problem:
         raise SystemExit(f"error: {problem}") from None
 

@@ -3,8 +3,6 @@
 
 rule hopf_namelist:
     """Input of the Hopf curves in a plane."""
-    input:
-        code=code_of("namelists/write_namelist.py"),
     output:
         "{results}/namelists/hopf/{plane}.nml",
     log:
@@ -13,6 +11,7 @@ rule hopf_namelist:
     params:
         group="hopf_curves",
         values=of_config(result_values.plane_values, "plane"),
+        code=code_of("namelists/write_namelist.py"),
     script:
         "../scripts/namelists/write_namelist.py"
 
@@ -43,10 +42,11 @@ rule hopf_points:
         scenes=placed(
             result_files.paths_of_scenes("linear_stability", LISTED["scenes"])
         ),
-        code=code_of("tables/hopf_points_table.py"),
     output:
         "<results>/tables/hopf-points.tsv",
     log:
         "<results>/logs/tables/hopf-points.log",
+    params:
+        code=code_of("tables/hopf_points_table.py"),
     script:
         "../scripts/tables/hopf_points_table.py"

@@ -3,8 +3,6 @@
 
 rule cycles_namelist:
     """Input of the cycles along a line."""
-    input:
-        code=code_of("namelists/write_namelist.py"),
     output:
         "{results}/namelists/cycles/{cycle_line}.nml",
     log:
@@ -13,6 +11,7 @@ rule cycles_namelist:
     params:
         group="cycles",
         values=of_config(result_values.cycles_values, "cycle_line"),
+        code=code_of("namelists/write_namelist.py"),
     script:
         "../scripts/namelists/write_namelist.py"
 
@@ -41,10 +40,11 @@ rule cycle_points:
     input:
         cycles=placed(result_files.cycles_of_lines(LISTED)),
         routes=result_files.tables_of_routes(LISTED),
-        code=code_of("tables/cycle_points_table.py"),
     output:
         "<results>/tables/cycle-points.tsv",
     log:
         "<results>/logs/tables/cycle-points.log",
+    params:
+        code=code_of("tables/cycle_points_table.py"),
     script:
         "../scripts/tables/cycle_points_table.py"

@@ -7,19 +7,16 @@
 # enumerators nor names that a facade passes on; tests/test_documents_made.py checks instead.
 rule docs:
     """Pages about the Fortran code, in results/docs/."""
-    input:
-        documented_sources(),
-        project="docs/ford.md",
-        offline="docs/offline_pages.py",
-        packages=["docs/apt-packages.txt", "docs/requirements.lock"],
     output:
         directory("results/docs"),
     log:
         "results/logs/docs.log",
     threads: 2
+    params:
+        digest=digest_of_files(documentation()),
     shell:
         "(setup/setup.sh docs"
-        " && docs/.venv/bin/ford --quiet {input.project:q}"
-        " && docs/.venv/bin/python {input.offline:q} {output:q})"
+        " && docs/.venv/bin/ford --quiet docs/ford.md"
+        " && docs/.venv/bin/python docs/offline_pages.py {output:q})"
         " > {log:q} 2>&1 || {{ cat {log:q} >&2; exit 1; }};"
         " ! grep -i warning {log:q} >&2"

@@ -3,14 +3,13 @@
 
 rule exponents_namelist:
     """Input of the Lyapunov exponents of a scene."""
-    input:
-        code=code_of("namelists/write_study_namelists.py"),
     output:
         runs="{results}/namelists/exponents/{scene}.nml",
     log:
         "{results}/logs/namelists/exponents/{scene}.log",
     params:
         groups=of_config(result_values.exponents_groups, "scene"),
+        code=code_of("namelists/write_study_namelists.py"),
     script:
         "../scripts/namelists/write_study_namelists.py"
 
@@ -38,10 +37,11 @@ rule exponents_table:
     """Table of the Lyapunov exponents of the scenes."""
     input:
         runs=placed(result_files.exponents_of_scenes(LISTED)),
-        code=code_of("tables/exponents_table.py"),
     output:
         "<results>/tables/exponents.tsv",
     log:
         "<results>/logs/tables/exponents.log",
+    params:
+        code=code_of("tables/exponents_table.py"),
     script:
         "../scripts/tables/exponents_table.py"

@@ -8,7 +8,6 @@ for figure in dict.fromkeys([*FIGURES, *SHOWN]):
             figure
         input:
             **placed(entries.inputs_of(figure, DRAWN)),
-            code=code_of(f"figures/{entries.script_of(figure)}.py"),
         output:
             pdf=f"<results>/figures/{figure}.pdf",
             png=report(
@@ -24,6 +23,9 @@ for figure in dict.fromkeys([*FIGURES, *SHOWN]):
         params:
             **placed(entries.params_of(figure, DRAWN)),
             script=entries.script_of(figure),
+            code=code_of(
+                f"figures/{entries.script_of(figure)}.py", *tables_read([figure])
+            ),
         script:
             "../scripts/figures/{params.script}.py"
 
@@ -36,15 +38,18 @@ rule captions:
             for figure in SHOWN
             for path in placed(entries.files_of(figure, DRAWN))
         ],
-        templates=[of_project(entries.template_of(figure)) for figure in SHOWN],
         claims=[] if OWN else "<results>/tables/claims.json",
-        code=code_of("captions/write_captions.py"),
     output:
         [caption_file(figure) for figure in SHOWN],
     log:
         "<results>/logs/figures/captions.log",
     params:
         figures=to_caption(),
+        code=code_of(
+            "captions/write_captions.py",
+            *map(entries.template_of, SHOWN),
+            *tables_read(SHOWN),
+        ),
     script:
         "../scripts/captions/write_captions.py"
 

@@ -1,8 +1,6 @@
 # Response of friction to a velocity step.
 rule velocity_step_namelist:
     """Input of the friction after a velocity step."""
-    input:
-        code=code_of("namelists/write_namelist.py"),
     output:
         "<results>/namelists/velocity_step.nml",
     log:
@@ -11,6 +9,7 @@ rule velocity_step_namelist:
     params:
         group="velocity_step",
         values=config["velocity_step"],
+        code=code_of("namelists/write_namelist.py"),
     script:
         "../scripts/namelists/write_namelist.py"
 

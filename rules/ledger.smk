@@ -5,8 +5,6 @@ rule claims:
     """Verdicts on all claims of the paper, in results/tables/claims.tsv."""
     input:
         **placed(claims_config.files_for(CLAIMS, LISTED)),
-        template=of_project("page/verdicts.html.jinja"),
-        code=code_of("claims/ledger.py"),
     output:
         tsv=report(
             "<results>/tables/claims.tsv",
@@ -25,5 +23,6 @@ rule claims:
         "<results>/logs/tables/claims.log",
     params:
         claims=CLAIMS,
+        code=code_of("claims/ledger.py", "page/verdicts.html.jinja"),
     script:
         "../scripts/claims/ledger.py"

@@ -3,8 +3,6 @@
 
 rule linear_stability_namelist:
     """Input of the linear stability of steady sliding in a scene."""
-    input:
-        code=code_of("namelists/write_namelist.py"),
     output:
         "{results}/namelists/linear_stability/{scene}.nml",
     log:
@@ -12,6 +10,7 @@ rule linear_stability_namelist:
     params:
         group="linear_stability",
         values=of_config(result_values.linear_stability_values, "scene"),
+        code=code_of("namelists/write_namelist.py"),
     script:
         "../scripts/namelists/write_namelist.py"
 
@@ -40,10 +39,11 @@ rule linear_stability_table:
         scenes=placed(
             result_files.paths_of_scenes("linear_stability", LISTED["scenes"])
         ),
-        code=code_of("tables/linear_stability_table.py"),
     output:
         "<results>/tables/linear-stability.tsv",
     log:
         "<results>/logs/tables/linear-stability.log",
+    params:
+        code=code_of("tables/linear_stability_table.py"),
     script:
         "../scripts/tables/linear_stability_table.py"

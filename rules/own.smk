@@ -7,13 +7,13 @@ rule atlas_plane_table:
         runs=lambda wildcards: placed(
             result_files.parts_of_plane(config, wildcards.atlas_plane)
         ),
-        code=code_of("tables/attractor_tables.py"),
     output:
         "<results>/tables/atlas/{atlas_plane}.tsv",
     log:
         "<results>/logs/tables/atlas/{atlas_plane}.log",
     params:
         of="atlas",
+        code=code_of("tables/attractor_tables.py"),
     script:
         "../scripts/tables/attractor_tables.py"
 
@@ -28,10 +28,7 @@ rule page:
         trajectories=trajectories_on_page(),
         play="<results>/page/play-data.js" if NAMES["atlas"] else [],
         captions=[figure["caption"] for figure in on_page()],
-        template=of_project("page/own.html.jinja"),
-        parts=[of_project(part) for part in page_assets.PARTS],
-        assets=assets_of_page,
-        code=code_of("page/own_page.py"),
+        library=library_of_page,
     output:
         page="<results>/index.html",
         assets=expand("<results>/page/{asset}", asset=page_assets.ASSETS),
@@ -41,5 +38,6 @@ rule page:
         figures=on_page(),
         commit=commit_at_work(),
         history=config["atlas"]["history"],
+        code=code_of("page/own_page.py", *page_assets.files()),
     script:
         "../scripts/page/own_page.py"

@@ -12,15 +12,10 @@ rule page:
         trajectories=trajectories_on_page(),
         play="<results>/page/play-data.js",
         captions=[figure["caption"] for figure in on_page()],
-        readme=of_project("README.md"),
-        citation=of_project("CITATION.cff"),
-        equations=of_project("page/equations.yaml"),
-        template=of_project("page/index.html.jinja"),
-        parts=[of_project(part) for part in page_assets.PARTS],
-        assets=assets_of_page,
-        code=code_of("page/write_page.py"),
+        library=library_of_page,
     output:
         page="<results>/index.html",
+        times="<results>/times.html",
         assets=expand("<results>/page/{asset}", asset=page_assets.ASSETS),
     log:
         "<results>/logs/page.log",
@@ -29,5 +24,6 @@ rule page:
         benchmarks=benchmarks_at_work(),
         commit=commit_at_work(),
         history=config["atlas"]["history"],
+        code=code_of("page/write_page.py", *page_assets.files()),
     script:
         "../scripts/page/write_page.py"

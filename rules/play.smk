@@ -6,12 +6,12 @@ rule play_data:
     input:
         runs=placed(result_files.parts_of_atlas(LISTED)),
         tables=tables_of_atlas(),
-        code=code_of("page/play_data.py"),
     output:
         "<results>/page/play-data.js",
     log:
         "<results>/logs/page/play-data.log",
     params:
         scenes=result_files.places_in_atlas(LISTED),
+        code=code_of("page/play_data.py"),
     script:
         "../scripts/page/play_data.py"

@@ -3,8 +3,6 @@
 
 rule spectrum_namelist:
     """Input of the power spectrum of a scene."""
-    input:
-        code=code_of("namelists/write_namelist.py"),
     output:
         "{results}/namelists/spectra/{scene}.nml",
     log:
@@ -13,6 +11,7 @@ rule spectrum_namelist:
     params:
         group="spectrum",
         values=spectrum_values,
+        code=code_of("namelists/write_namelist.py"),
     script:
         "../scripts/namelists/write_namelist.py"
 

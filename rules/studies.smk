@@ -4,8 +4,6 @@
 
 rule stability_namelists:
     """Inputs of the runs of a family of stiff and extreme cases, and of its reference."""
-    input:
-        code=code_of("namelists/write_study_namelists.py"),
     output:
         measurement="{results}/namelists/measurements/stability/{family}.nml",
         reference="{results}/namelists/references/stability/{family}.nml",
@@ -13,14 +11,13 @@ rule stability_namelists:
         "{results}/logs/namelists/stability/{family}.log",
     params:
         groups=of_config(result_values.family_groups, "family"),
+        code=code_of("namelists/write_study_namelists.py"),
     script:
         "../scripts/namelists/write_study_namelists.py"
 
 
 rule trust_namelists:
     """Inputs of the runs that find up to which time a scene can be compared."""
-    input:
-        code=code_of("namelists/write_study_namelists.py"),
     output:
         measurement="{results}/namelists/measurements/trust/{work_scene}.nml",
         reference="{results}/namelists/references/trust/{work_scene}.nml",
@@ -28,6 +25,7 @@ rule trust_namelists:
         "{results}/logs/namelists/trust/{work_scene}.log",
     params:
         groups=of_config(result_values.trust_groups, "work_scene"),
+        code=code_of("namelists/write_study_namelists.py"),
     script:
         "../scripts/namelists/write_study_namelists.py"
 
@@ -74,7 +72,6 @@ rule stability_table:
     input:
         measurements=placed(result_files.runs_of_families(LISTED)),
         references=placed(result_files.references_of_families(LISTED)),
-        code=code_of("tables/stability_table.py"),
     output:
         "<results>/tables/stability.tsv",
     log:
@@ -84,6 +81,7 @@ rule stability_table:
             name: family["reference"]
             for name, family in LISTED["stability"]["families"].items()
         },
+        code=code_of("tables/stability_table.py"),
     script:
         "../scripts/tables/stability_table.py"
 
@@ -97,13 +95,13 @@ rule trusted_horizons:
         references=placed(
             expand("<results>/references/trust/{scene}.tsv", scene=WORK_SCENES)
         ),
-        code=code_of("tables/trusted_horizons.py"),
     output:
         "<results>/tables/trusted-horizons.tsv",
     log:
         "<results>/logs/tables/trusted-horizons.log",
     params:
         trusted_error=MEASURED["trusted_error"],
+        code=code_of("tables/trusted_horizons.py"),
     script:
         "../scripts/tables/trusted_horizons.py"
 
@@ -112,13 +110,13 @@ rule work_precision_namelist:
     """Input of the runs that compare error and run time on a scene."""
     input:
         horizons="<results>/tables/trusted-horizons.tsv",
-        code=code_of("namelists/write_measured_scene.py"),
     output:
         "<results>/namelists/measurements/work_precision/{work_scene}.nml",
     log:
         "<results>/logs/namelists/work_precision/{work_scene}.log",
     params:
         study=MEASURED,
+        code=code_of("namelists/write_measured_scene.py"),
     script:
         "../scripts/namelists/write_measured_scene.py"
 
@@ -152,11 +150,12 @@ rule work_precision_table:
         references=placed(
             expand("<results>/references/trust/{scene}.tsv", scene=WORK_SCENES)
         ),
-        code=code_of("tables/work_precision_table.py"),
     output:
         errors="<results>/tables/work-precision.tsv",
         proportionality="<results>/tables/tolerance-proportionality.tsv",
     log:
         "<results>/logs/tables/work-precision.log",
+    params:
+        code=code_of("tables/work_precision_table.py"),
     script:
         "../scripts/tables/work_precision_table.py"

@@ -3,8 +3,6 @@
 
 rule scene_namelist:
     """Input of the trajectory of a scene."""
-    input:
-        code=code_of("namelists/write_namelist.py"),
     output:
         "{results}/namelists/trajectories/{scene}.nml",
     log:
@@ -13,6 +11,7 @@ rule scene_namelist:
     params:
         group="scene",
         values=of_config(result_values.scene_values, "scene"),
+        code=code_of("namelists/write_namelist.py"),
     script:
         "../scripts/namelists/write_namelist.py"
 

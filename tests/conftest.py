@@ -21,6 +21,7 @@ from namelist_groups import CASES, EXPONENTS, MEASURE, OBSERVATION, POINTS, REFE
 from scripts.config.check_config import checked
 from scripts.config.read_config import merged, read
 from scripts.namelists.write_namelist import write_groups
+from scripts.workflow import manifest
 
 ROOT = Path(__file__).parent.parent
 SMOKE = ("--configfile", "config/smoke.yaml")
@@ -63,16 +64,6 @@ def locked(path: Path) -> Iterator[None]:
         yield
 
 
-def timeless(path: Path) -> bytes:
-    """Contents of a file; of a table without its column of measured seconds."""
-    content = path.read_bytes()
-    if path.parent.name != "tables":
-        return content
-    rows = [line.split(b"\t") for line in content.splitlines()]
-    kept = [i for i, name in enumerate(rows[0]) if name != b"seconds"]
-    return b"\n".join(b"\t".join(row[i] for i in kept) for row in rows)
-
-
 @dataclass
 class Project:
     """A copy of the project in which the workflow runs."""
@@ -99,18 +90,10 @@ class Project:
         return Project(folder)
 
     def outputs(self) -> dict[str, bytes]:
-        """Contents of results by path, without logs and measured times."""
+        """Contents of results by path, without logs and what was measured."""
         results = self.folder / "results"
-        files = [path for path in results.rglob("*") if path.is_file()]
-        names = {path.relative_to(results).as_posix(): path for path in files}
-        changing = (
-            "logs/",
-            "benchmarks/",
-            "measurements/",
-            "figures/work_precision",
-            "index.html",
-        )
-        return {n: timeless(path) for n, path in names.items() if not n.startswith(changing)}
+        names = [name for name in manifest.results_in(results) if not manifest.is_measured(name)]
+        return {name: (results / name).read_bytes() for name in names}
 
 
 def unfinished(path: Path) -> set[Path]:

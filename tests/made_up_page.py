@@ -11,7 +11,6 @@ from scripts.claims.claims_results import VERDICTS
 from scripts.page import page_content, page_views, play_data, write_page
 from scripts.tables.motion_rows import COLOURS
 
-TEMPLATE = ROOT / "page" / "index.html.jinja"
 EQUATIONS = ROOT / "page" / "equations.yaml"
 PICTURE = (
     '<svg xmlns="http://www.w3.org/2000/svg" width="60" height="40"><path d="M0 0h9v9"/></svg>'
@@ -119,7 +118,6 @@ def content(**given) -> dict:
         "programs": [{"version": "1.0", "compiler": "a compiler", "files": 2}],
         "packages": {"Python": "3.11"},
         "cited": {"licence": "MIT", "works": ["One (2020). A work."]},
-        "seconds": [{"rule": "one", "jobs": 2, "seconds": 3.0, "longest": 2.0, "memory": None}],
         **given,
     }
 
@@ -127,9 +125,10 @@ def content(**given) -> dict:
 def written_to(folder: Path, assets: Path) -> Path:
     """The page in a folder, with the files it links to and those beside a real page."""
     index = folder / "index.html"
-    index.write_text(write_page.rendered(TEMPLATE, **content()))
+    index.write_text(write_page.rendered("index.html.jinja", **content()))
     shutil.copytree(assets, folder / "page")
     (folder / "page" / "play-data.js").write_text(play())
+    (folder / "times.html").write_text("")
     (folder / "figures").mkdir()
     for name in ("figure_1", "atlas", "hero"):
         for ending in ("svg", "pdf", "png"):

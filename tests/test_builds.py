@@ -1,5 +1,6 @@
 """What is built is the same wherever it is built, and takes nothing from the system by chance."""
 
+import os
 import subprocess
 
 import pytest
@@ -31,3 +32,27 @@ def test_another_lapack_of_the_system_is_not_used(programs, good_inputs, monkeyp
     monkeypatch.setenv("LD_LIBRARY_PATH", str(programs.folder))
     programs.made_by(program, good_inputs[program])
     assert programs.output.read_bytes() == before
+
+
+SMALL_PROJECT = f"""
+cmake_minimum_required(VERSION 3.25)
+project(small LANGUAGES Fortran)
+include("{ROOT}/fortran/touch_changed.cmake")
+add_executable(small small.f90)
+"""
+
+
+def test_changed_source_with_an_old_time_is_compiled_again(tmp_path):
+    """As an upgrade that keeps times leaves it; a source that is the same is not touched."""
+    (tmp_path / "CMakeLists.txt").write_text(SMALL_PROJECT)
+    for name in ("small", "same"):
+        (tmp_path / f"{name}.f90").touch()
+    for word in ("one", "two"):
+        (tmp_path / "small.f90").write_text(f"print '(a)', '{word}'\nend\n")
+        for path in tmp_path.glob("*.f90"):
+            os.utime(path, (1.5e9, 1.5e9))
+        for command in (["-S", ".", "-B", "build"], ["--build", "build"]):
+            subprocess.run(["cmake", *command], cwd=tmp_path, check=True, capture_output=True)
+        said = subprocess.run([tmp_path / "build" / "small"], capture_output=True, text=True)
+        assert said.stdout == f"{word}\n"
+    assert (tmp_path / "same.f90").stat().st_mtime == 1.5e9

@@ -5,7 +5,7 @@ import json
 import re
 
 import pytest
-from conftest import ROOT, SMOKE
+from conftest import SMOKE
 from made_up_results import (
     attractor_row,
     hopf_curve,
@@ -134,8 +134,7 @@ def test_page_has_failing_claims_first(tmp_path):
     """Each claim with its result, beside how many have its verdict; no tag comes from a claim."""
     rows = ledger_of("fixed point")
     rows[1]["evidence"] = "1 < 2 & 3"
-    template = ROOT / "page" / "verdicts.html.jinja"
-    ledger.write_page(tmp_path / "claims.html", template, rows)
+    ledger.write_page(tmp_path / "claims.html", rows)
     text = (tmp_path / "claims.html").read_text()
     headings = re.findall("<h2>(.*)</h2>", text)
     assert headings == ["Not reproduced", "Reproduced", "Not testable"]

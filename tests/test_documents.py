@@ -17,6 +17,7 @@ from scripts.claims.claims_config import checked as checked_claims
 from scripts.config.check_config import checked
 from scripts.config.read_config import parsed, read
 from scripts.figures.entries import ENTRIES, OF_ONES_OWN
+from scripts.workflow import manifest
 
 RESULTS = "results/README.md"
 """Stands beside what it names, and no other document links to it."""
@@ -102,6 +103,8 @@ def is_made(path: str) -> bool:
     """Whether something makes it; a bare name counts, and a folder in which something is made."""
     # a file of the reader's own makes what the paper has
     wanted = re.sub(r"^results/mine(-other)?(/|$)", r"results/", path).rstrip("/")
+    if wanted in {f"results/{name}" for name in (manifest.LIST, manifest.MEASURED_LIST)}:
+        return True
     program = re.fullmatch(r"build/release/bin/(\w+)", wanted)
     if program:
         return (ROOT / "fortran" / "app" / f"{program[1]}.f90").is_file()

@@ -1,7 +1,10 @@
 """Files of scripts are whole or absent, and what goes wrong is told in one line."""
 
+import errno
 import os
+from unittest.mock import Mock
 
+import numpy as np
 import pytest
 import xarray as xr
 
@@ -90,14 +93,39 @@ def test_full_disk_is_told(tmp_path):
 
 
 @pytest.mark.parametrize("size", [0, 100, -1000, -1])
-def test_truncated_netcdf_is_told(tmp_path, size):
-    """Empty, cut in its head, and short of its end."""
+def test_truncated_netcdf_is_removed(tmp_path, size):
+    """Empty, cut in its head, and short of its end; so the same command makes it again."""
     path = tmp_path / "data.nc"
     xr.Dataset({"v": ("time", [float(i) for i in range(1000)])}).to_netcdf(path)
     whole = path.read_bytes()
     path.write_bytes(whole[: size % len(whole)])
-    with pytest.raises(FileError, match=r"data.nc: cannot be read: .*; remove it; the next run"):
+    with pytest.raises(FileError, match=r"data.nc: cannot be read: .* damaged and is removed; run"):
         read(path)
+    assert not path.exists()
+
+
+def test_netcdf_with_a_wrong_checksum_is_removed(tmp_path):
+    """One bit of a value."""
+    path = tmp_path / "data.nc"
+    values = xr.Dataset({"v": ("time", [1.25] * 1000)})
+    values.to_netcdf(path, engine="netcdf4", encoding={"v": {"fletcher32": True}})
+    whole = bytearray(path.read_bytes())
+    whole[whole.index(np.float64(1.25).tobytes() * 9)] ^= 1
+    path.write_bytes(whole)
+    with pytest.raises(FileError, match=r"data.nc: cannot be read: .* damaged and is removed; run"):
+        read(path)
+    assert not path.exists()
+
+
+def test_netcdf_that_is_closed_to_reading_stays(tmp_path, monkeypatch):
+    """It may be whole."""
+    path = tmp_path / "data.nc"
+    path.touch()
+    problem = PermissionError(errno.EACCES, "Permission denied")
+    monkeypatch.setattr(xr, "load_dataset", Mock(side_effect=problem))
+    with pytest.raises(FileError, match=r"data.nc: cannot be read: Permission denied; run the"):
+        read(path)
+    assert path.exists()
 
 
 def test_problem_with_a_file_ends_a_script_in_one_line(tmp_path):

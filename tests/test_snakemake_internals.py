@@ -21,6 +21,7 @@ def made_up_workflow() -> SimpleNamespace:
         execution_settings=SimpleNamespace(lock=True),
         persistence=SimpleNamespace(locked=False),
         scheduling_settings=SimpleNamespace(max_jobs_per_timespan="100/1s"),
+        dag=SimpleNamespace(needrun_jobs=lambda **_: [SimpleNamespace(output=["a", "b"])]),
         configfiles=["mine.yaml", "config.yaml"],
         config_settings=SimpleNamespace(
             configfiles=["mine.yaml"], config_args=None, replace_workflow_config=False
@@ -76,6 +77,8 @@ def test_snakemake_that_judges_otherwise_is_refused(monkeypatch, holder, gone, n
         (internals.lock_folder, "execution_settings.lock"),
         (internals.lock_folder, "persistence"),
         (internals.lock_folder, "persistence.locked"),
+        (internals.results_made, "dag"),
+        (internals.results_made, "dag.needrun_jobs"),
         (internals.is_module, "modifier"),
         (internals.is_module, "modifier.namespace"),
         (internals.has_config_of_module, "modifier.skip_configfile"),
@@ -139,6 +142,7 @@ def test_names_that_are_there_are_used():
     assert internals.config_sources(workflow) == (["config.yaml"], ["mine.yaml"], [])
     describe(workflow)
     assert [rule.docstring for rule in workflow.rules] == ["Long.", "Short."]
+    assert internals.results_made(workflow) == ["a", "b"]
     assert not internals.is_module(workflow)
     assert not internals.has_config_of_module(workflow)
     assert internals.folder_of_results(workflow) == "results"

@@ -1,15 +1,17 @@
 """What a change makes anew, and that the rest stays."""
 
 import ast
+import os
 import shutil
 from collections.abc import Iterator
 
 import pytest
-from conftest import ROOT, SMOKE, rules_in
+from conftest import BUILT, ROOT, SMOKE, Project, rules_in
 from dry_runs import data_of_jobs, jobs_in
 from snakemake_records import records_of
 
 from scripts.figures.entries import FIGURES
+from scripts.workflow.script_imports import modules_of
 
 COMPUTE = {
     *("attractors_runs", "cycles_runs", "exponents_runs", "hopf_curves", "linear_stability"),
@@ -41,30 +43,66 @@ def imports_of(script: str) -> set[str]:
     return found
 
 
-def test_results_of_scripts_depend_on_what_these_import(smoke):
-    """All of it, for every rule with a script; what draws depends on the style, too."""
-    records = records_of(smoke).values()
-    of_rule = {
-        record["rule"]: (record["code"].strip(' "\n').removeprefix("../"), record["input"])
-        for record in records
-        if record["code"].strip(' "\n').endswith(".py")
-    }
-    for figure in FIGURES:
-        of_rule[figure] = (f"scripts/figures/{figure}.py", of_rule[figure][1])
+def change(project: Project, *names: str) -> None:
+    """Add an empty line to files, with an old time, as an upgrade that keeps times leaves it."""
+    for name in names:
+        path = project.folder / name
+        path.write_text(path.read_text() + "\n")
+        os.utime(path, (1.5e9, 1.5e9))
+
+
+def scripts() -> list[str]:
+    """All scripts of rules."""
+    files = (ROOT / "scripts").glob("*/*.py")
+    of_rules = [path for path in files if "logged(snakemake.log[0])" in path.read_text()]
+    return sorted(path.relative_to(ROOT).as_posix() for path in of_rules)
+
+
+@pytest.mark.parametrize("script", scripts())
+def test_results_of_a_script_depend_on_what_it_imports(script):
+    """All of it; what draws depends on the style, too."""
+    expected = imports_of(script) | {script}
+    expected |= {STYLE} if "scripts/drawing/style.py" in expected else set()
+    files = modules_of(script.removeprefix("scripts/"))
+    assert expected <= {path.relative_to(ROOT).as_posix() for path in files}
+
+
+def test_results_of_changed_scripts_are_stale(scratch):
+    """Of every rule with a script, whatever the time of the script is."""
+    change(scratch, *scripts())
+    said = scratch.snakemake("--summary", *SMOKE).stdout
+    rows = [line.split("\t") for line in said.splitlines() if line.count("\t") == 5]
+    statuses = {row[2]: row[4] for row in rows if row[2] not in COMPUTE | {"build", "rule"}}
     files = set((ROOT / "rules").glob("*.smk")) - {ROOT / "rules" / "own.smk"}
     written = "".join(path.read_text() for path in files)
     # one text stands for the rules of all figures
-    assert len(of_rule) == written.count("    script:\n") - 1 + len(FIGURES)
-    for rule, (script, given) in of_rule.items():
-        expected = imports_of(script)
-        expected |= {STYLE} if "scripts/drawing/style.py" in expected else set()
-        assert expected <= set(given), rule
+    assert len(statuses) == written.count("    script:\n") - 1 + len(FIGURES)
+    assert {rule: status for rule, status in statuses.items() if status != "params changed"} == {}
+
+
+def test_changed_files_of_the_project_make_their_results_anew(scratch):
+    """Scripts, templates, tables and what the page is made of, whatever their times are."""
+    redrawn = {
+        "scripts/figures/figure_5.py": {"figure_5"},
+        "scripts/figures/figure_6.rst": {"captions"},
+        "benchmarks/measured.tsv": {"work_precision", "captions"},
+        "page/verdicts.html.jinja": {"claims", "captions"},
+        "page/equations.yaml": set(),
+        "page/style.css": set(),
+        "README.md": set(),
+    }
+    for name, rules in redrawn.items():
+        before = (scratch.folder / name).read_text()
+        change(scratch, name)
+        run = scratch.snakemake("--dry-run", *SMOKE)
+        assert rules_in(run.stdout) == {"all", "page", *rules}, name
+        (scratch.folder / name).write_text(before)
+        os.utime(scratch.folder / name, (1.5e9, 1.5e9))
 
 
 def test_changed_norm_of_errors_makes_three_tables_anew(scratch):
     """And what is drawn from them; nothing is computed but the runs up to another horizon."""
-    with open(scratch.folder / "scripts" / "tables" / "accuracy.py", "a") as norm:
-        norm.write("\n# another norm\n")
+    change(scratch, "scripts/tables/accuracy.py")
     run = scratch.snakemake("--dry-run", *SMOKE)
     tables = {"stability_table", "trusted_horizons", "work_precision_table"}
     runs = {"work_precision_namelist", "work_precision_runs"}
@@ -87,17 +125,16 @@ def test_results_carry_the_values_that_they_were_made_with(smoke):
 
 def test_results_of_an_older_program_are_computed_again(scratch):
     """Also where the build of the new one was interrupted, which leaves no program."""
-    result = "results/friction/velocity_step.nc"
-    with open(scratch.folder / "fortran" / "dde" / "src" / "face" / "dde_kinds.f90", "a") as source:
-        source.write("! changed\n")
+    result = "results/spectra/torus.nc"
+    change(scratch, f"fortran/app/{BUILT}.f90")
     lock = scratch.folder / "build" / "lock"
     lock.unlink()
     lock.mkdir()
     assert scratch.snakemake(result, *SMOKE).returncode != 0
-    assert not (scratch.folder / "build" / "release" / "bin" / "velocity_step").exists()
+    assert not (scratch.folder / "build" / "release" / "bin" / BUILT).exists()
     lock.rmdir()
     run = scratch.snakemake("--dry-run", result, *SMOKE)
-    assert rules_in(run.stdout) == {"build", "velocity_step"}
+    assert rules_in(run.stdout) == {"build", "spectrum"}
 
 
 def test_what_was_removed_is_made_again(scratch):
@@ -136,7 +173,7 @@ def test_changed_scene_reruns_only_what_depends_on_it(scratch):
         "torus" in name
         or name.startswith(("figures/figure_5", "figures/exp", "tables/exp", "tables/claims"))
         for name in changed
-        if not name.startswith("figures/figure_6")
+        if not name.startswith(("figures/figure_6", "index.html"))
     )
 
 
@@ -161,8 +198,7 @@ def test_changed_setting_of_a_figure_redraws_only_that_figure(smoke, tmp_path):
 
 def test_changed_style_redraws_and_computes_nothing(scratch):
     """All figures look alike."""
-    with open(scratch.folder / STYLE, "a") as style:
-        style.write("\nlines.linewidth: 2\n")
+    change(scratch, STYLE)
     run = scratch.snakemake("--dry-run", *SMOKE)
     assert rules_in(run.stdout) == {"all", *FIGURES, "captions", "page"}
 

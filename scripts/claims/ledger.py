@@ -29,6 +29,7 @@ from scripts.claims.claims_results import (
 from scripts.files.outputs import logged, written
 from scripts.files.tsv import write_table
 from scripts.page import mathematics
+from scripts.page.page_assets import PROJECT
 
 TESTS = {
     **claims_of_formulas.TESTS,
@@ -42,6 +43,7 @@ TESTS = {
     **claims_of_friction.TESTS,
 }
 """Each test by its name in config/claims.yaml."""
+TEMPLATE = PROJECT / "page" / "verdicts.html.jinja"
 SHOWN = [NOT_REPRODUCED, CORRECTED, REPRODUCED, NOT_TESTABLE]
 """Verdicts in the order of the page: failing claims first."""
 
@@ -87,12 +89,12 @@ def write_json(path: str | Path, rows: list[dict]) -> None:
         unfinished.write_text(json.dumps(rows, indent=2) + "\n")
 
 
-def write_page(path: str | Path, template: str | Path, rows: list[dict]) -> None:
+def write_page(path: str | Path, rows: list[dict]) -> None:
     """The rows by verdict, as a page of the report; the file is whole or absent."""
     by_verdict = {verdict: [row for row in rows if row["verdict"] == verdict] for verdict in SHOWN}
     environment = Environment(autoescape=True, trim_blocks=True, undefined=StrictUndefined)
     environment.filters["mathematics"] = mathematics.of_words
-    page = environment.from_string(Path(template).read_text())
+    page = environment.from_string(TEMPLATE.read_text())
     with written(path) as unfinished:
         unfinished.write_text(page.render(verdicts=by_verdict) + "\n")
 
@@ -104,4 +106,4 @@ if __name__ == "__main__":
         table = rows_of(snakemake.params.claims, read_results(files), folder)
         write_table(snakemake.output.tsv, table)
         write_json(snakemake.output.json, table)
-        write_page(snakemake.output.page, snakemake.input.template, table)
+        write_page(snakemake.output.page, table)

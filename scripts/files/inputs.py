@@ -8,12 +8,15 @@ from scripts.files.outputs import FileError
 
 
 def read(path: str | Path) -> xr.Dataset:
-    """All of a NetCDF file."""
+    """All of a NetCDF file; one that is damaged is removed, so that the next run makes it again."""
     try:
         return xr.load_dataset(path, engine="netcdf4")
     except (OSError, RuntimeError) as problem:
-        # netCDF4 raises the latter where a checksum does not match
         reason = getattr(problem, "strerror", problem)
+        # the numbers of NetCDF's own errors are negative; a wrong checksum has none
+        if getattr(problem, "errno", -1) < 0:
+            Path(path).unlink()
+            reason = f"{reason}; it was damaged and is removed"
         raise FileError(
-            f"{path}: cannot be read: {reason}; remove it; the next run makes it again"
+            f"{path}: cannot be read: {reason}; run the same command again"
         ) from problem

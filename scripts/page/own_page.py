@@ -68,7 +68,5 @@ def content(given, params, folder: str) -> dict:
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         folder = str(Path(snakemake.output.page).parent)
-        text = rendered(
-            snakemake.input.template, **content(snakemake.input, snakemake.params, folder)
-        )
-        write_files(text, snakemake.input.assets, snakemake.output)
+        text = rendered("own.html.jinja", **content(snakemake.input, snakemake.params, folder))
+        write_files({snakemake.output.page: text}, snakemake.output.assets)

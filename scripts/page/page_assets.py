@@ -3,8 +3,6 @@
 from pathlib import Path
 
 PROJECT = Path(__file__).parents[2]
-PARTS = sorted(f"page/parts/{path.name}" for path in PROJECT.glob("page/parts/*.jinja"))
-"""Parts of the page's template."""
 LIBRARY = "/usr/share/javascript/dygraphs"
 """Where Debian's libjs-dygraphs is."""
 ASSETS = {
@@ -30,12 +28,19 @@ class AssetError(ValueError):
     """Files that the page needs and that are not there."""
 
 
-def sources() -> list[str]:
-    """Where the files come from; raise AssetError where one is missing."""
-    missing = [path for path in ASSETS.values() if not (PROJECT / path).exists()]
+def files() -> list[str]:
+    """All files of the project and of Debian that a page is made of."""
+    own = [path.relative_to(PROJECT) for path in PROJECT.glob("page/**/*") if path.is_file()]
+    return sorted({*map(str, own), *ASSETS.values()})
+
+
+def library() -> list[str]:
+    """Debian's files; raise AssetError where one is missing."""
+    debian = [path for path in ASSETS.values() if Path(path).is_absolute()]
+    missing = [path for path in debian if not Path(path).exists()]
     if missing:
         raise AssetError(
             f"the page needs {', '.join(missing)} (Debian's libjs-dygraphs); run ./reproduce, which"
             " sets up what is missing"
         )
-    return list(ASSETS.values())
+    return debian

@@ -8,6 +8,7 @@ from pathlib import Path
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, VERDICTS
 from scripts.config.read_config import read as read_yaml
 from scripts.page import captions, mathematics
+from scripts.workflow.manifest import is_measured
 
 BLOCK, HERO = "figure_1", "true_torus"
 """The figures of the model and of the findings, at the top of the page."""
@@ -50,11 +51,13 @@ def described(figure: dict, title: str, folder: str) -> dict:
     """A figure with its caption and files; links begin in the folder of the page."""
     caption = captions.as_html(figure["caption"])
     first, end, more = caption.partition("</p>")
+    measured = is_measured(f"figures/{figure['name']}")
     return {
         "name": figure["name"],
         "title": title,
         "caption": first + end,
         "more": more,
+        "measured": measured,
         "alternative": captions.first_sentence(caption),
         "data": [os.path.relpath(path, folder) for path in figure["data"]],
         "size": size_of(figure.get("drawing", "")),

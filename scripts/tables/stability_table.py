@@ -61,7 +61,6 @@ def row_of(family: str, kind: str, run: dict, reference: Reference | None) -> di
         "reference_uncertainty": uncertainty,
         "amplification": amplification,
         "error_expected": run["setting"] * amplification,
-        "seconds": run["seconds"],
         "reason": run["reason"],
     }
 

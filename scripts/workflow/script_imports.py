@@ -1,4 +1,4 @@
-"""Modules of the project that a script imports: what it makes depends on them."""
+"""A script and the modules of the project that it imports: what it makes depends on them."""
 
 from functools import cache
 from modulefinder import ModuleFinder
@@ -12,7 +12,7 @@ STYLE = SCRIPTS / "drawing" / "paper.mplstyle"
 
 @cache
 def modules_of(script: str) -> list[Path]:
-    """Files of all modules that a script imports, directly or not, and the style where it draws.
+    """A script, all modules that it imports, directly or not, and the style where it draws.
 
     The script is named by its path in the folder of scripts.
     """
@@ -20,4 +20,4 @@ def modules_of(script: str) -> list[Path]:
     finder.run_script(str(SCRIPTS / script))
     files = [Path(module.__file__) for module in finder.modules.values() if module.__file__]
     style = [STYLE] if STYLED in finder.modules else []
-    return sorted(file for file in files + style if file != SCRIPTS / script)
+    return sorted({SCRIPTS / script, *files, *style})

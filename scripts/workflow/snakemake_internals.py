@@ -3,6 +3,8 @@
 docs/workflow-internals.md lists what each is for.
 """
 
+import contextlib
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import snakemake.api  # first: the workflow and it import each other
@@ -11,7 +13,8 @@ from snakemake.dag import DAG
 from snakemake.exceptions import WorkflowError
 from snakemake.logging import logger
 
-from scripts.workflow import before_run, known_targets
+from scripts.files.outputs import FileError
+from scripts.workflow import before_run, known_targets, manifest
 from scripts.workflow.packages import PackageError
 
 PROGRAMS = "build"
@@ -32,6 +35,8 @@ class CompleteDAG(DAG):
         super().__init__(workflow, rules, *arguments, **options)
         for name in ("targetfiles", "rules"):
             expect(self, name, "by which unknown targets are refused with a suggestion")
+        for holder, name in ((self, "forcefiles"), (workflow, "is_main_process")):
+            expect(holder, name, "by which damaged results are made again")
         problem = known_targets.problem_of(self.targetfiles, self.rules)
         if problem:
             raise WorkflowError(problem)
@@ -50,6 +55,14 @@ class CompleteDAG(DAG):
         asked = [str(file) for job in jobs for file in job.output]
         # Snakemake's own messages leave out a record without words
         logger.info(None, extra={"asked_for": asked})
+        # jobs of a cluster run while the results change
+        if self.workflow.is_main_process:
+            damaged = manifest.damaged(asked)
+            for path in damaged:
+                logger.warning(
+                    f"{path}: was changed or damaged since a run made it; it is made again"
+                )
+            self.forcefiles.update(damaged)
 
 
 def expect(holder, name: str, use: str) -> None:
@@ -108,6 +121,36 @@ def lock_folder(workflow) -> None:
             f"another run is active and has locked files of this one: {other}; wait until it has"
             " ended, or end it"
         )
+
+
+def forget_results(workflow) -> None:
+    """Before the first job."""
+    with as_warnings():
+        manifest.forget(results_made(workflow))
+
+
+def record_results(workflow, folders: Iterable[str]) -> None:
+    """After the last job."""
+    with as_warnings():
+        manifest.record(folders, results_made(workflow))
+
+
+@contextlib.contextmanager
+def as_warnings() -> Iterator[None]:
+    """A list of digests that cannot be written stops no run."""
+    try:
+        yield
+    except FileError as problem:
+        logger.warning(str(problem))
+
+
+def results_made(workflow) -> list[str]:
+    """Results that the jobs of a run make."""
+    use = "by which the digests of results are recorded"
+    expect(workflow, "dag", use)
+    expect(workflow.dag, "needrun_jobs", use)
+    jobs = workflow.dag.needrun_jobs(exclude_finished=False)
+    return [str(file) for job in jobs for file in job.output]
 
 
 def is_module(workflow) -> bool:
