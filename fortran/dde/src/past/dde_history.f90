@@ -180,17 +180,16 @@ contains
       coefficients(self%degree(slot) + 1:, :) = 0.0_wp
    end subroutine recall
 
-   !> Drop the steps that ended before `horizon`. The newest step stays.
+   !> Drop the steps that ended before `horizon`. The newest step stays. A step ends where the next
+   !> one starts: its length is rounded, and that error may be many lengths of the next step.
    pure subroutine forget(self, horizon)
       !> The past
       class(history_type), intent(inout) :: self
       !> Nothing before this instant will be read
       type(instant), intent(in) :: horizon
-      integer :: slot
 
       do while (self%oldest < self%newest)
-         slot = self%slot_of(self%oldest)
-         if (elapsed(self%start(slot), horizon) < self%length(slot)) exit
+         if (elapsed(self%start(self%slot_of(self%oldest + 1)), horizon) < 0.0_wp) exit
          self%oldest = self%oldest + 1
       end do
    end subroutine forget

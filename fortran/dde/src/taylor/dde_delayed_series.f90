@@ -169,13 +169,16 @@ contains
       type(cursor_type), intent(inout) :: cursor
       !> Which delayed value
       integer, intent(in) :: k
+      integer :: next
 
       do while (cursor%offset(k) < 0.0_wp .and. cursor%step(k) > past%oldest)
          call cursor%read_from(past, k, cursor%step(k) - 1)
       end do
       do while (cursor%step(k) < past%newest)
-         if (past%length(cursor%slot(k)) - cursor%offset(k) &
-             > negligible*past%length(past%slot_of(cursor%step(k) + 1))) exit
+         next = past%slot_of(cursor%step(k) + 1)
+         ! not the length less the offset: its rounding error may be many lengths of the next step
+         if (elapsed(cursor%delayed_start(k), past%start(next)) &
+             > negligible*past%length(next)) exit
          call cursor%read_from(past, k, cursor%step(k) + 1)
       end do
    end subroutine read_start

@@ -140,10 +140,12 @@ contains
 
       largest = 0.0_wp
       do i = 1, n
-         power = 1.0_wp/scale(i)
-         do k = 0, degree
-            largest = max(largest, power*abs(coefficients(k, i)))
+         largest = max(largest, abs(coefficients(0, i))/scale(i))
+         power = 1.0_wp
+         do k = 1, degree
             power = power*s
+            ! a power over the scale may overflow
+            largest = max(largest, power*abs(coefficients(k, i))/scale(i))
          end do
       end do
    end function largest_term
