@@ -11,6 +11,7 @@ program dde_tester
    use test_dde_history, only: collect_dde_history
    use test_dde_implicit_order, only: collect_dde_implicit_order
    use test_dde_large, only: collect_dde_large
+   use test_dde_memory, only: collect_dde_memory
    use test_dde_order, only: collect_dde_order
    use test_dde_past_series, only: collect_dde_past_series
    use test_dde_pieces, only: collect_dde_pieces
@@ -35,6 +36,7 @@ program dde_tester
                              new_testsuite("dde_history", collect_dde_history), &
                              new_testsuite("dde_implicit_order", collect_dde_implicit_order), &
                              new_testsuite("dde_large", collect_dde_large), &
+                             new_testsuite("dde_memory", collect_dde_memory), &
                              new_testsuite("dde_order", collect_dde_order), &
                              new_testsuite("dde_past_series", collect_dde_past_series), &
                              new_testsuite("dde_pieces", collect_dde_pieces), &

@@ -7,7 +7,8 @@ module dde_outcome
    implicit none (type, external)
    private
    public :: explain, integration_result, limit_met
-   public :: event_met, reached_end, refused, step_underflow, too_many_steps, value_not_finite
+   public :: event_met, out_of_memory, reached_end, refused, step_underflow, too_many_steps
+   public :: value_not_finite
 
    !> Steps below this share of the time no longer move an instant.
    real(wp), parameter :: least_step = 1.0e-140_wp
@@ -15,13 +16,13 @@ module dde_outcome
    !> Why an integration ended.
    enum, bind(c)
       enumerator :: reached_end, event_met, refused, step_underflow, too_many_steps, &
-         value_not_finite
+         value_not_finite, out_of_memory
    end enum
 
    !> The result of an integration.
    type :: integration_result
-      !> Why it ended: reached_end, event_met, step_underflow, too_many_steps, value_not_finite or
-      !> refused
+      !> Why it ended: reached_end, event_met, step_underflow, too_many_steps, value_not_finite,
+      !> out_of_memory or refused
       integer :: reason = refused
       !> Last instant reached
       real(wp) :: t = 0.0_wp
@@ -74,7 +75,7 @@ contains
    end function limit_met
 
    !> The error of an integration that ended early: where and why.
-   pure subroutine explain(outcome, t_end, h, options, culprit, error)
+   pure subroutine explain(outcome, t_end, h, options, culprit, lacking, error)
       !> The result
       type(integration_result), intent(in) :: outcome
       !> Last instant wanted
@@ -85,6 +86,8 @@ contains
       type(integration_options), intent(in) :: options
       !> Which value is not finite
       character(len=*), intent(in) :: culprit
+      !> Bytes that could not be allocated
+      real(wp), intent(in) :: lacking
       !> The error to set
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: why
@@ -95,6 +98,8 @@ contains
                //", too small to change the time; a singularity?"
       case (too_many_steps)
          why = text(options%most_steps)//" steps (most_steps) were used up"
+      case (out_of_memory)
+         why = "no memory for another "//text(lacking)//" bytes"
       case default
          why = "a value is not finite at every step length down to "//text(h)//": "//culprit
       end select

@@ -7,8 +7,8 @@ module dde_integrator
    use dde_event_search, only: endless, most_places
    use dde_events, only: event_watcher_type
    use dde_methods, only: limiting_delay, longest_step, price_of_trial
-   use dde_outcome, only: event_met, explain, integration_result, limit_met, reached_end, &
-                          value_not_finite
+   use dde_outcome, only: event_met, explain, integration_result, limit_met, out_of_memory, &
+                          reached_end, value_not_finite
    use dde_output, only: deliver, sample_start
    use dde_problem, only: dde_problem_type
    use dde_request, only: check, integration_options
@@ -49,14 +49,20 @@ contains
       type(run_type) :: run
       type(switch_type) :: switch
       type(instant) :: step_end
-      real(wp) :: error_estimate, h, left, longest, longest_of_all, shortest_delay
+      real(wp) :: error_estimate, h, lacking, left, longest, longest_of_all, shortest_delay
       character(len=:), allocatable :: culprit
       integer :: goal
       logical :: automatic, ended, landing, last, other
 
       call check(problem, t_start, t_end, options, error, sampler, watcher, continuation)
       if (allocated(error)) return
-      call run%begin(problem, t_start, t_end, options, continuation)
+      call run%begin(problem, t_start, t_end, options, lacking, continuation)
+      if (lacking > 0.0_wp) then
+         outcome%reason = out_of_memory
+         outcome%t = t_start
+         call explain(outcome, t_end, 0.0_wp, options, "", lacking, error)
+         return
+      end if
       if (present(sampler)) call sample_start(sampler, run%now, run%step%y)
       if (present(watcher)) call run%search%begin(watcher, run%now, run%step%y, run%first_slope)
       longest_of_all = options%longest_step
@@ -86,6 +92,11 @@ contains
             cycle
          end if
 
+         call run%past%make_room(lacking)
+         if (lacking > 0.0_wp) then
+            outcome%reason = out_of_memory
+            exit
+         end if
          outcome%accepted = outcome%accepted + 1
          if (run%step%constants%implicit) outcome%implicit_steps = outcome%implicit_steps + 1
          call run%step%complete(problem, run%past, run%cursor, run%work)
@@ -114,7 +125,11 @@ contains
          run%h = merge(max(run%h, h), h, landing)
          if (landing .and. .not. last) outcome%breaking_points = outcome%breaking_points + 1
          if (other) then
-            call run%change_to_other(problem)
+            call run%change_to_other(problem, lacking)
+            if (lacking > 0.0_wp) then
+               outcome%reason = out_of_memory
+               exit
+            end if
             outcome%switches = outcome%switches + 1
             longest = longest_step(problem, run%step, longest_of_all)
          end if
@@ -122,7 +137,9 @@ contains
 
       outcome%t = run%now%hi
       outcome%y = run%step%y
-      if (present(continuation)) call run%keep(problem, options, continuation)
+      if (present(continuation) .and. outcome%reason /= out_of_memory) then
+         call run%keep(problem, options, continuation)
+      end if
       outcome%evaluations = run%work%evaluations
       outcome%work = run%work%total()
       outcome%factorisations = run%work%factorisations
@@ -131,7 +148,7 @@ contains
          if (outcome%reason == value_not_finite) then
             culprit = not_finite(run, problem, h)
          end if
-         call explain(outcome, t_end, h, options, culprit, error)
+         call explain(outcome, t_end, h, options, culprit, lacking, error)
       end if
    end subroutine integrate
 

@@ -2,6 +2,8 @@
 module dde_methods
    use dde_explicit_step, only: explicit_step_type
    use dde_implicit_step, only: implicit_cost, implicit_step_type
+   use dde_interpolant, only: highest_degree
+   use dde_memory, only: bytes_of, lacks
    use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
    use dde_switch, only: least_trial
@@ -48,8 +50,35 @@ contains
                              + operations/(operations_of_evaluation*problem%n))
    end function price_of_trial
 
+   !> Bytes that a step of a method takes, at most. It is made as a copy of another one.
+   pure real(wp) function memory_of(problem, method) result(bytes)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Name of the method, not `auto`
+      character(len=8), intent(in) :: method
+      real(wp) :: delays, matrix, n, stages
+
+      n = problem%n
+      delays = size(problem%lag)
+      select case (method)
+      case ("radau5", "radau9", "radau13")
+         read (method(6:), *) stages
+         stages = (stages + 1)/2
+         matrix = n*n
+         if (problem%lower >= 0) matrix = n*(1.0_wp + problem%lower + problem%upper)
+         ! two Jacobians, a real system for each, and a complex one for each pair of stages
+         bytes = matrix*(4 + (stages - 1)) + n*(delays + 2*(8*stages + 16))
+         if (delays <= most_coupled) bytes = bytes + n*delays*2*stages**2
+      case ("taylor")
+         bytes = n*4*(2 + highest_degree)
+      case default
+         bytes = n*2*26
+      end select
+      bytes = bytes_of(bytes)
+   end function memory_of
+
    !> A step of the chosen method; `auto` begins with an explicit one.
-   subroutine choose_method(problem, method, tolerance, step)
+   subroutine choose_method(problem, method, tolerance, step, lacking)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Name of the method
@@ -58,9 +87,15 @@ contains
       type(tolerance_type), intent(in) :: tolerance
       !> Its step
       class(step_type), allocatable, intent(out) :: step
+      !> Bytes that could not be allocated, or 0
+      real(wp), intent(out) :: lacking
+      character(len=8) :: name
 
-      select case (merge(matching_method(problem, tolerance, implicit=.false.), method, &
-                         method == "auto"))
+      name = merge(matching_method(problem, tolerance, implicit=.false.), method, method == "auto")
+      lacking = memory_of(problem, name)
+      if (lacks(lacking)) return
+      lacking = 0.0_wp
+      select case (name)
       case ("radau5")
          allocate (step, source=implicit_step_type(problem, 3))
       case ("radau9")
@@ -101,19 +136,22 @@ contains
    end function implicit_stages
 
    !> The other method takes over where the step stands.
-   subroutine change_method(problem, tolerance, step)
+   subroutine change_method(problem, tolerance, step, lacking)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
       !> The step, advanced; replaced by one of the other method
       class(step_type), allocatable, intent(inout) :: step
+      !> Bytes that could not be allocated, or 0: the step is then the same as before
+      real(wp), intent(out) :: lacking
       class(step_type), allocatable :: other
 
       associate (implicit => .not. step%constants%implicit)
          call choose_method(problem, matching_method(problem, tolerance, implicit), tolerance, &
-                            other)
+                            other, lacking)
       end associate
+      if (lacking > 0.0_wp) return
       other%y = step%y
       other%slope = step%slope_here()
       call move_alloc(other, step)

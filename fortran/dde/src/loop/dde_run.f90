@@ -7,8 +7,9 @@ module dde_run
    use dde_cursor, only: cursor_type
    use dde_event_search, only: event_search
    use dde_first_step, only: choose_first_step
-   use dde_history, only: history_type
+   use dde_history, only: history_type, memory_of_past
    use dde_kinks, only: kink_type
+   use dde_memory, only: bytes_of, lacks
    use dde_methods, only: change_method, choose_method, longest_step, matching_method
    use dde_problem, only: dde_problem_type
    use dde_request, only: causes, implicit_methods, integration_options, tolerance_of
@@ -73,7 +74,7 @@ module dde_run
 contains
 
    !> Begin, or continue an earlier run.
-   subroutine begin(self, problem, t_start, t_end, options, continuation)
+   subroutine begin(self, problem, t_start, t_end, options, lacking, continuation)
       !> The run
       class(run_type), intent(inout) :: self
       !> The problem
@@ -84,21 +85,30 @@ contains
       real(wp), intent(in) :: t_end
       !> Method, tolerances and limits
       type(integration_options), intent(in) :: options
+      !> Bytes that could not be allocated, or 0
+      real(wp), intent(out) :: lacking
       !> Where an earlier run ended, if one did
       type(continuation_type), intent(in), optional :: continuation
       logical :: continued
+      integer :: steps
 
       continued = .false.
       if (present(continuation)) continued = allocated(continuation%y)
+      steps = 0
+      if (continued) steps = size(continuation%step_length)
+      ! the state and its tolerances, and a ring of up to twice as many slots as steps
+      lacking = bytes_of(16.0_wp*problem%n) + memory_of_past(2*steps, size(problem%lag))
+      if (lacks(lacking)) return
       self%tolerance = tolerance_of(problem, options)
       self%reach = maxval([problem%lag, options%past_kept])
       self%cursor = cursor_type(problem)
       self%work = work_type(problem%n)
       if (continued) then
-         call self%continue_run(problem, instant_at(t_end), options, continuation)
+         call self%continue_run(problem, instant_at(t_end), options, lacking, continuation)
       else
-         call self%start_anew(problem, instant_at(t_start), instant_at(t_end), options)
+         call self%start_anew(problem, instant_at(t_start), instant_at(t_end), options, lacking)
       end if
+      if (lacking > 0.0_wp) return
       if (options%first_step > 0.0_wp) then
          self%h = options%first_step
       else if (.not. self%h > 0.0_wp .and. t_end > t_start) then
@@ -110,7 +120,7 @@ contains
 
    !> The first run. Its first instant is a kink, or a jump if a delayed component differs from its
    !> history there.
-   subroutine start_anew(self, problem, start, finish, options)
+   subroutine start_anew(self, problem, start, finish, options, lacking)
       !> The run
       class(run_type), intent(inout) :: self
       !> The problem
@@ -121,11 +131,14 @@ contains
       type(instant), intent(in) :: finish
       !> Method, tolerances and limits
       type(integration_options), intent(in) :: options
+      !> Bytes that could not be allocated, or 0
+      real(wp), intent(out) :: lacking
       type(kink_type) :: first
       integer :: k
 
       self%now = start
-      call choose_method(problem, options%method, self%tolerance, self%step)
+      call choose_method(problem, options%method, self%tolerance, self%step, lacking)
+      if (lacking > 0.0_wp) return
       call self%work%set_cost(self%step%constants%evaluation_cost)
       self%past = history_type(problem, start)
       first = kink_type(start)
@@ -144,7 +157,7 @@ contains
 
    !> Another run, with the past of the one before. If the right-hand side differs from that at the
    !> end of the earlier run, there is a kink here.
-   subroutine continue_run(self, problem, finish, options, continuation)
+   subroutine continue_run(self, problem, finish, options, lacking, continuation)
       !> The run
       class(run_type), intent(inout) :: self
       !> The problem
@@ -153,6 +166,8 @@ contains
       type(instant), intent(in) :: finish
       !> Method, tolerances and limits
       type(integration_options), intent(in) :: options
+      !> Bytes that could not be allocated, or 0
+      real(wp), intent(out) :: lacking
       !> Where the earlier run ended
       type(continuation_type), intent(in) :: continuation
       character(len=8) :: method
@@ -165,7 +180,8 @@ contains
          method = matching_method(problem, self%tolerance, &
                                   implicit=any(continuation%method == implicit_methods))
       end if
-      call choose_method(problem, method, self%tolerance, self%step)
+      call choose_method(problem, method, self%tolerance, self%step, lacking)
+      if (lacking > 0.0_wp) return
       call self%work%set_cost(self%step%constants%evaluation_cost)
       self%step%y = continuation%y
       self%first_slope = continuation%slope
@@ -262,13 +278,16 @@ contains
    end subroutine restart
 
    !> Continue by the other method of `auto`.
-   subroutine change_to_other(self, problem)
+   subroutine change_to_other(self, problem, lacking)
       !> The run, between two steps
       class(run_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
+      !> Bytes that could not be allocated, or 0
+      real(wp), intent(out) :: lacking
 
-      call change_method(problem, self%tolerance, self%step)
+      call change_method(problem, self%tolerance, self%step, lacking)
+      if (lacking > 0.0_wp) return
       call self%work%set_cost(self%step%constants%evaluation_cost)
       self%control = controller_type()
    end subroutine change_to_other

@@ -3,12 +3,13 @@
 !> is full. Before the first instant the problem's own history holds.
 module dde_history
    use dde_interpolant, only: highest_degree, usual_degree
+   use dde_memory, only: bytes_of, lacks
    use dde_problem, only: dde_problem_type
    use dde_time, only: elapsed, instant
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: history_type
+   public :: history_type, memory_of_past
 
    !> Slots of a new ring. It is a power of two, as are its doubles.
    integer, parameter :: first_capacity = 64
@@ -45,6 +46,8 @@ module dde_history
       procedure :: slot_of
       !> Store the polynomial of an accepted step
       procedure :: append
+      !> See that one more step finds memory
+      procedure :: make_room
       !> Make a slot for it
       procedure :: open_slot
       !> Read a stored step
@@ -53,7 +56,7 @@ module dde_history
       procedure :: forget
       !> Highest degree of the polynomials kept
       procedure :: degree_in_use
-      procedure, private :: allocate_slots, double_capacity
+      procedure, private :: allocate_slots, double_capacity, is_full
    end type history_type
 
    interface history_type
@@ -124,6 +127,40 @@ contains
       self%coefficients(:size(nodes), :, slot) = coefficients
    end subroutine append
 
+   !> Bytes of a ring of slots.
+   pure real(wp) function memory_of_past(slots, kept) result(bytes)
+      !> Number of slots; a smaller ring than the first one is not made
+      integer, intent(in) :: slots
+      !> Number of components kept
+      integer, intent(in) :: kept
+
+      bytes = bytes_of(max(slots, first_capacity) &
+                       *(8.0_wp + highest_degree + (1.0_wp + highest_degree)*kept))
+   end function memory_of_past
+
+   !> Double a full ring, if there is memory for it.
+   subroutine make_room(self, lacking)
+      !> The past
+      class(history_type), intent(inout) :: self
+      !> Bytes that could not be allocated, or 0
+      real(wp), intent(out) :: lacking
+
+      lacking = 0.0_wp
+      if (.not. self%is_full()) return
+      lacking = memory_of_past(2*size(self%start), size(self%kept))
+      if (lacks(lacking)) return
+      lacking = 0.0_wp
+      call self%double_capacity()
+   end subroutine make_room
+
+   !> Whether no slot is free.
+   pure logical function is_full(self) result(full)
+      !> The past
+      class(history_type), intent(in) :: self
+
+      full = self%newest - self%oldest + 1 == size(self%start)
+   end function is_full
+
    !> Make a slot for the step from `start`, `length` long. The caller fills in its coefficients.
    pure subroutine open_slot(self, start, length, nodes, powers, valid_for, slot)
       !> The past
@@ -141,7 +178,7 @@ contains
       !> The slot
       integer, intent(out) :: slot
 
-      if (self%newest - self%oldest + 1 == size(self%start)) call self%double_capacity()
+      if (self%is_full()) call self%double_capacity()
       self%newest = self%newest + 1
       slot = self%slot_of(self%newest)
       self%start(slot) = start
