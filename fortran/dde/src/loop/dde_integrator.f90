@@ -78,6 +78,11 @@ contains
       outcome%reason = reached_end
       last = .not. run%points%time_to_end(run%now) > 0.0_wp
       do while (.not. last)
+         call run%past%make_room(lacking)
+         if (lacking > 0.0_wp) then
+            outcome%reason = out_of_memory
+            exit
+         end if
          call run%plan(problem, longest, h, goal, landing)
          outcome%reason = limit_met(outcome, error_estimate, options, h, &
                                     max(abs(t_start), abs(t_end)))
@@ -92,11 +97,6 @@ contains
             cycle
          end if
 
-         call run%past%make_room(lacking)
-         if (lacking > 0.0_wp) then
-            outcome%reason = out_of_memory
-            exit
-         end if
          outcome%accepted = outcome%accepted + 1
          if (run%step%constants%implicit) outcome%implicit_steps = outcome%implicit_steps + 1
          call run%step%complete(problem, run%past, run%cursor, run%work)
