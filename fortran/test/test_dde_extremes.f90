@@ -3,6 +3,8 @@ module test_dde_extremes
    use block_builder, only: build_block
    use dde, only: continuation_type, elapsed, event_met, event_table, instant, integrate, &
                   integration_options, integration_result, methods, too_many_steps
+   use dde_methods, only: price_of_trial
+   use dde_tolerance, only: tolerance_type
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_success
    use dde_kinds, only: wp
@@ -31,8 +33,73 @@ contains
                    new_unittest("a slope that jumps", test_jump), &
                    new_unittest("a zero where runs meet", test_zero_between), &
                    new_unittest("runs within a spacing of t", test_runs), &
-                   new_unittest("in the middle of a slip", test_slip)]
+                   new_unittest("in the middle of a slip", test_slip), &
+                   new_unittest("auto at gamma 1e12", test_short_delay), &
+                   new_unittest("auto at tight tolerances", test_tight)]
    end subroutine collect_dde_extremes
+
+   !> A delay of 1e-3, where the first steps are below the rounding error of the length of a later
+   !> one: another method finds the same.
+   subroutine test_short_delay(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: auto, radau
+      real(wp), parameter :: v(3) = [0.7_wp, 1.1_wp, 1.5_wp], xi(3) = [0.3_wp, 0.5_wp, 0.8_wp]
+      real(wp), parameter :: tolerances(3) = [1.0e-3_wp, 1.0e-4_wp, 3.0e-5_wp]
+      type(spring_block_type) :: block_model
+      integer :: i, j, k
+
+      do i = 1, size(xi)
+         do j = 1, size(v)
+            block_model = build_block(tau=1.0e-3_wp, epsilon=0.1_wp, xi=xi(i), gamma=1.0e12_wp, &
+                                      v=v(j))
+            call integrate(block_model, 0.0_wp, 20.0_wp, at_tolerance(1.0e-10_wp, "radau9"), &
+                           radau, failure)
+            call expect_success(error, failure)
+            do k = 1, size(tolerances)
+               call integrate(block_model, 0.0_wp, 20.0_wp, at_tolerance(tolerances(k), "auto"), &
+                              auto, failure)
+               call expect_success(error, failure)
+               if (allocated(error)) return
+               call expect_close(error, auto%y, radau%y, 10*tolerances(k), "xi "//text(xi(i)) &
+                                 //", v "//text(v(j))//" at "//text(tolerances(k)))
+            end do
+         end do
+      end do
+   end subroutine test_short_delay
+
+   !> At high degrees and gamma from 100 to 1e12 `auto` takes at most twice the work of Radau and two
+   !> prices.
+   subroutine test_tight(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: auto, radau
+      real(wp), parameter :: tau(2) = [1.0_wp, 7.0_wp]
+      real(wp), parameter :: tolerances(3) = [3.0e-13_wp, 1.0e-13_wp, 1.0e-14_wp]
+      type(spring_block_type) :: block_model
+      real(wp) :: price
+      integer :: i, j, power
+
+      do power = 2, 12, 2
+         do i = 1, size(tau)
+            block_model = build_block(tau=tau(i), epsilon=0.7_wp, xi=0.5_wp, gamma=10.0_wp**power, &
+                                      v=1.5_wp)
+            do j = 1, size(tolerances)
+               call integrate(block_model, 0.0_wp, 20.0_wp, &
+                              at_tolerance(tolerances(j), "radau13"), radau, failure)
+               call expect_success(error, failure)
+               call integrate(block_model, 0.0_wp, 20.0_wp, at_tolerance(tolerances(j), "auto"), &
+                              auto, failure)
+               call expect_success(error, failure)
+               if (allocated(error)) return
+               price = price_of_trial(block_model, tolerance_type(3, tolerances(j), tolerances(j)))
+               call expect(error, auto%work <= 2*(radau%work + price), text(auto%work) &
+                           //" by auto, "//text(radau%work)//" by radau13, gamma 1e"//text(power) &
+                           //", tau "//text(tau(i))//" at "//text(tolerances(j)))
+            end do
+         end do
+      end do
+   end subroutine test_tight
 
    !> cos t = 1/2 with a rate of -1e6, in steps far longer than its inverse.
    subroutine test_stiff(error)
