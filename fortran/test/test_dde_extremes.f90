@@ -68,8 +68,8 @@ contains
       end do
    end subroutine test_short_delay
 
-   !> At high degrees and gamma from 100 to 1e12 `auto` takes at most twice the work of Radau and two
-   !> prices.
+   !> At high degrees and gamma from 100 to 1e12 `auto` takes at most twice the work of Radau and
+   !> two prices.
    subroutine test_tight(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure

@@ -22,16 +22,16 @@ contains
 
    !> Whether these bytes cannot be allocated now. Where the system promises more memory than it has,
    !> it may still end the program when the memory is filled.
-   logical function lacks(bytes)
+   logical function lacks(bytes) result(value)
       !> How many
       real(wp), intent(in) :: bytes
       ! volatile, or the compiler leaves out memory that nobody reads
       integer(int8), allocatable, volatile :: memory(:)
       integer :: status
 
-      lacks = bytes > real(huge(1_int64), wp)
-      if (lacks) return
+      value = bytes > real(huge(1_int64), wp)
+      if (value) return
       allocate (memory(int(bytes, int64)), stat=status)
-      lacks = status /= 0
+      value = status /= 0
    end function lacks
 end module dde_memory
