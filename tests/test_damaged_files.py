@@ -55,7 +55,7 @@ def test_changed_bit_is_an_error(programs, good_groups, program):
         damaged = bytearray(content)
         damaged[place] ^= 1
         programs.output.write_bytes(damaged)
-        with pytest.raises(FileError, match=r"output.nc: cannot be read: NetCDF: .*; remove it"):
+        with pytest.raises(FileError, match=r"output.nc: cannot be read: NetCDF: .*; run the same"):
             read(programs.output)
 
 

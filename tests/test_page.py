@@ -314,7 +314,7 @@ def test_missing_value_is_an_error():
 
 def test_page_lets_nothing_lead_elsewhere():
     """Its policy: nothing is loaded by default, no base changes its links, no form is sent."""
-    page = Elements(write_page.rendered(made_up_page.TEMPLATE, **content()))
+    page = Elements(write_page.rendered("index.html.jinja", **content()))
     policies = [a["content"] for tag, a in page.found if a.get("http-equiv", "").endswith("Policy")]
     (directives,) = [[one.strip() for one in policy.split(";")] for policy in policies]
     assert {"default-src 'none'", "base-uri 'none'", "form-action 'none'"} <= {*directives}
