@@ -20,8 +20,8 @@ contains
       bytes = bytes_of_real*reals
    end function bytes_of
 
-   !> Whether these bytes cannot be allocated now. Where the system promises more memory than it has,
-   !> it may still end the program when the memory is filled.
+   !> Whether these bytes cannot be allocated now. Where the system promises more memory than it
+   !> has, it may still end the program when the memory is filled.
    logical function lacks(bytes) result(value)
       !> How many
       real(wp), intent(in) :: bytes
