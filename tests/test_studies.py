@@ -32,7 +32,7 @@ COLUMNS = {
     "stability": (
         "case tau epsilon xi gamma history_theta history_u history_v t_end method status steps"
         " rejections evaluations least_ln_v most_ln_v error reference reference_uncertainty"
-        " amplification seconds reason"
+        " amplification reason"
     ),
     "work-precision": (
         "scene solver tolerance status error_quarter error_half error_end error_max steps"

@@ -46,13 +46,17 @@ def read(folder: str | Path) -> dict[str, str]:
 
 
 def write(folder: str | Path, digests: dict[str, str]) -> None:
-    """Write both lists of a folder."""
+    """Write both lists of a folder, each if it changes."""
     for name, measured in ((LIST, False), (MEASURED_LIST, True)):
         kept = [
             path for path in digests if is_measured(path.removeprefix(f"{folder}/")) == measured
         ]
-        with written(Path(folder, name)) as unfinished:
-            unfinished.write_text("".join(f"{digests[path]}  {path}\n" for path in sorted(kept)))
+        text = "".join(f"{digests[path]}  {path}\n" for path in sorted(kept))
+        list_file = Path(folder, name)
+        if list_file.exists() and list_file.read_text() == text:
+            continue
+        with written(list_file) as unfinished:
+            unfinished.write_text(text)
 
 
 def folders_of(paths: Iterable[str]) -> set[Path]:
