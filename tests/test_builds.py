@@ -4,7 +4,7 @@ import os
 import subprocess
 
 import pytest
-from conftest import BUILT, PROGRAMS, ROOT
+from conftest import BUILT, PROGRAMS, ROOT, Project
 
 
 def test_program_has_the_same_bytes_wherever_it_is_built(smoke, binaries):
@@ -15,6 +15,16 @@ def test_program_has_the_same_bytes_wherever_it_is_built(smoke, binaries):
     elsewhere = (smoke.folder / "build" / "release" / "bin" / BUILT).read_bytes()
     assert bytes(smoke.folder) not in elsewhere
     assert elsewhere == contents[BUILT]
+
+
+@pytest.mark.long
+def test_more_programs_are_built_in_a_partly_built_folder(project: Project):
+    """One after the other, as a user asks for them, then all: Ninja 1.12 aborts."""
+    for names in (["trajectory"], ["attractors", "hopf"], PROGRAMS):
+        targets = [f"build/release/bin/{name}" for name in names]
+        run = project.snakemake(*targets)
+        assert run.returncode == 0, run.stdout
+        assert all((project.folder / target).exists() for target in targets)
 
 
 @pytest.mark.parametrize("program", ["linear_stability", "hopf"])

@@ -2,8 +2,8 @@
 !> cost.
 module measured_run
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use dde, only: integrate, integration_options, integration_result, reached_end, step_underflow, &
-                  too_many_steps, value_not_finite
+   use dde, only: integrate, integration_options, integration_result, out_of_memory, reached_end, &
+                  step_underflow, too_many_steps, value_not_finite
    use double_numbers, only: as_double
    use dde_errors, only: error_type
    use fixed_step_rk4, only: integrate_rk4
@@ -151,6 +151,8 @@ contains
          word = "too_many_steps"
       case (value_not_finite)
          word = "value_not_finite"
+      case (out_of_memory)
+         word = "out_of_memory"
       case default
          word = "refused"
       end select

@@ -50,7 +50,8 @@ contains
                              + operations/(operations_of_evaluation*problem%n))
    end function price_of_trial
 
-   !> Bytes that a step of a method takes, at most. It is made as a copy of another one.
+   !> Bytes that a step of a method takes, at most, counted from its components. It is made as a
+   !> copy of another one.
    pure real(wp) function memory_of(problem, method) result(bytes)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
