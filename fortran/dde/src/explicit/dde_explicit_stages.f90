@@ -173,10 +173,11 @@ contains
       finite = all(ieee_is_finite(slope))
    end subroutine evaluate
 
-   !> The estimate |e5|^2 / sqrt(|e5|^2 + 0.01 |e3|^2), each in the root mean square norm over the
-   !> tolerance (Hairer, Norsett and Wanner 1993, eq. (II.10.17)). It assumes that e3 is of size h^4
-   !> and e5 of size h^6. In a step far too long for that e5 can be small by chance while e3 is
-   !> large. Therefore each of them has a bound of its own.
+   !> The largest e5^2/sqrt(e5^2 + 0.01 e3^2) of all components, with e3 and e5 over the tolerance
+   !> of the component (Hairer, Norsett and Wanner 1993, eq. (II.10.17), for each component alone:
+   !> a large e3 of one must not hide the e5 of another). It assumes that e3 is of size h^4 and e5
+   !> of size h^6. In a step far too long for that e5 can be small by chance while e3 is large.
+   !> Therefore each of them has a bound of its own.
    pure subroutine error_853(n, blocks, k, h, scale, tolerance, e3, e5, error)
       !> Number of equations
       integer, intent(in) :: n
@@ -203,17 +204,34 @@ contains
               + er9*k(:, :, 9) + er10*k(:, :, 10) + er11*k(:, :, 11) + er12*k(:, :, 12))
       norm3 = scaled_norm(n, e3, scale)
       norm5 = scaled_norm(n, e5, scale)
-      if (max(norm3, norm5) >= huge(1.0_wp)) then
-         error = huge(1.0_wp)
-      else if (norm5 > 0.0_wp) then
-         error = norm5*(norm5/hypot(norm5, 0.1_wp*norm3))
+      error = huge(1.0_wp)
+      if (norm3 < error .and. norm5 < error) then
          associate (root => sqrt(tolerance))
-            error = max(error, norm3*root/largest_e3, norm5*sqrt(root)/largest_e5)
+            error = max(combined(n, e3, e5, scale), norm3*root/largest_e3, &
+                        norm5*sqrt(root)/largest_e5)
          end associate
-      else
-         error = 0.0_wp
       end if
    end subroutine error_853
+
+   !> The largest e5^2/sqrt(e5^2 + 0.01 e3^2), with e3 and e5 over `scale`.
+   pure real(wp) function combined(n, e3, e5, scale) result(error)
+      !> Number of equations
+      integer, intent(in) :: n
+      !> Errors of the embedded methods, finite
+      real(wp), intent(in) :: e3(n), e5(n)
+      !> Tolerance of each component, shape (n)
+      real(wp), intent(in) :: scale(n)
+      real(wp) :: of_3, of_5
+      integer :: i
+
+      error = 0.0_wp
+      do i = 1, n
+         of_3 = 0.1_wp*abs(e3(i))/scale(i)
+         of_5 = abs(e5(i))/scale(i)
+         ! tiny: both may be 0
+         error = max(error, of_5*(of_5/sqrt(of_5**2 + of_3**2 + tiny(1.0_wp))))
+      end do
+   end function combined
 
    !> Newton coefficients of one component's dense output over the nodes 0, 1, 0, 1, 0, 1, 0.
    pure subroutine dense_coefficients(k, h, y, y_new, a)

@@ -9,7 +9,7 @@ module dde_tolerance
 
    !> Bounds of `level`: a smaller tolerance is below rounding, a larger one asks for no digit.
    real(wp), parameter :: least_level = epsilon(1.0_wp), most_level = 1.0_wp
-   !> Elements above this are not squared: the norm is huge.
+   !> Elements above this many scales may overflow when divided by them: the norm is huge.
    real(wp), parameter :: hopeless = 1.0e100_wp
 
    !> The tolerance of all components.
@@ -78,7 +78,7 @@ contains
       tolerance = self%absolute(i) + self%relative(i)*abs(value)
    end function of_component
 
-   !> Root mean square of x/scale. It is huge if an element is above `hopeless` and not a number if
+   !> The largest |x|/scale. It is huge if an element is above `hopeless` scales and not a number if
    !> one is not finite.
    pure function scaled_norm(n, x, scale) result(norm)
       !> How many
@@ -98,10 +98,9 @@ contains
          end if
          if (abs(x(i))/hopeless > scale(i)) then
             norm = huge(1.0_wp)
-         else if (norm < huge(1.0_wp)) then
-            norm = norm + (x(i)/scale(i))**2
+         else
+            norm = max(norm, abs(x(i))/scale(i))
          end if
       end do
-      if (norm < huge(1.0_wp)) norm = sqrt(norm/n)
    end function scaled_norm
 end module dde_tolerance

@@ -63,7 +63,7 @@ contains
       end if
    end subroutine choose_first_step
 
-   !> Length of x in units of `scale`; huge if it is above `hopeless` or not finite.
+   !> The largest |x|/scale; huge if it is above `hopeless` or x is not finite.
    pure function length_of(x, scale) result(length)
       !> Elements
       real(wp), intent(in) :: x(:)
@@ -74,6 +74,6 @@ contains
       length = huge(1.0_wp)
       if (.not. all(ieee_is_finite(x))) return
       if (any(abs(x) > hopeless*scale)) return
-      length = norm2(x/scale)
+      length = maxval(abs(x)/scale)
    end function length_of
 end module dde_first_step
