@@ -7,6 +7,7 @@ program dde_tester
    use test_dde_continuation, only: collect_dde_continuation
    use test_dde_controller, only: collect_dde_controller
    use test_dde_convergence, only: collect_dde_convergence
+   use test_dde_copies, only: collect_dde_copies
    use test_dde_events, only: collect_dde_events
    use test_dde_history, only: collect_dde_history
    use test_dde_implicit_order, only: collect_dde_implicit_order
@@ -32,6 +33,7 @@ program dde_tester
                              new_testsuite("dde_continuation", collect_dde_continuation), &
                              new_testsuite("dde_controller", collect_dde_controller), &
                              new_testsuite("dde_convergence", collect_dde_convergence), &
+                             new_testsuite("dde_copies", collect_dde_copies), &
                              new_testsuite("dde_events", collect_dde_events), &
                              new_testsuite("dde_history", collect_dde_history), &
                              new_testsuite("dde_implicit_order", collect_dde_implicit_order), &

@@ -19,6 +19,10 @@ module dde_stage_iteration
    !> Iterations allowed: this many, and more for each stage above three.
    real(wp), parameter :: iterations_of_three = 7.0_wp, iterations_per_stage = 2.5_wp
 
+   !> Remaining error of the iteration, in units of the tolerance, at which it ends. In the root mean
+   !> square of all stages Hairer and Wanner take 0.03; the largest element is about twice that.
+   real(wp), parameter :: largest_remainder = 0.06_wp
+
    !> Stages of the current step.
    type :: stage_iteration
       !> Systems of the iteration
@@ -212,7 +216,8 @@ contains
 
       converged = .false.
       most = int(iterations_of_three + (method%stages - 3)*iterations_per_stage)
-      limit = max(10.0_wp*epsilon(1.0_wp)/tolerance, min(0.03_wp, sqrt(tolerance)))
+      limit = max(10.0_wp*epsilon(1.0_wp)/tolerance, &
+                  min(largest_remainder, 2.0_wp*sqrt(tolerance)))
       ! the stiff residual is a small difference of large numbers: below this it is rounding
       rounding = 4.0_wp*epsilon(1.0_wp)*maxval(abs(y)/scale)
       self%remainder = max(self%remainder, epsilon(1.0_wp))**0.8_wp
