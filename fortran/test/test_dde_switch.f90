@@ -151,9 +151,9 @@ contains
    end subroutine test_vain
 
    !> On problems that jump, change their stiffness or have many delays, and on published ones,
-   !> `auto` takes at most twice the work of the better method, and the work that earns a trial. Where
-   !> the stiffness changes in each delay the average of five neighbouring tolerances counts: which
-   !> trials fail there depends on rounding.
+   !> `auto` takes at most twice the work of the better method, and the work that earns a trial.
+   !> Where the stiffness changes in each delay the average of five neighbouring tolerances counts:
+   !> which trials fail there depends on rounding.
    subroutine test_cost(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp), parameter :: neighbours(5) = [0.9_wp, 0.95_wp, 1.0_wp, 1.05_wp, 1.1_wp]

@@ -92,8 +92,8 @@ contains
    end subroutine compare
 
    !> Where steady sliding attracts, exponents are the real parts of characteristic roots, at gamma
-   !> = 0.8 as at 1e6 to 1e12, and a unit of time costs hardly more steps. The vectors begin before the
-   !> block is at rest, where a trial of the implicit method may be under way.
+   !> = 0.8 as at 1e6 to 1e12, and a unit of time costs hardly more steps. The vectors begin before
+   !> the block is at rest, where a trial of the implicit method may be under way.
    subroutine test_rest(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure

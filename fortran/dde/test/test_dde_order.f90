@@ -140,9 +140,9 @@ contains
       unit = absolute + relative*step%y_new
       of_order_3 = h*e_3(step)/unit
       of_order_5 = h*e_5(step)/unit
-      call expect_close(error, estimate, maxval(of_order_5**2/hypot(of_order_5, 0.1_wp*of_order_3), &
-                                                abs(of_order_5) > 0.0_wp), 1.0e-12_wp*estimate, &
-                        "the estimate")
+      call expect_close(error, estimate, &
+                        maxval(of_order_5**2/hypot(of_order_5, 0.1_wp*of_order_3), &
+                               abs(of_order_5) > 0.0_wp), 1.0e-12_wp*estimate, "the estimate")
    end subroutine test_estimate
 
    !> y' = -rate y, rates up to 40 in a step of length 1: no step passes whose error is above the
