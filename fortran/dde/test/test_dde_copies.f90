@@ -33,7 +33,7 @@ module test_dde_copies
    !> delay only with 64 delayed values at most.
    character(len=8), parameter :: methods(6) = [character(len=8) :: "explicit", "taylor", "auto", &
                                                 "radau5", "radau9", "radau13"]
-   integer, parameter :: copies(6) = [2000, 2000, 2000, 50, 50, 50]
+   integer, parameter :: copies(6) = [10000, 10000, 10000, 50, 50, 50]
 
 contains
 
