@@ -207,14 +207,14 @@ contains
       error = huge(1.0_wp)
       if (norm3 < error .and. norm5 < error) then
          associate (root => sqrt(tolerance))
-            error = max(combined(n, e3, e5, scale), norm3*root/largest_e3, &
+            error = max(combine(n, e3, e5, scale), norm3*root/largest_e3, &
                         norm5*sqrt(root)/largest_e5)
          end associate
       end if
    end subroutine error_853
 
    !> The largest e5^2/sqrt(e5^2 + 0.01 e3^2), with e3 and e5 over `scale`.
-   pure real(wp) function combined(n, e3, e5, scale) result(error)
+   pure real(wp) function combine(n, e3, e5, scale) result(error)
       !> Number of equations
       integer, intent(in) :: n
       !> Errors of the embedded methods, finite
@@ -231,7 +231,7 @@ contains
          ! tiny: both may be 0
          error = max(error, of_5*(of_5/sqrt(of_5**2 + of_3**2 + tiny(1.0_wp))))
       end do
-   end function combined
+   end function combine
 
    !> Newton coefficients of one component's dense output over the nodes 0, 1, 0, 1, 0, 1, 0.
    pure subroutine dense_coefficients(k, h, y, y_new, a)

@@ -5,15 +5,12 @@ module dde_first_step
    use dde_history, only: history_type
    use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
-   use dde_tolerance, only: tolerance_type
+   use dde_tolerance, only: hopeless, scaled_norm, tolerance_type
    use dde_work, only: work_type
    use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: choose_first_step
-
-   !> Above this change per unit of time, in units of the tolerance, no first step can be estimated.
-   real(wp), parameter :: hopeless = 1.0e140_wp
 
 contains
 
@@ -63,7 +60,7 @@ contains
       end if
    end subroutine choose_first_step
 
-   !> The largest |x|/scale; huge if it is above `hopeless` or x is not finite.
+   !> The norm of x; huge if x is not finite.
    pure function length_of(x, scale) result(length)
       !> Elements
       real(wp), intent(in) :: x(:)
@@ -71,9 +68,7 @@ contains
       real(wp), intent(in) :: scale(:)
       real(wp) :: length
 
-      length = huge(1.0_wp)
-      if (.not. all(ieee_is_finite(x))) return
-      if (any(abs(x) > hopeless*scale)) return
-      length = maxval(abs(x)/scale)
+      length = scaled_norm(size(x), x, scale)
+      if (.not. ieee_is_finite(length)) length = huge(1.0_wp)
    end function length_of
 end module dde_first_step
