@@ -174,6 +174,17 @@ def test_namelist_that_is_too_long_is_refused(programs, good_groups):
     assert "input.nml: size = 10000000000 bytes; expected a namelist of at most 1000000" in said
 
 
+def test_memory_that_cannot_be_had_is_an_error(programs, good_groups):
+    """A past of a million short steps in a process of at most 150 MB."""
+    good_groups["trajectory"]["scene"] |= {"gamma": 1e4, "method": "explicit"}
+    programs.write(good_groups["trajectory"])
+    program = [programs.binaries / "trajectory", "input.nml", "output.nc"]
+    limited = ["prlimit", "--as=150000000", *program]
+    run = subprocess.run(limited, cwd=programs.folder, capture_output=True, text=True, timeout=60)
+    said = refusal(programs, run)
+    assert re.search(r"stopped at t = .* after \d+ steps .*: no memory for another .* bytes", said)
+
+
 def test_hint_about_nan_is_given_for_nan_only(programs, good_groups):
     """A key that is missing reads as NaN; -1 is not missing."""
     groups = good_groups["trajectory"]
