@@ -75,6 +75,8 @@ venv_is_ready() {
 }
 
 make_venv() {
+    # emptying it would empty the folder that the link names, maybe of another project
+    [[ ! -L $venv ]] || refuse "$venv is a link; expected a folder, or nothing: remove the link"
     say "filling $venv with the Python packages of $lock"
     # settings that would send the packages elsewhere or change their versions
     unset PYTHONHOME PYTHONPATH PIP_CONSTRAINT PIP_PREFIX PIP_ROOT PIP_TARGET PIP_USER

@@ -403,6 +403,18 @@ def test_build_of_another_folder_is_dropped(bare):
     assert [path.name for path in (bare / "build").iterdir()] == ["own"]
 
 
+def test_linked_packages_are_not_emptied(bare):
+    """A .venv that is a link to that of another project."""
+    pretend_installed(bare, debian_packages())
+    (bare / "other").mkdir()
+    (bare / "other" / "kept").touch()
+    (bare / ".venv").symlink_to("other")
+    run = set_up_in(bare)
+    assert run.returncode == 1
+    assert run.stderr.splitlines()[-1].startswith("set-up: .venv is a link; expected a folder")
+    assert (bare / "other" / "kept").exists()
+
+
 def test_folder_in_which_a_build_works_is_accepted(bare):
     """Each of these characters was tried with a build and a run."""
     pretend_installed(bare, [])
