@@ -65,11 +65,11 @@ def test_least_epsilon_is_on_a_curve_of_the_program(programs, gamma):
     window = [row["least"] - row["depth"], row["least"] + 0.9 * row["depth"]]
     plane = settings("hopf_curves", "tau_of_epsilon") | {"gamma": gamma, "cells": 4}
     curves = programs.made_by("hopf", plane | {"epsilon_window": window})
-    lowest = curves.isel(point=int(curves.epsilon.argmin()))
-    assert 0 <= float(lowest.epsilon) - row["least"] + 1e-14 < 0.01 * row["depth"]
+    lowest = curves.isel(point=int(curves.epsilon.values.argmin()))
+    assert 0 <= float(lowest.epsilon) - row["least"] + 1e-14 < 1e-4 * row["depth"]
     assert set(curves.branch.values) == set(range(1, curves.branch.values.max() + 1))
     first = curves.isel(point=curves.branch.values == 1)
-    tau = float(first.tau[int(first.epsilon.argmin())])
+    tau = float(first.tau[int(first.epsilon.values.argmin())])
     assert tau == pytest.approx(row["tau"], rel=0.02)
 
 
@@ -89,12 +89,12 @@ def test_no_delay_destabilises_at_large_gamma(smoke):
     """At gamma = 1e8 the program counts no root to the right below epsilon = xi, at any delay; at
     gamma = 0.8 it does below the Hopf point without delay.
     """
-    for plane, pairs in (("tau_of_epsilon_fault", 0), ("tau_of_epsilon", 1)):
+    for plane, unstable in (("tau_of_epsilon_fault", False), ("tau_of_epsilon", True)):
         curves = xr.load_dataset(smoke.folder / "results" / "hopf" / f"{plane}.nc")
         row = fault_limit_table.row_of(0.5, curves.attrs["gamma"])
         stable = curves.map_unstable_pairs[:, curves.map_epsilon.values < row["without_delay"]]
         assert stable.sizes["map_epsilon"] > 5
-        assert int(stable.max()) == pairs
+        assert bool((stable > 0).any()) is unstable
 
 
 def test_figure_of_the_fault_limit():
