@@ -167,6 +167,7 @@ def test_findings_follow_the_tables():
     true_torus = motion("true_torus", "torus", [0.002, -0.002, -0.02], 0.3) | {"tau": 12.5}
     point = {"of": "a", "kind": "hopf_without_delay", "epsilon": 0.25, "xi": 0.5, "gamma": 0.8}
     turn = {"of": "b", "kind": "generalised_hopf"}
+    of_a_scene = {"of": "torus", "kind": "amplitude_death_begin"}
     runs = [
         {"gamma": gamma, "method": method, "status": status, "steps": 7.0}
         for gamma, method, status in (
@@ -179,7 +180,8 @@ def test_findings_follow_the_tables():
         {"gamma": gamma, "xi": 0.5, "without_delay": 0.25, "depth": depth}
         for gamma, depth in ((0.8, 0.0481), (1e4, 9.3e-18))
     ]
-    tables = {"attractors": [torus, true_torus], "hopf_points": [point, turn], "stability": runs}
+    tables = {"attractors": [torus, true_torus], "hopf_points": [point, turn, of_a_scene]}
+    tables |= {"stability": runs}
     two, one, three = findings.findings([claim("figure_5a")], tables | {"fault_limit": limit})
     assert one["title"] == "The paper's torus is a limit cycle."
     assert (

@@ -37,8 +37,9 @@ def of_the_fault_limit(tables: dict[str, list[dict]]) -> dict:
     """Where steady sliding becomes unstable without delay, and how much a delay changes that."""
     limit = {row["gamma"]: row for row in tables["fault_limit"]}
     paper, fault = limit[PAPER_GAMMA], limit[REAL_GAMMA[0]]
-    turns = sum(row["kind"] == "generalised_hopf" for row in tables["hopf_points"])
-    planes = len({row["of"] for row in tables["hopf_points"]})
+    kinds = [(row["of"], row["kind"]) for row in tables["hopf_points"]]
+    turns = sum(kind == "generalised_hopf" for _, kind in kinds)
+    planes = len({of for of, kind in kinds if not kind.startswith("amplitude_death")})
     return {
         "title": "At the gamma of real faults no delay makes stable sliding unstable.",
         "words": f"Steady sliding becomes unstable without delay, at epsilon ="
