@@ -262,6 +262,7 @@ def test_list_of_what_a_file_adds():
     assert own_file.added(overlay, config) == {
         **{"scenes": ["my_scene"], "planes": ["my_plane"], "routes": ["my_route"]},
         **{"atlas": list(config["atlas"]["planes"]), "cycles": [], "basins": [], "families": []},
+        "dimensions": [],
     }
 
 
