@@ -34,6 +34,7 @@ rule all:
                 "<results>/tables/cycle-points.tsv",
                 "<results>/tables/linear-stability.tsv",
                 "<results>/tables/basins.tsv",
+                "<results>/tables/dimensions.tsv",
                 "<results>/tables/claims.tsv",
             ]
         ),
@@ -47,6 +48,7 @@ include: "rules/cycles.smk"
 include: "rules/linear_stability.smk"
 include: "rules/spectra.smk"
 include: "rules/friction.smk"
+include: "rules/dimensions.smk"
 include: "rules/figures.smk"
 include: "rules/exponents.smk"
 include: "rules/attractors.smk"

@@ -191,6 +191,7 @@ def tables_added():
         "<results>/tables/cycle-points.tsv": "cycles",
         "<results>/tables/basins.tsv": "basins",
         "<results>/tables/stability.tsv": "families",
+        "<results>/tables/dimensions.tsv": "dimensions",
     }
     tables = [table for table, section in sections.items() if NAMES[section]]
     return tables + (["<results>/tables/claims.tsv"] if CLAIMS else [])

@@ -50,3 +50,16 @@ rule hopf_points:
         code=code_of("tables/hopf_points_table.py"),
     script:
         "../scripts/tables/hopf_points_table.py"
+
+
+rule fault_limit_table:
+    """Table of the least epsilon of all Hopf curves over gamma, at the xi of Figure 2."""
+    output:
+        "<results>/tables/fault-limit.tsv",
+    log:
+        "<results>/logs/tables/fault-limit.log",
+    params:
+        xi=config["hopf_curves"]["tau_of_epsilon"]["fixed"],
+        code=code_of("tables/fault_limit_table.py"),
+    script:
+        "../scripts/tables/fault_limit_table.py"

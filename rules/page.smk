@@ -7,6 +7,7 @@ rule page:
         figures=expand("<results>/figures/{figure}.svg", figure=FIGURES),
         claims="<results>/tables/claims.json",
         attractors="<results>/tables/attractors.tsv",
+        fault_limit="<results>/tables/fault-limit.tsv",
         hopf_points="<results>/tables/hopf-points.tsv",
         stability="<results>/tables/stability.tsv",
         trajectories=trajectories_on_page(),

@@ -34,6 +34,7 @@ RULES_FOR = {
     "exponents": {"build", "exponents_namelist", "exponents_runs"},
     "attractors": ATTRACTORS,
     "cycles": {"build", "cycles_namelist", "cycles_runs"},
+    "fault-limit.tsv": {"fault_limit_table"},
     "exponents.tsv": {"build", "exponents_namelist", "exponents_runs", "exponents_table"},
     "stability.tsv": {
         "build",
@@ -68,6 +69,7 @@ PROGRAMS_FOR = {
     "exponents": ["exponents"],
     "attractors": ["attractors"],
     "cycles": ["cycles"],
+    "fault-limit.tsv": [],
     "exponents.tsv": ["exponents"],
     "stability.tsv": ["measure", "reference"],
     "work-precision.tsv": ["measure", "reference"],
@@ -77,6 +79,7 @@ PROGRAMS_FOR = {
 }
 """Programs that make a result, named in the same way."""
 DATA_OF_TABLES = {
+    "fault-limit.tsv": set(),
     "exponents.tsv": {f"exponents/{scene}.nc" for scene in SCENES},
     "stability.tsv": {f"stability/{family}.nc" for family in FAMILIES},
     "work-precision.tsv": {

@@ -43,7 +43,7 @@ def changed(curves: xr.Dataset, **values) -> xr.Dataset:
 def results(**given) -> Results:
     """Results of which a test uses some."""
     empty = {"curves": {}, "friction": xr.Dataset(), "hopf_points": [], "linear_stability": []}
-    tables = ("stability", "attractors", "atlas", "routes", "cycle_points")
+    tables = ("fault_limit", "stability", "attractors", "atlas", "routes", "cycle_points")
     empty |= {name: [] for name in tables} | {"cycles": {}}
     return Results(**{**empty, "spectra": {}, "slip_events": {}, **given})
 

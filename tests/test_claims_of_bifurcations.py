@@ -51,6 +51,21 @@ def test_hopf_only_by_delay():
     assert test(results(hopf_points=others), plane="plane").verdict == REPRODUCED
 
 
+@pytest.mark.parametrize(("depth", "verdict"), [(1e-17, NOT_REPRODUCED), (1e-3, REPRODUCED)])
+def test_hopf_by_delay_at_faults(depth, verdict):
+    """The widest interval decides, among the gamma of faults alone; to have none is an error."""
+    point = {"xi": 0.5, "without_delay": 0.5, "depth": depth}
+    rows = [point | {"gamma": 0.8, "depth": 0.1}, point | {"gamma": 1e4}]
+    rows.append(point | {"gamma": 1e6, "depth": 1e-25})
+    given = {"least": 1e4, "most": 1e12, "limit": 1e-6}
+    test = TESTS["hopf_by_delay_at_faults"]
+    found = test(results(fault_limit=rows), **given)
+    assert found.verdict == verdict
+    assert f"by at most {depth:.2g}, at gamma = 1e+04, where" in found.evidence
+    with pytest.raises(ValueError, match="no gamma from 1e"):
+        test(results(fault_limit=rows[:1]), **given)
+
+
 @pytest.mark.parametrize(
     ("l1", "expected", "verdict"),
     [

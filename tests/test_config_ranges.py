@@ -145,6 +145,7 @@ RANGES = {
         samples=("a whole number >= 2", [1, 2.5]),
         tolerance=TOLERANCE,
     ),
+    **below("dimensions", "fault", **dict.fromkeys(("length", "v0", "k", "a", "m"), POSITIVE)),
     **below("stability", tolerance=TOLERANCE, repeats=REPEATS, least_seconds=SECONDS),
     **below("stability", "reference", **REFERENCE),
     **below(
@@ -243,7 +244,7 @@ BEYOND = {
 SECTIONS = [
     *(("scenes",), ("figures",), ("spectra",), ("hopf_curves",), ("velocity_step",)),
     *(("stability",), ("work_precision",), ("attractors",), ("atlas",), ("routes",)),
-    ("basins",),
+    *(("basins",), ("dimensions",)),
 ]
 MISSING = [
     *SECTIONS,

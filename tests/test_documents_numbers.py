@@ -325,6 +325,46 @@ def least_span(scene: str) -> float:
     return (events(scene, "peak_velocity") / events(scene, "least_velocity")).min()
 
 
+def at_gamma(gamma: str) -> list[float]:
+    """epsilon without delay, the least one with a delay, and their difference."""
+    (row,) = [row for row in table("fault-limit.tsv") if row["gamma"] == gamma]
+    return [float(row[column]) for column in ("without_delay", "least", "depth")]
+
+
+def in_seconds(column: str, fault_unit: float = 1.0) -> list[float]:
+    """A column of the laboratory sample and of the fault, the latter in a unit."""
+    lab, fault = (float(row[column]) for row in table("dimensions.tsv"))
+    return [lab, fault / fault_unit]
+
+
+DAY = 86400.0
+YEAR = 365.25 * DAY
+
+
+def scales(preset: int, day: float = 1.0, year: float = 1.0) -> list:
+    """Unit of time, delay, xi and gamma of a preset."""
+    row = table("dimensions.tsv")[preset]
+    unit, delay, xi, gamma = (float(row[key]) for key in ("time_unit", "delay", "xi", "gamma"))
+    return [unit / day, delay / year, xi, exponential(gamma)]
+
+
+def lacking_mass() -> float:
+    """Mass of the fault at the paper's gamma over its own."""
+    return (in_seconds("inertial_period_of_paper")[1] / in_seconds("inertial_period")[1]) ** 2
+
+
+def peaks(kind: str) -> list[float]:
+    """Peak velocities of a class in the plane of real faults of the atlas."""
+    rows = [row for row in table("atlas.tsv") if row["gamma"] == "1e+08" and row["class"] == kind]
+    return [float(row["largest_maximum"]) for row in rows if row["largest_maximum"]]
+
+
+def exponential(value: float) -> str:
+    """Two digits and a power of ten."""
+    digits, power = f"{value:.1e}".split("e")
+    return f"{digits}e{int(power)}"
+
+
 def difference_of_mu0() -> float:
     """Steady friction at v0 less mu0."""
     path = RESULTS / "friction" / "velocity_step.nc"
@@ -335,6 +375,58 @@ def difference_of_mu0() -> float:
 
 
 SAID = [
+    Said(
+        "README.md", "for that by {:.3f} at gamma = 0.8, but by {:.0e} at",
+        lambda: [at_gamma("0.8")[2], at_gamma("10000")[2]],
+    ),
+    Said(
+        "README.md", "| laboratory sample | {:.0f} s | {:.0f} s | {:.1f}, {} |",
+        lambda: scales(0),
+    ),
+    Said(
+        "README.md", "| fault | {:.0f} days | {:.1f} years | {:.1f}, {} |",
+        lambda: scales(1, DAY, YEAR),
+    ),
+    Said("docs/findings.md", "| 0.8 | {:.4f} | {:.4f} | {:.3f} |", lambda: at_gamma("0.8")),
+    *(
+        Said(
+            "docs/findings.md", f"| {gamma} | {{:.4g}} | {{:.4g}} | {{}} |",
+            lambda row=row: [*at_gamma(row)[:2], exponential(at_gamma(row)[2])],
+        )
+        for gamma, row in (("10", "10"), ("1e4", "10000"))
+    ),
+    Said(
+        "docs/findings.md", "| L/v0 | {:.0f} s | {:.0f} days |",
+        lambda: in_seconds("time_unit", DAY),
+    ),
+    Said("docs/findings.md", "| xi | {:.1f} | {:.1f} |", lambda: in_seconds("xi")),
+    Said("docs/findings.md", "| gamma | {} | {} |", lambda: map(exponential, in_seconds("gamma"))),
+    Said(
+        "docs/findings.md", "| tau = 7 | {:.0f} s | {:.1f} years |",
+        lambda: in_seconds("delay", YEAR),
+    ),
+    Said(
+        "docs/findings.md", "| inertial period 2 pi sqrt(M/k) | {:.4f} s | {:.1f} s |",
+        lambda: in_seconds("inertial_period"),
+    ),
+    Said(
+        "docs/findings.md", "| the same if gamma were 0.8 | {:.0f} s | {:.1f} years |",
+        lambda: in_seconds("inertial_period_of_paper", YEAR),
+    ),
+    Said("docs/findings.md", "and a mass {} times as large", lambda: [exponential(lacking_mass())]),
+    Said(
+        "docs/findings.md", "the median {:.1f} v0 in cycles, {:.1f} v0 in tori and {} v0 in chaos."
+        " With v0 = 1e-9 m/s the last is {} m/s",
+        lambda: [
+            *(np.median(peaks(kind)) for kind in ("cycle", "torus")),
+            exponential(np.median(peaks("chaos"))),
+            exponential(1e-9 * np.median(peaks("chaos"))),
+        ],
+    ),
+    Said(
+        "docs/findings.md", "peak in this plane is {} v0, which is {:.0f} mm/s",
+        lambda: [exponential(max(peaks("chaos"))), 1e-6 * max(peaks("chaos"))],
+    ),
     Said(
         "docs/findings.md", "has a mean of {:.2f} L/v0 and a coefficient of variation of {:.0f} %",
         lambda: [
@@ -367,7 +459,7 @@ SAID = [
         " of {}",
         lambda: [
             slower_than_the_plate("stick_slip"),
-            f"{least_span('stick_slip'):.1e}".replace("e+0", "e"),
+            exponential(least_span("stick_slip")),
         ],
     ),
     Said("docs/findings.md", "the difference is {:.4f}", lambda: [difference_of_mu0()]),

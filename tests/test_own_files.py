@@ -46,6 +46,8 @@ atlas:
   observation: *quick
   planes:
     my_atlas: { xi: 0.7, gamma: 0.8, tau_window: [0.0, 10.0] }
+dimensions:
+  my_fault: { length: 0.1, v0: 1.0e-9, k: 1.0e+7, a: 1.0e+6, m: 1.0e+6 }
 exponents: { t_turning: 50.0, blocks: 3 }
 spectra: { segments: 3 }
 attractors:
@@ -103,6 +105,7 @@ def test_everything_that_the_file_adds_is_made(made):
         "exponents": ("scene", "my_scene"),
         "routes/my_route": ("route", "my_route"),
         "routes/my_start": ("route", "my_start"),
+        "dimensions": ("preset", "my_fault"),
         "claims": ("id", "my_claim"),
     }
     for table, (column, name) in tables.items():
@@ -259,6 +262,7 @@ def test_list_of_what_a_file_adds():
     assert own_file.added(overlay, config) == {
         **{"scenes": ["my_scene"], "planes": ["my_plane"], "routes": ["my_route"]},
         **{"atlas": list(config["atlas"]["planes"]), "cycles": [], "basins": [], "families": []},
+        "dimensions": [],
     }
 
 

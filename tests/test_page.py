@@ -167,6 +167,7 @@ def test_findings_follow_the_tables():
     true_torus = motion("true_torus", "torus", [0.002, -0.002, -0.02], 0.3) | {"tau": 12.5}
     point = {"of": "a", "kind": "hopf_without_delay", "epsilon": 0.25, "xi": 0.5, "gamma": 0.8}
     turn = {"of": "b", "kind": "generalised_hopf"}
+    of_a_scene = {"of": "torus", "kind": "amplitude_death_begin"}
     runs = [
         {"gamma": gamma, "method": method, "status": status, "steps": 7.0}
         for gamma, method, status in (
@@ -175,8 +176,13 @@ def test_findings_follow_the_tables():
             (0.8, "auto", "stopped"),
         )
     ]
-    tables = {"attractors": [torus, true_torus], "hopf_points": [point, turn], "stability": runs}
-    one, two, three = findings.findings([claim("figure_5a")], tables)
+    limit = [
+        {"gamma": gamma, "xi": 0.5, "without_delay": 0.25, "depth": depth}
+        for gamma, depth in ((0.8, 0.0481), (1e4, 9.3e-18))
+    ]
+    tables = {"attractors": [torus, true_torus], "hopf_points": [point, turn, of_a_scene]}
+    tables |= {"stability": runs}
+    two, one, three = findings.findings([claim("figure_5a")], tables | {"fault_limit": limit})
     assert one["title"] == "The paper's torus is a limit cycle."
     assert (
         "At tau = 10 it has one zero Lyapunov exponent and the base frequency f1 = 0.1."
@@ -187,18 +193,19 @@ def test_findings_follow_the_tables():
         in (one["words"])
     )
     assert [given["id"] for given in one["claims"]] == ["figure_5a"]
+    assert "at epsilon = 0.25 for xi = 0.5 and gamma = 0.8." in two["words"]
     assert (
-        "at epsilon = 0.25. Along the Hopf curves of 2 planes the bifurcation changes"
-        in two["words"]
+        "by 0.048 there, but by 9e-18 only at gamma = 1e+04. Along the Hopf curves of 2 planes"
+        in (two["words"])
     )
     assert two["words"].endswith(" at 1 point.")
     assert "All 1 runs there reach their end, each in at most 7 steps." in three["words"]
     assert three["words"].endswith("none do.")
     changed = {"attractors": [true_torus | {"scene": "torus"}, true_torus], "hopf_points": []}
-    one, two, three = findings.findings([], changed | {"stability": runs[1:]})
-    assert [one["title"], two["title"], three["title"]] == [
+    changed |= {"fault_limit": limit, "stability": runs[1:]}
+    titles = [found["title"] for found in findings.findings([], changed)]
+    assert titles[1:] == [
         "The paper's torus is a torus.",
-        "Steady sliding becomes unstable by a delay only.",
         "The values of real faults cannot be computed.",
     ]
 

@@ -216,6 +216,6 @@ def test_everything_from_one_command(planned):
     """Without a target: all figures and no computation that none of them needs."""
     tables = {"cycle_points", "hopf_points", "linear_stability_namelist", "linear_stability"}
     tables |= {"linear_stability_table", "claims", "captions", "page", "play_data"}
-    tables |= RULES_OF_ATTRACTORS
+    tables |= {"dimensions_table"} | RULES_OF_ATTRACTORS
     everything = set.union({"all", *tables, *FIGURES}, *map(expected_rules_of, FIGURES))
     assert rules_of(planned) == everything

@@ -11,6 +11,7 @@ import xarray as xr
 from scripts.captions.wording import count, joined, short
 from scripts.drawing.parameters import SYMBOLS
 from scripts.drawing.special_points import in_words, words_of
+from scripts.figures.fault_limit import FAULTS, PAPER
 from scripts.files.inputs import read
 from scripts.files.tsv import read_table
 from scripts.tables.cycle_branches import branch_of
@@ -65,6 +66,12 @@ def of_atlas(given: dict, _params: dict) -> dict:
         words = f":math:`\\xi` = {short(xi)} and :math:`\\gamma` = {short(gamma)}"
         planes.append({"panels": ", ".join(panels), "place": words, "shares": ", ".join(shares)})
     return {"planes": planes}
+
+
+def of_fault_limit(given: dict, _params: dict) -> dict:
+    """Rows at the paper's gamma and at the least one of real faults."""
+    rows = {row["gamma"]: row for row in read_table(given["table"])}
+    return {"paper": rows[PAPER], "fault": rows[FAULTS]}
 
 
 def of_routes(given: dict, _params: dict) -> dict:
@@ -128,6 +135,7 @@ def stable_stretches(cycles: xr.Dataset, along: str) -> list[str]:
 NUMBERS = {
     "figure_2": of_hopf_curves,
     "figure_3": of_hopf_curves,
+    "fault_limit": of_fault_limit,
     "atlas": of_atlas,
     "routes": of_routes,
     "cycles": of_cycles,

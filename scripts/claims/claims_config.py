@@ -30,6 +30,7 @@ DATA_OF = {
         ["hopf_by_delay", "delay_destabilises", "amplitude_death"], ("linear_stability",)
     ),
     "hopf_only_by_delay": ("hopf_points",),
+    "hopf_by_delay_at_faults": ("fault_limit",),
     "roots_decide": ("atlas", "attractors"),
     "attractor_class": ("attractors", "linear_stability"),
     "positive_exponent": ("attractors",),
@@ -57,6 +58,7 @@ DATA_OF = {
 FILES = {
     "friction": "<results>/friction/velocity_step.nc",
     "hopf_points": "<results>/tables/hopf-points.tsv",
+    "fault_limit": "<results>/tables/fault-limit.tsv",
     "linear_stability": "<results>/tables/linear-stability.tsv",
     "stability": "<results>/tables/stability.tsv",
     "attractors": "<results>/tables/attractors.tsv",

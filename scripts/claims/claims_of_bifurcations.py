@@ -65,6 +65,27 @@ def hopf_only_by_delay(results: Results, *, plane: str) -> Finding:
     )
 
 
+def hopf_by_delay_at_faults(
+    results: Results, *, least: float, most: float, limit: float
+) -> Finding:
+    """Whether a delay makes steady sliding unstable at an epsilon where it is stable without."""
+    rows = [row for row in results.fault_limit if least <= row["gamma"] <= most]
+    if not rows:
+        raise ValueError(f"fault-limit.tsv: no gamma from {short(least)} to {short(most)}")
+    widest = max(rows, key=lambda row: row["depth"] / row["without_delay"])
+    xi = short(widest["xi"])
+    return decided(
+        widest["depth"] > limit * widest["without_delay"],
+        f"The least epsilon of all Hopf curves is computed at xi = {xi} and {len(rows)} values of"
+        f" gamma from {short(least)} to {short(most)}. It lies below the Hopf point without delay"
+        f" by at most {short(widest['depth'], 2)}, at gamma = {short(widest['gamma'])}, where that"
+        f" point has epsilon = {short(widest['without_delay'])}. To leading order the difference is"
+        " xi^3 (1 + xi)/(2 gamma^4).",
+        "Below epsilon = xi, for a spring stiffer than k_c = (B - A)/L, steady sliding is stable at"
+        " every delay. Above it is unstable without delay.",
+    )
+
+
 def hopf_depends_on(
     results: Results, *, at_fixed_xi: str, at_fixed_tau: str, limit: float
 ) -> Finding:
@@ -229,6 +250,7 @@ def independent_of_spring(results: Results, *, plane: str, limit: float) -> Find
 TESTS = {
     "hopf_by_delay": hopf_by_delay,
     "hopf_only_by_delay": hopf_only_by_delay,
+    "hopf_by_delay_at_faults": hopf_by_delay_at_faults,
     "hopf_depends_on": hopf_depends_on,
     "kinds_of_hopf": kinds_of_hopf,
     "delay_destabilises": delay_destabilises,

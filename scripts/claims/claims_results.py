@@ -36,6 +36,7 @@ class Results:
     curves: dict[str, xr.Dataset]
     friction: xr.Dataset | None
     hopf_points: list[dict]
+    fault_limit: list[dict]
     linear_stability: list[dict]
     stability: list[dict]
     attractors: list[dict]

@@ -92,6 +92,7 @@ def _names_that_are_no_text(config: dict):
         ["routes", "lines"],
         ["basins", "places"],
         ["cycles", "lines"],
+        ["dimensions"],
     ):
         named = config
         for key in path:

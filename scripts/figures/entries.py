@@ -88,6 +88,9 @@ ENTRIES = {
         category="Supplement",
         inputs={"runs": exponents_of_scenes, "table": "<results>/tables/exponents.tsv"},
     ),
+    "fault_limit": Entry(
+        category="Supplement", inputs={"table": "<results>/tables/fault-limit.tsv"}
+    ),
     "events": Entry(category="Supplement", rows=("slip_events",)),
     "stability": Entry(category="Solver", inputs={"table": "<results>/tables/stability.tsv"}),
     "work_precision": Entry(

@@ -36,7 +36,8 @@ def content(given, params) -> dict:
     equations = page_content.equations(TEMPLATES / "equations.yaml", claims)
     others = page_content.beside_figures(claims, equations)
     figures = page_content.sections(params.figures, others)
-    tables = {name: read_table(given[name]) for name in ("attractors", "hopf_points", "stability")}
+    names = ("attractors", "fault_limit", "hopf_points", "stability")
+    tables = {name: read_table(given[name]) for name in names}
     attractors = tables["attractors"]
     runs = [read(path) for path in given.trajectories]
     data = sorted({path for figure in params.figures for path in figure["data"]})

@@ -24,6 +24,7 @@ SECTIONS = {
     "cycles": ("cycles", "lines"),
     "basins": ("basins", "places"),
     "families": ("stability", "families"),
+    "dimensions": ("dimensions",),
 }
 """Where the configuration has what a file may add, by name."""
 
