@@ -118,7 +118,7 @@ def equations(path: str | Path, claims: list[dict]) -> dict:
 
 
 def beside_figures(claims: list[dict], shown: dict) -> list[dict]:
-    """The claims that do not stand beside an equation."""
+    """The claims that stand neither beside an equation nor below the findings."""
     placed = {
         claim["id"] for name, ones in shown.items() if name.endswith("_claims") for claim in ones
     }
