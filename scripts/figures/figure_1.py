@@ -41,7 +41,7 @@ def arrow(axes: Axes, start: tuple[float, float], end: tuple[float, float]) -> N
 
 def draw() -> Figure:
     """The drawing."""
-    figure, axes = plt.subplots(figsize=(5.0, 2.0))
+    figure, axes = plt.subplots(figsize=(3.6, 1.5))
     surface = rough_surface(left=0.2, right=10.4, height=0.14, bumps=34)
     surface[:, 1] += BLOCK[1] - 0.14
     ground = np.vstack([surface, [[10.4, 0.1], [0.2, 0.1]]])
