@@ -104,6 +104,7 @@ def content(**given) -> dict:
     runs = [run(), run().drop_vars("u").assign_attrs(scene="without_u", tau=11.0)]
     return {
         "opening": "What it is about.",
+        "main_claims": [],
         "findings": [{"title": "Found.", "words": "At tau = 2.", "claims": claims[:1]}],
         "block": None,
         "hero": page_content.sections([figure("hero")], [])["Figures"][0],

@@ -249,10 +249,27 @@ def test_routes_show_maxima_classes_and_exponents(routes_drawn):
 
 
 def test_runs_of_a_route_do_not_cover_each_other(routes_drawn):
-    """Their dots stand beside each other, close to their place."""
-    near, up = (line.get_xdata() for line in routes_drawn.axes[0].lines)
-    np.testing.assert_allclose(up - near, 0.3 * routes.MOST_SPREAD)
-    np.testing.assert_allclose(0.5 * (up + near), [0.1, 0.2, 0.2, 0.3, 0.3, 0.4, 0.4])
+    """Dots stand at their places; those of the later run are smaller and on top."""
+    for axes in (routes_drawn.axes[0], routes_drawn.axes[2]):
+        near, up = (line for line in axes.lines if line.get_marker() == "o")
+        assert set(near.get_xdata()) == set(up.get_xdata()) == {0.1, 0.2, 0.3, 0.4}
+        assert near.get_markersize() > up.get_markersize()
+        assert axes.lines.index(near) < axes.lines.index(up)
+
+
+def test_axes_of_a_route_are_read_right(routes_drawn):
+    """Exponents have a linear axis; maxima a logarithmic one where they span more than 100."""
+    assert {routes_drawn.axes[i].get_yscale() for i in (0, 2)} == {"linear"}
+    places = [0.1, 0.2]
+    rows = [
+        a_row("chaos", place, exponent_1=0.02, error_1=1e-3) | {"route": "one", "run": "near"}
+        for place in places
+    ]
+    maxima = (("point", "kept"), [[0.05, 1.0], [8.0, 2.0]])
+    runs = {("one", "near"): xr.Dataset({"epsilon": ("point", places), "maximum": maxima})}
+    above, _, below = routes.draw(rows, runs, {}).axes
+    assert (above.get_yscale(), below.get_yscale()) == ("log", "linear")
+    assert above.get_ylim()[0] < 0.05 < 8.0 < 0.9 * above.get_ylim()[1]
 
 
 def test_scenes_on_a_route_are_named(routes_drawn):
@@ -275,7 +292,7 @@ def test_route_along_the_history():
     above = figure.axes[0]
     assert title_of(above).startswith(r"$\tau = 7$, $\varepsilon = 0.5$")
     near, slip = (line.get_xydata() for line in above.lines)
-    np.testing.assert_allclose(near, [[0.494, 1], [1.494, 1], [2.494, 1]])
+    np.testing.assert_allclose(near, [[0.5, 1], [1.5, 1], [2.5, 1]])
     assert {y for _, y in slip} == {2.0, 2.001}
     (left, right), (bottom, top) = above.get_xlim(), above.get_ylim()
     for points in (near, slip):
@@ -330,28 +347,33 @@ def a_scene(name: str, met: str) -> true_torus.Scene:
 
 
 def test_true_torus_is_drawn_beside_the_papers():
-    """Titles from the table; the same axes for both, so that a point looks like a point."""
+    """Titles from the table; one section for both, so that a point looks like a point."""
     scenes = {"a": a_scene("torus", "cycle"), "b": a_scene("true_torus", "torus")}
     figure = true_torus.draw(scenes, 50.0, 0.5)
     assert_on_page(figure)
-    first, second = title_of(figure.axes[0]), title_of(figure.axes[4])
-    assert "scene torus (" in first
-    assert "cycle, one zero exponent\n" in first
-    assert "scene true torus (" in second
-    assert "torus, two zero exponents\n" in second
+    of_a, _, of_b, _, section = figure.axes
+    assert "scene torus: cycle, one zero exponent\n" in title_of(of_a)
+    assert "scene true torus: torus, two zero exponents\n" in title_of(of_b)
     words = words_in(figure)
     assert "one base frequency $f_1$ = 0.1000 and its harmonics" in words
     assert "two base frequencies, $f_1$ = 0.1000 and $f_2$ = 0.2600" in words
     assert all(label in words for label in ("base $f_1$", "base $f_2$", "$f_1 + f_2$"))
-    by_label = dict(zip(("va", "ma", "pa", "sa", "vb", "mb", "pb", "sb"), figure.axes, strict=True))
-    for kind in "ms":
-        one, other = by_label[f"{kind}a"], by_label[f"{kind}b"]
-        assert (one.get_xlim(), one.get_ylim()) == (other.get_xlim(), other.get_ylim())
-        assert np.ptp(one.lines[0].get_xdata()) == 0
-        assert np.ptp(other.lines[0].get_xdata()) > 1.9
-    maxima = by_label["mb"].lines[0].get_xydata()
-    np.testing.assert_array_equal(maxima[1:, 0], maxima[:-1, 1])
-    assert by_label["va"].get_xlim() == pytest.approx((149.9, 199.9))
+    assert of_b.get_xlim() == pytest.approx((149.9, 199.9))
+    point, curve = section.lines
+    assert (np.ptp(point.get_xdata()), np.ptp(curve.get_xdata()) > 1.9) == (0, True)
+    assert point.get_markersize() > curve.get_markersize()
+    assert [text.get_text() for text in section.get_legend().get_texts()] == ["scene a", "scene b"]
+
+
+def test_section_of_a_torus_closes():
+    """50 points with a rotation number of the golden mean leave no gap of a 20th of the turn."""
+    figure = true_torus.draw({"b": a_scene("true_torus", "torus")}, 50.0, 0.5)
+    x, y = figure.axes[-1].lines[0].get_xydata().T
+    # the next maximum is that of an angle later, so that both give the angle
+    turn = 2 * np.pi * 0.6180339887
+    angles = np.arctan2((np.cos(turn) * (x - 3) - (y - 3)) / np.sin(turn), x - 3)
+    angles = np.sort(angles)
+    assert max(np.diff(angles, append=angles[0] + 2 * np.pi)) < 2 * np.pi / 20
 
 
 @pytest.mark.parametrize(

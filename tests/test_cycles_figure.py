@@ -126,6 +126,18 @@ def test_special_points_have_markers_by_kind(drawn):
         assert [tuple(point) for point in hopf.get_xydata()] == [(0.1, 1.0)]
 
 
+def test_marks_of_a_branch_that_is_smaller_than_they_are_left_out():
+    """They would hide it and stand alone; the line is drawn, and so are other marks."""
+    lines = followed_cycles("tau")
+    closed, points = lines.branch.values == 2, lines.special_branch.values == 2
+    for name, there in (("tau", closed), ("special_tau", points)):
+        lines[name][there] = 0.7 + 1e-3 * (lines[name][there] - 0.7)
+    (axes,) = cycles.draw({"one": lines}, {"one": []}, {}).axes
+    assert labelled(axes, "period doubling") == []
+    assert len(labelled(axes, "fold")) == len(labelled(axes, "torus bifurcation")) == 1
+    assert len(labelled(axes, "stable cycle")) == 2
+
+
 def test_sweeps_are_dots_at_all_maxima(drawn):
     """Those of the second are smaller; a line without a route has none."""
     in_tau, in_epsilon = drawn.axes

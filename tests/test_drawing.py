@@ -7,11 +7,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import xarray as xr
+from conftest import ROOT
 from figure_contents import points_in, title_of, words_in
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from test_page_contrast import luminance
 
+from scripts.config.check_config import checked
+from scripts.config.read_config import merged
 from scripts.drawing import hopf_plane, spectrum_rows, trajectory_rows
 from scripts.drawing.parameters import number, true_minus
 from scripts.drawing.style import METADATA, STYLE, logged, save
@@ -55,6 +58,44 @@ def test_velocity_is_shown_over_the_asked_times(spiral_and_circle):
     np.testing.assert_allclose(
         axes[4].lines[0].get_ydata(), 1 + 0.5 * np.cos(0.1 * np.arange(800, 1001))
     )
+
+
+def test_dense_oscillations_are_drawn_as_their_envelope():
+    """Of an oscillation that grows: all of it lies in a band, whose edges are its extremes."""
+    t = 0.1 * np.arange(40_001)
+    size = 1 + t / t[-1]
+    run = a_trajectory(1 + size * np.cos(t), 0 * t)
+    _, axes = plt.subplots()
+    assert trajectory_rows.draw_velocity(axes, run, 0.0, 4000.0)
+    least, most = axes.lines
+    at = most.get_xdata()
+    np.testing.assert_allclose(most.get_ydata(), 2 + at / t[-1], atol=0.02)
+    np.testing.assert_allclose(least.get_ydata(), -at / t[-1], atol=0.02)
+    assert len(at) <= trajectory_rows.MOST_TURNS
+    assert not trajectory_rows.draw_velocity(axes, run, 0.0, 400.0)
+    np.testing.assert_allclose(axes.lines[-1].get_ydata(), run.v[:4001])
+
+
+def test_ripples_below_the_resolution_are_not_counted():
+    """A decay with rounding errors is a line; a constant has no turns."""
+    t = np.linspace(0, 50, 5001)
+    noise = 1e-9 * np.random.default_rng(1).standard_normal(t.size)
+    assert len(trajectory_rows.turns(np.exp(-t) + noise)) <= 2
+    assert len(trajectory_rows.turns(np.ones(9))) == 0
+
+
+def test_some_loops_of_a_long_transient_are_drawn():
+    """Whole loops with gaps between them; a short one is drawn as it is."""
+    t = 0.1 * np.arange(6000)
+    size = np.exp(-t / 4000)
+    run = a_trajectory(1 + size * np.cos(t), size * np.sin(t))
+    thinned = trajectory_rows.some_loops(run)
+    there = np.isfinite(thinned.v.values)
+    loops = np.count_nonzero(np.diff(there.astype(int)) == 1) + there[0]
+    assert 0.3 * trajectory_rows.MOST_LOOPS < loops <= trajectory_rows.MOST_LOOPS
+    assert np.count_nonzero(there) == pytest.approx(loops * 20 * np.pi, rel=0.1)
+    np.testing.assert_array_equal(thinned.v[there], run.v[there])
+    assert trajectory_rows.some_loops(run.isel(t=slice(3000))).equals(run.isel(t=slice(3000)))
 
 
 def test_portrait_parts_transient_and_attractor(spiral_and_circle):
@@ -239,26 +280,29 @@ def test_curves_are_dashed_where_subcritical(ordinate, fixed):
     assert dashed.get_xydata()[-1] == pytest.approx([0.5, 4.0])
 
 
-@pytest.mark.parametrize(
-    ("scene", "words"),
-    [
-        ({"xi": 0.5, "gamma": 0.8}, "scene in this plane"),
-        ({"xi": 0.8, "gamma": 0.8}, r"scene at another $\xi$"),
-        ({"xi": 0.5, "gamma": 0.9}, r"scene at another $\gamma$"),
-        ({"xi": 0.8, "gamma": 0.9}, r"scene at another $\xi$ and $\gamma$"),
-    ],
-)
-def test_scene_is_filled_where_it_lies_in_the_plane(scene, words):
-    """The fixed parameter and gamma decide; the legend names those that differ."""
-    places = {"my_scene": {"tau": 2.0, "epsilon": 0.4, **scene}}
+def test_shades_end_at_the_curves():
+    """A cell of a new plane, which has the default number of them, is narrower than a curve."""
+    new = checked(merged([ROOT / "config" / name for name in ("config.yaml", "new.yaml")], []))
+    cells = new["hopf_curves"]["my_plane"]["cells"]
+    with plt.style.context(STYLE):
+        figure = hopf_plane.draw(a_plane("tau", "xi"), {})
+    figure.canvas.draw()
+    box = figure.axes[0].get_window_extent()
+    width = figure.axes[0].lines[0].get_linewidth()
+    assert max(box.width, box.height) * 72 / figure.dpi / cells < width
+
+
+def test_scenes_of_a_plane_are_marked_and_named():
+    """At their places; the legend says what the mark is, where there is one."""
+    places = {"my_scene": {"tau": 2.0, "epsilon": 0.4, "xi": 0.5, "gamma": 0.8}}
     figure = hopf_plane.draw(a_plane("tau", "xi"), places)
-    ((x, y, filling),) = points_in(figure.axes[0])
-    assert (x, y) == (0.4, 2.0)
-    assert (filling != "white") is (words == "scene in this plane")
-    (legend,) = figure.legends
-    named = [text.get_text() for text in legend.get_texts()]
-    assert [name for name in named if name.startswith("scene")] == [words]
+    assert [(x, y) for x, y, _ in points_in(figure.axes[0])] == [(0.4, 2.0)]
     assert "my scene" in words_in(figure)
+    named = [
+        [text.get_text() for text in drawn.legends[0].get_texts()]
+        for drawn in (figure, hopf_plane.draw(a_plane("tau", "xi"), {}))
+    ]
+    assert ["scene" in names for names in named] == [True, False]
 
 
 def test_scenes_at_one_place_share_a_label():

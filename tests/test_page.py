@@ -210,6 +210,15 @@ def test_findings_follow_the_tables():
     ]
 
 
+def test_main_claims_stand_with_the_findings(smoke):
+    """Not in an appendix, and not twice."""
+    text = (smoke.folder / "results" / "index.html").read_text()
+    start, end = text.index('id="findings"'), text.index('id="equations"')
+    for name in findings.MAIN_CLAIMS:
+        assert start < text.index(f'id="claim-{name}"') < end
+        assert text.count(f'id="claim-{name}"') == 1
+
+
 def test_citation_names_this_work_and_the_paper():
     """By CITATION.cff."""
     cited = page_provenance.citation(ROOT / "CITATION.cff")

@@ -168,6 +168,13 @@ def test_text_of_figures_is_nine_pixels_high_on_a_phone(seen):
     assert min(pixels) >= 9
 
 
+def test_figure_of_the_findings_is_seen_whole_on_a_phone(visited):
+    """One panel a row; the made-up page has another figure in its place."""
+    page, seen = visited
+    if page.parent.name == "unpacked":
+        assert seen["first_figure_ends"] <= 380
+
+
 def test_indices_in_formulas_are_lowered(seen):
     """As they are only in a font with a table of mathematics; without one they stay beside."""
     assert seen["indices"]

@@ -7,6 +7,7 @@ import xarray as xr
 
 from scripts.captions.wording import short
 from scripts.drawing.trajectory_rows import WORDS
+from scripts.figures.events import EVENTS_SHOWN
 from scripts.files.inputs import read
 from scripts.files.tsv import read_table
 
@@ -133,7 +134,7 @@ def of_events(given: dict, params: dict) -> dict:
             "mean": short(times.mean()) if events.sizes["event"] else "none",
             "spread": spread_in_words(times) if events.sizes["event"] else "none",
         }
-    return {"rows": rows}
+    return {"rows": rows, "shown": EVENTS_SHOWN}
 
 
 def spread_in_words(times: xr.DataArray) -> str:

@@ -1,6 +1,5 @@
 """Numbers in captions of figures over parameters: Hopf curves, the atlas, routes and cycles."""
 
-import math
 from collections import Counter
 from itertools import groupby
 from string import ascii_lowercase
@@ -19,17 +18,11 @@ from scripts.tables.motion_rows import UNDECIDED, parameter_of, planes_of
 
 
 def of_hopf_curves(given: dict, params: dict) -> dict:
-    """Counts along the curves, and the scenes in the plane and beside it."""
+    """Counts along the curves, and the scenes in the plane."""
     curves = read(given["curves"])
     ordinate = curves.attrs["ordinate"]
     boundary = curves.isel(point=curves.unstable_pairs.values == 0)
     kinds = Counter(words_of(curves.special_kind))
-    inside = {
-        name.replace("_", " "): all(
-            math.isclose(scene[key], curves.attrs[key]) for key in SYMBOLS if key in curves.attrs
-        )
-        for name, scene in params["scenes"].items()
-    }
     return {
         "branches": np.unique(curves.branch).size,
         "points": curves.sizes["point"],
@@ -46,8 +39,7 @@ def of_hopf_curves(given: dict, params: dict) -> dict:
         ],
         "generalised": kinds["generalised_hopf"],
         "double": kinds["double_hopf"],
-        "inside": [name for name, there in inside.items() if there],
-        "outside": [name for name, there in inside.items() if not there],
+        "inside": [name.replace("_", " ") for name in params["scenes"]],
     }
 
 

@@ -1,7 +1,5 @@
 """Hopf curves in a plane of epsilon and another parameter, for figures 2 and 3."""
 
-import math
-
 import numpy as np
 import xarray as xr
 from matplotlib import pyplot as plt
@@ -9,9 +7,9 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
 
-from scripts.drawing.free_labels import label_points
-from scripts.drawing.parameters import SYMBOLS, axis_of, in_words
+from scripts.drawing.parameters import axis_of, in_words
 from scripts.drawing.style import INK
 
 SUBCRITICAL = (0, (3, 1.5))
@@ -24,9 +22,13 @@ MARKERS = {
     "hopf_without_delay": ("^", "Hopf point without delay"),
 }
 
+SCENE = {"ls": "", "marker": "o", "color": INK, "mfc": "white"}
+NEAR = 0.25
+"""A scene this close at the right, as a share of the axis, sends a name above its dot."""
+
 
 def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
-    """Curves by branch, solid where supercritical, over the number of unstable pairs; scenes."""
+    """Curves by branch, solid where supercritical, over unstable pairs; scenes of this plane."""
     ordinate = curves.attrs["ordinate"]
     figure, axes = plt.subplots(figsize=(5.2, 4.4))
     axes.set(xlim=(0, float(curves.epsilon.max())), ylim=(0, float(curves[ordinate].max())))
@@ -42,20 +44,17 @@ def draw(curves: xr.Dataset, scenes: dict[str, dict[str, float]]) -> Figure:
         ends.append((float(y[last]), float(x[last]), branch, colour))
     points = mark_special_points(axes, curves)
     label_branches(axes, ends)
-    marked = mark_scenes(axes, scenes, curves)
+    mark_scenes(axes, scenes, ordinate)
     axes.set_title(in_words(curves.attrs, "epsilon", ordinate), pad=14)
     axes.set(xlabel=axis_of("epsilon"), ylabel=axis_of(ordinate))
     handles = [
         Line2D([], [], color=INK, label="supercritical"),
         Line2D([], [], color=INK, ls=SUBCRITICAL, label="subcritical"),
     ]
+    marked = [Line2D([], [], label="scene", **SCENE)] if scenes else []
     bar = figure.colorbar(shades, ax=axes, label="unstable pairs", pad=0.03)
     bar.set_ticks(range(round(shades.norm.vmax - 0.5) + 1))
     figure.legend(handles=handles + points + marked, loc="outside lower center", ncols=2)
-    places: dict[tuple[float, float], list[str]] = {}
-    for name, scene in scenes.items():
-        places.setdefault((scene["epsilon"], scene[ordinate]), []).append(name.replace("_", " "))
-    label_points(axes, {place: ", ".join(names) for place, names in places.items()})
     return figure
 
 
@@ -121,22 +120,26 @@ def label_branches(axes: Axes, ends: list[tuple[float, float, int, str]]) -> Non
         )
 
 
-def mark_scenes(
-    axes: Axes,
-    scenes: dict[str, dict[str, float]],
-    curves: xr.Dataset,
-) -> list[Line2D]:
-    """Mark scenes: filled where they lie in the plane, open where they are projected on it."""
-    ordinate = curves.attrs["ordinate"]
-    kinds: dict[str, Line2D] = {}
-    for scene in scenes.values():
-        others = [
-            f"${SYMBOLS[key]}$"
-            for key in SYMBOLS
-            if key in curves.attrs and not math.isclose(scene[key], curves.attrs[key])
-        ]
-        label = f"scene at another {' and '.join(others)}" if others else "scene in this plane"
-        style = {"ls": "", "marker": "o", "color": INK, "mfc": "white" if others else INK}
-        axes.plot(scene["epsilon"], scene[ordinate], clip_on=False, zorder=5, **style)
-        kinds.setdefault(label, Line2D([], [], label=label, **style))
-    return [kinds[label] for label in sorted(kinds, reverse=True)]
+def mark_scenes(axes: Axes, scenes: dict[str, dict], ordinate: str, named: bool = True) -> None:
+    """A dot for each scene of a plane, its name beside it where no other scene is in the way."""
+    near = NEAR * np.ptp(axes.get_xlim())
+    close = 0.05 * np.ptp(axes.get_ylim())
+    places: dict[tuple[float, float], list[str]] = {}
+    for name, scene in scenes.items():
+        places.setdefault((scene["epsilon"], scene[ordinate]), []).append(name.replace("_", " "))
+    for place, names in places.items():
+        axes.plot(*place, clip_on=False, zorder=5, **SCENE)
+        if not named:
+            continue
+        above = any(0 < x - place[0] < near and abs(y - place[1]) < close for x, y in places)
+        axes.annotate(
+            ", ".join(names),
+            place,
+            xytext=(0, 4) if above else (4, 0),
+            textcoords="offset points",
+            ha="center" if above else "left",
+            va="bottom" if above or place[1] <= axes.get_ylim()[0] else "center",
+            fontsize=7,
+            path_effects=[withStroke(linewidth=2, foreground="white")],
+            zorder=6,
+        )

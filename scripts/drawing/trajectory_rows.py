@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+import numpy as np
 import xarray as xr
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
@@ -13,6 +14,12 @@ from scripts.drawing.style import FAINT, INK
 COLUMNS = ("from the start", "at the end", "phase portrait")
 WORDS = {"cycle": "limit cycle"}
 """Of classes of motion, where those of the tables are shorter."""
+MOST_TURNS = 150
+"""Oscillations that a panel shows one by one; of more it shows the envelope."""
+MOST_LOOPS = 60
+"""Loops of the transient in a phase portrait."""
+RESOLUTION = 1000
+"""Oscillations smaller than this part of the panel's height are not counted."""
 
 
 def draw(rows: dict[str, xr.Dataset], titles: dict[str, str], settings: dict) -> Figure:
@@ -26,13 +33,15 @@ def draw(rows: dict[str, xr.Dataset], titles: dict[str, str], settings: dict) ->
     )
     for (label, trajectory), (left, middle, right) in zip(rows.items(), grid, strict=True):
         last = float(trajectory.t[-1])
-        draw_velocity(left, trajectory, 0.0, min(settings["rows"][label]["time_shown"], last))
+        shown = min(settings["rows"][label]["time_shown"], last)
+        envelope = draw_velocity(left, trajectory, 0.0, shown)
         draw_velocity(middle, trajectory, max(0.0, last - settings["end_shown"]), last)
         draw_portrait(right, trajectory, settings["attractor_shown"])
         middle.sharey(left)
         middle.set(ylabel="")
         row = f"$\\bf{{{label}}}$  {parameters.in_words(trajectory.attrs)}: {titles[label]}"
-        title_columns((left, middle, right), COLUMNS, row)
+        columns = (COLUMNS[0] + " (envelope)" * envelope, *COLUMNS[1:])
+        title_columns((left, middle, right), columns, row)
     figure.legend(*right.get_legend_handles_labels(), loc="outside lower right", ncols=3)
     return figure
 
@@ -59,16 +68,45 @@ def titles_of(settings: dict, table: list[dict]) -> dict[str, str]:
     return titles
 
 
-def draw_velocity(axes: Axes, trajectory: xr.Dataset, start: float, end: float) -> None:
-    """v from one time to another."""
+def draw_velocity(axes: Axes, trajectory: xr.Dataset, start: float, end: float) -> bool:
+    """v from one time to another; whether it is drawn as its envelope."""
     shown = trajectory.sel(t=slice(start, end))
-    axes.plot(shown.t, shown.v, color="C0", lw=0.7)
+    oscillations = len(turns(shown.v.values)) // 2
     axes.set(xlabel="time $t$", ylabel="velocity $v$", xlim=(start, end))
+    if oscillations <= MOST_TURNS:
+        axes.plot(shown.t, shown.v, color="C0", lw=0.7)
+        return False
+    # two oscillations in each part, so that each part has their least and greatest v
+    parts = np.linspace(0, shown.sizes["t"], min(MOST_TURNS, oscillations // 2) + 1).astype(int)
+    least, most = (ends.reduceat(shown.v.values, parts[:-1]) for ends in (np.minimum, np.maximum))
+    at = shown.t.values[(parts[:-1] + parts[1:]) // 2]
+    axes.fill_between(at, least, most, facecolor="C0", alpha=0.3, lw=0)
+    axes.plot(at, least, at, most, color="C0", lw=0.7)
+    return True
+
+
+def turns(values: np.ndarray) -> np.ndarray:
+    """Indices where a curve changes between rising and falling by more than the resolution."""
+    extent = np.ptp(values) or 1.0
+    levels = np.round(RESOLUTION * (values - values.min()) / extent)
+    moves = np.flatnonzero(np.diff(levels))
+    rising = np.diff(levels)[moves] > 0
+    return moves[1:][rising[1:] != rising[:-1]]
+
+
+def some_loops(transient: xr.Dataset) -> xr.Dataset:
+    """A transient of many loops with gaps, so that the loops that stay can be told apart."""
+    begins = turns(transient.v.values)[::2]
+    every = -(-len(begins) // MOST_LOOPS)
+    if every <= 1:
+        return transient
+    loops = np.searchsorted(begins, np.arange(transient.sizes["t"]), side="right")
+    return transient.where(xr.DataArray(loops % every == 0, dims="t"))
 
 
 def draw_portrait(axes: Axes, trajectory: xr.Dataset, shown: float) -> None:
-    """The transient faint, the last part dark; a dot where the attractor is a point."""
-    transient = trajectory.sel(t=slice(0, trajectory.attrs["t_transient"]))
+    """Loops of the transient faint, the last part dark; a dot where the attractor is a point."""
+    transient = some_loops(trajectory.sel(t=slice(0, trajectory.attrs["t_transient"])))
     end = float(trajectory.t[-1])
     start = max(end - shown, trajectory.attrs["t_transient"])
     attractor = trajectory.sel(t=slice(start, end))

@@ -20,7 +20,7 @@ from scripts.drawing.class_map import (
     mark_failures,
     table_of,
 )
-from scripts.drawing.hopf_plane import SUBCRITICAL, draw_piece
+from scripts.drawing.hopf_plane import SCENE, SUBCRITICAL, draw_piece, mark_scenes
 from scripts.drawing.special_points import STYLES, in_words, words_of
 from scripts.drawing.style import INK, logged, save
 from scripts.files.inputs import read
@@ -35,8 +35,6 @@ from scripts.tables.motion_rows import (
 
 LINEAR, LARGEST = 1e-3, 0.1
 """Exponents closer to zero are coloured on a linear scale, larger ones all alike."""
-NEAR = 0.25
-"""A scene this close at the right, as a share of the axis, sends a name above its dot."""
 CURVES = {kind: {"color": style.colour, "lw": 0.9} for kind, style in STYLES.items()}
 """Of special points of cycles, by their kind."""
 EDGE = [withStroke(linewidth=1.7, foreground="white")]
@@ -74,7 +72,7 @@ def draw(
             for plane in curves:
                 if (plane.attrs["gamma"], plane.attrs["xi"]) == at:
                     draw_curves(axes, plane)
-            mark_scenes(axes, inside, named=axes is left)
+            mark_scenes(axes, inside, "tau", named=axes is left)
         for line in cycles:
             if (line.attrs["gamma"], line.attrs["xi"]) == at:
                 drawn |= draw_curves_of_cycles(left, line)
@@ -104,7 +102,7 @@ def draw(
             for kind in CURVES
             if kind in drawn
         ),
-        Line2D([], [], ls="", marker="o", color=INK, mfc="white", label="scene"),
+        Line2D([], [], label="scene", **SCENE),
     ]
     figure.legend(handles=handles, loc="outside lower center", ncols=4)
     return figure
@@ -146,32 +144,6 @@ def draw_curves_of_cycles(axes: Axes, cycles: xr.Dataset) -> set[str]:
             )
             drawn.add(kind)
     return drawn
-
-
-def mark_scenes(axes: Axes, scenes: dict[str, dict], named: bool) -> None:
-    """A dot for each scene, its name beside it where nothing is in the way."""
-    near = NEAR * np.ptp(axes.get_xlim())
-    close = 0.05 * np.ptp(axes.get_ylim())
-    for name, scene in scenes.items():
-        place = scene["epsilon"], scene["tau"]
-        axes.plot(*place, "o", color=INK, mfc="white", clip_on=False, zorder=5)
-        if not named:
-            continue
-        above = any(
-            0 < other["epsilon"] - place[0] < near and abs(other["tau"] - place[1]) < close
-            for other in scenes.values()
-        )
-        axes.annotate(
-            name.replace("_", " "),
-            place,
-            xytext=(0, 4) if above else (4, 0),
-            textcoords="offset points",
-            ha="center" if above else "left",
-            va="bottom" if above or place[1] <= axes.get_ylim()[0] else "center",
-            fontsize=7,
-            path_effects=[withStroke(linewidth=2, foreground="white")],
-            zorder=6,
-        )
 
 
 if __name__ == "__main__":

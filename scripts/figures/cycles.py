@@ -32,6 +32,8 @@ SWEEPS = {
 }
 """Dots of a sweep, lighter than the lines over them. Those of the second are smaller and
 on top: both show where they agree."""
+SMALL = 0.015
+"""Share of the panel's width below which a branch is smaller than the marks of its points."""
 SLIDING = {"color": FAINT, "lw": 0.8, "label": "steady sliding", "zorder": 0}
 Sweeps = dict[str, list[tuple[str, xr.Dataset]]]
 
@@ -95,10 +97,16 @@ def draw_branches(axes: Axes, cycles: xr.Dataset, along: str) -> None:
 
 
 def draw_points(axes: Axes, cycles: xr.Dataset, along: str) -> None:
-    """Special points by their kind, and Hopf points, where a cycle starts from steady sliding."""
+    """Special points by their kind, and Hopf points, where a cycle starts from steady sliding.
+
+    Marks would hide a branch that is smaller, so that its points would stand alone.
+    """
     kinds = np.array(words_of(cycles.special_kind))
+    x, branch = cycles[along].values, cycles.branch.values
+    sizes = [np.ptp(x[branch == number]) for number in cycles.special_branch.values]
+    large = np.array(sizes) > SMALL * np.ptp(axes.get_xlim())
     for kind, style in STYLES.items():
-        these = cycles.isel(special=kinds == kind)
+        these = cycles.isel(special=(kinds == kind) & large)
         if these.sizes["special"]:
             axes.plot(
                 these[f"special_{along}"],

@@ -18,7 +18,6 @@ from scripts.workflow.result_files import (
     paths_of_scenes,
     places_in_atlas,
     places_in_plane,
-    places_of_scenes,
     runs_of_route,
     runs_of_routes,
     scenes_of,
@@ -60,12 +59,12 @@ ENTRIES = {
     "figure_2": Entry(
         category="Figures",
         inputs={"curves": "<results>/hopf/tau_of_epsilon.nc"},
-        params={"scenes": places_of_scenes},
+        params={"scenes": lambda config: places_in_plane(config, "tau_of_epsilon")},
     ),
     "figure_3": Entry(
         category="Figures",
         inputs={"curves": "<results>/hopf/xi_of_epsilon.nc"},
-        params={"scenes": places_of_scenes},
+        params={"scenes": lambda config: places_in_plane(config, "xi_of_epsilon")},
     ),
     "figure_4": Entry(
         category="Figures",

@@ -11,8 +11,9 @@ from scripts.drawing.style import logged, save
 from scripts.files.inputs import read
 
 EVENTS_SHOWN = 120
-"""Events whose recurrence times are shown one by one."""
+"""Events at the start whose recurrence times are shown in turn; the other panels show all."""
 BINS = 30
+TIME = "time (units of $L/v_0$)"
 
 
 def draw(rows: dict[str, xr.Dataset]) -> Figure:
@@ -35,9 +36,9 @@ def draw(rows: dict[str, xr.Dataset]) -> Figure:
     for axes, words in zip(
         grid.T,
         (
-            ("number of the event", "recurrence\ntime"),
-            ("recurrence time", "share of events"),
-            ("slip $s$", "share of events\nwith slip $\\geq s$"),
+            (f"number of the event, up to {EVENTS_SHOWN}", f"recurrence\n{TIME}"),
+            (f"recurrence {TIME}", "share of events"),
+            ("slip $s$ (units of $L$)", "share of events\nwith slip $\\geq s$"),
         ),
         strict=True,
     ):

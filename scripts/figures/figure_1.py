@@ -8,12 +8,12 @@ from matplotlib.patches import FancyArrowPatch, Polygon, Rectangle
 
 from scripts.drawing.style import FAINT, INK, logged, save
 
-BLOCK = (5.2, 0.9, 2.2, 1.2)
+BLOCK = (2.6, 0.9, 2.2, 1.2)
 """Left, bottom, width and height of the block."""
 PLATE = (0.6, 3.1, 9.4, 0.42)
 """Left, bottom, width and height of the loader plate."""
-ARM = 1.6
-"""Where the arm of the loader plate hangs."""
+ARM = 8.9
+"""Where the arm of the loader plate hangs: in front of the block, which it pulls."""
 
 
 def rough_surface(*, left: float, right: float, height: float, bumps: int) -> np.ndarray:
@@ -41,7 +41,7 @@ def arrow(axes: Axes, start: tuple[float, float], end: tuple[float, float]) -> N
 
 def draw() -> Figure:
     """The drawing."""
-    figure, axes = plt.subplots(figsize=(5.0, 2.0))
+    figure, axes = plt.subplots(figsize=(3.6, 1.5))
     surface = rough_surface(left=0.2, right=10.4, height=0.14, bumps=34)
     surface[:, 1] += BLOCK[1] - 0.14
     ground = np.vstack([surface, [[10.4, 0.1], [0.2, 0.1]]])
@@ -62,10 +62,10 @@ def draw() -> Figure:
         va="center",
     )
     axes.plot([ARM, ARM], [PLATE[1], middle - 0.25], color=INK, lw=3, solid_capstyle="butt")
-    coil = spring(left=ARM, right=left, y=middle, turns=9, width=0.24)
+    coil = spring(left=left + width, right=ARM, y=middle, turns=9, width=0.24)
     axes.plot(*coil.T, color=INK, lw=1.1)
     axes.text(
-        (ARM + left) / 2,
+        (left + width + ARM) / 2,
         middle + 0.42,
         "spring, stiffness $k$",
         ha="center",
@@ -74,8 +74,8 @@ def draw() -> Figure:
 
     arrow(axes, (8.3, 3.85), (9.9, 3.85))
     axes.text(8.15, 3.85, "velocity $v_0$", ha="right", va="center")
-    arrow(axes, (left + width + 0.15, middle), (left + width + 1.15, middle))
-    axes.text(left + width + 1.25, middle, "velocity $v$", ha="left", va="center")
+    arrow(axes, (left + width - 0.8, 2.45), (left + width + 0.4, 2.45))
+    axes.text(left + width - 0.95, 2.45, "velocity $v$", ha="right", va="center")
     arrow(axes, (left - 0.1, 0.42), (left - 1.2, 0.42))
     axes.text(
         left,

@@ -17,19 +17,17 @@ from scripts.files.inputs import read
 from scripts.files.tsv import read_table
 from scripts.tables.motion_rows import count_in_words, parameter_of
 
-HEIGHT, OF_RUN = 1.9, 0.15
+HEIGHT, OF_RUN = 2.1, 0.15
 """Of a route without its strips, and of each strip, in inches."""
 COLOURS = ("C6", "C2", "C3", "C7")
 """Of runs; none is that of a class."""
-SPREAD, MOST_SPREAD = 0.2, 0.006
-"""Distance between the dots of two runs at the same place: a share of the distance of places, and
-at most a share of the route."""
-ROOM = 1.25
-"""End of the axis of maxima over the largest of them."""
-FEW, DOT, SMALL_DOT = 30, 3.5, 1.8
-"""Up to so many places of a run, dots are larger, in points."""
-LEAST_SCALE = 1e-3
-"""Exponents closer to zero than this are drawn on a linear scale."""
+DOTS = (2.8, 2.2, 1.6, 1.0)
+"""Sizes of the dots of runs in points. Later runs lie on top and are smaller, so that dots at the
+same place are all seen."""
+ROOM = 0.25
+"""Free part of the axis of maxima above the largest of them, where the names of scenes stand."""
+LOGARITHMIC = 100
+"""The axis of maxima is logarithmic where their ratio is larger."""
 
 
 def draw(
@@ -49,14 +47,13 @@ def draw(
         along = parameter_of(of_route)
         by_run = {run: [r for r in of_route if r["run"] == run] for run in names_of(of_route)}
         above, middle, below = grid[3 * i : 3 * i + 3]
-        step = spread(of_route, along)
         for number, (run, of_run) in enumerate(by_run.items()):
             colour = colours.setdefault(run, COLOURS[len(colours) % len(COLOURS)])
-            shift = (number - 0.5 * (len(by_run) - 1)) * step
-            draw_maxima(above, runs[name, run], of_run, along, shift, colour)
-            draw_exponent(below, of_run, along, shift, colour)
+            style = {"color": colour, "ms": DOTS[min(number, len(DOTS) - 1)], "mew": 0}
+            draw_maxima(above, runs[name, run], of_run, along, style)
+            draw_exponent(below, of_run, along, style)
         draw_strips(middle, by_run, along)
-        label(above, middle, below, along, 0.5 * (len(by_run) - 1) * step)
+        label(above, middle, below, along)
         mark_scenes(above, scenes, of_route[0], along)
         words = f"{parameters.in_words(of_route[0], along)}: {count_in_words(of_route)}"
         letter = f"$\\bf{{{'abcdefgh'[i % 8]}}}$  " if len(routes) > 1 else ""
@@ -74,16 +71,10 @@ def names_of(rows: list[dict]) -> list[str]:
     return list(dict.fromkeys(row["run"] for row in rows))
 
 
-def spread(rows: list[dict], along: str) -> float:
-    """Distance between the dots of two runs at the same place."""
-    places = {row[along] for row in rows}
-    return (max(places) - min(places)) * min(MOST_SPREAD, SPREAD / (len(places) - 1))
-
-
-def label(above: Axes, strips: Axes, below: Axes, along: str, shift: float) -> None:
-    """The same abscissa for the three, named below; dots are shifted by so much at most."""
+def label(above: Axes, strips: Axes, below: Axes, along: str) -> None:
+    """The same abscissa for the three, named below."""
     first, last = strips.get_xlim()
-    margin = shift + 0.01 * (last - first)
+    margin = 0.01 * (last - first)
     for axes in (above, strips, below):
         axes.set_xlim(first - margin, last + margin)
     for axes in (above, strips):
@@ -91,49 +82,35 @@ def label(above: Axes, strips: Axes, below: Axes, along: str, shift: float) -> N
     strips.tick_params(left=False, bottom=False, pad=1, labelsize=7)
     for side in ("left", "bottom"):
         strips.spines[side].set_visible(False)
-    # the names of scenes stand above the dots
-    highest = above.dataLim.y1
-    above.set_ylim(0, ROOM * highest if np.isfinite(highest) else None)
+    lowest, highest = above.dataLim.y0, above.dataLim.y1
+    if highest > LOGARITHMIC * lowest:
+        above.set_yscale("log")
+        above.set_ylim(lowest / 1.5, highest * (highest / lowest) ** ROOM)
+    else:
+        above.set_ylim(0, (1 + ROOM) * highest if np.isfinite(highest) else None)
     above.set_ylabel("maxima of $v$")
     below.axhline(0, color=FAINT, lw=0.6, zorder=0)
-    below.set_yscale("symlog", linthresh=LEAST_SCALE)
-    below.set_yticks([-0.1, 0, 0.1], ["$-0.1$", "$0$", "$0.1$"])
-    below.set_yticks([-0.01, -LEAST_SCALE, LEAST_SCALE, 0.01], minor=True)
-    below.tick_params(axis="y", which="minor", labelleft=False)
     below.set(xlabel=parameters.axis_of(along), ylabel="exponent\n$\\lambda_1$")
 
 
-def dot(rows: list[dict]) -> float:
-    """Size of the dots of a run."""
-    return SMALL_DOT if len(rows) > FEW else DOT
-
-
-def draw_maxima(
-    axes: Axes, run: xr.Dataset, rows: list[dict], along: str, shift: float, colour: str
-) -> None:
+def draw_maxima(axes: Axes, run: xr.Dataset, rows: list[dict], along: str, style: dict) -> None:
     """A dot for each maximum kept, and at v = 1 for a fixed point, whose maxima are transient."""
     there = np.array([row["class"] != "fixed point" for row in rows])
     places, maxima = maxima_of(run.isel(point=there), along)
     rest = [row[along] for row in rows if row["class"] == "fixed point"]
     axes.plot(
-        np.append(places, rest) + shift,
+        np.append(places, rest),
         np.append(maxima, np.ones(len(rest))),
-        ".",
-        color=colour,
-        ms=dot(rows),
-        mew=0,
+        "o",
         rasterized=True,
+        **style,
     )
 
 
-def draw_exponent(axes: Axes, rows: list[dict], along: str, shift: float, colour: str) -> None:
+def draw_exponent(axes: Axes, rows: list[dict], along: str, style: dict) -> None:
     """The largest exponent with its standard error."""
-    places, values, errors = (
-        np.array([row[key] for row in rows]) for key in (along, "exponent_1", "error_1")
-    )
-    # a dot "o" is larger than "."
-    style = {"fmt": "o", "ms": 0.8 * dot(rows), "mew": 0, "lw": 0.5, "color": colour}
-    axes.errorbar(places + shift, values, errors, **style)
+    keys = (along, "exponent_1", "error_1")
+    axes.errorbar(*([row[key] for row in rows] for key in keys), fmt="o", lw=0.5, **style)
 
 
 if __name__ == "__main__":

@@ -43,7 +43,7 @@ def draw(
     portrait, section, exponents = middle.subplots(1, 3)
     powers = below.subplots()
     last = float(trajectory.t[-1])
-    draw_velocity(start, trajectory, 0.0, last)
+    envelope = draw_velocity(start, trajectory, 0.0, last)
     # as lines, long runs would make the page slow
     for line in start.lines:
         line.set_rasterized(True)
@@ -54,7 +54,7 @@ def draw(
     draw_exponents(exponents, attractors)
     draw_spectrum(powers, spectrum)
     titles = {
-        "whole run": start,
+        "whole run" + " (envelope)" * envelope: start,
         "end of the run": end,
         "phase portrait": portrait,
         "section": section,

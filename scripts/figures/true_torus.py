@@ -1,8 +1,9 @@
-"""Figure of the true torus beside the paper's: in time, spectrum, section and map of maxima."""
+"""Figure of the true torus beside the paper's: in time, spectrum and section."""
 
 import math
 from dataclasses import dataclass
 
+import numpy as np
 import xarray as xr
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
@@ -17,9 +18,12 @@ from scripts.files.tsv import read_table
 from scripts.tables.exponents_table import sign
 
 EXPONENTS = (1, 2, 3)
-LETTER = 0.0167
-"""How wide a letter is, as a share of the narrower axis."""
-DOTS = {"ls": "", "marker": "o", "color": "C1", "ms": 2.5, "mew": 0}
+LETTER = 0.0215
+"""How wide a letter is, as a share of the axis."""
+POINT = 1e-3
+"""Maxima that differ by less are one point."""
+STYLES = {"point": {"color": "C0", "ms": 5}, "curve": {"color": "C1", "ms": 2}}
+"""Of points of the section."""
 NUMBERS = {0: "no", 1: "one", 2: "two", 3: "three"}
 
 
@@ -35,29 +39,30 @@ class Scene:
 
 
 def draw(scenes: dict[str, Scene], end_shown: float, frequency_shown: float) -> Figure:
-    """Scenes a, b, ...: v(t), under it its spectrum, beside them the map of maxima and section."""
-    places = [[f"{kind}{label}" for kind in kinds] for label in scenes for kinds in ("vm", "ps")]
-    figure, axes = plt.subplot_mosaic(
-        places, figsize=(6.7, 3.6 * len(scenes)), width_ratios=[1.9, 1]
+    """Scenes a, b, ...: v(t) and its spectrum; at the end the section of all.
+
+    One panel a row, so that the figure is as narrow as a telephone.
+    """
+    figure, panels = plt.subplots(
+        2 * len(scenes) + 1,
+        1,
+        figsize=(3.6, 3.1 * len(scenes) + 2.0),
+        height_ratios=[1, 1] * len(scenes) + [1.7],
     )
-    first = next(iter(scenes))
-    for label, scene in scenes.items():
-        panels = [axes[f"{kind}{label}"] for kind in "vpms"]
-        velocity, spectrum, maxima, section = panels
+    section = panels[-1]
+    for i, (label, scene) in enumerate(scenes.items()):
+        velocity, spectrum = panels[2 * i : 2 * i + 2]
         last = float(scene.trajectory.t[-1])
         draw_velocity(velocity, scene.trajectory, max(0.0, last - end_shown), last)
         velocity.set_title(f"$\\bf{{{label}}}$  {words(scene)}")
         draw_spectrum(spectrum, scene.spectrum, frequency_shown)
-        draw_maxima(maxima, scene.attractors)
-        draw_section(section, scene.attractors)
-        for kind, panel in zip("vpms", panels, strict=True):
-            if label != first:
-                panel.sharey(axes[f"{kind}{first}"])
-            if label != first and kind in "ms":
-                panel.sharex(axes[f"{kind}{first}"])
-    for kind in "ms":
-        # a single point is to be seen as such on the scale of a curve
-        axes[f"{kind}{first}"].autoscale()
+        draw_section(section, scene.attractors, label)
+        for panel, first in ((velocity, panels[0]), (spectrum, panels[1])):
+            if i > 0:
+                panel.sharey(first)
+    section.set_title("section: successive maxima of $v$")
+    section.set(xlabel="maximum of $v$", ylabel="next maximum", aspect="equal")
+    section.legend(loc="upper left", bbox_to_anchor=(1, 1))
     return figure
 
 
@@ -71,8 +76,9 @@ def words(scene: Scene) -> str:
     each = [f"$\\lambda_{i}$ = {with_error(*pair)}" for i, pair in zip(there, pairs, strict=True)]
     name = row["scene"].replace("_", " ")
     return (
-        f"scene {name} ({parameters.in_words(scene.trajectory.attrs)}): {row['class']},"
-        f" {NUMBERS[zeros]} zero exponent{'' if zeros == 1 else 's'}\n{', '.join(each)}"
+        f"scene {name}: {row['class']}, {NUMBERS[zeros]} zero exponent{'' if zeros == 1 else 's'}"
+        f"\n{parameters.in_words(scene.trajectory.attrs)}\n{', '.join(each[:2])}"
+        f"\n{', '.join(each[2:])}"
     )
 
 
@@ -98,23 +104,16 @@ def draw_spectrum(axes: Axes, spectrum: xr.Dataset, frequency_shown: float) -> N
     axes.semilogy(shown.frequency, shown.power, color="C0", lw=0.7)
     label_peaks(axes, spectrum, frequency_shown, LETTER)
     top = float(shown.power.max())
-    axes.set(xlim=(0, frequency_shown), ylim=(3e-11 * top, 1e3 * top))
+    axes.set(xlim=(0, frequency_shown), ylim=(3e-11 * top, 1e5 * top))
     axes.set(xlabel="frequency (cycles per unit of time)", ylabel="power spectral\ndensity of $v$")
     axes.set_title(lines_in_words(spectrum))
 
 
-def draw_maxima(axes: Axes, attractors: xr.Dataset) -> None:
-    """Each maximum of v over the one before."""
+def draw_section(axes: Axes, attractors: xr.Dataset, label: str) -> None:
+    """Each maximum of v over the one before: points where dv/dt falls through 0."""
     maxima = attractors.maximum.values[0]
-    axes.plot(maxima[:-1], maxima[1:], **DOTS)
-    axes.set(xlabel="maximum of $v$", ylabel="next maximum")
-
-
-def draw_section(axes: Axes, attractors: xr.Dataset) -> None:
-    """Points of the section."""
-    own = attractors.isel(point=0)
-    axes.plot(own.section_theta, own.section_u, **DOTS)
-    axes.set(xlabel=r"$\theta$ where $v$ rises through 1", ylabel="$u$ there")
+    style = STYLES["point" if np.ptp(maxima[np.isfinite(maxima)]) < POINT else "curve"]
+    axes.plot(maxima[:-1], maxima[1:], ls="", marker="o", mew=0, label=f"scene {label}", **style)
 
 
 if __name__ == "__main__":

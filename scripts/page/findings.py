@@ -8,6 +8,8 @@ TORUS, TRUE_TORUS = "torus", "true_torus"
 """The scene that the paper calls a torus, and one that has a longer delay."""
 PAPER_GAMMA, REAL_GAMMA = 0.8, (1e4, 1e12)
 """gamma of the paper's figures, and the range of real faults in the paper."""
+MAIN_CLAIMS = ("delay_alone_makes_chaos", "quasiperiodic_route")
+"""Claims of the abstract whose cards stand below the findings."""
 COUNTS = {0: "no", 1: "one", 2: "two", 3: "three"}
 ZERO = 3
 """Standard errors within which an exponent is zero."""

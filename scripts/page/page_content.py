@@ -16,6 +16,8 @@ FIRST = [NOT_REPRODUCED, CORRECTED]
 """Verdicts of claims that stand first in their group."""
 PIXELS = 1.3
 """Pixels of the page for a point of a figure: 7 points are 9 pixels."""
+PHONE = 346
+"""Pixels of a figure that is seen as a whole on a phone."""
 LAST = "Solver"
 """The category of figures that stands at the end: it is not about the paper."""
 
@@ -52,6 +54,7 @@ def described(figure: dict, title: str, folder: str) -> dict:
     caption = captions.as_html(figure["caption"])
     first, end, more = caption.partition("</p>")
     measured = is_measured(f"figures/{figure['name']}")
+    size = size_of(figure.get("drawing", ""))
     return {
         "name": figure["name"],
         "title": title,
@@ -60,7 +63,8 @@ def described(figure: dict, title: str, folder: str) -> dict:
         "measured": measured,
         "alternative": captions.first_sentence(caption),
         "data": [os.path.relpath(path, folder) for path in figure["data"]],
-        "size": size_of(figure.get("drawing", "")),
+        "size": size,
+        "fits": bool(size) and size[0] <= PHONE,
         "shows_classes": figure.get("shows_classes", False),
     }
 
@@ -118,7 +122,7 @@ def equations(path: str | Path, claims: list[dict]) -> dict:
 
 
 def beside_figures(claims: list[dict], shown: dict) -> list[dict]:
-    """The claims that do not stand beside an equation."""
+    """The claims that stand neither beside an equation nor below the findings."""
     placed = {
         claim["id"] for name, ones in shown.items() if name.endswith("_claims") for claim in ones
     }

@@ -34,7 +34,8 @@ def content(given, params) -> dict:
     """All that the page says, from the files that the rule gives."""
     claims = json.loads(Path(given.claims).read_text())
     equations = page_content.equations(TEMPLATES / "equations.yaml", claims)
-    others = page_content.beside_figures(claims, equations)
+    main = [page_content.as_shown(c) for c in claims if c["id"] in findings.MAIN_CLAIMS]
+    others = page_content.beside_figures(claims, {**equations, "main_claims": main})
     figures = page_content.sections(params.figures, others)
     names = ("attractors", "fault_limit", "hopf_points", "stability")
     tables = {name: read_table(given[name]) for name in names}
@@ -44,6 +45,7 @@ def content(given, params) -> dict:
     return {
         "opening": page_content.opening((PROJECT / "README.md").read_text()),
         "findings": findings.findings(claims, tables),
+        "main_claims": main,
         "block": page_content.taken_out(figures, page_content.BLOCK),
         "hero": page_content.taken_out(figures, page_content.HERO),
         "equations": equations,

@@ -3,7 +3,7 @@
 In paths `<results>` stands for the folder of the results.
 """
 
-from scripts.namelists.study_cases import HISTORY
+from scripts.namelists.study_cases import HISTORY, PARAMETERS
 
 
 def scenes_of(config: dict, figure: str) -> list[str]:
@@ -144,21 +144,10 @@ def references_of_families(config: dict) -> list[str]:
     ]
 
 
-def places_of_scenes(config: dict) -> dict[str, dict[str, float]]:
-    """Parameters of the scenes that the paper's figures show, as marked beside the Hopf curves."""
-    figures = [name for name in config["figures"] if name.startswith("figure_")]
-    shown = dict.fromkeys(scene for name in figures for scene in scenes_of(config, name))
-    return {
-        scene: _parameters(config, scene, "tau", "epsilon", "xi", "gamma")
-        for scene in shown
-        if scene in config["scenes"]
-    }
-
-
 def places_in_atlas(config: dict) -> dict[str, dict[str, float]]:
     """Parameters of the scenes that the atlas marks: those whose attractors are looked for."""
     return {
-        scene: _parameters(config, scene, "tau", "epsilon", "xi", "gamma")
+        scene: {key: config["scenes"][scene][key] for key in PARAMETERS}
         for scene in scenes_with(config, "attractors")
     }
 
@@ -172,8 +161,3 @@ def places_in_plane(config: dict, plane: str) -> dict[str, dict[str, float]]:
         for scene, place in places_in_atlas(config).items()
         if (place[fixed], place["gamma"]) == (settings["fixed"], settings["gamma"])
     }
-
-
-def _parameters(config: dict, scene: str, *keys: str) -> dict[str, float]:
-    """Some parameters of a scene."""
-    return {key: config["scenes"][scene][key] for key in keys}

@@ -29,6 +29,8 @@ return {
 
 DRAWN = "const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(done))"
 """Waits until what follows an event or the size of the window has been drawn."""
+FIRST = "return document.querySelector('.answer img')?.getBoundingClientRect().right"
+"""The right end of the figure of the findings."""
 SCALES = "return [...document.images].map((i) => i.clientWidth / i.naturalWidth)"
 """Of images, against the size that they are drawn for."""
 
@@ -245,6 +247,7 @@ def visit(chrome: Chrome, page: Path, folder: Path) -> dict:
             photograph(chrome, folder / f"{scheme}-{width}.png")
             if width == WIDTHS[0]:
                 seen |= {"reading": reading(chrome), "scales": chrome.execute_script(SCALES)}
+                seen |= {"first_figure_ends": chrome.execute_script(FIRST)}
                 seen |= {"indices": chrome.execute_script(INDICES)}
         seen["axe"][scheme] = violations(chrome, scheme)
     emulate(chrome, 700, media="print")
