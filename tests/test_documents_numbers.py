@@ -267,6 +267,19 @@ def of_faults() -> list[dict]:
     return [row for row in cases("auto") if 1e4 <= float(row["gamma"]) <= 1e12]
 
 
+def short_runs() -> list[dict]:
+    """Those that end at t = 100 or before."""
+    return [row for row in of_faults() if float(row["t_end"]) <= 100]
+
+
+def near_steady_sliding() -> list[dict]:
+    """Those in which v stays within 10 % of 1; rounding apart, it begins at 1.1."""
+    return [
+        row for row in of_faults()
+        if math.exp(float(row["least_ln_v"])) > 0.9 and math.exp(float(row["most_ln_v"])) < 1.1001
+    ]  # fmt: skip
+
+
 def error_over_expected(method: str, *without: str) -> float:
     """Largest error of completed runs over tolerance times amplification, without some families."""
     rows = [row for row in completed(cases(method)) if row["family"] not in ("growth", *without)]
@@ -377,6 +390,10 @@ SAID = [
         "README.md", "All {} runs in `stability.tsv` with these values are completed, each in at"
         " most {} steps",
         lambda: [len(of_faults()), max(int(row["steps"]) for row in completed(of_faults()))],
+    ),
+    Said(
+        "README.md", "{} end at t = 100 or before, and in {} v stays within 10 %",
+        lambda: [len(short_runs()), len(near_steady_sliding())],
     ),
     Said(
         "docs/findings.md", "one exponent is zero, the second is {:.4f} and {:.4f}",
