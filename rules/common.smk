@@ -183,7 +183,7 @@ def tables_of_atlas():
 
 
 def tables_added():
-    """Tables of what the file of one's own adds."""
+    """Tables of what the user's file adds."""
     sections = {
         "<results>/tables/linear-stability.tsv": "scenes",
         "<results>/tables/attractors.tsv": "scenes",
@@ -197,7 +197,7 @@ def tables_added():
 
 
 def everything_added(wildcards):
-    """Figures, page and tables of all that the file of one's own adds."""
+    """Figures, page and tables of all that the user's file adds."""
     if not (tables_added() or SHOWN):
         raise SystemExit(
             f"error: {RESULTS}: the file adds no scene, plane, route, atlas, cycles or claim; ask"

@@ -69,7 +69,7 @@ except read_config.ConfigError as problems:
 
 
 try:
-    # claims of one's own are alone in their table
+    # the user's claims are alone in their table
     said = {
         "claims": {
             **({} if OWN else claims_config.listed()["claims"]),

@@ -23,7 +23,7 @@ def of(made):
     ],
 )
 def test_single_peak(made, verdict):
-    """One base frequency without harmonics, with some, or another spectrum."""
+    """One fundamental frequency without harmonics, with some, or another spectrum."""
     assert TESTS["single_peak"](of(made), scene="mine").verdict == verdict
 
 

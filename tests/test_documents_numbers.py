@@ -112,7 +112,7 @@ def double_hopf_near(of: str, epsilon: float, columns=("epsilon", "tau")) -> lis
 
 
 def frequencies(scene: str) -> list[float]:
-    """Base frequencies of the spectrum of a scene."""
+    """Fundamental frequencies of the spectrum of a scene."""
     path = RESULTS / "spectra" / f"{scene}.nc"
     if not path.exists():
         pytest.skip(f"{path} is not made")
@@ -450,7 +450,7 @@ SAID = [
         lambda: amplitude_death("chaos"),
     ),
     Said(
-        "docs/findings.md", "base frequencies are {:.4f} and {:.4f}",
+        "docs/findings.md", "fundamental frequencies are {:.4f} and {:.4f}",
         lambda: frequencies("true_torus"),
     ),
     Said(

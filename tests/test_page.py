@@ -141,7 +141,7 @@ def test_powers_and_indices_are_raised_and_lowered():
 
 
 def test_equations_mark_what_differs_from_the_print():
-    """A framed part, and what is printed there; the claims beside them exist."""
+    """A boxed part, and what is printed there; the claims beside them exist."""
     shown = page_content.equations(
         made_up_page.EQUATIONS, [claim(name) for name in listed()["claims"]]
     )
@@ -179,11 +179,11 @@ def test_findings_follow_the_tables():
     one, two, three = findings.findings([claim("figure_5a")], tables)
     assert one["title"] == "The paper's torus is a limit cycle."
     assert (
-        "At tau = 10 it has one zero Lyapunov exponent and the base frequency f1 = 0.1."
+        "At tau = 10 it has one zero Lyapunov exponent and the fundamental frequency f1 = 0.1."
         in (one["words"])
     )
     assert (
-        "a torus: it has two zero Lyapunov exponents and the base frequencies f1 = 0.1 and"
+        "a torus: it has two zero Lyapunov exponents and the fundamental frequencies f1 = 0.1 and"
         in (one["words"])
     )
     assert [given["id"] for given in one["claims"]] == ["figure_5a"]
@@ -199,7 +199,7 @@ def test_findings_follow_the_tables():
     assert [one["title"], two["title"], three["title"]] == [
         "The paper's torus is a torus.",
         "Steady sliding becomes unstable by a delay only.",
-        "The values of real faults cannot be computed.",
+        "The paper's range of gamma is not accessible.",
     ]
 
 

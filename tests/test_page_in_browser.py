@@ -184,7 +184,7 @@ def test_reader_moves_the_parameters(visited):
         return
     assert play["first"] == play["button"]
     assert play["first"]["class"] == play["touched"]["class"] == "ε = 0.2, τ = 5: cycle"
-    classes = ["fixed point", "cycle", "cycle of period 2 in its section", "chaos"]
+    classes = ["fixed point", "cycle", "cycle with 2 loops", "chaos"]
     for i, name in enumerate(classes):
         assert play[f"key {i}"]["class"] == f"ε = 0.{i + 1}, τ = 0: {name}"
         assert play[f"key {i}"]["values"] == [f"0.{i + 1}", "0"]

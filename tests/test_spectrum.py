@@ -155,7 +155,7 @@ def test_base_may_be_lower_than_its_harmonic(spectrum_of):
     ],
 )
 def test_kind_of_spectrum_is_told(spectrum_of, parts, kind, share):
-    """By the base frequencies it takes; line_share is the part of the power they explain."""
+    """By the fundamental frequencies it takes; line_share is the part of the power they explain."""
     attributes = spectrum_of(sines(8000, *parts), segments=1).attrs
     assert attributes["spectrum_kind"] == kind
     assert attributes["line_share"] == pytest.approx(share, abs=1e-3)

@@ -1,4 +1,4 @@
-!> What a spectrum is called: lines of one base frequency, of two, or a continuum.
+!> What a spectrum is called: lines of one fundamental frequency, of two, or a continuum.
 module test_spectrum_verdict
    use base_frequencies, only: bases_type
    use expectations, only: expect, expect_between, expect_close
@@ -53,7 +53,7 @@ contains
                         1.0e-15_wp, "share of the lines")
       call expect_close(error, continuum_share(power, peaks), &
                         1.0_wp - (120.0_wp + 72.0_wp + 70.0_wp)/336, 1.0e-15_wp, &
-                        "share off the lines")
+                        "share outside the lines")
    end subroutine test_shares
 
    !> Peaks that fall to a half within five bins are a continuum although all power is near peaks

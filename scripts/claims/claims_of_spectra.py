@@ -14,7 +14,7 @@ from scripts.claims.claims_results import (
 
 
 def single_peak(results: Results, *, scene: str) -> Finding:
-    """Whether the spectrum has one base frequency, and no harmonic beside it."""
+    """Whether the spectrum has one fundamental frequency, and no harmonic beside it."""
     spectrum = results.spectrum_of(scene)
     periodic = spectrum.attrs["spectrum_kind"] == "one base"
     alone = spectrum.sizes["peak"] == 1

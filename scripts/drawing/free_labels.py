@@ -21,7 +21,7 @@ CLEAR = 1.5
 BESIDE = 6.0
 """A label nearer to its point than this needs no line to it."""
 NEAR, NEAR_TIED = 2.5, 0.7
-"""Other points are at least so many times as far from such a label, or from one with a line."""
+"""Other points are farther from such a label by at least this factor, or from one with a line."""
 LEADER = {"arrowstyle": "-", "lw": 0.5, "color": INK, "shrinkA": 0.5, "shrinkB": 2.5}
 
 

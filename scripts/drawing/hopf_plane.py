@@ -126,7 +126,7 @@ def mark_scenes(
     scenes: dict[str, dict[str, float]],
     curves: xr.Dataset,
 ) -> list[Line2D]:
-    """Mark scenes: filled where they lie in the plane, open where they are projected on it."""
+    """Mark scenes: filled where they lie in the plane, open where only their place is shown."""
     ordinate = curves.attrs["ordinate"]
     kinds: dict[str, Line2D] = {}
     for scene in scenes.values():

@@ -11,7 +11,7 @@ from scripts.drawing.style import logged, save
 from scripts.files.inputs import read
 
 EVENTS_SHOWN = 120
-"""Events whose recurrence times are shown one by one."""
+"""Events whose successive recurrence times are shown."""
 BINS = 30
 
 

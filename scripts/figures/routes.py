@@ -27,7 +27,7 @@ at most a share of the route."""
 ROOM = 1.25
 """End of the axis of maxima over the largest of them."""
 FEW, DOT, SMALL_DOT = 30, 3.5, 1.8
-"""Up to so many places of a run, dots are larger, in points."""
+"""Up to this number of places of a run, dots are larger, in points."""
 LEAST_SCALE = 1e-3
 """Exponents closer to zero than this are drawn on a linear scale."""
 

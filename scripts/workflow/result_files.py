@@ -22,7 +22,7 @@ def scenes_with(config: dict, key: str) -> list[str]:
 
 
 def numbered(parts: int) -> list[str]:
-    """Names of so many parts, in order."""
+    """Names of a number of parts, in order."""
     return [f"{part:04}" for part in range(1, parts + 1)]
 
 

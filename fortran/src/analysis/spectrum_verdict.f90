@@ -1,4 +1,4 @@
-!> Whether a spectrum consists of lines of one base frequency, of two, or of a continuum.
+!> Whether a spectrum consists of lines of one fundamental frequency, of two, or of a continuum.
 module spectrum_verdict
    use base_frequencies, only: bases_type
    use dde_kinds, only: wp
@@ -80,7 +80,7 @@ contains
       share = share_of(power, peaks, [base_peak, harmonic_peak, second_base_peak, combination_peak])
    end function line_share
 
-   !> Share of the power off the lines of all peaks, whatever they are.
+   !> Share of the power outside the lines of all peaks, whatever they are.
    pure real(wp) function continuum_share(power, peaks) result(share)
       !> Power spectral density
       real(wp), intent(in) :: power(:)
