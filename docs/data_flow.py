@@ -65,7 +65,7 @@ def read_filegraph(text: str) -> tuple[list[Rule], set[tuple[str, str]]]:
 
 
 def graph(rules: list[Rule], pairs: set[tuple[str, str]]) -> str:
-    """The same for Graphviz; the order of lines depends on names only."""
+    """The rules for Graphviz; the order of lines depends on names only."""
     font = 'fontname="Helvetica,Arial,sans-serif"'
     lines = [
         "digraph data_flow {",

@@ -89,7 +89,7 @@ def placed(given):
 
 @functools.cache
 def placed_file(path):
-    """The same for one file, by its path in the folder of results."""
+    """One file, by its path in the folder of results."""
     for folder, other in CONFIGS.items():
         if result_values.are_the_same(path, other, config):
             return f"{folder}/{path}"
@@ -145,7 +145,7 @@ def digest_of(program):
 
 
 def digest_of_sources(wildcards):
-    """The same, of the program that a rule builds."""
+    """A digest of the sources of the program that a rule builds."""
     return digest_of(wildcards.program)
 
 

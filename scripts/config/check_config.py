@@ -221,7 +221,7 @@ def _contradictions_of_sections(config: dict):
 
 
 def _contradictions_of_exponents(place: str, scene: dict):
-    """The same for the exponents of a scene."""
+    """Problems of the exponents of a scene."""
     wanted = scene.get("exponents")
     if wanted and scene["tau"] == 0 and wanted["count"] > EQUATIONS:
         yield (
@@ -236,7 +236,7 @@ def _contradictions_of_exponents(place: str, scene: dict):
 
 
 def _contradictions_of_studies(config: dict):
-    """The same for stability and work against precision."""
+    """Problems of stability and work against precision."""
     for study in ("stability", "work_precision"):
         reference = config[study]["reference"]
         if reference["check_tolerance"] <= reference["tolerance"]:

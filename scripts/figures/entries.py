@@ -280,7 +280,7 @@ def inputs_of(figure: str, config: dict) -> dict[str, str | list[str]]:
 
 
 def files_of(figure: str, config: dict) -> list[str]:
-    """The same as one list."""
+    """The results that a figure needs, as one list."""
     return [
         path
         for needed in inputs_of(figure, config).values()

@@ -65,7 +65,7 @@ def numbers(values: xr.DataArray) -> list[float]:
 
 
 def positive(values: xr.DataArray) -> list[float]:
-    """The same, NaN where 0 says that there is none."""
+    """A column of numbers, NaN where 0 says that there is none."""
     return numbers(values.where(values > 0))
 
 

@@ -43,7 +43,7 @@ contains
       integer, intent(in) :: intervals
       !> The orbit, without its parameters
       type(periodic_orbit_type), intent(out) :: orbit
-      !> No maximum comes again
+      !> Error if no maximum returns
       type(error_type), allocatable, intent(out) :: error
       type(continuation_type) :: place
       type(event_table) :: maxima
