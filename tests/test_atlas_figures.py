@@ -320,7 +320,7 @@ def a_scene(name: str, met: str) -> true_torus.Scene:
             "base_frequency": ("base", [0.1, 0.26] if two else [0.1]),
         },
         {"frequency": frequency},
-        {"spectrum_kind": "two bases" if two else "one base"},
+        {"spectrum_kind": "quasiperiodic" if two else "periodic"},
     )
     errors = {"exponent_1": 1e-6, "error_1": 0.0, "exponent_2": 2e-3 if two else -0.04}
     row = attractor_row(met, name, **errors)
@@ -340,8 +340,8 @@ def test_true_torus_is_drawn_beside_the_papers():
     assert "scene true torus (" in second
     assert "torus, two zero exponents\n" in second
     words = words_in(figure)
-    assert "one fundamental frequency $f_1$ = 0.1000 and its harmonics" in words
-    assert "two fundamental frequencies, $f_1$ = 0.1000 and $f_2$ = 0.2600" in words
+    assert "periodic, $f_1$ = 0.1000 and its harmonics" in words
+    assert "quasiperiodic, $f_1$ = 0.1000 and $f_2$ = 0.2600" in words
     assert all(label in words for label in ("$f_1$", "$f_2$", "$f_1 + f_2$"))
     by_label = dict(zip(("va", "ma", "pa", "sa", "vb", "mb", "pb", "sb"), figure.axes, strict=True))
     for kind in "ms":

@@ -136,7 +136,7 @@ def test_peaks_are_named_by_kind():
 )
 def test_combinations_are_named(m, n, name):
     """By their terms, a positive one first."""
-    peak = a_spectrum("two bases", (0.1, 1.0, 3, m, n)).isel(peak=0)
+    peak = a_spectrum("quasiperiodic", (0.1, 1.0, 3, m, n)).isel(peak=0)
     assert spectrum_rows.name_of(peak) == name
 
 
@@ -162,7 +162,7 @@ def test_labels_of_peaks_do_not_touch():
     """Long and short names, heights in no order."""
     order = np.random.default_rng(2).permutation(25)
     peaks = [(0.02 * i, 0.05 * 0.9 ** order[i], 3, 10 + i, -12 * (i % 2)) for i in range(1, 25)]
-    figure = spectrum_rows.draw({"a": a_spectrum("two bases", *peaks)}, {"a": "word"}, 0.5)
+    figure = spectrum_rows.draw({"a": a_spectrum("quasiperiodic", *peaks)}, {"a": "word"}, 0.5)
     figure.draw_without_rendering()
     boxes = [text.get_window_extent() for text in figure.axes[0].texts]
     assert len(boxes) > 3
@@ -181,12 +181,10 @@ def test_spectrum_without_peaks_is_drawn():
 
 def test_what_a_spectrum_shows_is_said_beside_the_paper():
     """One or two frequencies by their values, a continuum by the power off all lines."""
-    cycle = spectrum_rows.seen(a_spectrum("one base", BASE, HARMONIC), "two peaks")
-    assert cycle.endswith(
-        "“two peaks”; here: one fundamental frequency $f_1$ = 0.1000 and its harmonics"
-    )
-    torus = spectrum_rows.seen(a_spectrum("two bases", BASE, SECOND), "torus")
-    assert torus.endswith("here: two fundamental frequencies, $f_1$ = 0.1000 and $f_2$ = 0.3500")
+    cycle = spectrum_rows.seen(a_spectrum("periodic", BASE, HARMONIC), "two peaks")
+    assert cycle.endswith("“two peaks”; here: periodic, $f_1$ = 0.1000 and its harmonics")
+    torus = spectrum_rows.seen(a_spectrum("quasiperiodic", BASE, SECOND), "torus")
+    assert torus.endswith("here: quasiperiodic, $f_1$ = 0.1000 and $f_2$ = 0.3500")
     chaos = spectrum_rows.seen(a_spectrum("continuum", BASE, SECOND, OTHER), "noise")
     assert chaos.endswith("“noise”; here: a continuum, 20 % of the power is broadband")
 

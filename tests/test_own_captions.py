@@ -55,7 +55,7 @@ def test_caption_of_a_scene(tmp_path):
         "trajectory": xr.Dataset({"v": ("t", v)}, {"t": time}, PLACE),
         "spectrum": xr.Dataset(
             {"base_frequency": ("base", [0.1]), "peak_kind": ("peak", [BASE, HARMONIC])},
-            attrs={"spectrum_kind": "one base"},
+            attrs={"spectrum_kind": "periodic"},
         ),
         "attractors": attractors_of("cycle", period=1),
         "roots": xr.Dataset(
@@ -70,8 +70,7 @@ def test_caption_of_a_scene(tmp_path):
         r"The motion at :math:`\tau = 10`, :math:`\varepsilon = 0.5`, :math:`\xi = 0.8`,"
         r" :math:`\gamma = 0.8` is a limit cycle; at the end v is between 0.5 and 1.5 with a"
         " period of 10. The largest Lyapunov exponents are 0 and −0.0141 ± 0.002 (e)."
-        " Seen in the spectrum (f): one fundamental frequency :math:`f_1` = 0.1000 and its"
-        " harmonics."
+        " Seen in the spectrum (f): periodic, :math:`f_1` = 0.1000 and its harmonics."
         r" Steady sliding is unstable (1 unstable pair of roots, rightmost"
         r" :math:`\lambda = 0.03 \pm 0.8\,i`)."
     )

@@ -148,9 +148,9 @@ def test_base_may_be_lower_than_its_harmonic(spectrum_of):
 @pytest.mark.parametrize(
     ("parts", "kind", "share"),
     [
-        ([(1, 0.3)], "one base", 1.0),
-        ([(1, 0.3), (0.2, 0.6)], "one base", 1.0),
-        ([(1, 0.3), (0.2, 0.3 * 2**0.5)], "two bases", 1.0),
+        ([(1, 0.3)], "periodic", 1.0),
+        ([(1, 0.3), (0.2, 0.6)], "periodic", 1.0),
+        ([(1, 0.3), (0.2, 0.3 * 2**0.5)], "quasiperiodic", 1.0),
         ([(1, 0.3), (1, 0.3 * 2**0.5), (1, 0.3 * np.pi)], "undecided", 2 / 3),
     ],
 )

@@ -75,7 +75,7 @@ def peaks_of(spectrum: xr.Dataset) -> dict:
     second = "there is one peak."
     if len(frequencies) > 1:
         multiple = int(peaks.peak_multiple[1])
-        place = f", which is {multiple} :math:`f_1`," if kind == "one base" else ""
+        place = f", which is {multiple} :math:`f_1`," if kind == "periodic" else ""
         second = f"the second peak at {frequencies[1]}{place} has {ratios[1]} % of its height."
     return {
         "kind": kind,

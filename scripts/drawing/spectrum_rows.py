@@ -122,10 +122,10 @@ def lines_in_words(spectrum: xr.Dataset) -> str:
     """What the spectrum shows, in a line."""
     kind = spectrum.attrs["spectrum_kind"]
     bases = [f"$f_{i}$ = {f:.4f}" for i, f in enumerate(spectrum.base_frequency.values, start=1)]
-    if kind == "one base":
-        words = f"one fundamental frequency {bases[0]} and its harmonics"
-    elif kind == "two bases":
-        words = f"two fundamental frequencies, {' and '.join(bases)}"
+    if kind == "periodic":
+        words = f"periodic, {bases[0]} and its harmonics"
+    elif kind == "quasiperiodic":
+        words = f"quasiperiodic, {' and '.join(bases)}"
     elif kind == "continuum":
         off = 100 * spectrum.attrs["continuum_share"]
         words = f"a continuum, {off:.0f} % of the power is broadband"
