@@ -145,7 +145,7 @@ def jitcdde(motion: Motion, tolerance: float, t_measured: float, vectors: int) -
 
 
 def means(found: dict, count: int, smooth: bool) -> np.ndarray:
-    """Exponents of each of so many pieces (piece, vector): the mean over the piece, with level
+    """Exponents of each of a number of pieces (piece, vector): the mean over the piece, with level
     weights, or with this project's smooth ends."""
     growth, length = np.array(found["growth"]), np.array(found["length"])
     long = len(length) // count

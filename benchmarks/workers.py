@@ -60,7 +60,7 @@ class Worker:
         self.stop()
 
     def seconds(self, tolerance: float, runs: int, limit: float) -> float:
-        """CPU seconds of one integration without samples, as the mean of so many."""
+        """CPU seconds of one integration without samples, as the mean of several."""
         return self._ask(f"{tolerance:g} {runs} -", limit)
 
     def sample(self, tolerance: float, path: Path, limit: float) -> None:

@@ -55,7 +55,7 @@ def read_filegraph(text: str) -> tuple[list[Rule], set[tuple[str, str]]]:
         files = re.findall(r'<font face="monospace">(.*?)</font>', written)
         # without the patterns that wildcards must match
         plain = [re.sub(r"\{(\w+),[^{}]*\}", r"{\1}", html.unescape(file)) for file in files]
-        # the folder of the paper's results stands for that of any file of one's own
+        # the folder of the paper's results stands for that of any user's file
         named = [file.replace("{results}/", "results/") for file in plain]
         rules[number] = Rule(name, tuple(named))
     kept = {number: rule.name for number, rule in rules.items() if rule.name != TARGET}
@@ -65,7 +65,7 @@ def read_filegraph(text: str) -> tuple[list[Rule], set[tuple[str, str]]]:
 
 
 def graph(rules: list[Rule], pairs: set[tuple[str, str]]) -> str:
-    """The same for Graphviz; the order of lines depends on names only."""
+    """The rules for Graphviz; the order of lines depends on names only."""
     font = 'fontname="Helvetica,Arial,sans-serif"'
     lines = [
         "digraph data_flow {",

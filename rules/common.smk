@@ -89,7 +89,7 @@ def placed(given):
 
 @functools.cache
 def placed_file(path):
-    """The same for one file, by its path in the folder of results."""
+    """One file, by its path in the folder of results."""
     for folder, other in CONFIGS.items():
         if result_values.are_the_same(path, other, config):
             return f"{folder}/{path}"
@@ -145,7 +145,7 @@ def digest_of(program):
 
 
 def digest_of_sources(wildcards):
-    """The same, of the program that a rule builds."""
+    """A digest of the sources of the program that a rule builds."""
     return digest_of(wildcards.program)
 
 
@@ -183,7 +183,7 @@ def tables_of_atlas():
 
 
 def tables_added():
-    """Tables of what the file of one's own adds."""
+    """Tables of what the user's file adds."""
     sections = {
         "<results>/tables/linear-stability.tsv": "scenes",
         "<results>/tables/attractors.tsv": "scenes",
@@ -198,7 +198,7 @@ def tables_added():
 
 
 def everything_added(wildcards):
-    """Figures, page and tables of all that the file of one's own adds."""
+    """Figures, page and tables of all that the user's file adds."""
     if not (tables_added() or SHOWN):
         raise SystemExit(
             f"error: {RESULTS}: the file adds no scene, plane, route, atlas, cycles or claim; ask"

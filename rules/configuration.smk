@@ -69,7 +69,7 @@ except read_config.ConfigError as problems:
 
 
 try:
-    # claims of one's own are alone in their table
+    # the user's claims are alone in their table
     said = {
         "claims": {
             **({} if OWN else claims_config.listed()["claims"]),
@@ -93,7 +93,7 @@ else:
     SHOWN, LISTED = FIGURES, config
 """Figures on the page; the configuration without what the run does not list in tables."""
 DRAWN = {**LISTED, "hopf_curves": config["hopf_curves"]}
-"""The same for figures: Hopf curves of all planes can be drawn in an atlas."""
+"""The configuration for figures: Hopf curves of all planes can be drawn in an atlas."""
 
 
 pathvars:

@@ -1,4 +1,4 @@
-# What only a file of one's own has: tables of single planes of the atlas, and its page.
+# What only a user's file has: tables of single planes of the atlas, and its page.
 
 
 rule atlas_plane_table:
@@ -19,7 +19,7 @@ rule atlas_plane_table:
 
 
 rule page:
-    """The page of what a file of one's own adds: index.html in the folder of its results."""
+    """The page of what a user's file adds: index.html in the folder of its results."""
     input:
         figures=expand("<results>/figures/{figure}.svg", figure=SHOWN),
         claims="<results>/tables/claims.json" if CLAIMS else [],

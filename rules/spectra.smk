@@ -17,7 +17,7 @@ rule spectrum_namelist:
 
 
 rule spectrum:
-    """Power spectrum of the velocity of a scene, with its peaks and base frequencies."""
+    """Power spectrum of the velocity of a scene, with its peaks and fundamental frequencies."""
     input:
         program="<build>/release/bin/spectrum",
         namelist="{results}/namelists/spectra/{scene}.nml",

@@ -204,7 +204,7 @@ def torus_point(at: float = 0.25, **given) -> dict:
     return {"of": "mine", **PLACE, "tau": at, **stable, **given}
 
 
-def spectrum(kind: str = "one base", **heights: float) -> xr.Dataset:
+def spectrum(kind: str = "periodic", **heights: float) -> xr.Dataset:
     """A spectrum of this kind with peaks at multiples of 0.1: `x2=5.0` is one of 5 at 0.2."""
     multiples = [int(name.removeprefix("x")) for name in heights]
     peaks = {

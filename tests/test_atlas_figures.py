@@ -43,7 +43,7 @@ def a_row(met: str, epsilon: float, tau: float = 7.0, xi: float = 0.5, **given) 
 
 
 def grid_of(xi: float) -> list[dict]:
-    """Three by four points with every class, one cycle of period 3 and one failure."""
+    """Three by four points with every class, one cycle of three loops and one failure."""
     classes = ["fixed point", "cycle", "cycle", "torus", "chaos", "undecided"] * 2
     places = [(e, t) for t in (0.0, 10.0, 20.0) for e in (0.0, 0.5, 1.0, 1.5)]
     rows = [a_row(met, e, t, xi) for met, (e, t) in zip(classes, places, strict=True)]
@@ -94,7 +94,7 @@ def test_planes_may_have_delays_of_their_own():
 def test_cells_have_the_colours_of_their_classes(drawn):
     """Around the points, cut at the window."""
     (mesh,) = [item for item in drawn.axes[0].collections if isinstance(item, QuadMesh)]
-    expected = [COLOURS[name] for name in ("fixed point", "cycle", "cycle of period > 1")]
+    expected = [COLOURS[name] for name in ("fixed point", "cycle", "multi-loop cycle")]
     colours = mesh.get_facecolors().reshape(3, 4, 4)
     np.testing.assert_allclose(colours[0, :3], [to_rgba(colour) for colour in expected])
     np.testing.assert_allclose(mesh.get_coordinates()[0, :, 0], [0, 0.25, 0.75, 1.25, 1.5])
@@ -337,7 +337,7 @@ def a_scene(name: str, met: str) -> true_torus.Scene:
             "base_frequency": ("base", [0.1, 0.26] if two else [0.1]),
         },
         {"frequency": frequency},
-        {"spectrum_kind": "two bases" if two else "one base"},
+        {"spectrum_kind": "quasiperiodic" if two else "periodic"},
     )
     errors = {"exponent_1": 1e-6, "error_1": 0.0, "exponent_2": 2e-3 if two else -0.04}
     row = attractor_row(met, name, **errors)
@@ -355,9 +355,9 @@ def test_true_torus_is_drawn_beside_the_papers():
     assert "scene torus: cycle, one zero exponent\n" in title_of(of_a)
     assert "scene true torus: torus, two zero exponents\n" in title_of(of_b)
     words = words_in(figure)
-    assert "one base frequency $f_1$ = 0.1000 and its harmonics" in words
-    assert "two base frequencies, $f_1$ = 0.1000 and $f_2$ = 0.2600" in words
-    assert all(label in words for label in ("base $f_1$", "base $f_2$", "$f_1 + f_2$"))
+    assert "periodic, $f_1$ = 0.1000 and its harmonics" in words
+    assert "quasiperiodic, $f_1$ = 0.1000 and $f_2$ = 0.2600" in words
+    assert all(label in words for label in ("$f_1$", "$f_2$", "$f_1 + f_2$"))
     assert of_b.get_xlim() == pytest.approx((149.9, 199.9))
     point, curve = section.lines
     assert (np.ptp(point.get_xdata()), np.ptp(curve.get_xdata()) > 1.9) == (0, True)

@@ -60,7 +60,7 @@ def test_table_holds_all_points_of_each_plane(smoke, smoke_config):
 def made_parts(
     programs: Programs, config: dict, parts: int, refinements: int = 0, **counts: int
 ) -> list[Path]:
-    """A plane of the atlas, divided into so many parts."""
+    """A plane of the atlas, divided into a number of parts."""
     config["atlas"] |= {"parts": parts, "refinements": refinements, **counts}
     paths = []
     for part in range(1, parts + 1):

@@ -182,7 +182,7 @@ def test_points_that_were_not_computed_have_class_and_period_only():
 
 
 def attractors_in(run: xr.Dataset) -> list[int]:
-    """Numbers of the attractors that its histories come to."""
+    """Numbers of the attractors that its histories reach."""
     return [row["attractor"] for row in attractor_tables.scene_rows("mine", run)]
 
 
@@ -321,7 +321,7 @@ def test_points_are_counted_and_cycles_parted():
         {"class": "torus", "period": math.nan, "problem": math.nan},
         {"class": "undecided", "period": math.nan, "problem": math.nan},
     ]
-    assert [kind_of(row) for row in rows] == ["cycle", "cycle of period > 1", "torus", "undecided"]
+    assert [kind_of(row) for row in rows] == ["cycle", "multi-loop cycle", "torus", "undecided"]
     assert count_in_words(rows) == "4 points, 1 undecided"
     failed = {"class": "undecided", "period": math.nan, "problem": "it stopped"}
     assert count_in_words([*rows, failed]) == "5 points, 1 undecided, 1 failed"

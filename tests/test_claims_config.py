@@ -24,7 +24,7 @@ GOOD = {
         "limit": 1e-3,
     },
     "single_peak": {"scene": "oscillation"},
-    "spectrum_class": {"scene": "torus", "expected": "two bases"},
+    "spectrum_class": {"scene": "torus", "expected": "quasiperiodic"},
     "aperiodic_events": {"scene": "chaos", "periodic": "oscillation"},
     "power_law_of_sizes": {"scene": "chaos", "spread": 1.5},
     "same_state_law": {"limit": 1e-6},

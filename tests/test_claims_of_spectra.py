@@ -17,21 +17,23 @@ def of(made):
     [
         (spectrum(x1=50.0), REPRODUCED),
         (spectrum(x1=50.0, x2=1.0), CORRECTED),
-        (spectrum("two bases", x1=50.0), NOT_REPRODUCED),
+        (spectrum("quasiperiodic", x1=50.0), NOT_REPRODUCED),
         (spectrum("undecided", x1=50.0), NOT_REPRODUCED),
         (spectrum("none"), NOT_REPRODUCED),
     ],
 )
 def test_single_peak(made, verdict):
-    """One base frequency without harmonics, with some, or another spectrum."""
+    """One fundamental frequency without harmonics, with some, or another spectrum."""
     assert TESTS["single_peak"](of(made), scene="mine").verdict == verdict
 
 
-@pytest.mark.parametrize("kind", ["one base", "two bases", "continuum", "undecided", "none"])
+@pytest.mark.parametrize("kind", ["periodic", "quasiperiodic", "continuum", "undecided", "none"])
 def test_spectrum_class(kind):
     """The kind of the spectrum in the figure."""
-    found = TESTS["spectrum_class"](of(spectrum(kind, x1=1.0)), scene="mine", expected="two bases")
-    assert found.verdict == (REPRODUCED if kind == "two bases" else NOT_REPRODUCED)
+    found = TESTS["spectrum_class"](
+        of(spectrum(kind, x1=1.0)), scene="mine", expected="quasiperiodic"
+    )
+    assert found.verdict == (REPRODUCED if kind == "quasiperiodic" else NOT_REPRODUCED)
     assert f"scene mine: {kind}." in found.evidence
 
 

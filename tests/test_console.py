@@ -199,7 +199,7 @@ def test_snakemakes_own_messages_can_be_had(workflow):
     ],
 )
 def test_wrong_option_is_refused_in_one_line(workflow, arguments, words):
-    """Snakemake alone prints all its options or waits for ever."""
+    """Snakemake alone prints all its options or waits without end."""
     (workflow / "broken").mkdir()
     (workflow / "broken" / "config.yaml").write_text("cores: [")
     status, (line,) = lines_of(workflow, *arguments)

@@ -84,7 +84,7 @@ def test_columns_of_a_torus_point():
 
 
 def test_a_simulated_torus_has_the_amplitude_of_the_table(programs, good_inputs, good_groups):
-    """Beside a torus point a simulation comes to a torus of the amplitude that it predicts."""
+    """Beside a torus point a simulation reaches a torus of the amplitude that it predicts."""
     line = {"along": "tau", "window": [14.0, 15.2], "starts": [], "most_orbits": 30}
     place = {"epsilon": 0.4, "xi": 0.5, "gamma": 0.8}
     values = {key: value for key, value in good_inputs["cycles"].items() if key != "tau"}

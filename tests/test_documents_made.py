@@ -3,6 +3,7 @@ programs of the solver's manual, built and run as they are printed."""
 
 import html
 import math
+import os
 import re
 import subprocess
 import sys
@@ -15,6 +16,8 @@ import pytest
 from conftest import ROOT
 from PIL import Image
 from test_documents import blocks_of, prose_of
+
+from scripts.files.tsv import read_table
 
 FILEGRAPH = """digraph snakemake_dag {
 0 [ shape=none, margin=0, label=<<table border="2">
@@ -275,6 +278,22 @@ def test_disturbances_of_the_manual(run_of):
     )
     assert y == same
     assert ramp == [1.0, -10.0, -5.0, pytest.approx(-10 / 3, abs=1e-6)]
+
+
+def test_recipes_in_python_run(smoke, tmp_path):
+    """In their order, on the results of the smoke run."""
+    (tmp_path / "results").symlink_to(smoke.folder / "results")
+    recipes = "".join(blocks_of("docs/results-in-python.md", "python"))
+    run = subprocess.run(
+        [sys.executable, "-W", "error", "-c", recipes],
+        cwd=tmp_path, env={**os.environ, "MPLBACKEND": "agg"}, capture_output=True, text=True,
+    )  # fmt: skip
+    assert run.returncode == 0, run.stderr
+    table = read_table(smoke.folder / "results" / "tables" / "attractors.tsv")
+    classes = [row["class"].replace(" ", "_") for row in table if row["scene"] == "torus"]
+    assert f"\n{classes}\n" in run.stdout
+    with Image.open(tmp_path / "torus.png") as plot:
+        assert plot.size == (800, 300)
 
 
 def test_small_picture_is_half_the_figure(tmp_path):

@@ -112,7 +112,7 @@ def double_hopf_near(of: str, epsilon: float, columns=("epsilon", "tau")) -> lis
 
 
 def frequencies(scene: str) -> list[float]:
-    """Base frequencies of the spectrum of a scene."""
+    """Fundamental frequencies of the spectrum of a scene."""
     path = RESULTS / "spectra" / f"{scene}.nc"
     if not path.exists():
         pytest.skip(f"{path} is not made")
@@ -265,6 +265,19 @@ def completed(rows: list[dict]) -> list[dict]:
 def of_faults() -> list[dict]:
     """Runs by `auto` at the gamma of real faults."""
     return [row for row in cases("auto") if 1e4 <= float(row["gamma"]) <= 1e12]
+
+
+def short_runs() -> list[dict]:
+    """Those that end at t = 100 or before."""
+    return [row for row in of_faults() if float(row["t_end"]) <= 100]
+
+
+def near_steady_sliding() -> list[dict]:
+    """Those in which v stays within 10 % of 1; rounding apart, it begins at 1.1."""
+    return [
+        row for row in of_faults()
+        if math.exp(float(row["least_ln_v"])) > 0.9 and math.exp(float(row["most_ln_v"])) < 1.1001
+    ]  # fmt: skip
 
 
 def error_over_expected(method: str, *without: str) -> float:
@@ -471,6 +484,10 @@ SAID = [
         lambda: [len(of_faults()), max(int(row["steps"]) for row in completed(of_faults()))],
     ),
     Said(
+        "README.md", "{} end at t = 100 or before, and in {} v stays within 10 %",
+        lambda: [len(short_runs()), len(near_steady_sliding())],
+    ),
+    Said(
         "docs/findings.md", "one exponent is zero, the second is {:.4f} and {:.4f}",
         lambda: [exponent("oscillation", 2), exponent("torus", 2)],
     ),
@@ -525,7 +542,7 @@ SAID = [
         lambda: amplitude_death("chaos"),
     ),
     Said(
-        "docs/findings.md", "base frequencies are {:.4f} and {:.4f}",
+        "docs/findings.md", "fundamental frequencies are {:.4f} and {:.4f}",
         lambda: frequencies("true_torus"),
     ),
     Said(

@@ -155,9 +155,9 @@ def test_peaks_are_named_by_kind():
     figure = spectrum_rows.draw({"a": a_spectrum("undecided", *peaks)}, {"a": "word"}, 0.5)
     labels = {text.get_text(): text.get_color() for text in figure.axes[0].texts}
     assert list(labels) == [
-        "base $f_1$\n0.1000",
+        "$f_1$\n0.1000",
         "$2f_1$\n0.2000",
-        "base $f_2$\n0.3500",
+        "$f_2$\n0.3500",
         "other\n0.2700",
     ]
     *explained, other = labels.values()
@@ -177,7 +177,7 @@ def test_peaks_are_named_by_kind():
 )
 def test_combinations_are_named(m, n, name):
     """By their terms, a positive one first."""
-    peak = a_spectrum("two bases", (0.1, 1.0, 3, m, n)).isel(peak=0)
+    peak = a_spectrum("quasiperiodic", (0.1, 1.0, 3, m, n)).isel(peak=0)
     assert spectrum_rows.name_of(peak) == name
 
 
@@ -195,7 +195,7 @@ def test_peaks_beside_a_higher_one_get_a_dot_only():
     beside_a_dot = (0.155, 1.0, 3, -2, 2)
     rows = {"a": a_spectrum("undecided", BASE, beside, beside_a_dot, beyond)}
     figure = spectrum_rows.draw(rows, {"a": "word"}, 0.5)
-    assert [text.get_text() for text in figure.axes[0].texts] == ["base $f_1$\n0.1000"]
+    assert [text.get_text() for text in figure.axes[0].texts] == ["$f_1$\n0.1000"]
     assert {x for x, *_ in points_in(figure.axes[0])} == {0.1, 0.13, 0.155}
 
 
@@ -203,7 +203,7 @@ def test_labels_of_peaks_do_not_touch():
     """Long and short names, heights in no order."""
     order = np.random.default_rng(2).permutation(25)
     peaks = [(0.02 * i, 0.05 * 0.9 ** order[i], 3, 10 + i, -12 * (i % 2)) for i in range(1, 25)]
-    figure = spectrum_rows.draw({"a": a_spectrum("two bases", *peaks)}, {"a": "word"}, 0.5)
+    figure = spectrum_rows.draw({"a": a_spectrum("quasiperiodic", *peaks)}, {"a": "word"}, 0.5)
     figure.draw_without_rendering()
     boxes = [text.get_window_extent() for text in figure.axes[0].texts]
     assert len(boxes) > 3
@@ -222,12 +222,12 @@ def test_spectrum_without_peaks_is_drawn():
 
 def test_what_a_spectrum_shows_is_said_beside_the_paper():
     """One or two frequencies by their values, a continuum by the power off all lines."""
-    cycle = spectrum_rows.seen(a_spectrum("one base", BASE, HARMONIC), "two peaks")
-    assert cycle.endswith("“two peaks”; seen: one base frequency $f_1$ = 0.1000 and its harmonics")
-    torus = spectrum_rows.seen(a_spectrum("two bases", BASE, SECOND), "torus")
-    assert torus.endswith("seen: two base frequencies, $f_1$ = 0.1000 and $f_2$ = 0.3500")
+    cycle = spectrum_rows.seen(a_spectrum("periodic", BASE, HARMONIC), "two peaks")
+    assert cycle.endswith("“two peaks”; here: periodic, $f_1$ = 0.1000 and its harmonics")
+    torus = spectrum_rows.seen(a_spectrum("quasiperiodic", BASE, SECOND), "torus")
+    assert torus.endswith("here: quasiperiodic, $f_1$ = 0.1000 and $f_2$ = 0.3500")
     chaos = spectrum_rows.seen(a_spectrum("continuum", BASE, SECOND, OTHER), "noise")
-    assert chaos.endswith("“noise”; seen: a continuum, 20 % of the power off the lines")
+    assert chaos.endswith("“noise”; here: a continuum, 20 % of the power is broadband")
 
 
 def test_why_a_spectrum_is_undecided_is_said():
@@ -235,12 +235,12 @@ def test_why_a_spectrum_is_undecided_is_said():
     spectrum = a_spectrum("undecided", BASE, SECOND, bases_told_apart="yes", ratio_of_bases="7/2")
     words = spectrum_rows.seen(spectrum, "a torus")
     assert words == (
-        "scene made up; the paper: “a torus”; seen: undecided: 25 % of the power off the lines"
-        " explained"
+        "scene made up; the paper: “a torus”; here: undecided: 25 % of the power is outside the"
+        " explained lines"
     )
     spectrum = a_spectrum("undecided", OTHER, bases_told_apart="no", ratio_of_bases="7/2")
     words = spectrum_rows.seen(spectrum, "")
-    assert "explained, 1 other peak, $f_2/f_1$ not distinguished from 7/2" in words
+    assert "explained lines, 1 other peak, $f_2/f_1$ not distinguished from 7/2" in words
 
 
 def a_plane(ordinate: str, fixed: str) -> xr.Dataset:

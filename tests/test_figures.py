@@ -186,7 +186,7 @@ def test_rows_show_velocity_twice_and_portrait(figure):
 def test_titles_quote_the_paper(figure, row, paper):
     """So that nobody takes its word for what is seen."""
     title = [title_of(axes) for axes in figure.axes if "\n" in title_of(axes)][row]
-    assert f"the paper: “{paper}”; seen: " in title
+    assert f"the paper: “{paper}”; here: " in title
 
 
 @pytest.mark.parametrize(
@@ -200,7 +200,7 @@ def test_titles_say_what_is_seen(figure, scenes, smoke):
     for axes, scene in zip(figure.axes[::3], scenes, strict=True):
         (met,) = [r["class"] for r in rows if (r["scene"], r["history"]) == (scene, 1)]
         words = {"cycle": "limit cycle"}.get(met, met)
-        assert f"; seen: {words}\n" in title_of(axes)
+        assert f"; here: {words}\n" in title_of(axes)
 
 
 @pytest.mark.parametrize(("figure", "rows"), [(6, 2), (7, 1)], indirect=["figure"])

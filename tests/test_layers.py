@@ -1,4 +1,4 @@
-"""The house: Fortran modules look down the stairs only, and keep to its style."""
+"""The house: Fortran modules import from lower layers only, and keep to its style."""
 
 import re
 from pathlib import Path
@@ -101,7 +101,7 @@ def test_all_floors_are_there():
     assert {floor_of(path) for path in SOURCES} == set(MAY_USE)
 
 
-def test_nobody_looks_up_the_stairs():
+def test_no_import_from_a_higher_layer():
     """Modules use what lies below, and of the solver its facade."""
     known = floors()
     found = {path: violations(floor_of(path), text, known) for path, text in SOURCES.items()}

@@ -1,4 +1,4 @@
-"""Captions of figures of one's own: their numbers, from small made-up files."""
+"""Captions of figures of users' files: their numbers, from small made-up files."""
 
 import math
 
@@ -48,14 +48,14 @@ def attractors_of(met: str, period: int = 0, problem: str = "") -> xr.Dataset:
 
 
 def test_caption_of_a_scene(tmp_path):
-    """Class, end, period, exponents, base frequency and roots."""
+    """Class, end, period, exponents, fundamental frequency and roots."""
     time = np.arange(0.0, 400.0, 0.1)
     v = 1 + np.where(time < 200, 3.0, 0.5) * np.cos(2 * np.pi * 0.1 * time)
     made = {
         "trajectory": xr.Dataset({"v": ("t", v)}, {"t": time}, PLACE),
         "spectrum": xr.Dataset(
             {"base_frequency": ("base", [0.1]), "peak_kind": ("peak", [BASE, HARMONIC])},
-            attrs={"spectrum_kind": "one base"},
+            attrs={"spectrum_kind": "periodic"},
         ),
         "attractors": attractors_of("cycle", period=1),
         "roots": xr.Dataset(
@@ -70,7 +70,7 @@ def test_caption_of_a_scene(tmp_path):
         r"The motion at :math:`\tau = 10`, :math:`\varepsilon = 0.5`, :math:`\xi = 0.8`,"
         r" :math:`\gamma = 0.8` is a limit cycle; at the end v is between 0.5 and 1.5 with a"
         " period of 10. The largest Lyapunov exponents are 0 and −0.0141 ± 0.002 (e)."
-        " Seen in the spectrum (f): one base frequency :math:`f_1` = 0.1000 and its harmonics."
+        " Seen in the spectrum (f): periodic, :math:`f_1` = 0.1000 and its harmonics."
         r" Steady sliding is unstable (1 unstable pair of roots, rightmost"
         r" :math:`\lambda = 0.03 \pm 0.8\,i`)."
     )
@@ -142,9 +142,9 @@ def test_caption_of_a_route(tmp_path):
     words = caption("routes", tables=[tmp_path / "route.tsv"])
     assert words.startswith(
         r"Classes of motion along :math:`\tau` at :math:`\varepsilon = 0.5`, :math:`\xi = 0.8`,"
-        r" :math:`\gamma = 0.8`: cycle at 0.1 to 0.2, cycle of period > 1 at 0.3, undecided at 0.4"
-        " and chaos at 0.5 (runs near and up). Run slip: cycle at 0.1 to 0.2, cycle of period > 1"
-        " at 0.3, undecided at 0.4 and torus at 0.5. Runs come to different motions at 2 of 5"
+        r" :math:`\gamma = 0.8`: cycle at 0.1 to 0.2, multi-loop cycle at 0.3, undecided at 0.4"
+        " and chaos at 0.5 (runs near and up). Run slip: cycle at 0.1 to 0.2, multi-loop cycle"
+        " at 0.3, undecided at 0.4 and torus at 0.5. Runs reach different motions at 2 of 5"
         r" values of :math:`\tau`: 0.3 and 0.5."
     )
 

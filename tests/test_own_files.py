@@ -1,4 +1,4 @@
-"""Files of one's own: all that they add is made in a folder of their own, the paper's stays."""
+"""Users' files: all that they add is made in a folder of their own, the paper's stays."""
 
 import csv
 import os

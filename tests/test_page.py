@@ -141,7 +141,7 @@ def test_powers_and_indices_are_raised_and_lowered():
 
 
 def test_equations_mark_what_differs_from_the_print():
-    """A framed part, and what is printed there; the claims beside them exist."""
+    """A boxed part, and what is printed there; the claims beside them exist."""
     shown = page_content.equations(
         made_up_page.EQUATIONS, [claim(name) for name in listed()["claims"]]
     )
@@ -185,11 +185,11 @@ def test_findings_follow_the_tables():
     two, one, three = findings.findings([claim("figure_5a")], tables | {"fault_limit": limit})
     assert one["title"] == "The paper's torus is a limit cycle."
     assert (
-        "At tau = 10 it has one zero Lyapunov exponent and the base frequency f1 = 0.1."
+        "At tau = 10 it has one zero Lyapunov exponent and the fundamental frequency f1 = 0.1."
         in (one["words"])
     )
     assert (
-        "a torus: it has two zero Lyapunov exponents and the base frequencies f1 = 0.1 and"
+        "a torus: it has two zero Lyapunov exponents and the fundamental frequencies f1 = 0.1 and"
         in (one["words"])
     )
     assert [given["id"] for given in one["claims"]] == ["figure_5a"]
@@ -206,7 +206,7 @@ def test_findings_follow_the_tables():
     titles = [found["title"] for found in findings.findings([], changed)]
     assert titles[1:] == [
         "The paper's torus is a torus.",
-        "The values of real faults cannot be computed.",
+        "The paper's range of gamma is not accessible.",
     ]
 
 

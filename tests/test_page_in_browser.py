@@ -11,6 +11,7 @@ from urllib.parse import unquote, urlsplit
 import made_up_page
 import pytest
 from conftest import ROOT
+from PIL import Image
 
 from scripts.claims.claims_results import VERDICTS
 
@@ -190,7 +191,7 @@ def test_reader_moves_the_parameters(visited):
         return
     assert play["first"] == play["button"]
     assert play["first"]["class"] == play["touched"]["class"] == "ε = 0.2, τ = 5: cycle"
-    classes = ["fixed point", "cycle", "cycle of period 2 in its section", "chaos"]
+    classes = ["fixed point", "cycle", "cycle with 2 loops", "chaos"]
     for i, name in enumerate(classes):
         assert play[f"key {i}"]["class"] == f"ε = 0.{i + 1}, τ = 0: {name}"
         assert play[f"key {i}"]["values"] == [f"0.{i + 1}", "0"]
@@ -207,3 +208,12 @@ def test_reader_moves_the_parameters(visited):
     assert "not computed" in taken["more"]
     assert "nearest computed point of this class, ε = 0.4, τ = 0" in taken["more"]
     assert taken["segments"] == play["key 3"]["segments"]
+
+
+def test_picture_for_the_readme(visited, tmp_path):
+    """As wide as said, and a part of the page only."""
+    command = [PYTHON, ROOT / "docs" / "page_picture.py", visited[0], tmp_path / "page.png"]
+    subprocess.run(command, check=True, timeout=120)
+    with Image.open(tmp_path / "page.png") as picture:
+        assert picture.width == 1800
+        assert picture.width / 2 < picture.height < 4 * picture.width

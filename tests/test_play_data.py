@@ -90,13 +90,13 @@ def test_planes_have_axes_classes_and_words(made_up):
     assert (first["xi"], second["xi"], first["gamma"], first["time"]) == (0.5, 0.8, 0.8, 60.0)
     assert (first["epsilon"], first["tau"]) == ([0.1, 0.2, 0.3, 0.4], [0.0, 5.0])
     kinds = [KINDS[int(digit)] for digit in first["kinds"]]
-    assert kinds == 2 * ["fixed point", "cycle", "cycle of period > 1", "chaos"]
+    assert kinds == 2 * ["fixed point", "cycle", "multi-loop cycle", "chaos"]
     assert first["words"]["1"] == [
         "cycle",
         "−0.01 ± 0.001, −0.02 ± 0.001, −0.03 ± 0.001",
         "period 10 (units of L/v₀)",
     ]
-    assert first["words"]["2"][0] == "cycle of period 2 in its section"
+    assert first["words"]["2"][0] == "cycle with 2 loops"
     assert first["words"]["2"][2] == "period 20 (units of L/v₀)"
     assert first["words"]["3"][2] == ""
 
@@ -121,9 +121,9 @@ def test_cycle_that_was_not_computed_shows_one_of_its_period():
 
 
 def test_torus_and_failed_run_in_words():
-    """Both base frequencies; why there is no class."""
+    """Both fundamental frequencies; why there is no class."""
     torus = attractor(0.1, 0.0, f1=0.1, f2=0.0437, **{"class": "torus"})
-    assert play_data.in_words(torus)[2] == "base frequencies 0.1 and 0.0437 (units of v₀/L)"
+    assert play_data.in_words(torus)[2] == "fundamental frequencies 0.1 and 0.0437 (units of v₀/L)"
     failed = attractor(0.1, 0.0, f1=np.nan, f2=np.nan, problem="too stiff")
     failed |= {"class": "undecided", **{f"exponent_{i}": np.nan for i in (1, 2, 3)}}
     assert play_data.in_words(failed) == ["no result: too stiff", "", ""]

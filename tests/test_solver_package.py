@@ -52,14 +52,30 @@ def test_cmake_finds_it(installed, tmp_path):
     assert largest_error(run(tmp_path / "tester")) < 100 * TOLERANCE
 
 
+def compiler_flags(prefix: Path) -> str:
+    """Those that pkg-config gives."""
+    [folder] = [path.parent for path in prefix.rglob("dde.pc")]
+    environment = {**os.environ, "PKG_CONFIG_PATH": str(folder)}
+    return run("pkg-config", "--cflags", "--libs", "dde", env=environment)
+
+
+def test_bounds_are_checked_where_the_manual_says(installed, tmp_path):
+    """A second delayed value, where there is one delay, is named with -fcheck=bounds."""
+    source = (PACKAGE / "example" / "mackey_glass.f90").read_text()
+    assert source.count("0.2_wp*z/") == 1
+    (tmp_path / "mine.f90").write_text(source.replace("0.2_wp*z/", "0.2_wp*z(2)/"))
+    command = f"gfortran -fcheck=bounds mine.f90 -o mine {compiler_flags(installed)}"
+    run("sh", "-c", command, cwd=tmp_path)
+    ended = subprocess.run([tmp_path / "mine"], capture_output=True, text=True, timeout=60)
+    assert ended.returncode != 0
+    assert "Index '2' of dimension 1 of array 'z' above upper bound of 1" in ended.stderr
+
+
 def test_pkg_config_finds_it(installed, tmp_path):
     """Flags for a compiler without a build system."""
-    [folder] = [path.parent for path in installed.rglob("dde.pc")]
-    environment = {**os.environ, "PKG_CONFIG_PATH": str(folder)}
-    flags = run("pkg-config", "--cflags", "--libs", "dde", env=environment)
     sources = [OUTSIDE / "by_cmake" / f"{name}.f90" for name in ("kinds", "errors", "tester")]
     words = " ".join(f'"{path}"' for path in sources)
-    run("sh", "-c", f"gfortran {words} -o mine {flags}", cwd=tmp_path)
+    run("sh", "-c", f"gfortran {words} -o mine {compiler_flags(installed)}", cwd=tmp_path)
     assert largest_error(run(tmp_path / "mine")) < 100 * TOLERANCE
 
 

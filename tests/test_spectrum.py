@@ -148,14 +148,14 @@ def test_base_may_be_lower_than_its_harmonic(spectrum_of):
 @pytest.mark.parametrize(
     ("parts", "kind", "share"),
     [
-        ([(1, 0.3)], "one base", 1.0),
-        ([(1, 0.3), (0.2, 0.6)], "one base", 1.0),
-        ([(1, 0.3), (0.2, 0.3 * 2**0.5)], "two bases", 1.0),
+        ([(1, 0.3)], "periodic", 1.0),
+        ([(1, 0.3), (0.2, 0.6)], "periodic", 1.0),
+        ([(1, 0.3), (0.2, 0.3 * 2**0.5)], "quasiperiodic", 1.0),
         ([(1, 0.3), (1, 0.3 * 2**0.5), (1, 0.3 * np.pi)], "undecided", 2 / 3),
     ],
 )
 def test_kind_of_spectrum_is_told(spectrum_of, parts, kind, share):
-    """By the base frequencies it takes; line_share is the part of the power they explain."""
+    """By the fundamental frequencies it takes; line_share is the part of the power they explain."""
     attributes = spectrum_of(sines(8000, *parts), segments=1).attrs
     assert attributes["spectrum_kind"] == kind
     assert attributes["line_share"] == pytest.approx(share, abs=1e-3)

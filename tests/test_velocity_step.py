@@ -51,7 +51,7 @@ def test_state_is_the_exact_exponential(protocol, response):
 
 @pytest.mark.parametrize("tolerance", [1e-5, 1e-8])
 def test_error_follows_the_tolerance(programs, protocol, tolerance):
-    """The same for tolerances of one's own."""
+    """The same for the user's tolerances."""
     protocol["tolerance"] = tolerance
     response = programs.made_by("velocity_step", protocol)
     expected = exact_states(protocol, response)

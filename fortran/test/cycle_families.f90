@@ -44,7 +44,7 @@ module cycle_families
       integer :: equation = 0
       !> Its parameters
       real(wp), allocatable :: p(:)
-      !> State before the first instant
+      !> State before the initial time
       real(wp), allocatable :: past(:)
    contains
       procedure :: initial
@@ -94,7 +94,7 @@ contains
       allocate (problem, source=made)
    end subroutine member
 
-   !> The past holds up to the first instant.
+   !> The past holds up to the initial time.
    pure subroutine initial(self, y)
       class(known_problem), intent(in) :: self
       real(wp), intent(out) :: y(self%n)

@@ -1,4 +1,4 @@
-!> Single periodic orbits for tests: corrected, or where a trajectory of the block has come to.
+!> Single periodic orbits for tests: corrected, or those that a trajectory of the block has reached.
 module orbit_runs
    use block_family, only: block_family_type, vector_of
    use collocation_basis, only: collocation_basis_type
@@ -43,7 +43,7 @@ contains
       call correct_orbit(family, none, reference, no_direction, no_distance, orbit, newton, failure)
    end subroutine correct
 
-   !> The orbit of a block that a trajectory has come to, with its multipliers.
+   !> The orbit of a block that a trajectory has reached, with its multipliers.
    subroutine cycle_of_block(block, t_end, degree, points, intervals, orbit, multipliers, error)
       !> The block
       type(spring_block_type), intent(in) :: block

@@ -17,7 +17,7 @@ module synthetic_spectra
    real(wp), parameter :: interval = 0.05_wp, width = 1.0_wp/(length*interval)
    !> One turn.
    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
-   !> Base frequency, between two bins.
+   !> Fundamental frequency, between two bins.
    real(wp), parameter :: f = 0.4017_wp
    !> What a peak must exceed, as in the default configuration.
    real(wp), parameter :: least_height = 1.0e-6_wp, least_prominence = 10.0_wp

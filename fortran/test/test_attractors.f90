@@ -281,7 +281,7 @@ contains
       call expect(error, size(found%exponents) == 3, "three exponents")
    end subroutine test_without_delay
 
-   !> A block that slides steadily for ever, though unstably, comes to no class and to no points.
+   !> A block that slides steadily without end, though unstably, comes to no class and to no points.
    subroutine test_unstable(error)
       type(error_type), allocatable, intent(out) :: error
       type(attractor_type) :: found

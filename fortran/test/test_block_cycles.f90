@@ -70,7 +70,7 @@ contains
       end do
    end subroutine test_hopf_starts
 
-   !> The cycle that a trajectory comes to is on the branch from a Hopf point.
+   !> The cycle that a trajectory reaches is on the branch from a Hopf point.
    subroutine test_other_lines(error)
       type(error_type), allocatable, intent(out) :: error
       type(cycle_settings_type) :: settings

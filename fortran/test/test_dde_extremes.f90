@@ -231,7 +231,7 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       !> The method
       character(len=*), intent(in) :: method
-      !> Last instant
+      !> Final time
       real(wp), intent(in) :: t_end
       !> The watcher
       type(event_table), intent(inout) :: table

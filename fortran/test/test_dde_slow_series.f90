@@ -278,7 +278,7 @@ contains
       call expect(error, outcome%implicit_steps > 5, "implicit steps")
    end subroutine test_short_delay
 
-   !> Where the block has come to rest, `auto` takes implicit steps without end.
+   !> Where the block is at rest, `auto` takes implicit steps without end.
    subroutine test_rest(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure

@@ -183,7 +183,7 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Last instant
+      !> Final time
       real(wp), intent(in) :: t_end
       !> Its name
       character(len=*), intent(in) :: name

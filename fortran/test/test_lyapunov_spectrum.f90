@@ -335,7 +335,7 @@ contains
       settings%exponents = 0
       call expect_refusal("exponents: 0 asked for; at least 1 expected")
       settings%exponents = 4
-      call expect_refusal("4 asked for of 3 equations without delay; at most as many expected")
+      call expect_refusal("4 asked for of 3 equations without delay; at most 3 expected")
       settings = good
       settings%blocks = 1
       call expect_refusal("exponents: 1 blocks; at least 2 expected")

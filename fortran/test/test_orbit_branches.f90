@@ -41,7 +41,7 @@ contains
                    new_unittest("nearest resonances", test_resonances)]
    end subroutine collect_orbit_branches
 
-   !> The branch of a block through the cycle that a trajectory has come to, and its points.
+   !> The branch of a block through the cycle that a trajectory has reached, and its points.
    subroutine branch_of_block(block, settings, degree, points, direction, branch, special, error)
       !> The block
       type(spring_block_type), intent(in) :: block

@@ -13,7 +13,7 @@ module test_section_motion
 
    !> One turn.
    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
-   !> Two base frequencies, their ratio the golden mean's inverse.
+   !> Two fundamental frequencies, their ratio the golden mean's inverse.
    real(wp), parameter :: f1 = 0.37_wp, f2 = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp)*f1
    real(wp), parameter :: both(2) = [f1, f2]
    !> How far the made-up motions reach.
@@ -44,13 +44,13 @@ contains
       real(wp), intent(in) :: points(:, :)
       !> When each was met
       real(wp), intent(in) :: times(:)
-      !> Base frequencies
+      !> Fundamental frequencies
       real(wp), intent(in) :: bases(2)
 
       value = section_roughness(points, times, reach, bases)
    end function roughness
 
-   !> So many times, one each turn of the first phase.
+   !> A number of times, one each turn of the first phase.
    pure function turns(n) result(times)
       !> How many
       integer, intent(in) :: n
@@ -97,7 +97,7 @@ contains
       points = reshape(uniform(seed, 2*n, -most, most), [2, n])
    end function noise
 
-   !> Cycles of period 1, 2, 7 and 128 have their period; one of period 129 is none.
+   !> Cycles of 1, 2, 7 and 128 loops have this number; one of 129 is none.
    subroutine test_cycles(error)
       type(error_type), allocatable, intent(out) :: error
       integer :: i

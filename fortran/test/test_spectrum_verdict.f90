@@ -1,4 +1,4 @@
-!> What a spectrum is called: lines of one base frequency, of two, or a continuum.
+!> What a spectrum is called: lines of one fundamental frequency, of two, or a continuum.
 module test_spectrum_verdict
    use base_frequencies, only: bases_type
    use expectations, only: expect, expect_between, expect_close
@@ -24,8 +24,8 @@ contains
 
       testsuite = [new_unittest("share of the lines", test_shares), &
                    new_unittest("broad peaks are no lines", test_broad_peaks), &
-                   new_unittest("one base", test_one_base), &
-                   new_unittest("two bases", test_two_bases), &
+                   new_unittest("periodic", test_one_base), &
+                   new_unittest("quasiperiodic", test_two_bases), &
                    new_unittest("three bases", test_three_bases), &
                    new_unittest("nearly commensurate", test_nearly_commensurate), &
                    new_unittest("lines that do not count", test_negligible), &
@@ -53,7 +53,7 @@ contains
                         1.0e-15_wp, "share of the lines")
       call expect_close(error, continuum_share(power, peaks), &
                         1.0_wp - (120.0_wp + 72.0_wp + 70.0_wp)/336, 1.0e-15_wp, &
-                        "share off the lines")
+                        "share outside the lines")
    end subroutine test_shares
 
    !> Peaks that fall to a half within five bins are a continuum although all power is near peaks
@@ -77,10 +77,10 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       call expect_sines(error, [1.0_wp, 0.3_wp, 0.1_wp], [1.0_wp, 2.0_wp, 3.0_wp], 0.0_wp, &
-                        "one base", "f, 2 f, 3 f")
+                        "periodic", "f, 2 f, 3 f")
       call expect_sines(error, [1.0_wp, 0.3_wp, 0.1_wp], [1.0_wp, 0.5_wp, 1.5_wp], 0.0_wp, &
-                        "one base", "f, f/2, 3 f/2")
-      call expect_sines(error, [1.0_wp, 0.7_wp], [1.0_wp, 0.75_wp], 0.0_wp, "one base", "f, 3 f/4")
+                        "periodic", "f, f/2, 3 f/2")
+      call expect_sines(error, [1.0_wp, 0.7_wp], [1.0_wp, 0.75_wp], 0.0_wp, "periodic", "f, 3 f/4")
    end subroutine test_one_base
 
    !> A torus, its second base strong, weak or the highest.
@@ -88,14 +88,14 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       call expect_sines(error, [1.0_wp, 0.5_wp, 0.3_wp, 0.1_wp, 0.1_wp], torus, 0.0_wp, &
-                        "two bases", "a torus")
+                        "quasiperiodic", "a torus")
       call expect_sines(error, [1.0_wp, 0.02_wp, 0.3_wp, 0.01_wp, 0.01_wp], torus, 0.0_wp, &
-                        "two bases", "a torus, weak")
+                        "quasiperiodic", "a torus, weak")
       call expect_sines(error, [1.0_wp, 2.0_wp, 0.3_wp, 0.1_wp, 0.1_wp], torus, 0.0_wp, &
-                        "two bases", "a torus, strong")
+                        "quasiperiodic", "a torus, strong")
       call expect_sines(error, [1.0_wp, 0.2_wp, 0.2_wp], [1.0_wp, 1.0_wp + 0.1_wp*golden, &
                                                           1.0_wp - 0.1_wp*golden], 0.0_wp, &
-                        "two bases", "sidebands")
+                        "quasiperiodic", "sidebands")
    end subroutine test_two_bases
 
    !> Three frequencies are not two, and no continuum either.
@@ -117,7 +117,7 @@ contains
       call expect_sines(error, [1.0_wp, 0.5_wp], [1.0_wp, 13.0_wp/23], 0.0_wp, "undecided", &
                         "13/23 f")
       call expect_sines(error, [1.0_wp, 0.5_wp], [1.0_wp, 0.75_wp + 0.05_wp*width/f], 0.0_wp, &
-                        "two bases", "0.05 of a bin off 3/4 f")
+                        "quasiperiodic", "0.05 of a bin off 3/4 f")
    end subroutine test_nearly_commensurate
 
    !> A second base of 2e-6 of the power does not count, nor does a third of 2e-5; of ten times that
@@ -125,12 +125,12 @@ contains
    subroutine test_negligible(error)
       type(error_type), allocatable, intent(out) :: error
 
-      call expect_sines(error, [1.0_wp, 0.0014_wp], [1.0_wp, golden], 0.0_wp, "one base", &
+      call expect_sines(error, [1.0_wp, 0.0014_wp], [1.0_wp, golden], 0.0_wp, "periodic", &
                         "f and a trace")
-      call expect_sines(error, [1.0_wp, 0.0045_wp], [1.0_wp, golden], 0.0_wp, "two bases", &
+      call expect_sines(error, [1.0_wp, 0.0045_wp], [1.0_wp, golden], 0.0_wp, "quasiperiodic", &
                         "f and more than a trace")
       call expect_sines(error, [1.0_wp, 0.5_wp, 0.005_wp], [1.0_wp, golden, cubic], 0.0_wp, &
-                        "two bases", "two and a trace")
+                        "quasiperiodic", "two and a trace")
       call expect_sines(error, [1.0_wp, 0.5_wp, 0.016_wp], [1.0_wp, golden, cubic], 0.0_wp, &
                         "undecided", "two and more than a trace")
    end subroutine test_negligible
@@ -154,9 +154,9 @@ contains
       type(peak_type), allocatable :: peaks(:)
 
       call expect_sines(error, [1.0_wp, 0.3_wp, 0.1_wp], [1.0_wp, 2.0_wp, 3.0_wp], 0.02_wp, &
-                        "one base", "f, 2 f, 3 f in noise")
+                        "periodic", "f, 2 f, 3 f in noise")
       call expect_sines(error, [1.0_wp, 0.5_wp, 0.3_wp, 0.1_wp, 0.1_wp], torus, 0.02_wp, &
-                        "two bases", "a torus in noise")
+                        "quasiperiodic", "a torus in noise")
       call analyse(error, [1.0_wp, 0.3_wp, 0.1_wp], f*[1.0_wp, 2.0_wp, 3.0_wp], 1.0_wp, 8, &
                    frequency, power, peaks, bases)
       ! 0.55 of the power in the lines, 1/3 in the noise

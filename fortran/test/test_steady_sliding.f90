@@ -149,7 +149,7 @@ contains
       end do
    end subroutine test_hopf_points
 
-   !> With tau = 10 exponents measured along a motion that has come to rest are the roots.
+   !> With tau = 10 exponents measured along a motion that has reached rest are the roots.
    subroutine test_measured(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure

@@ -146,7 +146,7 @@ contains
 
    contains
 
-      !> Series of the solution that is so many times disturbance i away.
+      !> Series of the solution that is a multiple of disturbance i away.
       pure function solution(times) result(series)
          !> How many times
          real(wp), intent(in) :: times

@@ -60,7 +60,7 @@ def with_error(value: float, error: float) -> str:
 
 
 def of_spectra(given: dict, params: dict) -> dict:
-    """Frequencies and heights of the highest peaks, the share of power off the lines."""
+    """Frequencies and heights of the highest peaks, the share of broadband power."""
     rows = {}
     for label, (row, spectrum) in labelled(given, params, "spectra").items():
         rows[label] = {"paper": row.get("paper"), **peaks_of(spectrum)}
@@ -68,7 +68,7 @@ def of_spectra(given: dict, params: dict) -> dict:
 
 
 def peaks_of(spectrum: xr.Dataset) -> dict:
-    """The highest peak and the second one, the kind of the spectrum and its base frequencies."""
+    """The two highest peaks, the kind of the spectrum and its fundamental frequencies."""
     peaks = spectrum.isel(peak=(-spectrum.peak_power.values).argsort())
     frequencies = [short(value, 4) for value in peaks.peak_frequency.values]
     ratios = [short(100 * power / peaks.peak_power[0], 2) for power in peaks.peak_power.values]
@@ -76,7 +76,7 @@ def peaks_of(spectrum: xr.Dataset) -> dict:
     second = "there is one peak."
     if len(frequencies) > 1:
         multiple = int(peaks.peak_multiple[1])
-        place = f", which is {multiple} :math:`f_1`," if kind == "one base" else ""
+        place = f", which is {multiple} :math:`f_1`," if kind == "periodic" else ""
         second = f"the second peak at {frequencies[1]}{place} has {ratios[1]} % of its height."
     return {
         "kind": kind,
@@ -144,7 +144,7 @@ def spread_in_words(times: xr.DataArray) -> str:
 
 
 def of_true_torus(given: dict, params: dict) -> dict:
-    """Class, exponents and base frequencies of both scenes."""
+    """Class, exponents and fundamental frequencies of both scenes."""
     seen = own_rows(given["table"])
     rows = {}
     for label, (row, spectrum) in labelled(given, params, "spectra").items():

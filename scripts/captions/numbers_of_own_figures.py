@@ -1,4 +1,4 @@
-"""Numbers in captions of figures of what a file of one's own adds."""
+"""Numbers in captions of figures of what the user's file adds."""
 
 import math
 from itertools import groupby
@@ -19,7 +19,7 @@ from scripts.tables.attractor_tables import rows_of, same_attractor
 from scripts.tables.motion_rows import UNDECIDED, has_problem, kind_of, parameter_of
 
 MOST_STRETCHES = 12
-"""So many stretches of one class are listed along a route; of more, how often each class is met."""
+"""Most stretches of one class that are listed along a route; of more, how often it is met."""
 
 
 def place_of(given: dict, *left_out: str) -> str:
@@ -142,7 +142,7 @@ def ends_of(places: list[float]) -> str:
 
 
 def coexist(rows: list[dict]) -> bool:
-    """Whether runs at the same parameters came to different motions."""
+    """Whether runs at the same parameters reached different motions."""
     decided = [row for row in rows if row["class"] != UNDECIDED and not has_problem(row)]
     return any(not same_attractor(decided[0], row) for row in decided[1:])
 

@@ -67,7 +67,7 @@ def of_fault_limit(given: dict, _params: dict) -> dict:
 
 
 def of_routes(given: dict, _params: dict) -> dict:
-    """Where each class is met first along each route, in the run that begins near sliding."""
+    """Where each class first appears along each route, in the run that begins near sliding."""
     rows = [row for path in given["tables"] for row in read_table(path)]
     routes = []
     for letter, (_, of_route) in zip(

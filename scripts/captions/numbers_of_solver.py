@@ -7,7 +7,7 @@ from scripts.figures.work_precision import AUTO_AGAIN, date_of
 from scripts.files.tsv import read_table
 
 FACTOR = 100
-"""An error up to so many times what is expected is within it, as the ledger has it."""
+"""An error up to this multiple of what is expected is within it, as the ledger has it."""
 LEVEL = 1e-6
 """Of the error at which run times are compared."""
 

@@ -9,7 +9,7 @@ MOST_LISTED = 8
 
 
 def short(value: float, digits: int = 3) -> str:
-    """A number of so many digits, very large and small ones with a power of ten as a formula."""
+    """A number with `digits` digits, very large and small ones with a power of ten as a formula."""
     text = f"{float(value):.{digits}g}"
     if "e" not in text:
         return text.replace("-", "\N{MINUS SIGN}")

@@ -44,7 +44,7 @@ def caption_of(figure: dict, claims: list[dict]) -> str:
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        # figures of a file of one's own say nothing of claims
+        # figures of a user's file say nothing of claims
         path = snakemake.input.claims
         ledger = json.loads(Path(path).read_text()) if path else []
         for shown, target in zip(snakemake.params.figures, snakemake.output, strict=True):

@@ -14,9 +14,9 @@ from scripts.claims.claims_results import (
 
 
 def single_peak(results: Results, *, scene: str) -> Finding:
-    """Whether the spectrum has one base frequency, and no harmonic beside it."""
+    """Whether the spectrum has one fundamental frequency, and no harmonic beside it."""
     spectrum = results.spectrum_of(scene)
-    periodic = spectrum.attrs["spectrum_kind"] == "one base"
+    periodic = spectrum.attrs["spectrum_kind"] == "periodic"
     alone = spectrum.sizes["peak"] == 1
     verdict = (REPRODUCED if alone else CORRECTED) if periodic else NOT_REPRODUCED
     instead = second_peak(scene, spectrum) if not (periodic and alone) else ""
@@ -36,7 +36,7 @@ def spectrum_class(results: Results, *, scene: str, expected: str) -> Finding:
 def second_peak(scene: str, spectrum: xr.Dataset) -> str:
     """What the second highest peak is, in a sentence."""
     kind, count = spectrum.attrs["spectrum_kind"], spectrum.sizes["peak"]
-    if kind != "one base" or count < 2:
+    if kind != "periodic" or count < 2:
         return f"The spectrum of scene {scene} is of the kind {kind}, with {count} peaks."
     first, second = (-spectrum.peak_power.values).argsort()[:2]
     share = 100 * float(spectrum.peak_power[second] / spectrum.peak_power[first])
@@ -58,7 +58,7 @@ def in_words(scene: str, spectrum: xr.Dataset) -> str:
     if peaks.sizes["peak"] > 0:
         words += f" The highest peak is at the frequency {short(peaks.peak_frequency[0])}."
     if peaks.sizes["peak"] > 1:
-        multiple = f" (= {int(peaks.peak_multiple[1])} f1)" if kind == "one base" else ""
+        multiple = f" (= {int(peaks.peak_multiple[1])} f1)" if kind == "periodic" else ""
         ratio = float(peaks.peak_power[1] / peaks.peak_power[0])
         words += (
             f" The second highest is at {short(peaks.peak_frequency[1])}{multiple}. It has"

@@ -28,7 +28,7 @@ LONG = 1e4
 def checked(config: dict, own: Collection[str] = ()) -> dict:
     """Return `config` with its defaults; raise ConfigError naming place, key, value and range.
 
-    Scenes of one's own are judged and drawn each in a figure.
+    The user's scenes are judged and drawn each in a figure.
     """
     problems = list(_names_that_are_no_text(config))
     if not problems:
@@ -146,7 +146,7 @@ def _place(path: list[str]) -> str:
 
 
 def _fill_in_variables(config: dict, own: Collection[str]) -> None:
-    """Scenes store what their figures use; everything where they are in none or of one's own."""
+    """Scenes store what their figures use; everything where they are in none or the user's."""
     order = ["theta", "u", "v"]
     for name, scene in config["scenes"].items():
         used = variables_used(config, name)
@@ -222,7 +222,7 @@ def _contradictions_of_sections(config: dict):
 
 
 def _contradictions_of_exponents(place: str, scene: dict):
-    """The same for the exponents of a scene."""
+    """Problems of the exponents of a scene."""
     wanted = scene.get("exponents")
     if wanted and scene["tau"] == 0 and wanted["count"] > EQUATIONS:
         yield (
@@ -237,7 +237,7 @@ def _contradictions_of_exponents(place: str, scene: dict):
 
 
 def _contradictions_of_studies(config: dict):
-    """The same for stability and work against precision."""
+    """Problems of stability and work against precision."""
     for study in ("stability", "work_precision"):
         reference = config[study]["reference"]
         if reference["check_tolerance"] <= reference["tolerance"]:

@@ -94,6 +94,8 @@ def read(path: str | Path) -> dict:
     except UnicodeDecodeError as problem:
         raise ConfigError(f"{path}: {problem}; expected text in UTF-8") from None
     said = parsed(text, str(path))
+    if said is None:
+        raise ConfigError(f"{path}: the file is empty")
     if not isinstance(said, dict):
         raise ConfigError(f"{path}: {said!r}; expected keys with values below them")
     # Snakemake itself uses this key before the configuration is checked

@@ -49,7 +49,7 @@ def refuse(parser: argparse.ArgumentParser, reason: str) -> NoReturn:
 
 
 def wrong_cores(arguments: list[str]) -> str | None:
-    """A number of cores with which Snakemake would wait for ever."""
+    """A number of cores with which Snakemake would wait without end."""
     for argument, following in zip(arguments, [*arguments[1:], ""], strict=True):
         if given := CORES.fullmatch(argument):
             number = given[1] or following

@@ -101,7 +101,7 @@ class RunProgress:
         return f"[{bar}] {self.sentence()}"
 
     def sentence(self) -> str:
-        """The same without the bar."""
+        """Progress without the bar."""
         # the tick reads while messages change it
         names = ", ".join(str(job) for job in list(self.at_work.values()) if job.outputs)
         so_far = f"{self.done} of {counted(self.total, 'job')}, {self.elapsed}"

@@ -94,7 +94,7 @@ def label_peaks(axes: Axes, spectrum: xr.Dataset, frequency_shown: float, letter
 
 
 def name_of(peak: xr.Dataset) -> str:
-    """What a peak is, in terms of the base frequencies."""
+    """What a peak is, in terms of the fundamental frequencies."""
     kind = int(peak.peak_kind)
     if kind == OTHER:
         return "other"
@@ -104,7 +104,7 @@ def name_of(peak: xr.Dataset) -> str:
     words = " ".join(
         f"{'-' if m < 0 else '+'} {abs(m) if abs(m) > 1 else ''}{base}" for m, base in terms
     )
-    return ("base " if kind in (BASE, SECOND_BASE) else "") + f"${words.removeprefix('+ ')}$"
+    return f"${words.removeprefix('+ ')}$"
 
 
 def characters(label: str) -> int:
@@ -115,20 +115,20 @@ def characters(label: str) -> int:
 def seen(spectrum: xr.Dataset, paper: str) -> str:
     """What the paper says, and what the spectrum shows."""
     scene = spectrum.attrs["scene"].replace("_", " ")
-    return f"scene {scene}; the paper: “{paper}”; seen: {lines_in_words(spectrum)}"
+    return f"scene {scene}; the paper: “{paper}”; here: {lines_in_words(spectrum)}"
 
 
 def lines_in_words(spectrum: xr.Dataset) -> str:
     """What the spectrum shows, in a line."""
     kind = spectrum.attrs["spectrum_kind"]
     bases = [f"$f_{i}$ = {f:.4f}" for i, f in enumerate(spectrum.base_frequency.values, start=1)]
-    if kind == "one base":
-        words = f"one base frequency {bases[0]} and its harmonics"
-    elif kind == "two bases":
-        words = f"two base frequencies, {' and '.join(bases)}"
+    if kind == "periodic":
+        words = f"periodic, {bases[0]} and its harmonics"
+    elif kind == "quasiperiodic":
+        words = f"quasiperiodic, {' and '.join(bases)}"
     elif kind == "continuum":
         off = 100 * spectrum.attrs["continuum_share"]
-        words = f"a continuum, {off:.0f} % of the power off the lines"
+        words = f"a continuum, {off:.0f} % of the power is broadband"
     elif kind == "undecided":
         words = f"undecided: {reason(spectrum)}"
     else:
@@ -137,9 +137,9 @@ def lines_in_words(spectrum: xr.Dataset) -> str:
 
 
 def reason(spectrum: xr.Dataset) -> str:
-    """Why neither one base nor two nor a continuum is seen."""
+    """Why the spectrum is neither periodic, nor quasiperiodic, nor a continuum."""
     off = 100 * (1 - spectrum.attrs["line_share"])
-    reasons = [f"{off:.2g} % of the power off the lines explained"]
+    reasons = [f"{off:.2g} % of the power is outside the explained lines"]
     others = int((spectrum.peak_kind == OTHER).sum())
     if others:
         reasons.append(f"{others} other peak{'s' if others > 1 else ''}")

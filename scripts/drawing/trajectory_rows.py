@@ -64,7 +64,7 @@ def titles_of(settings: dict, table: list[dict]) -> dict[str, str]:
         titles[label] = f"the paper: “{row['paper']}”"
         if row["scene"] in seen:
             met = seen[row["scene"]]
-            titles[label] += f"; seen: {WORDS.get(met, met)}"
+            titles[label] += f"; here: {WORDS.get(met, met)}"
     return titles
 
 

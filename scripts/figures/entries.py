@@ -1,7 +1,7 @@
 """All figures, each in one entry: its category, the results it needs, what its script is given.
 
 A new figure is a script NAME.py and a template NAME.rst of its caption in this folder, and an entry
-here. Figures of what a file of one's own adds are named KIND/NAME, for example scenes/strong_delay.
+here. Figures of what a user's file adds are named KIND/NAME, for example scenes/strong_delay.
 `<results>` stands for the folder of the results.
 """
 
@@ -29,7 +29,7 @@ from scripts.workflow.result_files import (
 
 FOLDER = "scripts/figures"
 OWN_VARIABLES = ("u", "v")
-"""Variables that the figure of a scene of one's own draws."""
+"""Variables that the figure of a user's scene draws."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -227,7 +227,7 @@ OF_ONES_OWN = {
     "cycles": entry_of_cycles,
     "atlas": entry_of_atlas,
 }
-"""Entries of what a file of one's own adds, by kind."""
+"""Entries of what a user's file adds, by kind."""
 
 
 def own_figures(config: dict, names: dict[str, list[str]]) -> list[str]:
@@ -238,7 +238,7 @@ def own_figures(config: dict, names: dict[str, list[str]]) -> list[str]:
 
 
 def entry_of(figure: str) -> Entry:
-    """The entry of a figure, or of one of a file of one's own."""
+    """The entry of a figure, or of one of a user's file."""
     kind, _, name = figure.partition("/")
     return OF_ONES_OWN[kind](name) if name else ENTRIES[figure]
 
@@ -249,7 +249,7 @@ def script_of(figure: str) -> str:
 
 
 def name_of_caption(figure: str) -> str:
-    """Name of its caption, which figures of one kind in a file of one's own share."""
+    """Name of its caption, which figures of one kind in a user's file share."""
     return entry_of(figure).caption or figure
 
 
@@ -282,7 +282,7 @@ def inputs_of(figure: str, config: dict) -> dict[str, str | list[str]]:
 
 
 def files_of(figure: str, config: dict) -> list[str]:
-    """The same as one list."""
+    """The results that a figure needs, as one list."""
     return [
         path
         for needed in inputs_of(figure, config).values()

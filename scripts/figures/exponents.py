@@ -54,6 +54,8 @@ def words(rows: list[dict]) -> str:
     own = [row for row in rows if row["mean_step"] == rows[0]["mean_step"]]
     signs = [row["sign"] for row in own]
     dimension = f"{own[0]['dimension']:.2f} ± {own[0]['dimension_error']:.2f}"
+    if own[0]["dimension_error"] == 0:
+        dimension = f"{own[0]['dimension']:g}"
     if np.isnan(own[0]["dimension"]):
         dimension = "not reached by these exponents"
     return (

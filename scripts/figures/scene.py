@@ -15,15 +15,15 @@ from scripts.tables.attractor_tables import rows_of
 from scripts.tables.motion_rows import UNDECIDED, kind_of
 
 PERIODS = 12
-"""Periods of the first base frequency that v(t) shows at the end."""
+"""Periods of the first fundamental frequency that v(t) shows at the end."""
 SHARE = 0.1
-"""Share of the run that it shows where there is no base frequency."""
+"""Share of the run that it shows where there is no fundamental frequency."""
 ATTRACTOR = 3000.0
 """Last time after the transient that the portrait shows."""
 POWER = 0.999
 """Share of the power below the end of the frequency axis, which is half as far again."""
 HARMONICS = 7
-"""Harmonics of the first base frequency that the axis shows at least."""
+"""Harmonics of the first fundamental frequency that the axis shows at least."""
 LEAST_SCALE = 1e-3
 """Exponents closer to zero than this are drawn on a linear scale."""
 LEAST_SPREAD = 0.05
@@ -146,7 +146,7 @@ def class_in_words(attractors: xr.Dataset) -> str:
     if kind == UNDECIDED:
         return f"class undecided ({row['reason']})"
     if kind != row["class"]:
-        kind = f"cycle of period {row['period']:g} in its section"
+        kind = f"cycle with {row['period']:g} loops"
     own = attractors.isel(point=0)
     values, bounds = own.lyapunov_exponent.values, own.sign_bound.values
     zero = np.abs(values) <= bounds

@@ -54,7 +54,7 @@ def of_the_fault_limit(tables: dict[str, list[dict]]) -> dict:
 
 
 def of_real_faults(tables: dict[str, list[dict]]) -> dict:
-    """Whether the stiff equations of real faults can be solved."""
+    """Whether the equations can be solved at the gamma of real faults."""
     least, most = REAL_GAMMA
     runs = [row for row in tables["stability"] if least <= row["gamma"] <= most]
     done = {
@@ -65,9 +65,9 @@ def of_real_faults(tables: dict[str, list[dict]]) -> dict:
     steps = max((row["steps"] for row in done["auto"]), default=0)
     share = "All" if len(done["auto"]) == count else f"{len(done['auto'])} of"
     return {
-        "title": "The values of real faults can be computed."
+        "title": "The paper's range of gamma is accessible."
         if done["auto"]
-        else "The values of real faults cannot be computed.",
+        else "The paper's range of gamma is not accessible.",
         "words": f"The paper leaves out gamma = {least:.0e} to {most:.0e}. {share} {count} runs"
         f" there reach their end, each in at most {steps:.0f} steps. With explicit steps alone"
         f" {len(done['explicit']) or 'none'} do.",
@@ -85,11 +85,11 @@ def named(row: dict) -> str:
 
 
 def described(row: dict) -> str:
-    """How many exponents are zero, and the base frequencies."""
+    """How many exponents are zero, and the fundamental frequencies."""
     pairs = [(row[f"exponent_{i}"], row[f"error_{i}"]) for i in (1, 2, 3)]
     zeros = sum(abs(value) <= ZERO * error for value, error in pairs)
     bases = [f"f{i} = {short(row[f'f{i}'])}" for i in (1, 2) if row[f"f{i}"] > 0]
-    frequency = "base frequency" if len(bases) == 1 else "base frequencies"
+    frequency = "fundamental frequency" if len(bases) == 1 else "fundamental frequencies"
     exponents = "Lyapunov exponent" if zeros == 1 else "Lyapunov exponents"
     found = f"{COUNTS[zeros]} zero {exponents}"
     return f"{found} and the {frequency} {' and '.join(bases)}" if bases else found

@@ -1,4 +1,4 @@
-"""The page of what a file of one's own adds: index.html in the folder of its results."""
+"""The page of what a user's file adds: index.html in the folder of its results."""
 
 import json
 import os

@@ -40,11 +40,11 @@ def motion(row: dict) -> str:
     met = kind_of(row)
     if met == UNDECIDED:
         return f"undecided ({row['reason']})"
-    return met if met == row["class"] else f"cycle of period {row['period']:g} in its section"
+    return met if met == row["class"] else f"cycle with {row['period']:g} loops"
 
 
 def exponents(row: dict) -> str:
-    """Exponents with their standard errors, where they have one; empty where none is known."""
+    """Exponents with their standard errors, where they have one; empty if none is known."""
     listed = ", ".join(
         f"{row[f'exponent_{i}']:.3g}" + f" ± {row[f'error_{i}']:.1g}" * (row[f"error_{i}"] > 0)
         for i in (1, 2, 3)

@@ -77,16 +77,16 @@ def period_of(row: dict) -> int:
 
 
 def in_words(row: dict) -> list[str]:
-    """Class, exponents, and period or base frequencies."""
+    """Class, exponents, and period or fundamental frequencies."""
     return [motion(row), exponents(row), frequencies(row)]
 
 
 def frequencies(row: dict) -> str:
-    """The period of a cycle, or both base frequencies of a torus, as far as they are known."""
+    """The period of a cycle, or the fundamental frequencies of a torus, if they are known."""
     if row["class"] == "cycle" and not math.isnan(row["f1"]):
         return f"period {1 / row['f1']:.4g} (units of L/v₀)"
     if row["class"] == "torus" and not math.isnan(row["f2"]):
-        return f"base frequencies {row['f1']:.4g} and {row['f2']:.4g} (units of v₀/L)"
+        return f"fundamental frequencies {row['f1']:.4g} and {row['f2']:.4g} (units of v₀/L)"
     return ""
 
 

@@ -18,7 +18,7 @@ ERROR_BARS = 3.0
 
 
 def rows_of(run: xr.Dataset) -> list[dict]:
-    """Rows of a file; base frequencies, periods and maxima that are not there are NaN."""
+    """Rows of a file; fundamental frequencies, periods and maxima that are not there are NaN."""
     columns = {
         **{key: numbers(run[key]) for key in ("epsilon", "tau", "xi", "gamma")},
         **{key: numbers(run[f"history_{key}"]) for key in ("theta", "u", "v")},
@@ -65,7 +65,7 @@ def numbers(values: xr.DataArray) -> list[float]:
 
 
 def positive(values: xr.DataArray) -> list[float]:
-    """The same, NaN where 0 says that there is none."""
+    """A column of numbers, NaN where 0 says that there is none."""
     return numbers(values.where(values > 0))
 
 
@@ -76,7 +76,7 @@ def words(flags: xr.DataArray) -> list[str]:
 
 
 def scene_rows(scene: str, run: xr.Dataset) -> list[dict]:
-    """Rows of a scene, numbered by history and by attractor; a run that failed came to none.
+    """Rows of a scene, numbered by history and by attractor; a run that failed reached none.
 
     Histories are tame if v is at most as large in all of them as on the attractors: they cannot be
     expected to find motions of larger slip events.
@@ -107,7 +107,7 @@ def route_rows(path: Path, run: xr.Dataset) -> list[dict]:
 
 
 def same_attractor(one: dict, other: dict) -> bool:
-    """Whether two runs came to one and the same attractor, as far as can be told."""
+    """Whether two runs reached the same attractor, as far as can be told."""
     if one["class"] != other["class"] or has_problem(one):
         return False
     if one["class"] == "fixed point":

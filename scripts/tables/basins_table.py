@@ -1,4 +1,4 @@
-"""Table of basins: the share of random histories that comes to each motion, by place."""
+"""Table of basins: the share of random histories that reaches each motion, by place."""
 
 import math
 from pathlib import Path

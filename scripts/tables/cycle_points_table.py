@@ -56,7 +56,7 @@ def rows_of(line: str, cycles: xr.Dataset, swept: list[dict]) -> list[dict]:
 
 
 def if_known(value: xr.DataArray, digits: int) -> str:
-    """A number with so many digits, or nothing."""
+    """A number with `digits` digits, or nothing."""
     return "" if np.isnan(value) else f"{float(value):.{digits}g}"
 
 

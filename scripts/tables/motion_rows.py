@@ -8,7 +8,7 @@ UNDECIDED = "undecided"
 COLOURS = {
     "fixed point": "#d9d9d9",
     "cycle": "#56b4e9",
-    "cycle of period > 1": "#0072b2",
+    "multi-loop cycle": "#0072b2",
     "torus": "#f0e442",
     "chaos": "#d55e00",
     UNDECIDED: "#ffffff",
@@ -30,7 +30,7 @@ def is_computed(row: dict) -> bool:
 def kind_of(row: dict) -> str:
     """The class, cycles parted by their period in the section."""
     several = row["class"] == "cycle" and row["period"] > 1
-    return "cycle of period > 1" if several else row["class"]
+    return "multi-loop cycle" if several else row["class"]
 
 
 def nearest_alike(kinds: np.ndarray, computed: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""A configuration file of one's own: the folder of its results, and what it adds."""
+"""A user's configuration file: the folder of its results, and what it adds."""
 
 import re
 from pathlib import Path
@@ -6,7 +6,7 @@ from pathlib import Path
 from scripts.config.read_config import ConfigError
 
 RESULTS = "results"
-"""The folder of the paper's results; in it each file of one's own has a folder of its own."""
+"""The folder of the paper's results; in it each user's file has a folder of its own."""
 TAKEN = {
     *("attractors", "benchmarks", "cycles", "docs", "exponents", "figures", "friction", "hopf"),
     *("linear_stability", "logs", "measurements", "namelists", "page", "references"),

@@ -22,7 +22,7 @@ def scenes_with(config: dict, key: str) -> list[str]:
 
 
 def numbered(parts: int) -> list[str]:
-    """Names of so many parts, in order."""
+    """Names of a number of parts, in order."""
     return [f"{part:04}" for part in range(1, parts + 1)]
 
 
@@ -82,7 +82,7 @@ def sweeps_on_lines(config: dict) -> dict[str, list[str]]:
 
 
 def sweeps_beside_cycles(config: dict) -> list[str]:
-    """The same as one list."""
+    """Sweeps on the lines of cycles, as one list."""
     return [path for paths in sweeps_on_lines(config).values() for path in paths]
 
 
@@ -153,7 +153,7 @@ def places_in_atlas(config: dict) -> dict[str, dict[str, float]]:
 
 
 def places_in_plane(config: dict, plane: str) -> dict[str, dict[str, float]]:
-    """The same of those that lie in a plane of Hopf curves."""
+    """Parameters of the scenes that lie in a plane of Hopf curves."""
     settings = config["hopf_curves"][plane]
     fixed = "xi" if settings["ordinate"] == "tau" else "tau"
     return {

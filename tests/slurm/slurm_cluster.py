@@ -88,7 +88,7 @@ class Cluster:
         return run.stdout
 
     def limit_cores(self, cores: int) -> None:
-        """Let jobs have no more than so many cores together."""
+        """Let jobs have no more than a number of cores together."""
         self.command("scontrol", "update", "PartitionName=test", f"MaxCPUsPerNode={cores}")
 
     def seconds_of_jobs(self, folder: Path) -> float:

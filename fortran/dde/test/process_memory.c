@@ -10,7 +10,7 @@ long peak_memory(void) {
     return usage.ru_maxrss;
 }
 
-/* Let it take so many bytes beside what it has, or without limit if they are negative. Returns 1 if
+/* Let it take this number of bytes beside what it has, or without limit if they are negative. Returns 1 if
    that could be set. The address sanitizer takes far more than any limit. */
 int limit_memory(long more) {
 #ifdef __SANITIZE_ADDRESS__

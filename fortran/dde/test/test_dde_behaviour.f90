@@ -220,13 +220,13 @@ contains
       value = outcome%accepted + outcome%rejected
    end function tries
 
-   !> So many breaking points are landed on before t_end.
+   !> A number of breaking points are landed on before t_end.
    subroutine expect_points(error, problem, t_end, points)
       !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Last instant
+      !> Final time
       real(wp), intent(in) :: t_end
       !> Number of points
       integer, intent(in) :: points

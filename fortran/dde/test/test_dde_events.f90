@@ -195,7 +195,7 @@ contains
       call expect_close(error, table%time(:7)%hi, levels(table%which(:7)), 1.0e-15_wp, "times")
    end subroutine test_order
 
-   !> Of events at one instant, all are handed over, though one of them ends the run; later ones are
+   !> Of events at one time, all are handed over, though one of them ends the run; later ones are
    !> not.
    subroutine test_simultaneous(error)
       type(error_type), allocatable, intent(out) :: error

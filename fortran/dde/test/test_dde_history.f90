@@ -35,7 +35,7 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("components kept", test_kept), &
-                   new_unittest("before the first instant", test_before), &
+                   new_unittest("before the initial time", test_before), &
                    new_unittest("look-ups in a ring", test_ring), &
                    new_unittest("look-ups in a ring that doubles", test_doubling), &
                    new_unittest("look-ups in a ring that doubles late", test_late_doubling), &
@@ -54,7 +54,7 @@ contains
       call expect_close(error, real(past%kept, wp), [1.0_wp, 3.0_wp], 0.0_wp, "components kept")
    end subroutine test_kept
 
-   !> Before the first instant the problem's history is asked, at the right time.
+   !> Before the initial time the problem's history is asked, at the right time.
    subroutine test_before(error)
       type(error_type), allocatable, intent(out) :: error
       type(cursor_type) :: cursor
@@ -225,7 +225,7 @@ contains
          call cursor%values(problem, past, places*length, z)
          do j = 1, size(places)
             do k = 1, size(lag)
-               ! a step that has the first instant inside is none that the solver makes
+               ! a step that has the initial time inside is none that the solver makes
                if (now%hi < lag(k) .and. now%hi + length > lag(k)) cycle
                known = problem%past(problem%component(k))
                if (now%hi >= lag(k)) then

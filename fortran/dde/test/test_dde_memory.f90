@@ -21,7 +21,7 @@ module test_dde_memory
    end type resting
 
    interface
-      !> Let this process take so many bytes more, or without limit if they are negative.
+      !> Let this process take this number of bytes more, or without limit if they are negative.
       integer(c_int) function limit_memory(more) result(done) bind(c)
          import :: c_int, c_long
          implicit none (type, external)

@@ -43,7 +43,7 @@ contains
       call expect(error, outcome%reason == refused .and. table%received == 0, "no sample is taken")
    end subroutine test_samplers
 
-   !> Times of samples ascend, from the first instant on.
+   !> Times of samples ascend, from the initial time on.
    subroutine test_times(error)
       type(error_type), allocatable, intent(out) :: error
 
@@ -153,7 +153,8 @@ contains
       call refuse_continuation(error, problem, 20.0_wp, continuation, &
                                "lag(2) = 19.0 reaches beyond")
       problem%n = 2
-      call refuse_continuation(error, problem, 20.0_wp, continuation, "3 equations for 2; as many")
+      call refuse_continuation(error, problem, 20.0_wp, continuation, &
+                               "3 equations for 2; 2 expected")
    end subroutine test_continuations
 
    !> The watcher is refused in these words.
@@ -180,7 +181,7 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> First instant
+      !> Initial time
       real(wp), intent(in) :: t_start
       !> Where the run before ended
       type(continuation_type), intent(inout) :: continuation

@@ -214,13 +214,13 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       !> The problem
       type(wille_baker), intent(in) :: problem
-      !> Last instant
+      !> Final time
       real(wp), intent(in) :: t_end
       !> Method, tolerances and limits
       type(integration_options), intent(in) :: options
       !> Part of the message
       character(len=*), intent(in) :: words
-      !> First instant; 1 if not given
+      !> Initial time; 1 if not given
       real(wp), intent(in), optional :: t_start
       type(failure_type), allocatable :: failure
       type(integration_result) :: outcome

@@ -123,7 +123,7 @@ contains
    subroutine expect_decay(error, t_start, lag)
       !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
-      !> First instant
+      !> Initial time
       real(wp), intent(in) :: t_start
       !> Delay
       real(wp), intent(in) :: lag

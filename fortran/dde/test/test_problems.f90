@@ -103,7 +103,7 @@ contains
       y = self%first
    end subroutine first_state
 
-   !> The same value at all times before the first instant.
+   !> The same value at all times before the initial time.
    pure function constant_history(self, t, component) result(value)
       class(constant_past), intent(in) :: self
       real(wp), intent(in) :: t

@@ -1,4 +1,5 @@
-!> One or two base frequencies that explain the peaks of a spectrum as harmonics and combinations.
+!> One or two fundamental frequencies that explain the peaks of a spectrum as harmonics and
+!> combinations.
 !>
 !> Frequencies are matched within what is known of them, and only as long as frequencies drawn at
 !> random would rarely match: denominators of fractions and orders of combinations are bounded by
@@ -27,7 +28,7 @@ module base_frequencies
    integer, parameter :: most_tried = 8, least_gain = 2
    real(wp), parameter :: pi = acos(-1.0_wp)
 
-   !> The base frequencies behind the labels.
+   !> The fundamental frequencies behind the labels.
    type :: bases_type
       !> f1 and f2; 0 where there is none
       real(wp) :: frequency(2) = 0.0_wp
@@ -44,7 +45,7 @@ module base_frequencies
    type :: known_type
       !> The frequency
       real(wp) :: frequency = 0.0_wp
-      !> It may be off by this
+      !> Largest error of the frequency
       real(wp) :: accuracy = 0.0_wp
    end type known_type
 
@@ -59,7 +60,7 @@ contains
       type(peak_type), intent(inout) :: peaks(:)
       !> Width of a bin
       real(wp), intent(in) :: resolution
-      !> Their base frequencies
+      !> Their fundamental frequencies
       type(bases_type), intent(out) :: bases
       type(known_type) :: lines(size(peaks)), first, second
       integer :: ranked(size(peaks)), i, m

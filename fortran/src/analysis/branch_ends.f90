@@ -23,7 +23,7 @@ module branch_ends
       integer :: most_orbits = 200
       !> The branch ends where no component has a larger range.
       real(wp) :: least_amplitude = 1.0e-3_wp
-      !> It ends where the period is longer.
+      !> The branch ends where the period is longer.
       real(wp) :: longest_period = huge(1.0_wp)
       !> Multipliers and their accuracy
       type(refinement_type) :: refinement
@@ -48,9 +48,9 @@ contains
 
    !> Whether a branch ends at its last orbit, and why.
    logical function has_ended(settings, orbits, step, same_direction, reason) result(value)
-      !> Its limits
+      !> Limits of the branch
       type(branch_settings_type), intent(in) :: settings
-      !> Its orbits
+      !> Orbits of the branch
       type(periodic_orbit_type), intent(in) :: orbits(:)
       !> Length of the last step
       real(wp), intent(in) :: step
@@ -82,7 +82,7 @@ contains
    pure logical function is_closed(scale, orbits, step) result(value)
       !> The free parameters and their units
       type(orbit_scale_type), intent(in) :: scale
-      !> Its orbits
+      !> Orbits of the branch
       type(periodic_orbit_type), intent(in) :: orbits(:)
       !> Length of the last step
       real(wp), intent(in) :: step

@@ -1,7 +1,7 @@
 !> Characteristic roots of a linear delay system: Chebyshev collocation of the infinitesimal
 !> generator (Breda, Maset and Vermiglio 2005), each eigenvalue refined by Newton's method on
-!> det Delta(s), with so many nodes that the expected number of roots is found, or, where none is
-!> known, that twice as many nodes change nothing.
+!> det Delta(s). The number of nodes grows until the expected number of roots is found or, if that
+!> number is not known, until twice as many nodes change nothing.
 module characteristic_roots
    use delay_equation, only: linear_system_type
    use dde_errors, only: error_type, raise, text
@@ -45,7 +45,7 @@ contains
 
       intervals = first_intervals
       if (present(expected)) then
-         ! with one delayed component, fewer intervals do not resolve so many roots
+         ! with one delayed component, fewer intervals do not resolve all roots
          do while (intervals < expected)
             intervals = 2*intervals
          end do

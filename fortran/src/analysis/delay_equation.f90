@@ -18,7 +18,7 @@ module delay_equation
    contains
       !> Delta(s) = s - sum_j A_j exp(-s lag_j)
       procedure :: characteristic_matrix
-      !> Its derivative by s
+      !> Derivative of Delta(s) by s
       procedure :: characteristic_slope
    end type linear_system_type
 

@@ -12,7 +12,7 @@ module exponent_averages
    !> An exponent this many error bars from zero, or closer, has no sign.
    real(wp), parameter :: error_bars = 3.0_wp
 
-   !> Share of a normal distribution above so many standard errors.
+   !> Share of a normal distribution above this number of standard errors.
    real(wp), parameter :: beyond_bars = 0.5_wp*erfc(error_bars/sqrt(2.0_wp))
    !> Length of each smooth end, as a share of the time.
    real(wp), parameter :: ends = 0.25_wp
@@ -21,7 +21,7 @@ module exponent_averages
 
    !> An exponent; per unit of time.
    type :: exponent_type
-      !> Its value
+      !> Value of the exponent
       real(wp) :: value = 0.0_wp
       !> Standard error
       real(wp) :: error = 0.0_wp
@@ -193,7 +193,7 @@ contains
       real(wp), intent(in) :: zero_level
       !> The dimension
       real(wp), intent(out) :: dimension
-      !> Its standard error
+      !> Standard error of the dimension
       real(wp), intent(out) :: error
       real(wp) :: others(size(exponents(1)%blocks)), values(size(exponents))
       logical :: zero(size(exponents))

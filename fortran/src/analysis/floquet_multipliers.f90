@@ -87,7 +87,7 @@ contains
    function over_period(map, past, orbit) result(disturbance)
       !> The map
       type(period_map_type), intent(inout) :: map
-      !> Its past
+      !> Past of the disturbance
       real(wp), intent(in) :: past(:)
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit

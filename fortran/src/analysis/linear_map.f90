@@ -25,14 +25,14 @@ module linear_map
          class(linear_map_type), intent(inout) :: self
          !> The vector
          real(wp), intent(in) :: vector(:)
-         !> Its image, of the same size
+         !> Image of the vector, of the same size
          real(wp), intent(out) :: image(:)
       end subroutine image_of_vector
    end interface
 
    !> A vector shorter than this share of what it was is noise.
    real(wp), parameter :: noise = 1.0e-15_wp
-   !> Arnoldi's method checks its eigenvalues after this many steps, and after every so many more.
+   !> Arnoldi's method checks its eigenvalues after `first_check` steps, then every `steps_between`.
    integer, parameter :: first_check = 24, steps_between = 12
    !> Vectors of the basis whose inner products are summed together: one sum alone waits for each of
    !> its additions.
@@ -54,7 +54,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> The residual may stop decreasing before the tolerance; up to this it is accepted.
       real(wp), parameter :: acceptable = 1.0e-3_wp
-      !> Steps allowed: the basis has so many vectors.
+      !> Steps allowed: the number of vectors of the basis.
       integer, parameter :: most_steps = 500
       real(wp), allocatable :: basis(:, :), cosine(:), h(:, :), image(:), rotated(:), sine(:)
       real(wp) :: length, size_of_right
@@ -152,7 +152,7 @@ contains
       end do
    end subroutine leading_eigenvalues
 
-   !> Whether Arnoldi's method checks its eigenvalues after so many steps.
+   !> Whether Arnoldi's method checks its eigenvalues after a number of steps.
    pure logical function is_check(steps) result(value)
       !> Steps
       integer, intent(in) :: steps
@@ -183,7 +183,7 @@ contains
       integer, intent(in) :: k
       !> The image, replaced by what is left of it
       real(wp), intent(inout) :: image(:)
-      !> Its coefficients; number k + 1 is 0 where nothing is left
+      !> Coefficients of the image; number k + 1 is 0 where nothing is left
       real(wp), intent(inout) :: h(:)
       real(wp) :: parts(together), whole
       integer :: i, j, last, turn

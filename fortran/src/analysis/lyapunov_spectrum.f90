@@ -14,7 +14,7 @@ module lyapunov_spectrum
    private
    public :: extend_growth, growth_settings_type, growth_type, measure_growth
 
-   !> A part smaller than so many tolerances of the vector it is taken from is noise.
+   !> A part smaller than this number of tolerances of the vector it is taken from is noise.
    real(wp), parameter :: noise = 10.0_wp
    !> How often an interval in which a vector is lost to noise is halved, before that is an error.
    integer, parameter :: most_halvings = 10
@@ -95,7 +95,7 @@ contains
       type(integration_options), intent(in) :: options
       !> The growth
       type(growth_type), intent(out) :: measured
-      !> It cannot be measured
+      !> Error if the growth cannot be measured
       type(error_type), allocatable, intent(out) :: error
       !> Where an earlier run of the problem ended
       type(continuation_type), intent(in), optional :: undisturbed
@@ -161,7 +161,7 @@ contains
       type(integration_options), intent(in) :: options
       !> The growth
       type(growth_type), intent(inout) :: measured
-      !> It cannot be measured
+      !> Error if the growth cannot be measured
       type(error_type), allocatable, intent(out) :: error
       !> Receiver of the solution
       class(interval_observer_type), intent(inout), optional :: observer
@@ -191,7 +191,7 @@ contains
       integer, intent(in) :: done
       !> The growth
       type(growth_type), intent(inout) :: measured
-      !> It cannot be measured
+      !> Error if the growth cannot be measured
       type(error_type), allocatable, intent(out) :: error
       !> Receiver of the number of intervals done
       class(progress_receiver_type), intent(inout), optional :: progress
@@ -219,7 +219,7 @@ contains
 
    !> An irregular number between -0.35 and 0.35: a fraction of the golden ratio times a square.
    elemental real(wp) function uneven(i) result(value)
-      !> Its place in the sequence
+      !> Place of the number in the sequence
       integer, intent(in) :: i
       real(wp), parameter :: golden = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp)
 
@@ -256,7 +256,7 @@ contains
       type(growth_type), intent(inout) :: measured
       !> Logarithm of the growth of each vector
       real(wp), intent(out) :: growth(:)
-      !> It cannot be measured
+      !> Error if the growth cannot be measured
       type(error_type), allocatable, intent(out) :: error
       !> Receiver of the solution
       class(interval_observer_type), intent(inout), optional :: observer
@@ -319,7 +319,8 @@ contains
                     //text(settings%exponents - settings%vectors() + 1)//" expected")
       else if (size(problem%lag) == 0 .and. settings%exponents > problem%n) then
          call raise(error, "exponents: "//text(settings%exponents)//" asked for of " &
-                    //text(problem%n)//" equations without delay; at most as many expected")
+                    //text(problem%n)//" equations without delay; at most "//text(problem%n) &
+                    //" expected")
       else if (settings%blocks < 2) then
          call raise(error, "exponents: "//text(settings%blocks)//" blocks; at least 2 expected")
       else if (.not. settings%interval > 0.0_wp) then

@@ -32,9 +32,9 @@ module motion_classes
                                                         "unstable rest        ", &
                                                         "not stationary       "]
 
-   !> A rate of growth that is far from zero is so many standard errors from it: during an approach
-   !> those of a cycle may be three, by chance. In the time of the measurement it makes so many
-   !> e-foldings: where a vector neither grows nor shrinks, a slow motion changes it by fewer.
+   !> A rate of growth far from zero: its distance in standard errors (during an approach those of a
+   !> cycle may be three, by chance), and its e-foldings in the time of the measurement (a slow
+   !> motion makes fewer in a vector that neither grows nor shrinks).
    real(wp), parameter :: least_distance = 6.0_wp, least_change = 3.0_wp
 
 contains
@@ -81,7 +81,7 @@ contains
    pure subroutine agree(by_exponents, clear, by_section, by_spectrum, found, reason)
       !> Class by exponents
       integer, intent(in) :: by_exponents
-      !> Whether it is so clear that it needs no confirmation
+      !> Whether the class by exponents is so clear that it needs no confirmation
       logical, intent(in) :: clear
       !> Class by the section; `undecided` neither confirms nor contradicts
       integer, intent(in) :: by_section

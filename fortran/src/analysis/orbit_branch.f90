@@ -138,7 +138,7 @@ contains
       type(periodic_orbit_type), intent(in) :: start
       !> The orbit
       type(periodic_orbit_type), intent(out) :: orbit
-      !> Its tangent
+      !> Tangent of the branch at the orbit
       type(orbit_change_type), intent(out) :: along
       !> Effort
       type(newton_type), intent(out) :: newton
@@ -179,7 +179,7 @@ contains
       real(wp), intent(in) :: step
       !> Effort
       type(newton_type), intent(out) :: newton
-      !> Whether it passes through a shorter cycle
+      !> Whether the branch passes through a shorter cycle
       logical, intent(out) :: passes
       !> The step is too long
       type(error_type), allocatable, intent(out) :: error

@@ -18,13 +18,13 @@ module orbit_change
    contains
       !> Add it to an orbit
       procedure :: add_to
-      !> Its size against an orbit
+      !> Size of the change against an orbit
       procedure :: size_against
       !> A multiple of it
       procedure :: times
-      !> It and a multiple of another one
+      !> Sum of the change and a multiple of another one
       procedure :: plus
-      !> It interpolated on another mesh
+      !> The change interpolated on another mesh
       procedure :: on_mesh
    end type orbit_change_type
 
@@ -154,7 +154,7 @@ contains
       class(orbit_change_type), intent(in) :: self
       !> The other one
       type(orbit_change_type), intent(in) :: other
-      !> Its factor
+      !> Factor of the other one
       real(wp), intent(in) :: factor
 
       value%nodes = self%nodes + factor*other%nodes

@@ -27,7 +27,7 @@ module orbit_curve_steps
       integer :: most_points = 200
       !> The curve ends at a Hopf curve where no component has a larger range.
       real(wp) :: least_amplitude = 0.02_wp
-      !> It ends where the period is longer.
+      !> The curve ends where the period is longer.
       real(wp) :: longest_period = huge(1.0_wp)
       !> Multipliers and their accuracy
       type(refinement_type) :: refinement
@@ -58,7 +58,7 @@ contains
       type(frame_type), intent(inout) :: frame
       !> Evaluations of the test function
       integer, intent(out) :: evaluations
-      !> Whether it passes through a shorter cycle
+      !> Whether the curve passes through a shorter cycle
       logical, intent(out) :: passes
       !> The step is too long
       type(error_type), allocatable, intent(out) :: error

@@ -16,7 +16,7 @@ module orbit_curves
 
    !> A curve.
    type :: curve_type
-      !> Its points; the first is the one it starts at
+      !> Points of the curve; the first is the one it starts at
       type(special_point_type), allocatable :: points(:)
       !> Why it ends: 'window', 'generalised_hopf' (folds) or 'double_hopf' (others), '1:1' or
       !> '1:2' (resonances), 'closed', 'shorter_period' (at a cycle of a part of the period),
@@ -147,7 +147,7 @@ contains
       real(wp), intent(in) :: step
       !> The cusp
       type(special_point_type), intent(out) :: point
-      !> It was not found
+      !> Error if the cusp was not found
       type(error_type), allocatable, intent(out) :: error
       type(sign_change_type) :: change
       real(wp) :: at, g, moved
@@ -193,7 +193,7 @@ contains
 
    !> Whether a curve ends at its last point, and why.
    logical function has_ended(settings, points, last, step, reason) result(value)
-      !> Its limits
+      !> Limits of the curve
       type(curve_settings_type), intent(in) :: settings
       !> Points
       type(special_point_type), intent(in) :: points(:)

@@ -18,7 +18,7 @@ module orbit_equations
    type :: newton_type
       !> Iterations allowed
       integer :: most_iterations = 10
-      !> It ends where no component changes by more than this share of its greatest value.
+      !> The iteration ends where no component changes by more than this share of its largest value.
       real(wp) :: tolerance = 1.0e-10_wp
       !> Iterations made
       integer :: iterations = 0
@@ -204,7 +204,7 @@ contains
       call answer(self, vector, 0.0_wp, image)
    end subroutine defect_of_change
 
-   !> The same with the residual of the orbit.
+   !> Defect of a change, plus a multiple of the residual of the orbit.
    subroutine answer(self, vector, residual, image)
       !> The system
       class(orbit_map_type), intent(inout) :: self

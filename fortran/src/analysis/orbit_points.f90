@@ -140,7 +140,7 @@ contains
       type(segment_type), intent(in) :: segment
       !> The point, of known kind
       type(special_point_type), intent(inout) :: point
-      !> It was not found
+      !> Error if the point was not found
       type(error_type), allocatable, intent(out) :: error
       real(wp), allocatable :: finer(:)
       real(wp) :: coarse
@@ -203,7 +203,7 @@ contains
       type(segment_type), intent(in) :: segment
       !> The point, of known kind
       type(special_point_type), intent(inout) :: point
-      !> It was not found
+      !> Error if the point was not found
       type(error_type), allocatable, intent(out) :: error
       type(sign_change_type) :: change
       real(wp) :: at, g, moved

@@ -54,9 +54,9 @@ contains
       type(refinement_type), intent(in) :: refinement
       !> The orbit
       type(periodic_orbit_type), intent(inout) :: orbit
-      !> Its tangent
+      !> Tangent of the branch at the orbit
       type(orbit_change_type), intent(inout) :: along
-      !> Its multipliers
+      !> Multipliers of the orbit
       type(multipliers_type), intent(out) :: multipliers
       !> Whether the mesh is to be adapted anyway
       logical, intent(in) :: due

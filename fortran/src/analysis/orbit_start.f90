@@ -1,4 +1,4 @@
-!> First approximations of periodic orbits: from a trajectory that has come to a cycle, and from a
+!> First approximations of periodic orbits: from a trajectory that has reached a cycle, and from a
 !> Hopf point.
 module orbit_start
    use collocation_basis, only: collocation_basis_type
@@ -24,7 +24,7 @@ module orbit_start
 contains
 
    !> The orbit that a trajectory follows from maximum to maximum of a component. The period ends at
-   !> the first maximum that is the same as the first one or, where none is, at the most similar.
+   !> the first maximum that is the same as the first one or, if there is none, at the most similar.
    subroutine orbit_of_trajectory(problem, options, arrived, component, longest, basis, intervals, &
                                   orbit, error)
       !> The problem
@@ -43,7 +43,7 @@ contains
       integer, intent(in) :: intervals
       !> The orbit, without its parameters
       type(periodic_orbit_type), intent(out) :: orbit
-      !> No maximum comes again
+      !> Error if no maximum returns
       type(error_type), allocatable, intent(out) :: error
       type(continuation_type) :: place
       type(event_table) :: maxima
@@ -102,7 +102,7 @@ contains
       real(wp) :: distance(2:size(states, 2)), scale(size(states, 1))
       integer :: i
 
-      ! maxima of a cycle of period 1 do not differ at all: then their size counts
+      ! maxima of a cycle of one loop do not differ at all: then their size counts
       scale = max(maxval(states, dim=2) - minval(states, dim=2), same*maxval(abs(states), dim=2), &
                   tiny(1.0_wp))
       do i = 2, size(states, 2)

@@ -29,7 +29,7 @@ contains
       type(periodic_orbit_type), intent(out) :: orbit
       !> Direction of growing amplitude
       type(orbit_change_type), intent(out) :: tangent
-      !> It is no period doubling
+      !> Error if the point is no period doubling
       type(error_type), allocatable, intent(out) :: error
       complex(wp), allocatable :: disturbances(:, :, :)
       type(multipliers_type) :: multipliers

@@ -28,13 +28,13 @@ module periodic_orbit
       procedure :: at
       !> All nodes in s
       procedure :: node_times
-      !> The same orbit on another mesh
+      !> The orbit on another mesh
       procedure :: on_mesh
       !> Largest range of a component
       procedure :: amplitude
       !> Whether a part of another orbit on the same mesh is opposite
       procedure :: opposite_parts
-      !> Whether it is almost one of a part of its period, more so than the orbit before it
+      !> Whether the orbit is almost one of a part of its period, more so than the orbit before it
       procedure :: comes_to_shorter
       !> Least and greatest value of a component, and when it is greatest
       procedure :: range_of, time_of_highest
@@ -112,7 +112,7 @@ contains
       end associate
    end function node_times
 
-   !> The same orbit by its values at the nodes of another mesh.
+   !> The orbit by its values at the nodes of another mesh.
    pure function on_mesh(self, mesh, basis) result(orbit)
       !> The orbit
       class(periodic_orbit_type), intent(in) :: self
@@ -165,7 +165,7 @@ contains
       turns = 0
    end function opposite_parts
 
-   !> Whether a branch comes to an orbit of a part of its period.
+   !> Whether a branch reaches an orbit of a part of its period.
    pure logical function comes_to_shorter(self, last) result(value)
       !> The orbit
       class(periodic_orbit_type), intent(in) :: self

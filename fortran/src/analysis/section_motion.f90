@@ -1,7 +1,7 @@
 !> The class of motion by the points of a Poincare section: a few points that repeat are a cycle;
-!> points that are a smooth function of two phases, each turning at a base frequency, are a torus.
-!> Other points have no class: they may be those of chaos, of a long cycle, or of a torus that is
-!> not smooth at their resolution.
+!> points that are a smooth function of two phases, each turning at a fundamental frequency, are a
+!> torus. Other points have no class: they may be those of chaos, of a long cycle, or of a torus
+!> that is not smooth at their resolution.
 module section_motion
    use dde_kinds, only: wp
    implicit none (type, external)
@@ -13,14 +13,15 @@ module section_motion
    !> Longest period of a cycle, in points.
    integer, parameter :: longest_period = 128
    !> The last points of a cycle that is reached repeat within the first share of the scale, those
-   !> of one that is near within the second, so many times and in so many points at least. From the
-   !> first half of them to the second the largest distance may not grow by more than this factor,
-   !> unless it is below the third share.
+   !> of one that is near within the second, in at least `last_turns` turns and `last_points`
+   !> points. From the first half of them to the second the largest distance may not grow by more
+   !> than the factor `most_growth`, unless it is below the third share.
    real(wp), parameter :: reached = 1.0e-5_wp, near = 1.0e-3_wp, negligible = 1.0e-6_wp
    real(wp), parameter :: most_growth = 1.1_wp
    integer, parameter :: last_turns = 3, last_points = 12
-   !> Maxima drift if, of the 66 pairs of the means of so many blocks of them, so many more are in
-   !> one order than in the other (by chance: 1 in 1000), and if the means differ by this share.
+   !> Maxima drift if two conditions hold. Of the 66 pairs of means of `drift_blocks` blocks, those
+   !> in one order are `least_score` more than the others (by chance: 1 in 1000). And the means
+   !> differ by the share `least_drift`.
    integer, parameter :: drift_blocks = 12, least_score = 48
    real(wp), parameter :: least_drift = 1.0e-3_wp
    !> Where the roughness is not measured.
@@ -40,7 +41,7 @@ contains
       real(wp), intent(in) :: times(:)
       !> Scale of the motion in each coordinate, > 0
       real(wp), intent(in) :: scale(:)
-      !> Base frequencies, 0 where there is none
+      !> Fundamental frequencies, 0 where there is none
       real(wp), intent(in) :: bases(2)
       real(wp), allocatable :: scaled(:, :)
       integer :: first, i
@@ -61,7 +62,7 @@ contains
       real(wp), intent(in) :: points(:, :)
       !> Scale of the motion in each coordinate, > 0
       real(wp), intent(in) :: scale(:)
-      !> Whether it is enough that the cycle is near
+      !> Whether a cycle that is near is enough
       logical, intent(in) :: on_the_way
       real(wp) :: distance(size(points, 2))
       integer :: i, repeats

@@ -14,14 +14,14 @@ module special_points
                                   cusp = "cusp"
    !> Letters of a kind and of a criticality.
    integer, parameter :: kind_length = 20
-   !> The sign of a coefficient is certain if it is so many times its error.
+   !> The sign of a coefficient is certain if it is at least this multiple of its error.
    real(wp), parameter :: certain = 10.0_wp
    !> An angle this near to a strong resonance, in turns, counts as one.
    real(wp), parameter :: near_resonance = 1.0e-3_wp
 
    !> A special point.
    type :: special_point_type
-      !> Its kind
+      !> Kind of the point
       character(len=kind_length) :: kind = ""
       !> The orbit
       type(periodic_orbit_type) :: orbit
@@ -139,7 +139,7 @@ contains
             g = abs(critical) - 1.0_wp
          case (period_doubling)
             critical = m(minloc(abs(m + 1.0_wp), dim=1))
-            ! it stays smooth where another multiplier comes to -1
+            ! it stays smooth where another multiplier reaches -1
             g = real(product((m + 1.0_wp)/max(abs(m + 1.0_wp), 1.0_wp)))
          case default
             critical = m(minloc(abs(m - 1.0_wp), dim=1))

@@ -16,7 +16,7 @@ contains
 
    !> Window values, periodic: 'hann' or 'boxcar'.
    pure function window_of(name, n) result(window)
-      !> Its name
+      !> Name of the window
       character(len=*), intent(in) :: name
       !> Samples in a segment
       integer, intent(in) :: n

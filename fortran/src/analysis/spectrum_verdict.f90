@@ -1,4 +1,4 @@
-!> Whether a spectrum consists of lines of one base frequency, of two, or of a continuum.
+!> Whether a spectrum consists of lines of one fundamental frequency, of two, or of a continuum.
 module spectrum_verdict
    use base_frequencies, only: bases_type
    use dde_kinds, only: wp
@@ -28,10 +28,10 @@ module spectrum_verdict
 
 contains
 
-   !> One base: the lines that the bases explain hold at least 99.9 % of the power and all others at
-   !> most 1e-4; those of the second base at most 1e-5. Two bases: the same with more than that, if
-   !> f2 is told apart from fractions of f1. Continuum: at least 2 % off all lines. Without power
-   !> no_spectrum, else undecided_spectrum.
+   !> Periodic: the explained lines hold at least 99.9 % of the power and all others at most 1e-4;
+   !> those of f2 at most 1e-5. Quasiperiodic: those of f2 hold more, if f2 is distinguished from
+   !> fractions of f1. Continuum: at least 2 % outside all lines. Without power no_spectrum, else
+   !> undecided_spectrum.
    pure integer function spectrum_kind(power, peaks, bases) result(kind)
       !> Power spectral density
       real(wp), intent(in) :: power(:)
@@ -63,8 +63,8 @@ contains
       !> one_base, two_bases, continuum, undecided_spectrum or no_spectrum
       integer, intent(in) :: kind
       character(len=:), allocatable :: name
-      character(len=9), parameter :: names(0:4) = [character(len=9) :: &
-                                                   "one base", "two bases", "continuum", &
+      character(len=13), parameter :: names(0:4) = [character(len=13) :: &
+                                                   "periodic", "quasiperiodic", "continuum", &
                                                    "undecided", "none"]
 
       name = trim(names(kind))
@@ -80,7 +80,7 @@ contains
       share = share_of(power, peaks, [base_peak, harmonic_peak, second_base_peak, combination_peak])
    end function line_share
 
-   !> Share of the power off the lines of all peaks, whatever they are.
+   !> Share of the power outside the lines of all peaks, whatever they are.
    pure real(wp) function continuum_share(power, peaks) result(share)
       !> Power spectral density
       real(wp), intent(in) :: power(:)

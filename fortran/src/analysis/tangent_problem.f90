@@ -36,7 +36,7 @@ module tangent_problem
 
 contains
 
-   !> The problem with so many tangent vectors.
+   !> The problem with a number of tangent vectors.
    function new_problem(base, vectors) result(problem)
       !> The problem
       class(dde_problem_type), intent(in) :: base
@@ -166,7 +166,7 @@ contains
       end associate
    end subroutine solution_and_vectors
 
-   !> Taylor series before the first instant: no disturbance.
+   !> Taylor series before the initial time: no disturbance.
    pure subroutine undisturbed_past(self, t, component, unit, y)
       !> The problem
       class(tangent_problem_type), intent(in) :: self

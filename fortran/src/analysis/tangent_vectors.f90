@@ -34,7 +34,7 @@ contains
       type(tangent_problem_type), intent(in) :: problem
       !> Where the run of the undisturbed problem ended
       type(continuation_type), intent(in) :: undisturbed
-      !> The same with tangent vectors
+      !> State of that run with tangent vectors
       type(continuation_type), intent(out) :: continuation
       real(wp) :: phase, turned
       integer :: i, j, k, kept, row

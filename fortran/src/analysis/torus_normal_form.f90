@@ -181,7 +181,7 @@ contains
       call defect(self, vector, 0.0_wp, image)
    end subroutine defect_of_term
 
-   !> The same with a multiple of the given forcing.
+   !> Defect of a term, plus a multiple of the given forcing.
    subroutine defect(self, vector, given, image)
       !> The equation
       class(term_map_type), intent(inout) :: self

@@ -81,7 +81,7 @@ contains
 
    !> Whether a file can be made or replaced: 0, `missing` (its folder), `occupied` or an error.
    integer function place_of_file(path) result(answer)
-      !> Its path
+      !> Path of the file
       character(len=*), intent(in) :: path
 
       answer = c_place(folder_of(path)//c_null_char, path//c_null_char)
@@ -107,7 +107,7 @@ contains
 
    !> Whether a file that is there could be longer: 0, `missing` or an error.
    integer function room_in_file(path, bytes) result(answer)
-      !> Its path
+      !> Path of the file
       character(len=*), intent(in) :: path
       !> How much longer
       integer, intent(in) :: bytes
@@ -118,11 +118,11 @@ contains
    !> Write a file that is there, and is not longer than this, or a new one where nothing is: 0,
    !> `missing` (the file, or its folder) or an error.
    integer function write_file(path, content, there) result(answer)
-      !> Its path
+      !> Path of the file
       character(len=*), intent(in) :: path
       !> All of it
       character(len=*), intent(in) :: content
-      !> Whether it is there
+      !> Whether the file is there
       logical, intent(in) :: there
 
       answer = c_write(path//c_null_char, content, len(content, kind=c_size_t), &
@@ -142,7 +142,7 @@ contains
 
    !> Remove a file if it is there.
    subroutine remove_file(path)
-      !> Its path
+      !> Path of the file
       character(len=*), intent(in) :: path
       integer(c_int) :: status
 

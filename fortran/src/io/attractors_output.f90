@@ -28,7 +28,7 @@ contains
       type(integration_options), intent(in) :: options
       !> What was found
       type(finding_type), intent(in) :: findings(:)
-      !> It could not be written
+      !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
       real(wp), dimension(size(findings)) :: least, most
@@ -64,8 +64,8 @@ contains
          call put_integers("period", found%period, "points of a cycle in the section, 0: none")
          call put_found("roughness", found%roughness, &
                         "of the section as a function of two phases, 0: smooth, 1: random")
-         call put("base_1", found%bases(1), "first base frequency of v, 0: none")
-         call put("base_2", found%bases(2), "second base frequency of v, 0: none")
+         call put("base_1", found%bases(1), "first fundamental frequency of v, 0: none")
+         call put("base_2", found%bases(2), "second fundamental frequency of v, 0: none")
          call put_found("line_share", found%line_share, "share of the power of v in their lines")
          do i = 1, size(findings)
             call reach(findings(i), least(i), most(i))
@@ -82,11 +82,11 @@ contains
 
       !> A real number at each point.
       subroutine put(name, values, long_name)
-         !> Its name
+         !> Name of the variable
          character(len=*), intent(in) :: name
-         !> Its values
+         !> Values of the variable
          real(wp), intent(in) :: values(:)
-         !> What it is
+         !> Description of the variable, its `long_name`
          character(len=*), intent(in) :: long_name
 
          call file%put(file%real_variable(name, rows, long_name, "1"), values)
@@ -94,11 +94,11 @@ contains
 
       !> A number at each point where it was measured, NaN at the others.
       subroutine put_found(name, values, long_name)
-         !> Its name
+         !> Name of the variable
          character(len=*), intent(in) :: name
-         !> Its values, negative where it was not measured
+         !> Values of the variable, negative where it was not measured
          real(wp), intent(in) :: values(:)
-         !> What it is
+         !> Description of the variable, its `long_name`
          character(len=*), intent(in) :: long_name
 
          call put(name, merge(values, ieee_value(1.0_wp, ieee_quiet_nan), &
@@ -107,11 +107,11 @@ contains
 
       !> An integer at each point.
       subroutine put_integers(name, values, long_name)
-         !> Its name
+         !> Name of the variable
          character(len=*), intent(in) :: name
-         !> Its values
+         !> Values of the variable
          integer, intent(in) :: values(:)
-         !> What it is
+         !> Description of the variable, its `long_name`
          character(len=*), intent(in) :: long_name
 
          call file%put(file%integer_variable(name, rows, long_name), values)
@@ -119,13 +119,13 @@ contains
 
       !> One of several words at each point.
       subroutine put_flags(name, values, words, long_name)
-         !> Its name
+         !> Name of the variable
          character(len=*), intent(in) :: name
          !> Which of the words, from 0
          integer, intent(in) :: values(:)
          !> The words
          character(len=*), intent(in) :: words(:)
-         !> What it is
+         !> Description of the variable, its `long_name`
          character(len=*), intent(in) :: long_name
          integer :: i
 
@@ -276,11 +276,11 @@ contains
 
       !> A column of the paths.
       subroutine put(name, values, long_name)
-         !> Its name
+         !> Name of the variable
          character(len=*), intent(in) :: name
-         !> Its values
+         !> Values of the variable
          real(wp), intent(in) :: values(:)
-         !> What it is
+         !> Description of the variable, its `long_name`
          character(len=*), intent(in) :: long_name
 
          call file%put(file%real_variable(name, dimension, long_name, "1"), values)

@@ -26,7 +26,7 @@ contains
       character(len=*), intent(in) :: path
       !> What is asked
       type(cycle_settings_type), intent(out) :: settings
-      !> It cannot be read, or a value is out of range
+      !> Error if the file cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: along
       real(wp) :: v, vector(4)
@@ -80,7 +80,7 @@ contains
       character(len=:), allocatable, intent(out) :: along_read
       !> Velocity before the trajectories
       real(wp), intent(out) :: v_read
-      !> It cannot be read
+      !> Error if the file cannot be read
       type(error_type), allocatable, intent(out) :: error
       character(len=word_length) :: along
       character(len=256) :: reason

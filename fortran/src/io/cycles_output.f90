@@ -37,7 +37,7 @@ contains
       type(left_out_type), intent(in) :: left_out(:)
       !> Curves of special points
       type(cycle_curve_type), intent(in) :: curves(:)
-      !> It could not be written
+      !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
       real(wp) :: fixed(size(names_along))

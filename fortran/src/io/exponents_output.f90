@@ -32,7 +32,7 @@ contains
       type(integration_options), intent(in) :: options(:)
       !> Growth with each
       type(growth_type), intent(in) :: measured(:)
-      !> It could not be written
+      !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(exponent_type), allocatable :: exponents(:)
       type(output_file_type) :: file
@@ -103,7 +103,7 @@ contains
    pure function with_flow(growth, flow) result(whole)
       !> Growth of the vectors, shape (vectors, intervals)
       real(wp), intent(in) :: growth(:, :)
-      !> Whether it is wanted
+      !> Whether the exponent along the flow is wanted
       logical, intent(in) :: flow
       real(wp) :: whole(size(growth, 1) + merge(1, 0, flow), size(growth, 2))
       integer :: growing

@@ -26,7 +26,7 @@ contains
       type(hopf_point_type), intent(in) :: special(:)
       !> Number of unstable pairs in cells of the window, epsilon first
       integer, intent(in) :: pairs(:, :)
-      !> It could not be written
+      !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
       integer :: branch, crossing, epsilon, l1, omega, others, piece, printed_residual

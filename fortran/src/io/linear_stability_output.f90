@@ -26,7 +26,7 @@ contains
       type(stability_change_type), intent(in) :: with_tau(:)
       !> Changes as epsilon grows
       type(stability_change_type), intent(in) :: with_epsilon(:)
-      !> It could not be written
+      !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
       integer :: imaginary, real_part, rows
@@ -54,7 +54,7 @@ contains
       type(output_file_type), intent(inout) :: file
       !> The parameter
       character(len=*), intent(in) :: parameter_name
-      !> Its values
+      !> Values of the parameter
       real(wp), intent(in) :: values(:)
       !> The changes
       type(stability_change_type), intent(in) :: changes(:)

@@ -13,7 +13,7 @@ module measure_output
    type :: measured_runs_type
       !> The case
       type(case_type) :: case
-      !> Its runs
+      !> Runs of the case
       type(run_type), allocatable :: runs(:)
    end type measured_runs_type
 
@@ -32,7 +32,7 @@ contains
       type(measured_runs_type), intent(in) :: measured(:)
       !> What stands where there is no sample
       real(wp), intent(in) :: filling
-      !> It could not be written
+      !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
       type(case_type), allocatable :: cases(:)
@@ -97,11 +97,11 @@ contains
       subroutine put(name, values, long_name, units)
          !> Name of the variable
          character(len=*), intent(in) :: name
-         !> Its values
+         !> Values of the variable
          real(wp), intent(in) :: values(:)
-         !> What it is
+         !> Description of the variable, its `long_name`
          character(len=*), intent(in) :: long_name
-         !> Its unit, if any
+         !> Unit of the variable, if any
          character(len=*), intent(in), optional :: units
          integer :: id
 
@@ -119,7 +119,7 @@ contains
          character(len=*), intent(in) :: name
          !> Index into the state
          integer, intent(in) :: component
-         !> What it is
+         !> Description of the variable, its `long_name`
          character(len=*), intent(in) :: long_name
 
          table = filling

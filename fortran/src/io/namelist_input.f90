@@ -27,7 +27,7 @@ contains
       character(len=*), intent(in) :: group
       !> Unit it is open on
       integer, intent(out) :: unit
-      !> It cannot be opened, or the group or a key of it is given twice
+      !> Error if the file cannot be opened, or the group or a key of it is given twice
       type(error_type), allocatable, intent(out) :: error
       character(len=256) :: reason
       integer :: status
@@ -48,9 +48,9 @@ contains
       integer, intent(in) :: unit
       !> I/O status of the read
       integer, intent(in) :: status
-      !> Its message
+      !> Message of the read
       character(len=*), intent(in) :: reason
-      !> It could not be read
+      !> Error if the group could not be read
       type(error_type), allocatable, intent(out) :: error
       character(len=256) :: close_reason
       integer :: close_status

@@ -10,7 +10,7 @@ module namelist_text
    !> Most bytes of a namelist file: the largest that a program accepts, 1000 cases or 1000
    !> histories, has a quarter of it.
    integer, parameter :: most_bytes = 1000000
-   !> Most keys that are compared: no group has so many, and reading refuses an unknown key.
+   !> Most keys that are compared: no group has more, and reading refuses an unknown key.
    integer, parameter :: most_keys = 100
    !> Most letters of a key: those of a name in Fortran.
    integer, parameter :: longest_key = 63
@@ -30,7 +30,7 @@ contains
       character(len=*), intent(in) :: path
       !> Namelist group, in small letters
       character(len=*), intent(in) :: group
-      !> It is given twice, or not at all, or the file cannot be read
+      !> Error if the group is given twice, or not at all, or the file cannot be read
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: bare, content, quoted
       integer :: first, second
@@ -98,7 +98,7 @@ contains
       character(len=*), intent(in) :: path
       !> All of it
       character(len=:), allocatable, intent(out) :: content
-      !> It cannot be read, or is too long
+      !> Error if the file cannot be read, or is too long
       type(error_type), allocatable, intent(out) :: error
       character(len=256) :: reason
       integer(int64) :: length

@@ -24,9 +24,9 @@ module netcdf_output
 
    !> A dimension.
    type :: axis_type
-      !> Its name
+      !> Name of the dimension
       character(len=64) :: name = ""
-      !> Its length
+      !> Length of the dimension
       integer :: length = 0
       !> Names of variables that say where along it a value belongs, with blanks between
       character(len=64) :: coordinates = ""
@@ -39,7 +39,7 @@ module netcdf_output
       type(unfinished_type) :: place
       !> NetCDF id
       integer :: id = -1
-      !> Its dimensions
+      !> Dimensions of the file
       type(axis_type), allocatable :: axes(:)
       !> First error met
       type(error_type), allocatable, public :: error
@@ -70,7 +70,7 @@ contains
    subroutine create(self, path, title)
       !> The file
       class(output_file_type), intent(inout) :: self
-      !> Its path once complete
+      !> Path of the complete file
       character(len=*), intent(in) :: path
       !> What it holds
       character(len=*), intent(in) :: title
@@ -110,9 +110,9 @@ contains
    integer function dimension(self, name, length, coordinates) result(id)
       !> The file
       class(output_file_type), intent(inout) :: self
-      !> Its name
+      !> Name of the dimension
       character(len=*), intent(in) :: name
-      !> Its length
+      !> Length of the dimension
       integer, intent(in) :: length
       !> Names of variables that say where along it a value belongs, with blanks between
       character(len=*), intent(in), optional :: coordinates
@@ -129,13 +129,13 @@ contains
    integer function variable(self, name, kind, dimensions, long_name) result(id)
       !> The file
       class(output_file_type), intent(inout) :: self
-      !> Its name
+      !> Name of the variable
       character(len=*), intent(in) :: name
       !> NetCDF's number of its type
       integer, intent(in) :: kind
-      !> Its dimensions, the fastest first
+      !> Dimensions of the variable, the fastest first
       integer, intent(in) :: dimensions(:)
-      !> What it is
+      !> Description of the variable, its `long_name`
       character(len=*), intent(in) :: long_name
       character(len=:), allocatable :: coordinates
       integer :: i
@@ -159,13 +159,13 @@ contains
    integer function real_variable(self, name, dimension, long_name, units) result(id)
       !> The file
       class(output_file_type), intent(inout) :: self
-      !> Its name
+      !> Name of the variable
       character(len=*), intent(in) :: name
-      !> Its dimension
+      !> Dimension of the variable
       integer, intent(in) :: dimension
-      !> What it is
+      !> Description of the variable, its `long_name`
       character(len=*), intent(in) :: long_name
-      !> Its unit, '1' where nondimensional
+      !> Unit of the variable, '1' where nondimensional
       character(len=*), intent(in) :: units
 
       id = self%variable(name, nf90_double, [dimension], long_name)
@@ -181,11 +181,11 @@ contains
    integer function integer_variable(self, name, dimension, long_name) result(id)
       !> The file
       class(output_file_type), intent(inout) :: self
-      !> Its name
+      !> Name of the variable
       character(len=*), intent(in) :: name
-      !> Its dimension
+      !> Dimension of the variable
       integer, intent(in) :: dimension
-      !> What it is
+      !> Description of the variable, its `long_name`
       character(len=*), intent(in) :: long_name
 
       id = self%variable(name, nf90_int, [dimension], long_name)
@@ -197,13 +197,13 @@ contains
    subroutine words(self, name, dimension, values, long_name)
       !> The file
       class(output_file_type), intent(inout) :: self
-      !> Its name
+      !> Name of the variable
       character(len=*), intent(in) :: name
-      !> Its dimension
+      !> Dimension of the variable
       integer, intent(in) :: dimension
-      !> Its values
+      !> Values of the variable
       character(len=*), intent(in) :: values(:)
-      !> What it is
+      !> Description of the variable, its `long_name`
       character(len=*), intent(in) :: long_name
       character(len=max(1, maxval(len_trim(values)))) :: ended(size(values))
       integer :: i, id, letters
@@ -221,17 +221,17 @@ contains
    subroutine flags(self, name, dimension, values, codes, meanings, long_name)
       !> The file
       class(output_file_type), intent(inout) :: self
-      !> Its name
+      !> Name of the variable
       character(len=*), intent(in) :: name
-      !> Its dimension
+      !> Dimension of the variable
       integer, intent(in) :: dimension
-      !> Its values
+      !> Values of the variable
       integer, intent(in) :: values(:)
       !> All values that it can have
       integer, intent(in) :: codes(:)
       !> The word of each, in their order
       character(len=*), intent(in) :: meanings(:)
-      !> What it is
+      !> Description of the variable, its `long_name`
       character(len=*), intent(in) :: long_name
       integer :: id
 
@@ -264,13 +264,13 @@ contains
    subroutine table(self, name, dimensions, values, long_name)
       !> The file
       class(output_file_type), intent(inout) :: self
-      !> Its name
+      !> Name of the variable
       character(len=*), intent(in) :: name
-      !> Its dimensions, the faster first
+      !> Dimensions of the variable, the faster first
       integer, intent(in) :: dimensions(2)
-      !> Its values
+      !> Values of the variable
       real(wp), intent(in) :: values(:, :)
-      !> What it is
+      !> Description of the variable, its `long_name`
       character(len=*), intent(in) :: long_name
       integer :: id
 
@@ -284,9 +284,9 @@ contains
    subroutine text_attribute(self, name, value, variable)
       !> The file
       class(output_file_type), intent(inout) :: self
-      !> Its name
+      !> Name of the attribute
       character(len=*), intent(in) :: name
-      !> Its value
+      !> Value of the attribute
       character(len=*), intent(in) :: value
       !> Variable it belongs to
       integer, intent(in), optional :: variable
@@ -299,9 +299,9 @@ contains
    subroutine real_attribute(self, name, value, variable)
       !> The file
       class(output_file_type), intent(inout) :: self
-      !> Its name
+      !> Name of the attribute
       character(len=*), intent(in) :: name
-      !> Its value
+      !> Value of the attribute
       real(wp), intent(in) :: value
       !> Variable it belongs to
       integer, intent(in), optional :: variable
@@ -314,9 +314,9 @@ contains
    subroutine integer_attribute(self, name, value, variable)
       !> The file
       class(output_file_type), intent(inout) :: self
-      !> Its name
+      !> Name of the attribute
       character(len=*), intent(in) :: name
-      !> Its value
+      !> Value of the attribute
       integer(int64), intent(in) :: value
       !> Variable it belongs to
       integer, intent(in), optional :: variable

@@ -36,9 +36,9 @@ contains
 
    !> Refuse to read what may have no end, and to replace what the program reads.
    subroutine check_input(input_path, output_path, error)
-      !> What it reads
+      !> Path of the file to read
       character(len=*), intent(in) :: input_path
-      !> What it is to write
+      !> Path of the file to write
       character(len=*), intent(in) :: output_path
       !> The input is no regular file, or is the output
       type(error_type), allocatable, intent(out) :: error
@@ -62,7 +62,7 @@ contains
 
    !> One word of the command line.
    function argument(i) result(word)
-      !> Its place
+      !> Place of the word
       integer, intent(in) :: i
       character(len=:), allocatable :: word
       integer :: length

@@ -76,7 +76,7 @@ contains
    subroutine begin_part(self, part)
       !> The progress
       class(progress_type), intent(inout) :: self
-      !> Its number, from 1
+      !> Number of the part, from 1
       integer, intent(in) :: part
 
       self%part = part

@@ -38,9 +38,9 @@ contains
    subroutine create(self, path, error)
       !> The file
       class(reference_file_type), intent(inout) :: self
-      !> Its path once complete
+      !> Path of the complete file
       character(len=*), intent(in) :: path
-      !> It cannot be written
+      !> Error if the file cannot be written
       type(error_type), allocatable, intent(out) :: error
 
       call self%place%begin(path, error)
@@ -61,9 +61,9 @@ contains
       real(wp), intent(in) :: disturbance
       !> The reference
       type(run_type), intent(in) :: best
-      !> The same at a larger tolerance
+      !> Solution at a larger tolerance
       type(run_type), intent(in) :: checking
-      !> The same from a disturbed history
+      !> Solution from a disturbed history
       type(run_type), intent(in) :: disturbed
       real(wp) :: time(size(best%samples, 2))
       character(len=row_length) :: row
@@ -99,7 +99,7 @@ contains
    subroutine finish(self, error)
       !> The file
       class(reference_file_type), intent(inout) :: self
-      !> It could not be written
+      !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
 
       call self%place%write(self%content, error)

@@ -48,7 +48,7 @@ contains
       character(len=*), intent(in) :: path
       !> The scene
       type(scene_type), intent(out) :: scene
-      !> It cannot be read, or a value is out of range
+      !> Error if the file cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
 
       call read_group(path, scene, error)
@@ -62,7 +62,7 @@ contains
       character(len=*), intent(in) :: path
       !> The scene
       type(scene_type), intent(out) :: filled
-      !> It cannot be read
+      !> Error if the file cannot be read
       type(error_type), allocatable, intent(out) :: error
       character(len=word_length) :: name, method, variables(3)
       type(block_history_type) :: history

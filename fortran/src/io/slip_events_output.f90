@@ -17,9 +17,9 @@ contains
       character(len=*), intent(in) :: path
       !> The scene
       type(scene_type), intent(in) :: scene
-      !> Its events
+      !> Slip events of the scene
       type(slip_events_type), intent(in) :: events
-      !> It could not be written
+      !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
       integer :: duration, least, onset, peak, recurrence, rows, slip

@@ -37,9 +37,9 @@ contains
       real(wp), intent(in) :: variance
       !> Labelled peaks
       type(peak_type), intent(in) :: peaks(:)
-      !> Their base frequencies
+      !> Their fundamental frequencies
       type(bases_type), intent(in) :: bases
-      !> It could not be written
+      !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
       integer :: b, bins, f, m(2), p, pf, pp, rows
@@ -52,12 +52,14 @@ contains
       pf = file%real_variable("peak_frequency", rows, "interpolated frequency of the peak", "1")
       pp = file%real_variable("peak_power", rows, "interpolated height of the peak", "1")
       call file%flags("peak_kind", rows, peaks%kind, kinds, kind_names, "what the peak is")
-      m(1) = file%integer_variable("peak_multiple", rows, "multiple of the first base frequency")
+      m(1) = file%integer_variable("peak_multiple", rows, &
+                                   "multiple of the first fundamental frequency")
       m(2) = file%integer_variable("peak_second_multiple", rows, &
-                                   "multiple of the second base frequency, added to the first's")
+                                   "multiple of the second fundamental frequency, added to " &
+                                   //"the first's")
       b = file%real_variable("base_frequency", &
                              file%dimension("base", count(bases%frequency > 0.0_wp)), &
-                             "base frequencies of the peaks", "1")
+                             "fundamental frequencies of the peaks", "1")
       call file%attribute("scene", scene)
       call file%attribute("window", trim(settings%window))
       call file%attribute("segments", int(settings%segments, int64))

@@ -36,7 +36,7 @@ contains
       character(len=*), intent(in) :: variable
       !> What was read
       type(trajectory_type), intent(out) :: trajectory
-      !> It cannot be read
+      !> Error if the file cannot be read
       type(error_type), allocatable, intent(out) :: error
       integer :: dimension, file, id, length, status
 

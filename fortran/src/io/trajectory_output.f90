@@ -126,7 +126,7 @@ contains
       class(trajectory_writer_type), intent(inout) :: self
       !> What the integration did
       type(integration_result), intent(in) :: outcome
-      !> It could not be written
+      !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
 
       call self%progress%finish()

@@ -27,7 +27,7 @@ module unfinished_file
       character(len=:), allocatable :: path
       !> Path until then
       character(len=:), allocatable :: other_path
-      !> Whether it was written once
+      !> Whether the file was written once
       logical, private :: there = .false.
    contains
       !> Choose the other path and remove unfinished files of earlier runs
@@ -84,7 +84,7 @@ contains
       class(unfinished_type), intent(inout) :: self
       !> Path of the complete file
       character(len=*), intent(in) :: path
-      !> It cannot be written there
+      !> Error if the file cannot be written there
       type(error_type), allocatable, intent(out) :: error
       integer(int64) :: now
 
@@ -102,7 +102,7 @@ contains
       class(unfinished_type), intent(inout) :: self
       !> All of it, not shorter than before
       character(len=*), intent(in) :: content
-      !> It cannot be written, or another run has begun to write it
+      !> Error if the file cannot be written, or another run has begun to write it
       type(error_type), allocatable, intent(out) :: error
 
       call self%conclude(write_file(self%other_path, content, self%there), error)
@@ -113,7 +113,7 @@ contains
    subroutine publish(self, error)
       !> The file
       class(unfinished_type), intent(in) :: self
-      !> It cannot be renamed, or another run has begun to write it
+      !> Error if the file cannot be renamed, or another run has begun to write it
       type(error_type), allocatable, intent(out) :: error
 
       call self%conclude(rename_file(self%other_path, self%path), error)

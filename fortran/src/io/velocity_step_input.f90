@@ -19,7 +19,7 @@ contains
       character(len=*), intent(in) :: path
       !> The protocol
       type(step_protocol_type), intent(out) :: protocol
-      !> It cannot be read, or a value is out of range
+      !> Error if the file cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
 
       call read_group(path, protocol, error)
@@ -44,7 +44,7 @@ contains
       character(len=*), intent(in) :: path
       !> The protocol
       type(step_protocol_type), intent(out) :: protocol
-      !> It cannot be read
+      !> Error if the file cannot be read
       type(error_type), allocatable, intent(out) :: error
       character(len=256) :: reason
       real(wp) :: mu0, a, b, dc, v0, b_state, delta_v, slip_before, slip_after, tolerance

@@ -18,7 +18,7 @@ contains
       type(step_protocol_type), intent(in) :: protocol
       !> What was seen
       type(friction_response_type), intent(in) :: response
-      !> It could not be written
+      !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
       integer :: mu, rows, slip, theta, time, velocity

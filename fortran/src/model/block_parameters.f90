@@ -58,7 +58,7 @@ contains
       character(len=*), intent(in) :: place
       !> Name of its component
       character(len=*), intent(in) :: quantity
-      !> Its value
+      !> Value of the component
       real(wp), intent(in) :: value
       !> Key for the message, where it is not that name
       character(len=*), intent(in), optional :: key

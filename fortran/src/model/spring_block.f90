@@ -14,7 +14,7 @@ module spring_block
 
    !> The block with its parameters; all nondimensional.
    type, extends(dde_problem_type) :: spring_block_type
-      !> Its parameters
+      !> Parameters of the block
       type(block_parameters_type) :: parameters
       !> State theta, u, ln v for t <= 0
       real(wp) :: past(3) = 0.0_wp
@@ -171,7 +171,7 @@ contains
       call series_of_block(self%parameters, unit, degree, size(z, 2), z, y)
    end subroutine series_of_4
 
-   !> Rate at which w comes to -theta - xi u, by (4).
+   !> Rate at which w approaches -theta - xi u, by (4).
    pure function relaxation_of_w(self, t, y) result(rate)
       !> The block
       class(spring_block_type), intent(in) :: self

@@ -17,7 +17,7 @@ contains
       character(len=*), intent(in) :: place
       !> Key
       character(len=*), intent(in) :: key
-      !> Its value
+      !> Value of the key
       real(wp), intent(in) :: value
       !> Exclusive lower bound
       real(wp), intent(in), optional :: above
@@ -62,7 +62,7 @@ contains
       character(len=*), intent(in) :: place
       !> Key
       character(len=*), intent(in) :: key
-      !> Its value
+      !> Value of the key
       integer, intent(in) :: value
       !> Least value allowed
       integer, intent(in) :: at_least
@@ -87,7 +87,7 @@ contains
       character(len=*), intent(in) :: place
       !> Key
       character(len=*), intent(in) :: key
-      !> Its value
+      !> Value of the key
       character(len=*), intent(in) :: value
       !> Words allowed
       character(len=*), intent(in) :: choices(:)

@@ -22,7 +22,7 @@ module attractor_points
 
    !> What was found there.
    type :: finding_type
-      !> Whether it was looked for; if not, only class and period are set, those of the neighbours
+      !> Whether the motion was computed; if not, class and period are those of the neighbours
       logical :: computed = .true.
       !> The attractor; its class is `undecided` where `problem` is allocated
       type(attractor_type) :: attractor

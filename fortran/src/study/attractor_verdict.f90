@@ -66,7 +66,7 @@ module attractor_verdict
       integer :: period = 0
       !> Roughness of the section as a function of two phases, see `section_roughness`
       real(wp) :: roughness = not_measured
-      !> Base frequencies of v, 0 where none
+      !> Fundamental frequencies of v, 0 where none
       real(wp) :: bases(2) = 0.0_wp
       !> Share of the power of v in the lines of these, or `not_measured`
       real(wp) :: line_share = not_measured

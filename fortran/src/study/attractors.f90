@@ -1,4 +1,4 @@
-!> The attractor that the delayed block comes to from one history, and its class.
+!> The attractor that the delayed block reaches from one history, and its class.
 !>
 !> The approach ends when the block is at rest or on a cycle, at the latest after a stated time.
 !> Then the motion is observed and its exponents are measured, for longer and longer times, until
@@ -30,7 +30,7 @@ module attractors
 
 contains
 
-   !> Find the attractor of the block's own history, or the one that an earlier motion comes to.
+   !> Find the attractor of the block's own history, or the one that an earlier motion reaches.
    subroutine find_attractor(block_model, settings, options, attractor, error, start, arrived)
       !> The block and its history
       type(spring_block_type), intent(in) :: block_model
@@ -136,7 +136,7 @@ contains
       time = settings%t_observed*2**settings%doublings
    end function longest_time
 
-   !> Whether the block has come to rest: it stays close to steady sliding or approaches it, and
+   !> Whether the block is at rest: it stays close to steady sliding or approaches it, and
    !> steady sliding is stable.
    subroutine judge_rest(block_model, settings, attractor, error)
       !> The block

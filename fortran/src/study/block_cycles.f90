@@ -47,7 +47,7 @@ module block_cycles
       character(len=16) :: origin = ""
       !> The branch
       type(branch_type) :: branch
-      !> Its special points
+      !> Special points of the branch
       type(special_point_type), allocatable :: points(:)
    end type cycles_type
 
@@ -66,8 +66,8 @@ module block_cycles
    !> Tolerance of trajectories, and the time in which a period is looked for
    real(wp), parameter :: tolerance = 1.0e-9_wp, search_time = 300.0_wp
    !> A branch ends at a Hopf point if parameter and period differ by less than this share. A
-   !> trajectory comes to an orbit of a branch if period and amplitude differ by less than the
-   !> second share: near a bifurcation it comes to it slowly.
+   !> trajectory reaches an orbit of a branch if period and amplitude differ by less than the
+   !> second share: near a bifurcation it approaches it slowly.
    real(wp), parameter :: same = 1.0e-3_wp, alike = 0.05_wp
 
 contains
@@ -233,7 +233,7 @@ contains
       left_out = [left_out, left_out_type(origin, at, reason)]
    end subroutine leave_out
 
-   !> The cycle that a trajectory comes to.
+   !> The cycle that a trajectory reaches.
    subroutine orbit_at(settings, i, basis, orbit, error)
       !> What is computed
       type(cycle_settings_type), intent(in) :: settings
@@ -243,7 +243,7 @@ contains
       type(collocation_basis_type), intent(in) :: basis
       !> The orbit
       type(periodic_orbit_type), intent(out) :: orbit
-      !> It comes to no cycle
+      !> Error if the trajectory leads to no cycle
       type(error_type), allocatable, intent(out) :: error
       type(block_parameters_type) :: parameters
       type(continuation_type) :: arrived

@@ -29,7 +29,7 @@ module cycle_lines
 
    !> A Hopf point.
    type :: hopf_start_type
-      !> Its parameters
+      !> Parameters of the Hopf point
       type(block_parameters_type) :: parameters
       !> Frequency of the pair
       real(wp) :: omega = 0.0_wp

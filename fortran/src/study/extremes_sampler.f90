@@ -13,7 +13,7 @@ module extremes_sampler
 
    !> Sampler that keeps every eighth state and the extremes of all.
    type, extends(sampler_type) :: extremes_sampler_type
-      !> Times of samples, ascending from the first instant
+      !> Times of samples, ascending from the initial time
       real(wp), allocatable :: time(:)
       !> Samples, shape (n, times); those not reached are what they were filled with
       real(wp), allocatable :: values(:, :)
@@ -39,7 +39,7 @@ contains
    pure function new_sampler(n, time, filling) result(sampler)
       !> Number of equations
       integer, intent(in) :: n
-      !> Times of samples, ascending from the first instant
+      !> Times of samples, ascending from the initial time
       real(wp), intent(in) :: time(:)
       !> What a sample not reached holds
       real(wp), intent(in) :: filling

@@ -35,7 +35,7 @@ contains
    subroutine integrate_rk4(problem, t_end, h, cubic, outcome, error, sampler)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Last instant
+      !> Final time
       real(wp), intent(in) :: t_end
       !> Length of a step
       real(wp), intent(in) :: h
@@ -119,7 +119,7 @@ contains
       real(wp), intent(in) :: part
       !> State
       real(wp), intent(in) :: y(:)
-      !> Its slope
+      !> Slope of the state
       real(wp), intent(out) :: slope(:)
 
       call problem%rhs((step + part)*grid%h, y, grid%delayed(problem, step, part), slope)
@@ -187,7 +187,7 @@ contains
       integer, intent(in) :: step
       !> Number of steps
       integer, intent(in) :: steps
-      !> Last instant
+      !> Final time
       real(wp), intent(in) :: t_end
       !> Receiver
       class(sampler_type), intent(inout) :: sampler

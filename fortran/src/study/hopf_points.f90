@@ -165,7 +165,7 @@ contains
    subroutine add(found, kind, plane, omega, branch, error)
       !> Points so far
       type(hopf_point_type), allocatable, intent(inout) :: found(:)
-      !> Its kind
+      !> Kind of the point
       character(len=*), intent(in) :: kind
       !> The plane
       class(curve_plane_type), intent(in) :: plane

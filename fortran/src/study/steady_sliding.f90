@@ -34,7 +34,7 @@ contains
       real(wp), intent(in) :: t_begin, t_end
       !> Method and tolerances
       type(integration_options), intent(in) :: options
-      !> Whether it does
+      !> Whether the block comes to rest
       logical, intent(out) :: rest
       !> The run ended before its time, or the roots of (5) cannot be found
       type(error_type), allocatable, intent(out) :: error
@@ -90,7 +90,7 @@ contains
       exponents = [(exponent_type(value=real(roots(i))), i=1, min(count, size(roots)))]
    end subroutine sliding_exponents
 
-   !> A bound with at least so many roots of (5) above it, and not many more; or the last bound.
+   !> A bound with at least this number of roots of (5) above it, not many more; or the last bound.
    pure real(wp) function bound_for(p, count) result(bound)
       !> Parameters
       type(block_parameters_type), intent(in) :: p

@@ -131,7 +131,7 @@ contains
       class(dde_problem_type), intent(in) :: problem
       !> Time of the stage
       real(wp), intent(in) :: t
-      !> Its argument, completed here
+      !> State of the stage, completed here
       real(wp), intent(inout) :: stage(problem%n)
       !> Weight of the newest slope
       real(wp), intent(in) :: weight

@@ -48,7 +48,7 @@ module dde_explicit_step
 
 contains
 
-   !> Storage, and the state at the first instant.
+   !> Storage, and the state at the initial time.
    pure function new_step(problem) result(step)
       !> The problem
       class(dde_problem_type), intent(in) :: problem

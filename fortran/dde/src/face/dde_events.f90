@@ -1,9 +1,9 @@
-!> Events are instants where a function of time, state and slope passes zero: the maxima of a
+!> Events are times where a function of time, state and slope passes zero: the maxima of a
 !> component or its passages through a section. The integrator finds them on dense output and passes
 !> them to the watcher, which chooses the functions and decides what is done with an event.
 !>
 !> There is one event where a function that was not zero becomes zero or changes its sign, at the
-!> first such instant. A zero at the first instant of a run is no event. If a function stays within
+!> first such time. A zero at the initial time of a run is no event. If a function stays within
 !> the tolerance of zero, dense output may pass zero although the solution does not.
 module dde_events
    use dde_time, only: instant
@@ -50,7 +50,7 @@ module dde_events
          real(wp), intent(in) :: t
          !> State, shape (n)
          real(wp), intent(in) :: y(:)
-         !> Its time derivative, of dense output, shape (n)
+         !> Time derivative of the state, of dense output, shape (n)
          real(wp), intent(in) :: slope(:)
          !> The functions, shape (size(direction))
          real(wp), intent(out) :: g(:)
@@ -64,11 +64,11 @@ module dde_events
          class(event_watcher_type), intent(inout) :: self
          !> Number of the function
          integer, intent(in) :: which
-         !> Its time: t%hi, and t%lo beyond its last digit
+         !> Time of the event: t%hi, and t%lo beyond its last digit
          type(instant), intent(in) :: t
          !> State there, shape (n)
          real(wp), intent(in) :: y(:)
-         !> Its time derivative, shape (n)
+         !> Time derivative of the state, shape (n)
          real(wp), intent(in) :: slope(:)
       end subroutine take_event
    end interface
@@ -78,7 +78,7 @@ module dde_events
    type, extends(event_watcher_type) :: event_table
       !> Component that each function looks at, 1..n
       integer, allocatable :: component(:)
-      !> Whether it looks at the slope of the component: level 0 falling is a maximum
+      !> Whether the function looks at the slope of the component: level 0 falling is a maximum
       logical, allocatable :: of_slope(:)
       !> Level whose passages are events
       real(wp), allocatable :: level(:)
@@ -114,7 +114,7 @@ contains
       integer, intent(in) :: direction(:)
       !> Whether an event ends the run, one each
       logical, intent(in), optional :: terminal(:)
-      !> Whether it looks at the slope of the component, one each
+      !> Whether the function looks at the slope of the component, one each
       logical, intent(in), optional :: of_slope(:)
       type(event_table) :: table
 
@@ -144,8 +144,8 @@ contains
       end if
       if (size(self%direction) /= size(self%terminal)) then
          call raise(error, "integrate: "//text(size(self%direction))//" directions for " &
-                    //text(size(self%terminal))//" marks `terminal` of the watcher; as many " &
-                    //"expected")
+                    //text(size(self%terminal))//" marks `terminal` of the watcher; " &
+                    //text(size(self%terminal))//" expected")
          return
       end if
       do i = 1, size(self%direction)
@@ -200,7 +200,7 @@ contains
          call raise(error, "integrate: "//text(size(self%component))//" components, " &
                     //text(size(self%level))//" levels, "//text(size(self%direction)) &
                     //" directions and "//text(size(self%of_slope))//" marks `of_slope` of the " &
-                    //"watcher; as many expected")
+                    //"watcher; "//text(size(self%component))//" of each expected")
          return
       end if
       do i = 1, size(self%component)
@@ -253,7 +253,7 @@ contains
       real(wp), intent(in) :: t
       !> State
       real(wp), intent(in) :: y(:)
-      !> Its time derivative
+      !> Time derivative of the state
       real(wp), intent(in) :: slope(:)
       !> The functions
       real(wp), intent(out) :: g(:)
@@ -278,7 +278,7 @@ contains
       type(instant), intent(in) :: t
       !> State there
       real(wp), intent(in) :: y(:)
-      !> Its time derivative, not kept
+      !> Time derivative of the state, not kept
       real(wp), intent(in) :: slope(:)
 
       if (.not. allocated(self%time)) then

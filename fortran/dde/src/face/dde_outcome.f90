@@ -10,7 +10,7 @@ module dde_outcome
    public :: event_met, out_of_memory, reached_end, refused, step_underflow, too_many_steps
    public :: value_not_finite
 
-   !> Steps below this share of the time no longer move an instant.
+   !> Steps below this share of the time no longer move a time.
    real(wp), parameter :: least_step = 1.0e-140_wp
 
    !> Why an integration ended.
@@ -24,7 +24,7 @@ module dde_outcome
       !> Why it ended: reached_end, event_met, step_underflow, too_many_steps, value_not_finite,
       !> out_of_memory or refused
       integer :: reason = refused
-      !> Last instant reached
+      !> Final time reached
       real(wp) :: t = 0.0_wp
       !> State there, shape (n)
       real(wp), allocatable :: y(:)
@@ -78,7 +78,7 @@ contains
    pure subroutine explain(outcome, t_end, h, options, culprit, lacking, error)
       !> The result
       type(integration_result), intent(in) :: outcome
-      !> Last instant wanted
+      !> Final time wanted
       real(wp), intent(in) :: t_end
       !> Length of the last step attempted
       real(wp), intent(in) :: h

@@ -33,12 +33,12 @@ module dde_problem
       integer :: lower = -1, upper = -1
       !> Whether the extension gives `series` and `past_series`
       logical :: analytic = .false.
-      !> Whether it gives `tangent_series`, and `slow_tangent_series` if it gives `slow_series`
+      !> Whether the extension gives `tangent_series`, and `slow_tangent_series` with `slow_series`
       logical :: analytic_tangents = .false.
    contains
-      !> y at the first instant; may differ from the history there (a jump)
+      !> y at the initial time; may differ from the history there (a jump)
       procedure(initial_state), deferred :: initial
-      !> One component before the first instant
+      !> One component before the initial time
       procedure(past_value), deferred :: history
       !> Right-hand side f(t, y, z)
       procedure(right_hand_side), deferred :: rhs
@@ -46,7 +46,7 @@ module dde_problem
       procedure :: jacobian => no_jacobian
       !> Taylor series of the solution
       procedure :: series => no_series
-      !> Taylor series of one component before the first instant
+      !> Taylor series of one component before the initial time
       procedure :: past_series => no_past_series
       !> Rate at which the fast components approach a balance with the others
       procedure :: relaxation_rate => no_relaxation
@@ -54,12 +54,12 @@ module dde_problem
       procedure :: slow_series => no_slow_series
       !> Taylor series of small disturbances of the solution
       procedure :: tangent_series => no_tangent_series
-      !> The same on the solution of `slow_series`
+      !> Taylor series of small disturbances of the solution of `slow_series`
       procedure :: slow_tangent_series => no_slow_tangent_series
    end type dde_problem_type
 
    abstract interface
-      !> State at the first instant.
+      !> State at the initial time.
       pure subroutine initial_state(self, y)
          import :: dde_problem_type, wp
          implicit none (type, external)
@@ -140,7 +140,7 @@ contains
       y(1:, :) = ieee_value(1.0_wp, ieee_quiet_nan)
    end subroutine no_series
 
-   !> Taylor series of one component, as it was before the first instant, in powers of
+   !> Taylor series of one component, as it was before the initial time, in powers of
    !> (t' - t)/unit. Not a number unless the extension gives it.
    pure subroutine no_past_series(self, t, component, unit, y)
       !> The problem

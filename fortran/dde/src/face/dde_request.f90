@@ -40,7 +40,7 @@ module dde_request
       !> Time that a continuation reaches back, if longer than the longest delay: so that the next
       !> run may have a longer one
       real(wp) :: past_kept = 0.0_wp
-      !> Times at which the right-hand side jumps (before the first instant: the history), in any
+      !> Times at which the right-hand side jumps (before the initial time: the history), in any
       !> order. Steps end there.
       real(wp), allocatable :: break_at(:)
    end type integration_options
@@ -58,12 +58,12 @@ contains
                                  options%each_relative, options%each_absolute)
    end function tolerance_of
 
-   !> The jumps that the user gave. Before the first instant the history jumps, after it the
+   !> The jumps that the user gave. Before the initial time the history jumps, after it the
    !> right-hand side.
    pure function causes(options, origin) result(kinks)
       !> Where they are
       type(integration_options), intent(in) :: options
-      !> First instant of the first run
+      !> Initial time of the first run
       type(instant), intent(in) :: origin
       type(kink_type), allocatable :: kinks(:)
 
@@ -79,9 +79,9 @@ contains
    pure subroutine check(problem, t_start, t_end, options, error, sampler, watcher, continuation)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> First instant
+      !> Initial time
       real(wp), intent(in) :: t_start
-      !> Last instant
+      !> Final time
       real(wp), intent(in) :: t_end
       !> Method, tolerances and limits
       type(integration_options), intent(in) :: options
@@ -124,7 +124,8 @@ contains
                     //"size 0 without delays")
       else if (size(problem%lag) /= size(problem%component)) then
          call raise(error, "integrate: "//text(size(problem%lag))//" delays for " &
-                    //text(size(problem%component))//" delayed components; as many expected")
+                    //text(size(problem%component))//" delayed components; " &
+                    //text(size(problem%component))//" expected")
       else if (problem%lower < 0 .neqv. problem%upper < 0) then
          call raise(error, "integrate: lower = "//text(problem%lower)//", upper = " &
                     //text(problem%upper)//"; both >= 0 expected (a banded Jacobian), or neither")
@@ -148,9 +149,9 @@ contains
    !> Refuse a span that is not finite or not ascending. A continued run starts exactly where the
    !> earlier one ended.
    pure subroutine check_span(t_start, t_end, error, continuation)
-      !> First instant
+      !> Initial time
       real(wp), intent(in) :: t_start
-      !> Last instant
+      !> Final time
       real(wp), intent(in) :: t_end
       !> What is wrong
       type(error_type), allocatable, intent(out) :: error
@@ -255,7 +256,7 @@ contains
 
       if (size(values) /= n) then
          call raise(error, "integrate: "//text(size(values))//" tolerances "//name//" for " &
-                    //text(n)//" equations; as many expected")
+                    //text(n)//" equations; "//text(n)//" expected")
          return
       end if
       do i = 1, n

@@ -61,7 +61,7 @@ contains
       class(sampler_type), intent(in) :: self
       !> Number of equations
       integer, intent(in) :: n
-      !> First instant of the run
+      !> Initial time of the run
       real(wp), intent(in) :: t_start
       !> Whether the run goes on from an earlier one
       logical, intent(in) :: goes_on
@@ -93,7 +93,7 @@ contains
       class(table_sampler), intent(in) :: self
       !> Number of equations
       integer, intent(in) :: n
-      !> First instant of the run
+      !> Initial time of the run
       real(wp), intent(in) :: t_start
       !> Whether the run goes on from an earlier one
       logical, intent(in) :: goes_on

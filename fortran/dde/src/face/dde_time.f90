@@ -16,7 +16,7 @@ module dde_time
 
 contains
 
-   !> The instant of an ordinary number.
+   !> The time of an ordinary number.
    elemental function instant_at(time) result(point)
       !> Time
       real(wp), intent(in) :: time
@@ -25,7 +25,7 @@ contains
       point = instant(hi=time, lo=0.0_wp)
    end function instant_at
 
-   !> The instant `step` after `point` (before it where step is negative).
+   !> The time `step` after `point` (before it where step is negative).
    elemental function later(point, step) result(moved)
       !> Where to start
       type(instant), intent(in) :: point
@@ -41,7 +41,7 @@ contains
       moved%lo = rest - (moved%hi - total)
    end function later
 
-   !> Signed time from one instant to another.
+   !> Signed time from one time to another.
    elemental function elapsed(from, to) result(span)
       !> Start
       type(instant), intent(in) :: from

@@ -72,7 +72,7 @@ contains
       class(tolerance_type), intent(in) :: self
       !> Which component
       integer, intent(in) :: i
-      !> Its value
+      !> Value of the component
       real(wp), intent(in) :: value
 
       tolerance = self%absolute(i) + self%relative(i)*abs(value)

@@ -33,7 +33,7 @@ module dde_breaking_points
       integer, private :: next = 1, due = 1
       !> Delays
       real(wp), allocatable, private :: lag(:)
-      !> First instant, from which rounding is measured
+      !> Initial time, from which rounding is measured
       type(instant), private :: origin
       !> Passages after which a kink is too smooth for the order of the method
       integer, private :: most_passages = 0
@@ -46,7 +46,7 @@ module dde_breaking_points
       procedure :: add
       !> The point at which a step should end
       procedure :: goal
-      !> Its instant
+      !> Time of a breaking point
       procedure :: at
       !> Whether a point is the end of the run
       procedure :: is_end
@@ -73,11 +73,11 @@ contains
       class(breaking_points), intent(inout) :: self
       !> Kinks so far and to come, in any order
       type(kink_type), intent(in) :: kinks(:)
-      !> First instant of the first run
+      !> Initial time of the first run
       type(instant), intent(in) :: origin
       !> The run stands here
       type(instant), intent(in) :: now
-      !> Its end
+      !> End of the run
       type(instant), intent(in) :: finish
       !> Delays, > 0
       real(wp), intent(in) :: lag(:)
@@ -190,11 +190,11 @@ contains
       end do
    end function goal
 
-   !> The instant of a point.
+   !> The time of a point.
    pure type(instant) function at(self, number) result(point)
       !> The points
       class(breaking_points), intent(in) :: self
-      !> Its number
+      !> Number of the breaking point
       integer, intent(in) :: number
 
       point = self%ahead(number)%at
@@ -204,7 +204,7 @@ contains
    pure logical function is_end(self, number) result(value)
       !> The points
       class(breaking_points), intent(in) :: self
-      !> Its number
+      !> Number of the breaking point
       integer, intent(in) :: number
 
       value = number == size(self%ahead)
@@ -214,7 +214,7 @@ contains
    pure logical function is_cause(self, number) result(value)
       !> The points
       class(breaking_points), intent(in) :: self
-      !> Its number
+      !> Number of the breaking point
       integer, intent(in) :: number
 
       value = self%ahead(number)%generation == 0
@@ -244,11 +244,11 @@ contains
    pure subroutine land(self, number, proposed, h)
       !> The points
       class(breaking_points), intent(inout) :: self
-      !> Its number
+      !> Number of the breaking point
       integer, intent(in) :: number
       !> Length proposed for the step
       real(wp), intent(in) :: proposed
-      !> Its length
+      !> Length of the step
       real(wp), intent(in) :: h
       type(kink_type) :: here
 
@@ -280,7 +280,7 @@ contains
    pure subroutine forget(self, horizon)
       !> The points
       class(breaking_points), intent(inout) :: self
-      !> Nothing before this instant will be read
+      !> Nothing before this time will be read
       type(instant), intent(in) :: horizon
 
       if (size(self%met) == 0) return

@@ -29,7 +29,7 @@ module dde_controller
       real(wp) :: last_h = 0.0_wp
       !> Whether the last step was rejected
       logical :: rejected = .false.
-      !> Its error, 0 where that was not finite, and its length
+      !> Error of the last step, if rejected, 0 where that was not finite, and its length
       real(wp), private :: rejected_error = 0.0_wp, rejected_h = 0.0_wp
    contains
       !> Length after an accepted step

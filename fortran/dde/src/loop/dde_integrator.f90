@@ -25,14 +25,14 @@ module dde_integrator
 contains
 
    !> Integrate `problem` from t_start to t_end >= t_start, or to an event that ends the run. Only
-   !> the past that the delays need is stored. On an error `outcome` holds the last instant reached.
+   !> the past that the delays need is stored. On an error `outcome` holds the last time reached.
    subroutine integrate(problem, t_start, t_end, options, outcome, error, sampler, watcher, &
                         continuation)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> First instant
+      !> Initial time
       real(wp), intent(in) :: t_start
-      !> Last instant
+      !> Final time
       real(wp), intent(in) :: t_end
       !> Method, tolerances and limits
       type(integration_options), intent(in) :: options

@@ -9,13 +9,13 @@ module dde_kinks
    !> Points are one if their distance is below this share of their distance from the first kink.
    real(wp), parameter :: same_point = 16.0_wp*epsilon(1.0_wp)
 
-   !> An instant where a derivative of the solution jumps.
+   !> A time where a derivative of the solution jumps.
    type :: kink_type
       !> When
       type(instant) :: at
       !> Passages through a delay since the first derivative jumped; -1 where the solution does
       integer :: passages = 0
-      !> Passages since its cause, which is the first instant or an instant that the user gave
+      !> Passages since its cause, which is the initial time or a time that the user gave
       integer :: generation = 0
    end type kink_type
 

@@ -13,7 +13,7 @@ module dde_method_constants
       integer :: order = 0
       !> The error estimate is proportional to this power of the step size
       integer :: error_order = 0
-      !> Whether it is implicit: its steps may then be longer than the shortest delay
+      !> Whether the method is implicit: its steps may then be longer than the shortest delay
       logical :: implicit = .false.
       !> Cost of one evaluation, in evaluations of the explicit pair
       real(wp) :: evaluation_cost = 1.0_wp

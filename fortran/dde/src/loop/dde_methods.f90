@@ -86,7 +86,7 @@ contains
       character(len=8), intent(in) :: method
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
-      !> Its step
+      !> Step of the method
       class(step_type), allocatable, intent(out) :: step
       !> Bytes that could not be allocated, or 0
       real(wp), intent(out) :: lacking

@@ -79,9 +79,9 @@ contains
       class(run_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> First instant
+      !> Initial time
       real(wp), intent(in) :: t_start
-      !> Last instant
+      !> Final time
       real(wp), intent(in) :: t_end
       !> Method, tolerances and limits
       type(integration_options), intent(in) :: options
@@ -118,16 +118,16 @@ contains
       end if
    end subroutine begin
 
-   !> The first run. Its first instant is a kink, or a jump if a delayed component differs from its
+   !> The first run. Its initial time is a kink, or a jump if a delayed component differs from its
    !> history there.
    subroutine start_anew(self, problem, start, finish, options, lacking)
       !> The run
       class(run_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> First instant
+      !> Initial time
       type(instant), intent(in) :: start
-      !> Last instant
+      !> Final time
       type(instant), intent(in) :: finish
       !> Method, tolerances and limits
       type(integration_options), intent(in) :: options
@@ -162,7 +162,7 @@ contains
       class(run_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Last instant
+      !> Final time
       type(instant), intent(in) :: finish
       !> Method, tolerances and limits
       type(integration_options), intent(in) :: options
@@ -219,7 +219,7 @@ contains
       call self%step%restart(problem, self%past, self%cursor, self%work)
    end subroutine prepare_start
 
-   !> The right-hand side is evaluated beside an instant where it may jump, not there.
+   !> The right-hand side is evaluated beside a time where it may jump, not there.
    pure subroutine bound_times(self, goal)
       !> The run
       class(run_type), intent(inout) :: self
@@ -250,7 +250,7 @@ contains
       real(wp), intent(out) :: h
       !> Number of the breaking point at which it should end
       integer, intent(out) :: goal
-      !> Whether it ends there
+      !> Whether the step ends at this breaking point
       logical, intent(out) :: landing
       real(wp) :: gap
 
@@ -298,9 +298,9 @@ contains
       class(run_type), intent(inout) :: self
       !> Number of the breaking point at which the step should have ended
       integer, intent(in) :: goal
-      !> Whether it ends there
+      !> Whether the step ends at this breaking point
       logical, intent(in) :: landing
-      !> Its end
+      !> End of the step
       type(instant), intent(in) :: step_end
       type(instant) :: horizon
 

@@ -33,7 +33,7 @@ module dde_step
       real(wp), allocatable :: z(:, :)
       !> Start of the last attempt, as an ordinary number
       real(wp) :: t = 0.0_wp
-      !> Its length
+      !> Length of the last attempt
       real(wp) :: h = 0.0_wp
       !> Factor below the step size at which the error would be equal to the tolerance
       real(wp) :: safety = 0.9_wp
@@ -113,7 +113,7 @@ module dde_step
 
 contains
 
-   !> Storage of what all steps have, and the state at the first instant.
+   !> Storage of what all steps have, and the state at the initial time.
    pure subroutine allocate_state(self, problem)
       !> The step
       class(step_type), intent(inout) :: self

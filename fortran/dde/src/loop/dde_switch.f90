@@ -69,7 +69,7 @@ contains
       class(stretch_type), intent(inout) :: self
       !> Length of the step
       real(wp), intent(in) :: time
-      !> Its work
+      !> Work of the step
       real(wp), intent(in) :: work
 
       self%steps = self%steps + 1

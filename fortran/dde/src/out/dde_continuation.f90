@@ -16,16 +16,16 @@ module dde_continuation
    !> A step may end so far before the next one begins, in units of the spacing of times.
    real(wp), parameter :: rounding = 4.0_wp
 
-   !> The end of a run. It is empty (`y` not allocated) before the first run. Each instant is the
+   !> The end of a run. It is empty (`y` not allocated) before the first run. Each time is the
    !> sum of a pair of numbers, the second being the rounding error of the first.
    type :: continuation_type
       !> When
       real(wp) :: time(2) = 0.0_wp
-      !> First instant of the first run: before it the problem's own history holds
+      !> Initial time of the first run: before it the problem's own history holds
       real(wp) :: origin(2) = 0.0_wp
       !> State, shape (n)
       real(wp), allocatable :: y(:)
-      !> Its time derivative by dense output, the last that event functions were given, shape (n);
+      !> Time derivative by dense output, the last that event functions were given, shape (n);
       !> of size 0 after a change of the state
       real(wp), allocatable :: slope(:)
       !> Right-hand side, shape (n). If the problem gives another one at the start of the next run,
@@ -46,7 +46,7 @@ module dde_continuation
       integer, allocatable :: kept(:)
       !> Start of each step kept, shape (2, steps), ascending
       real(wp), allocatable :: step_start(:, :)
-      !> Its length, shape (steps)
+      !> Length of each step kept, shape (steps)
       real(wp), allocatable :: step_length(:)
       !> Time from its start for which its polynomial is valid, shape (steps)
       real(wp), allocatable :: valid_for(:)
@@ -85,7 +85,7 @@ contains
       end if
       if (size(y) /= size(self%y)) then
          call raise(error, "change_state: "//text(size(y))//" components for " &
-                    //text(size(self%y))//" equations; as many expected")
+                    //text(size(self%y))//" equations; "//text(size(self%y))//" expected")
          return
       end if
       do i = 1, size(y)
@@ -109,7 +109,7 @@ contains
       class(continuation_type), intent(in) :: self
       !> The problem of the run to come
       class(dde_problem_type), intent(in) :: problem
-      !> First instant of the run to come
+      !> Initial time of the run to come
       real(wp), intent(in) :: t_start
       !> What is wrong
       type(error_type), allocatable, intent(out) :: error
@@ -119,7 +119,7 @@ contains
       if (.not. allocated(self%y)) return
       if (size(self%y) /= problem%n) then
          call raise(error, "integrate: a continuation of "//text(size(self%y))//" equations for " &
-                    //text(problem%n)//"; as many expected")
+                    //text(problem%n)//"; "//text(problem%n)//" expected")
       else if (.not. consistent(self)) then
          call raise(error, "integrate: the arrays of the continuation do not fit each other; " &
                     //"expected as an earlier run left them")

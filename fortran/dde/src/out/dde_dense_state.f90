@@ -12,7 +12,7 @@ module dde_dense_state
    !> Relative rounding error of a state. Over a step length it is the error of the slope.
    real(wp), parameter :: rounding = 16.0_wp*epsilon(1.0_wp)
 
-   !> A place of a step. Components that are not looked at keep their values of the first instant.
+   !> A place of a step. Components that are not looked at keep their values of the initial time.
    type :: dense_state
       !> When
       type(instant) :: t
@@ -24,7 +24,7 @@ module dde_dense_state
       integer, allocatable :: components(:)
       !> Start and end of the step
       type(instant), private :: start, finish
-      !> Its length
+      !> Length of the step
       real(wp) :: h = 0.0_wp
       !> State at its end, shape (components)
       real(wp), allocatable, private :: y_end(:)
@@ -40,7 +40,7 @@ module dde_dense_state
       !> (components)
       logical, allocatable, private :: straight(:)
    contains
-      !> The state at the first instant
+      !> The state at the initial time
       procedure :: begin
       !> Take up a step, at its end
       procedure :: take_up
@@ -54,7 +54,7 @@ module dde_dense_state
 
 contains
 
-   !> The state at the first instant, before any step.
+   !> The state at the initial time, before any step.
    pure subroutine begin(self, t, y, slope, components)
       !> The state
       class(dense_state), intent(inout) :: self
@@ -62,7 +62,7 @@ contains
       type(instant), intent(in) :: t
       !> State there, shape (n)
       real(wp), intent(in) :: y(:)
-      !> Its time derivative, shape (n)
+      !> Time derivative of the state, shape (n)
       real(wp), intent(in) :: slope(:)
       !> Components to look at
       integer, intent(in) :: components(:)
@@ -83,9 +83,9 @@ contains
       class(dense_state), intent(inout) :: self
       !> The step
       class(step_type), intent(in) :: step
-      !> Its start
+      !> Start of the step
       type(instant), intent(in) :: start
-      !> Its end
+      !> End of the step
       type(instant), intent(in) :: finish
       real(wp) :: ignored
       integer :: i, j

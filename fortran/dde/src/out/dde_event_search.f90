@@ -27,14 +27,14 @@ module dde_event_search
       type(dense_state), private :: here
       !> The last event: time, and state and slope of all components
       type(dense_state) :: event
-      !> Whether it ended the run
+      !> Whether the last event ended the run
       logical, private :: ended = .false.
       !> Event functions there
       real(wp), allocatable, private :: g(:)
       !> Sign of each function at the last place: -1, 1, or 0 at zero
       integer, allocatable, private :: side(:)
    contains
-      !> Evaluate the functions at the first instant
+      !> Evaluate the functions at the initial time
       procedure :: begin
       !> Search a step
       procedure :: search_step
@@ -45,17 +45,17 @@ module dde_event_search
 
 contains
 
-   !> Signs of the functions at the first instant.
+   !> Signs of the functions at the initial time.
    pure subroutine begin(self, watcher, t, y, slope)
       !> The search
       class(event_search), intent(inout) :: self
       !> The watcher
       class(event_watcher_type), intent(in) :: watcher
-      !> First instant
+      !> Initial time
       type(instant), intent(in) :: t
       !> State there, shape (n)
       real(wp), intent(in) :: y(:)
-      !> Its time derivative, shape (n)
+      !> Time derivative of the state, shape (n)
       real(wp), intent(in) :: slope(:)
       integer :: i
 
@@ -76,9 +76,9 @@ contains
       class(event_watcher_type), intent(inout) :: watcher
       !> The step
       class(step_type), intent(in) :: step
-      !> Its start
+      !> Start of the step
       type(instant), intent(in) :: start
-      !> Its end; the event that ends the run, if one does
+      !> End of the step; the event that ends the run, if one does
       type(instant), intent(inout) :: step_end
       !> Share of the step up to there, 0..1
       real(wp), intent(out) :: share

@@ -83,11 +83,11 @@ contains
       end if
    end subroutine remember
 
-   !> The first samples: those at (or before) the first instant.
+   !> The first samples: those at (or before) the initial time.
    subroutine sample_start(sampler, start, y)
       !> Receiver
       class(sampler_type), intent(inout) :: sampler
-      !> First instant
+      !> Initial time
       type(instant), intent(in) :: start
       !> State there, shape (n)
       real(wp), intent(in) :: y(:)
@@ -103,7 +103,7 @@ contains
       class(sampler_type), intent(inout) :: sampler
       !> The step
       class(step_type), intent(in) :: step
-      !> Its start
+      !> Start of the step
       type(instant), intent(in) :: start
       !> Where the run stands after it
       type(instant), intent(in) :: step_end

@@ -13,7 +13,7 @@ module dde_cursor
    !> The solution may jump where a step starts and ends, so that a step reads what lies between:
    !> pieces of the past that overlap it by less than this share of it are not read.
    real(wp), parameter :: overlap = 4.0_wp*epsilon(1.0_wp)
-   !> The same overlap for the problem's history, in units of the spacing of times.
+   !> Least overlap with the problem's history, in units of the spacing of times.
    real(wp), parameter :: spacings = 4.0_wp
    !> Most places that a method may read at once.
    integer, parameter :: most_places = 16
@@ -32,9 +32,9 @@ module dde_cursor
       integer, allocatable :: slot(:)
       !> Start of the current step less the delay, for each delayed value
       type(instant), allocatable :: delayed_start(:)
-      !> The same, measured from the start of the past step
+      !> Start of the current step less the delay, measured from the start of the past step
       real(wp), allocatable :: offset(:)
-      !> Whether the delayed value lies before the first instant
+      !> Whether the delayed value lies before the initial time
       logical, allocatable :: before_origin(:)
    contains
       !> Go to a step
@@ -68,8 +68,8 @@ contains
       end associate
    end function new_cursor
 
-   !> Go to the step from `start`, `length` long. Steps end at every instant where a delayed time
-   !> passes the first instant, so that a delayed value lies on one side of it for the whole step.
+   !> Go to the step from `start`, `length` long. Steps end at every time where a delayed time
+   !> passes the initial time, so that a delayed value lies on one side of it for the whole step.
    pure subroutine set(self, problem, past, start, length)
       !> The cursor
       class(cursor_type), intent(inout) :: self
@@ -79,7 +79,7 @@ contains
       type(history_type), intent(in) :: past
       !> Start of the step
       type(instant), intent(in) :: start
-      !> Its length
+      !> Length of the step
       real(wp), intent(in) :: length
       integer :: k
 

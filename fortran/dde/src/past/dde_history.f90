@@ -1,6 +1,6 @@
 !> The past of one integration: a store of the polynomials of accepted steps, for the delayed
 !> components only. It is a ring of slots. It drops the oldest steps on request and doubles when it
-!> is full. Before the first instant the problem's own history holds.
+!> is full. Before the initial time the problem's own history holds.
 module dde_history
    use dde_interpolant, only: highest_degree, usual_degree
    use dde_memory, only: bytes_of, lacks
@@ -16,7 +16,7 @@ module dde_history
 
    !> Steps kept, number `oldest` to number `newest`.
    type :: history_type
-      !> First instant of the integration
+      !> Initial time of the integration
       type(instant) :: origin
       !> Whether the problem's history may jump where a step starts or ends
       logical :: history_jumps = .false.
@@ -52,7 +52,7 @@ module dde_history
       procedure :: open_slot
       !> Read a stored step
       procedure :: recall
-      !> Drop the steps that ended before a given instant
+      !> Drop the steps that ended before a given time
       procedure :: forget
       !> Highest degree of the polynomials kept
       procedure :: degree_in_use
@@ -69,7 +69,7 @@ contains
    pure function new_history(problem, origin) result(past)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> First instant of the integration
+      !> Initial time of the integration
       type(instant), intent(in) :: origin
       type(history_type) :: past
       integer, allocatable :: row_of(:)
@@ -222,7 +222,7 @@ contains
    pure subroutine forget(self, horizon)
       !> The past
       class(history_type), intent(inout) :: self
-      !> Nothing before this instant will be read
+      !> Nothing before this time will be read
       type(instant), intent(in) :: horizon
 
       do while (self%oldest < self%newest)

@@ -12,7 +12,7 @@ module dde_coupling
       !> Weights w of x in each unknown, shape (size of x, unknowns)
       real(wp), allocatable :: weights(:, :)
       !> Solutions of A x = b, same shape
-      real(wp), allocatable :: replies(:, :)
+      real(wp), allocatable :: solutions(:, :)
       !> Factors of the system for q
       real(wp), allocatable, private :: factors(:, :)
       !> One over the largest element of each of its rows
@@ -46,32 +46,32 @@ contains
       integer, intent(in) :: unknowns
       type(coupling_type) :: coupling
 
-      allocate (coupling%weights(n, unknowns), coupling%replies(n, unknowns))
+      allocate (coupling%weights(n, unknowns), coupling%solutions(n, unknowns))
       allocate (coupling%factors(unknowns, unknowns), coupling%pivot(unknowns))
       allocate (coupling%first(unknowns), coupling%last(unknowns))
       allocate (coupling%row_scale(unknowns), coupling%q(unknowns))
    end function new_coupling
 
-   !> All weights and replies are zero.
+   !> All weights and solutions are zero.
    pure subroutine clear(self)
       !> The coupling
       class(coupling_type), intent(inout) :: self
 
       self%weights = 0.0_wp
-      self%replies = 0.0_wp
+      self%solutions = 0.0_wp
    end subroutine clear
 
    !> Factorise 1 - w b, the matrix of the system for q.
    pure subroutine prepare(self, singular)
-      !> The coupling, its weights and replies given
+      !> The coupling, its weights and solutions given
       class(coupling_type), intent(inout) :: self
-      !> Whether it has no solution
+      !> Whether the coupling has no solution
       logical, intent(out) :: singular
       integer :: i, j
 
       do j = 1, size(self%pivot)
          do i = 1, size(self%pivot)
-            self%factors(i, j) = -sum(self%weights(:, i)*self%replies(:, j))
+            self%factors(i, j) = -sum(self%weights(:, i)*self%solutions(:, j))
          end do
          self%factors(j, j) = 1.0_wp + self%factors(j, j)
       end do
@@ -91,7 +91,7 @@ contains
       end do
       call solve(self%factors, self%pivot, self%first, self%last, self%q)
       do i = 1, size(self%q)
-         x = x + self%q(i)*self%replies(:, i)
+         x = x + self%q(i)*self%solutions(:, i)
       end do
    end subroutine complete
 end module dde_coupling

@@ -36,7 +36,7 @@ module dde_implicit_step
       type(radau_tableau) :: method
       !> Newton coefficients, over `nodes`, of the polynomial whose derivative vanishes at all c
       real(wp), allocatable :: bump(:)
-      !> Its derivative at 0
+      !> Derivative of `bump` at 0
       real(wp) :: bump_slope = 0.0_wp
       !> Derivatives of the right-hand side, and their norm
       type(jacobian_type) :: jacobian
@@ -213,7 +213,7 @@ contains
       type(tolerance_type), intent(in) :: tolerance
       !> Work so far
       type(work_type), intent(inout) :: work
-      !> Whether it does
+      !> Whether the step is confirmed
       logical, intent(out) :: confirmed
       real(wp) :: allowed
       logical :: finite, singular

@@ -24,7 +24,7 @@ module dde_jacobian
       real(wp), allocatable :: by_y(:, :)
       !> By the delayed values, shape (n, delayed values)
       real(wp), allocatable :: by_z(:, :)
-      !> Whether it is banded, its diagonals below and above the main one
+      !> Whether the Jacobian by y is banded, its diagonals below and above the main one
       logical :: banded = .false.
       integer :: lower = 0, upper = 0
       !> Whether `by_z` is known
@@ -38,7 +38,7 @@ module dde_jacobian
    contains
       !> Evaluate it
       procedure :: evaluate
-      !> Its norm: the largest sum of a row
+      !> Norm of the Jacobian: the largest sum of a row
       procedure :: find_norm
       procedure, private :: prepare, differences_by_y, differences_by_z
    end type jacobian_type
@@ -63,7 +63,7 @@ contains
       logical, intent(in) :: with_delays
       !> Work so far
       type(work_type), intent(inout) :: work
-      !> Whether it is finite
+      !> Whether the Jacobian is finite
       logical, intent(out) :: finite
 
       call self%prepare(problem, with_delays)
@@ -212,7 +212,7 @@ contains
       type(tolerance_type), intent(in) :: tolerance
       !> Which component
       integer, intent(in) :: i
-      !> Its value
+      !> Value of the component
       real(wp), intent(in) :: value
 
       size = max(abs(value), small_share*tolerance%absolute(i)/tolerance%level, &

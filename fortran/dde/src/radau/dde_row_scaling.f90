@@ -10,7 +10,7 @@ module dde_row_scaling
       module procedure :: scale_real_rows, scale_complex_rows
    end interface scale_rows
 
-   !> The same for a banded matrix.
+   !> Scale the rows of a banded matrix.
    interface scale_band
       module procedure :: scale_real_band, scale_complex_band
    end interface scale_band
@@ -35,7 +35,7 @@ contains
       end do
    end subroutine scale_real_rows
 
-   !> The same for a banded matrix.
+   !> Scale the rows of a real banded matrix.
    pure subroutine scale_real_band(lower, upper, a, row)
       !> Diagonals below the main one
       integer, intent(in) :: lower
@@ -81,7 +81,7 @@ contains
       end do
    end subroutine scale_complex_rows
 
-   !> The same for a banded matrix.
+   !> Scale the rows of a complex banded matrix.
    pure subroutine scale_complex_band(lower, upper, a, row)
       !> Diagonals below the main one
       integer, intent(in) :: lower

@@ -62,7 +62,7 @@ module dde_stage_iteration
       procedure :: expect_delayed
       !> Find them
       procedure :: iterate
-      !> Its slope at the end of the step
+      !> Slope of the solution at the end of the step
       procedure :: slope_at_end
       procedure, private :: slopes_at_stages
    end type stage_iteration
@@ -138,7 +138,7 @@ contains
       type(radau_tableau), intent(in) :: method
       !> Newton coefficients of the last step's increments, shape (0:stages, n)
       real(wp), contiguous, intent(in) :: last_differences(0:, :)
-      !> Its length; 0 where its polynomial must not be extrapolated
+      !> Length of the last step; 0 where its polynomial must not be extrapolated
       real(wp), intent(in) :: last_h
       !> Length of this step
       real(wp), intent(in) :: h
@@ -208,7 +208,7 @@ contains
       real(wp), intent(inout) :: safety
       !> Work so far
       type(work_type), intent(inout) :: work
-      !> Whether it converged
+      !> Whether the iteration converged
       logical, intent(out) :: converged
       !> Whether all evaluations were finite
       logical, intent(out) :: finite

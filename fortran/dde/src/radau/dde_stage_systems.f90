@@ -28,7 +28,7 @@ module dde_stage_systems
       !> Right-hand side of one of them, shape (n)
       complex(wp), allocatable, private :: pair_side(:)
       !> Right-hand sides of all stages for one delayed value, shape (n, stages)
-      real(wp), allocatable, private :: reply(:, :)
+      real(wp), allocatable, private :: solution(:, :)
       !> Delayed values of all stages, and those at the end of the step for the real system alone
       !> (allocatable: of two components of one type, gfortran frees only the first with the step)
       type(coupling_type), allocatable, private :: of_stages, of_end
@@ -57,7 +57,7 @@ contains
       type(stage_systems) :: systems
 
       associate (s => method%stages)
-         allocate (systems%of_pairs(s/2), systems%pair_side(n), systems%reply(n, s))
+         allocate (systems%of_pairs(s/2), systems%pair_side(n), systems%solution(n, s))
          systems%t = in_lanes(method%t)
          systems%t_inverse = in_lanes(method%t_inverse)
          systems%a_inverse = inverse_of_a(method)
@@ -164,15 +164,15 @@ contains
                do j = 1, s
                   self%of_stages%weights((j - 1)*n + component(k), unknown) &
                      = sum(own_weights(:, k, i)*self%t(:s, j))
-                  self%reply(:, j) = self%t_inverse(j, i)*by_z(:, k)
+                  self%solution(:, j) = self%t_inverse(j, i)*by_z(:, k)
                end do
-               call self%solve_stages(self%reply, work)
-               self%of_stages%replies(:, unknown) = reshape(self%reply, [n*s])
+               call self%solve_stages(self%solution, work)
+               self%of_stages%solutions(:, unknown) = reshape(self%solution, [n*s])
             end do
             if (own_place(k, last) > 0.0_wp) then
                self%of_end%weights(component(k), k) = 1.0_wp
-               self%of_end%replies(:, k) = by_z(:, k)
-               call self%of_real%solve(self%of_end%replies(:, k))
+               self%of_end%solutions(:, k) = by_z(:, k)
+               call self%of_real%solve(self%of_end%solutions(:, k))
             end if
          end do
       end associate

@@ -30,14 +30,14 @@ module dde_taylor_series
       !> Coefficients of the series of the state during the search for a slow one, shape (0:degree,
       !> n)
       real(wp), allocatable, private :: of_state(:, :)
-      !> Whether it is the series of a slow solution, and when to search for one
+      !> Whether the series is that of a slow solution, and when to search for one
       type(slow_series) :: slow
    contains
       !> Find the coefficients; delayed values and unit are given
       procedure :: expand
       !> The state at a time
       procedure :: state
-      !> Its slope there
+      !> Slope at a time
       procedure :: slope
    end type taylor_series
 

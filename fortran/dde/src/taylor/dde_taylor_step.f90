@@ -61,7 +61,7 @@ module dde_taylor_step
 
 contains
 
-   !> Storage, and the state at the first instant.
+   !> Storage, and the state at the initial time.
    pure function new_step(problem, tolerance) result(step)
       !> The problem
       class(dde_problem_type), intent(in) :: problem
