@@ -69,6 +69,49 @@ def by_method_of_steps(scene: dict, times: np.ndarray) -> np.ndarray:
     return values
 
 
+def fast_maxima(scene: dict, steps: int) -> np.ndarray:
+    """Maxima of v over so many delays, at large gamma, by SciPy's Radau in ln v.
+
+    There theta + xi u + ln v = 0 but for about 1/gamma^2, which gives the slope of ln v.
+    """
+    tau, epsilon, xi, gamma = (scene[name] for name in ("tau", "epsilon", "xi", "gamma"))
+    state = [0.0, 0.0, np.log(scene["history"]["v"])]
+    maxima = []
+
+    def past(t):
+        return state[2]
+
+    for n in range(steps):
+
+        def rates(t, y, past=past):
+            v = np.exp(y[2])
+            force = y[1] + (y[0] + y[2]) / xi
+            return [-v * (y[0] + (1 + epsilon) * past(t - tau)), v - 1, -(gamma**2) * force / v]
+
+        def falls(t, y, rates=rates):
+            theta, u, _ = rates(t, y)
+            return theta + xi * u
+
+        falls.direction = 1
+        start = [0.0, 0.0, past(0.0)] if n == 0 else run.y[:, -1]
+        run = solve_ivp(
+            rates,
+            (n * tau, (n + 1) * tau),
+            start,
+            method="Radau",
+            rtol=1e-7,
+            atol=1e-7,
+            events=falls,
+            dense_output=True,
+        )
+        maxima.extend(np.exp(y[2]) for y in run.y_events[0])
+
+        def past(t, piece=run.sol):
+            return piece(t)[2]
+
+    return np.array(maxima)
+
+
 def values_of(trajectory: xr.Dataset) -> np.ndarray:
     """theta, u and v; shape (3, times)."""
     return np.array([trajectory[name].values for name in VARIABLES])
@@ -104,6 +147,37 @@ def test_delays_of_any_length_agree_with_scipy(programs, scene, tau):
     trajectory = programs.made_by("trajectory", scene)
     expected = by_method_of_steps(scene, trajectory.t.values)
     np.testing.assert_allclose(values_of(trajectory), expected, rtol=0, atol=1e-7)
+
+
+def test_maxima_of_fast_events_are_stored(programs, scene):
+    """Slip events shorter than the interval, against SciPy's implicit method."""
+    scene |= {"tau": 9.0, "epsilon": 0.9, "xi": 0.5, "gamma": 1e6, "t_end": 117.9}
+    scene |= {"t_transient": 0.0, "sample_interval": 0.05}
+    scene["history"] = {"theta": 0.0, "u": 0.0, "v": 8.0}
+    v = programs.made_by("trajectory", scene).v.values
+    stored = v[1:-1][(v[1:-1] > v[:-2]) & (v[1:-1] > v[2:])]
+    expected = fast_maxima(scene, 14)
+    expected = expected[expected > 2]
+    assert expected.max() > 40
+    np.testing.assert_allclose(stored[stored > 2], expected[: (stored > 2).sum()], rtol=1e-3)
+    assert (stored > 2).sum() == expected.size
+
+
+@pytest.mark.parametrize(
+    ("gamma", "epsilon", "tau"),
+    [(1.5, 10.0, 0.1), (1e4, 3.0, 0.1), (1e6, 3.0, 0.0), (1e6, 0.9, 9.0), (1e10, 3.0, 0.0)],
+)
+def test_samples_follow_the_motion(programs, scene, gamma, epsilon, tau):
+    """Between two of them v changes by a small part of its range, and even times are among them."""
+    scene |= {"tau": tau, "epsilon": epsilon, "xi": 0.5, "gamma": gamma, "t_end": 600.0}
+    scene |= {"t_transient": 0.0, "sample_interval": 0.05}
+    trajectory = programs.made_by("trajectory", scene)
+    t, v = trajectory.t.values, trajectory.v.values
+    assert v.max() > 10
+    assert np.abs(np.diff(v)).max() < 0.15 * v.max()
+    assert (np.diff(t) > 0).all()
+    assert np.isin(0.05 * np.arange(12001), t).all()
+    assert t.size < 2.5 * 12001
 
 
 def test_history_of_all_variables_is_taken(programs, scene):

@@ -27,7 +27,7 @@ contains
       !> Whether an event ends the run
       logical, intent(out) :: ended
       !> Receiver of samples
-      class(sampler_type), intent(inout), optional :: sampler
+      class(sampler_type), intent(inout), optional, target :: sampler
       !> Receiver of events
       class(event_watcher_type), intent(inout), optional :: watcher
       logical :: delayed, sampled
@@ -43,6 +43,10 @@ contains
       share = 1.0_wp
       if (present(watcher)) then
          call run%search%search_step(watcher, run%step, run%now, step_end, share, ended)
+      end if
+      ! at an event the watcher may bring the next sample forward
+      if (present(sampler) .and. present(watcher)) then
+         sampled = elapsed(instant_at(sampler%next), step_end) >= 0.0_wp
       end if
       if (sampled) call sample(sampler, run%step, run%now, step_end)
       if (delayed .and. share > 0.0_wp) then
