@@ -1,6 +1,7 @@
 """Captions of figures of one's own: their numbers, from small made-up files."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -74,6 +75,12 @@ def test_caption_of_a_scene(tmp_path):
         r" Steady sliding is unstable (1 unstable pair of roots, rightmost"
         r" :math:`\lambda = 0.03 \pm 0.8\,i`)."
     )
+    assert "higher than drawn" not in words
+    # two time units apart, the samples nearest to a maximum of 4 have 3.7
+    made["trajectory"].isel(t=slice(7, None, 20)).to_netcdf(tmp_path / "coarse.nc")
+    paths = {name: tmp_path / f"{name}.nc" for name in made}
+    words = caption("scenes", **paths | {"trajectory": tmp_path / "coarse.nc"})
+    assert re.search(r"Maxima of v are up to [78]\.\d % higher than drawn", words), words
 
 
 @pytest.mark.parametrize(

@@ -6,16 +6,15 @@ program trajectory
    use program_arguments, only: get_paths, stop_on
    use scene_input, only: read_scene, scene_type
    use spring_block, only: spring_block_type
-   use trajectory_output, only: motion_watcher_type, trajectory_writer_type
+   use trajectory_output, only: trajectory_writer_type
    implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
    type(error_type), allocatable :: error
-   type(motion_watcher_type), allocatable :: watcher
    type(integration_options) :: options
    type(integration_result) :: outcome
    type(scene_type) :: scene
    type(spring_block_type) :: block_model
-   type(trajectory_writer_type), target :: writer
+   type(trajectory_writer_type) :: writer
 
    call get_paths(namelist_path, output_path, error)
    call stop_on(error)
@@ -27,9 +26,7 @@ program trajectory
                                  absolute=scene%tolerance)
    writer = trajectory_writer_type(output_path, scene)
    call stop_on(writer%file%error)
-   ! without a watcher samples are at even times alone
-   if (writer%refined) watcher = motion_watcher_type(writer)
-   call integrate(block_model, 0.0_wp, scene%t_end, options, outcome, error, writer, watcher)
+   call integrate(block_model, 0.0_wp, scene%t_end, options, outcome, error, writer)
    if (allocated(error)) call writer%discard()
    call stop_on(error)
    call writer%finish(outcome, error)

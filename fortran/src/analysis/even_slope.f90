@@ -1,4 +1,4 @@
-!> The slope of a function known at uneven times, at even times: for spectra of motions whose fast
+!> Slopes at even times of a function known at uneven times, for spectra of motions whose fast
 !> events are shorter than the time between even samples.
 module even_slope
    use dde_kinds, only: wp
@@ -8,10 +8,10 @@ module even_slope
 
 contains
 
-   !> Means of du/dt over a hat of half-width h, at t(1) + h, t(1) + 2 h, ...: the means of u over two
-   !> neighbouring intervals differ by h times that. The hat multiplies the amplitude at frequency f
-   !> by (sin(pi f h)/(pi f h))^2, so that an event of any speed leaves hardly a false frequency.
-   !> Between its times u is a cubic.
+   !> Means of du/dt over a hat of half-width h, at t(1) + h, t(1) + 2 h, ...: the means of u over
+   !> two neighbouring intervals differ by h times that mean. The hat multiplies the amplitude at
+   !> frequency f by (sin(pi f h)/(pi f h))^2, so that aliases of short events are small. Between
+   !> its times u is a cubic.
    pure function smoothed_slope(t, u, slope, h) result(means)
       !> Times, ascending
       real(wp), intent(in) :: t(:)

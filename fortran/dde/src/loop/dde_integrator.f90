@@ -41,7 +41,7 @@ contains
       !> Why it reached neither t_end nor an event that ends the run
       type(error_type), allocatable, intent(out) :: error
       !> Receiver of samples
-      class(sampler_type), intent(inout), optional, target :: sampler
+      class(sampler_type), intent(inout), optional :: sampler
       !> Receiver of events
       class(event_watcher_type), intent(inout), optional :: watcher
       !> Where an earlier run ended; on return where this one ended
