@@ -63,7 +63,7 @@ def titles_of(settings: dict, table: list[dict]) -> dict[str, str]:
 
 
 def share_missed(trajectory: xr.Dataset) -> float:
-    """By how much of itself a maximum of v > 1 exceeds the nearest sample, at most.
+    """The largest share by which a maximum of v > 1 exceeds the nearest sample.
 
     The maximum is the vertex of the parabola through the largest sample and its neighbours.
     """

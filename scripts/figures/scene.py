@@ -46,7 +46,7 @@ def draw(
     """v(t) from the start and at the end; portrait, section and exponents; spectrum."""
     missed = share_missed(trajectory)
     if missed > MOST_MISSED:
-        warnings.warn(f"maxima of v are {missed:.0%} higher than the samples", stacklevel=2)
+        warnings.warn(f"maxima of v are about {missed:.0%} higher than their samples", stacklevel=2)
     figure = plt.figure(figsize=(6.7, 6.6))
     above, middle, below = figure.subfigures(3, 1, height_ratios=[1.1, 1.2, 1.1])
     start, end = above.subplots(1, 2, sharey=True)
