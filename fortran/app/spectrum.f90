@@ -3,7 +3,7 @@ program spectrum_program
    use base_frequencies, only: bases_type, label_peaks
    use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use even_slope, only: smoothed_slope
+   use even_slope, only: finer, smoothed_slope, undo_smoothing
    use program_arguments, only: check_input, get_paths, stop_on
    use spectral_peaks, only: find_peaks, peak_type
    use spectrum, only: power_spectrum
@@ -20,9 +20,6 @@ program spectrum_program
    real(wp), allocatable :: frequency(:), power(:), v(:)
    real(wp) :: interval
    integer :: first
-
-   !> Even samples within one interval of an uneven trajectory.
-   integer, parameter :: finer = 16
 
    call get_paths(namelist_path, output_path, error)
    call stop_on(error)
@@ -44,7 +41,7 @@ program spectrum_program
                        frequency, power, error)
    if (allocated(error)) error%message = trim(settings%trajectory)//": "//error%message
    call stop_on(error)
-   if (allocated(trajectory%u)) call keep_true_frequencies()
+   if (allocated(trajectory%u)) call undo_smoothing(interval, frequency, power)
    peaks = find_peaks(frequency, power, settings%peak_floor, settings%peak_prominence)
    call label_peaks(peaks, frequency(2), bases)
    call write_spectrum(output_path, trim(trajectory%scene), settings, frequency, power, &
@@ -52,15 +49,6 @@ program spectrum_program
    call stop_on(error)
 
 contains
-
-   !> Keep frequencies up to that of two intervals of the trajectory, and undo the means over hats.
-   subroutine keep_true_frequencies()
-      real(wp), allocatable :: angle(:)
-
-      frequency = pack(frequency, frequency <= 0.5_wp/(finer*interval))
-      angle = acos(-1.0_wp)*interval*frequency(2:)
-      power = [power(1), power(2:size(frequency))*(angle/sin(angle))**4]
-   end subroutine keep_true_frequencies
 
    !> Mean square distance from the mean.
    pure real(wp) function variance(x) result(value)

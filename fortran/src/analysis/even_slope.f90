@@ -4,7 +4,10 @@ module even_slope
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: smoothed_slope
+   public :: finer, smoothed_slope, undo_smoothing
+
+   !> Even samples within one interval of an uneven trajectory.
+   integer, parameter :: finer = 16
 
 contains
 
@@ -54,4 +57,20 @@ contains
                  + s**2*((3.0_wp - 2.0_wp*s)*u(j + 1) - d*(1.0_wp - s)*slope(j + 1))
       end function cubic
    end function smoothed_slope
+
+   !> Divide a power spectrum by that of the hat, and keep it up to the frequency of two intervals
+   !> of the trajectory.
+   pure subroutine undo_smoothing(h, frequency, power)
+      !> Half-width of the hat
+      real(wp), intent(in) :: h
+      !> Frequencies from 0 on
+      real(wp), allocatable, intent(inout) :: frequency(:)
+      !> Power spectral density there
+      real(wp), allocatable, intent(inout) :: power(:)
+      real(wp), allocatable :: angle(:)
+
+      frequency = pack(frequency, frequency <= 0.5_wp/(finer*h))
+      angle = acos(-1.0_wp)*h*frequency(2:)
+      power = [power(1), power(2:size(frequency))*(angle/sin(angle))**4]
+   end subroutine undo_smoothing
 end module even_slope
