@@ -9,7 +9,8 @@ function numbers(text) {
 
 function rowsOf(run) {
   const [first, ...others] = run.series.map((one) => numbers(one.values));
-  return first.map((value, i) => [run.start + i * run.step, value, ...others.map((other) => other[i])]);
+  const times = run.times ? numbers(run.times) : first.map((_, i) => i * run.step);
+  return first.map((value, i) => [run.start + times[i], value, ...others.map((other) => other[i])]);
 }
 
 function labelsOf(run) {

@@ -280,7 +280,7 @@ def commit_at_work():
 
 def benchmarks_at_work():
     """Patterns of benchmark files, by rule, in the folder of this run."""
-    patterns = snakemake_internals.benchmarks_of(workflow, rules)
+    patterns = snakemake_internals.benchmarks_of(rules)
     return {
         name: pattern.replace("{results}", RESULTS)
         for name, pattern in patterns.items()

@@ -231,6 +231,7 @@ def test_folder_that_cannot_be_written_is_refused_in_one_line(workflow):
         ('WorkflowError:\nbad\n  File "/a/dag.py", line 3, in __init__', "error: bad"),
         ('Traceback (most recent call last):\n\n  File "a"\n\nValueError: bad\n', "error: bad"),
         ("Error: Snakefile not found", "error: Snakefile not found"),
+        ("WorkflowError:\nit is refused:\na\nb", "error: it is refused: (1) a (2) b"),
     ],
 )
 def test_error_of_snakemake_becomes_one_line(message, line):

@@ -98,6 +98,20 @@ def test_some_loops_of_a_long_transient_are_drawn():
     assert trajectory_rows.some_loops(run.isel(t=slice(3000))).equals(run.isel(t=slice(3000)))
 
 
+def test_missed_part_of_a_maximum():
+    """Exact for a parabola, at uneven times; 1 - cos(h/2) at most for a cosine of step h."""
+    t = np.array([0.0, 1.0, 1.2, 1.9, 2.5])
+    top = xr.Dataset({"v": ("t", 3 - (t - 1.4) ** 2)}, {"t": t})
+    assert trajectory_rows.share_missed(top) == pytest.approx(3 / 2.96 - 1)
+    for step in (0.02, 0.2, 0.6):
+        t = np.arange(0.0, 1000.0, step)
+        wave = xr.Dataset({"v": ("t", 2 + np.cos(t))}, {"t": t})
+        most = 3 / (2 + np.cos(step / 2)) - 1
+        assert trajectory_rows.share_missed(wave) == pytest.approx(most, rel=0.1)
+    steady = xr.Dataset({"v": ("t", np.ones(9))}, {"t": np.arange(9.0)})
+    assert trajectory_rows.share_missed(steady) == 0
+
+
 def test_portrait_parts_transient_and_attractor(spiral_and_circle):
     """The transient up to t_transient, the attractor over the last time shown."""
     transient, attractor, steady = spiral_and_circle.axes[5].lines

@@ -208,6 +208,15 @@ def test_new_file_overwrites_none(tmp_path):
     assert new_file(tmp_path / "a folder").returncode != 0
 
 
+@pytest.mark.parametrize("name", ["my file", "faults.v2", "a&b"])
+def test_new_file_promises_only_the_folder_that_it_gets(tmp_path, name):
+    """A folder has none of these characters."""
+    run = new_file(tmp_path / f"{name}.yaml")
+    assert run.returncode == 1
+    assert f"the name '{name}'; expected letters, digits, _ and - alone" in run.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
 @pytest.mark.parametrize(
     ("files", "entries", "folder"),
     [
@@ -323,3 +332,21 @@ def test_the_workflow_is_a_module_of_another(smoke, tmp_path):
         *(".snakemake", "Snakefile", "block", "config.yaml", "mine.txt")
     ]
     assert state_of(smoke.folder / "results") == before
+
+
+def test_paper_is_a_module_without_a_configuration(smoke, tmp_path):
+    """All rules are used first; then one of them can be changed."""
+    other = Project(tmp_path / "other")
+    other.folder.mkdir()
+    text = MODULE.format(snakefile=smoke.folder / "Snakefile").replace(
+        'configfile: "config.yaml"', ""
+    )
+    changed = "\n\nuse rule figure_2 from delayed_block as block_figure_2 with:\n    priority: 9\n"
+    text = text.replace('    config: config["block"]\n', "").replace(
+        "\n\nrule mine", changed + "\n\nrule mine"
+    )
+    (other.folder / "Snakefile").write_text(text)
+    run = other.snakemake("--dry-run", "block_figure_2", "block_page")
+    assert run.returncode == 0, run.stdout
+    planned = {path for job in jobs_in(run.stdout) for path in job.made}
+    assert {"block/index.html", "block/hopf/tau_of_epsilon.nc"} <= planned

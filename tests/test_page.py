@@ -281,6 +281,16 @@ def test_short_trajectory_is_shown_whole():
     assert len(base64.b64decode(shown["series"][1]["values"])) == 4 * 101
 
 
+def test_samples_that_follow_the_motion_keep_their_times():
+    """None of the last 12 000 is left out: it may be a maximum."""
+    whole = run()
+    times = np.sort(np.append(whole.t, whole.t[-200:-1] + 0.01))
+    shown = page_views.trajectory(whole.interp(t=times), [])
+    assert (shown["start"], shown["every"]) == (times[-12_000], 1)
+    sent = np.frombuffer(base64.b64decode(shown["times"]), "<f4")
+    np.testing.assert_allclose(sent, times[-12_000:] - times[-12_000], atol=1e-4)
+
+
 def test_scene_that_keeps_less_is_drawn_as_far_as_it_goes():
     """Without u, v alone; with neither there is nothing to draw."""
     own = {**attractor(0.5, 10.0), "scene": "my_scene", "history": 1.0}

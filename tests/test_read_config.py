@@ -78,6 +78,13 @@ def test_what_cannot_be_read_is_named_in_one_line(tmp_path, text, words):
     assert "\n" not in str(caught.value)
 
 
+def test_target_in_place_of_a_file_is_explained(tmp_path):
+    """Snakemake takes all words after --configfile for files."""
+    words = "cannot be read: No such file or directory; a target stands before --configfile"
+    with pytest.raises(ConfigError, match=words):
+        read(tmp_path / "figure_6")
+
+
 def test_aliases_count_with_what_they_stand_for():
     """Ten lists of ten aliases each, in turn, stand for 10^10 values."""
     lines = ["a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]"]

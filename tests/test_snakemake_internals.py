@@ -14,7 +14,12 @@ from scripts.workflow.packages import PackageError
 def made_up_workflow() -> SimpleNamespace:
     """What is used of Snakemake's workflow, in a form that can be taken apart."""
     here = []
+    proxy = SimpleNamespace(
+        rule=SimpleNamespace(benchmark="{scene,a|b}.tsv"), benchmark="{scene}.tsv"
+    )
     return SimpleNamespace(
+        proxy=proxy,
+        rules_of_snakefile=SimpleNamespace(_rules={"short": proxy}),
         modifier=SimpleNamespace(namespace=None, skip_configfile=False),
         pathvars={"results": "results"},
         dryrun=False,
@@ -27,8 +32,8 @@ def made_up_workflow() -> SimpleNamespace:
             configfiles=["mine.yaml"], config_args=None, replace_workflow_config=False
         ),
         rules=[
-            SimpleNamespace(name="long", benchmark=None, docstring=None),
-            SimpleNamespace(name="short", benchmark="{scene,a|b}.tsv", docstring="Short."),
+            SimpleNamespace(name="long", docstring=None),
+            SimpleNamespace(name="short", docstring="Short."),
         ],
         here=here,
         localrules=lambda *names: here.extend(names),
@@ -42,8 +47,7 @@ def run_here(workflow: SimpleNamespace) -> None:
 
 def benchmarks_of(workflow: SimpleNamespace) -> dict[str, str]:
     """Of its rules."""
-    rules = SimpleNamespace(short=SimpleNamespace(benchmark="{scene}.tsv"))
-    return internals.benchmarks_of(workflow, rules)
+    return internals.benchmarks_of(workflow.rules_of_snakefile)
 
 
 def describe(workflow: SimpleNamespace) -> None:
@@ -92,8 +96,9 @@ def test_snakemake_that_judges_otherwise_is_refused(monkeypatch, holder, gone, n
         (describe, "rules.docstring"),
         (run_here, "rules"),
         (run_here, "localrules"),
-        (benchmarks_of, "rules"),
-        (benchmarks_of, "rules.benchmark"),
+        (benchmarks_of, "rules_of_snakefile._rules"),
+        (benchmarks_of, "proxy.rule"),
+        (benchmarks_of, "proxy.rule.benchmark"),
     ],
 )
 def test_name_that_snakemake_lacks_is_named(use, path, tmp_path, monkeypatch):

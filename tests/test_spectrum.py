@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from scipy.signal import welch
+from scipy.special import ndtr
 
 INTERVAL = 0.1
 BASE, HARMONIC, SECOND_BASE, COMBINATION, OTHER = range(5)
@@ -99,6 +100,31 @@ def test_sine_has_its_power(spectrum_of, amplitude):
     np.testing.assert_allclose(
         spectrum.peak_power, [amplitude**2 / 2 / (1.5 * bin_width)], rtol=1e-9
     )
+
+
+def test_events_shorter_than_the_interval_leave_no_false_peaks(spectrum_of, programs, settings):
+    """Pulses of area T every T = 7.3, each a hundredth of the interval wide: 2 at n/T, no else.
+
+    The power of a line is spread over 1.5 bins of a Hann window.
+    """
+    period, width, count = 7.3, 1e-3, 150
+    centres = period * np.arange(-0.5, count + 1)
+    offsets = np.linspace(-6 * width, 6 * width, 61)
+    even = INTERVAL * np.arange(int(period * count / INTERVAL))
+    t = np.sort(np.append(even, (centres[1:-1, None] + offsets).ravel()))
+    after = (t[:, None] - centres) / width
+    v = period * (np.exp(-(after**2) / 2) / np.sqrt(2 * np.pi) / width).sum(axis=1)
+    u = period * ndtr(after).sum(axis=1) - t
+    attributes = {"scene": "made_up", "sample_interval": INTERVAL, "t_transient": 0.0}
+    signal = xr.Dataset({"v": ("t", v), "u": ("t", u)}, coords={"t": t}, attrs=attributes)
+    signal.to_netcdf(programs.folder / settings["trajectory"])
+    spectrum = programs.made_by("spectrum", {**settings, "segments": 1})
+    lines = np.arange(1, spectrum.sizes["peak"] + 1)
+    assert lines.size == int(period / (2 * INTERVAL))
+    bin_width = float(spectrum.frequency[1])
+    np.testing.assert_allclose(spectrum.peak_frequency, lines / period, atol=0.02 * bin_width)
+    np.testing.assert_allclose(spectrum.peak_power, 2 / (1.5 * bin_width), rtol=0.02)
+    assert spectrum.attrs["spectrum_kind"] == "one base"
 
 
 @pytest.mark.parametrize("shift", [-0.49, -0.25, 0.1, 0.4])

@@ -106,6 +106,36 @@ def test_delays_of_any_length_agree_with_scipy(programs, scene, tau):
     np.testing.assert_allclose(values_of(trajectory), expected, rtol=0, atol=1e-7)
 
 
+def test_maxima_of_fast_events_are_stored(programs, good_inputs, scene):
+    """Events shorter than the interval, of a cycle with two maxima; `slip_events` locates those."""
+    scene |= {"tau": 9.0, "epsilon": 0.9, "xi": 0.5, "gamma": 1e6, "t_end": 900.0}
+    scene |= {"t_transient": 600.0, "sample_interval": 0.05}
+    events = good_inputs["slip_events"]
+    found = programs.made_by("slip_events", {key: scene.get(key, events[key]) for key in events})
+    v = programs.made_by("trajectory", scene).v
+    ends = zip(found.onset.values, (found.onset + found.duration).values, strict=True)
+    stored = [float(v.sel(t=slice(*event)).max()) for event in ends]
+    assert len(stored) > 20
+    np.testing.assert_allclose(stored, found.peak_velocity, rtol=5e-3)
+
+
+@pytest.mark.parametrize(
+    ("gamma", "epsilon", "tau"),
+    [(1.5, 10.0, 0.1), (1e4, 3.0, 0.1), (1e6, 3.0, 0.0), (1e6, 0.9, 9.0), (1e10, 3.0, 0.0)],
+)
+def test_samples_follow_the_motion(programs, scene, gamma, epsilon, tau):
+    """Between two of them v changes by a small part of its range, and even times are among them."""
+    scene |= {"tau": tau, "epsilon": epsilon, "xi": 0.5, "gamma": gamma, "t_end": 600.0}
+    scene |= {"t_transient": 0.0, "sample_interval": 0.05}
+    trajectory = programs.made_by("trajectory", scene)
+    t, v = trajectory.t.values, trajectory.v.values
+    assert v.max() > 10
+    assert np.abs(np.diff(v)).max() < 0.15 * v.max()
+    assert (np.diff(t) > 0).all()
+    assert np.isin(0.05 * np.arange(12001), t).all()
+    assert t.size < 2.5 * 12001
+
+
 def test_history_of_all_variables_is_taken(programs, scene):
     """A start far from steady sliding, against SciPy."""
     scene["history"] = {"theta": 0.3, "u": -0.2, "v": 0.7}

@@ -3,6 +3,7 @@ program spectrum_program
    use base_frequencies, only: bases_type, label_peaks
    use dde_errors, only: error_type
    use dde_kinds, only: wp
+   use even_slope, only: finer, smoothed_slope, undo_smoothing
    use program_arguments, only: check_input, get_paths, stop_on
    use spectral_peaks, only: find_peaks, peak_type
    use spectrum, only: power_spectrum
@@ -16,7 +17,8 @@ program spectrum_program
    type(peak_type), allocatable :: peaks(:)
    type(spectrum_settings_type) :: settings
    type(trajectory_type) :: trajectory
-   real(wp), allocatable :: frequency(:), power(:)
+   real(wp), allocatable :: frequency(:), power(:), v(:)
+   real(wp) :: interval
    integer :: first
 
    call get_paths(namelist_path, output_path, error)
@@ -25,22 +27,26 @@ program spectrum_program
    call stop_on(error)
    call check_input(trim(settings%trajectory), output_path, error)
    call stop_on(error)
-   call read_trajectory(trim(settings%trajectory), "v", trajectory, error)
+   call read_trajectory(trim(settings%trajectory), trajectory, error)
    call stop_on(error)
 
-   ! the quotient may be one rounding above a whole number
-   first = 1 + ceiling(trajectory%t_transient/trajectory%sample_interval*(1.0_wp - epsilon(1.0_wp)))
-   associate (v => trajectory%samples(first:))
-      call power_spectrum(v, trajectory%sample_interval, settings%window, settings%segments, &
-                          settings%overlap, frequency, power, error)
-      if (allocated(error)) error%message = trim(settings%trajectory)//": "//error%message
-      call stop_on(error)
-      peaks = find_peaks(frequency, power, settings%peak_floor, settings%peak_prominence)
-      call label_peaks(peaks, frequency(2), bases)
-      call write_spectrum(output_path, trim(trajectory%scene), settings, frequency, power, &
-                          variance(v), peaks, bases, error)
-      call stop_on(error)
-   end associate
+   interval = trajectory%sample_interval
+   first = findloc(trajectory%t >= trajectory%t_transient*(1.0_wp - epsilon(1.0_wp)), .true., dim=1)
+   v = trajectory%v(first:)
+   if (allocated(trajectory%u)) then
+      interval = interval/finer
+      v = 1.0_wp + smoothed_slope(trajectory%t(first:), trajectory%u(first:), v - 1.0_wp, interval)
+   end if
+   call power_spectrum(v, interval, settings%window, settings%segments, settings%overlap, &
+                       frequency, power, error)
+   if (allocated(error)) error%message = trim(settings%trajectory)//": "//error%message
+   call stop_on(error)
+   if (allocated(trajectory%u)) call undo_smoothing(interval, frequency, power)
+   peaks = find_peaks(frequency, power, settings%peak_floor, settings%peak_prominence)
+   call label_peaks(peaks, frequency(2), bases)
+   call write_spectrum(output_path, trim(trajectory%scene), settings, frequency, power, &
+                       variance(v), peaks, bases, error)
+   call stop_on(error)
 
 contains
 

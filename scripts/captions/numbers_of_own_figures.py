@@ -11,7 +11,7 @@ from scripts.captions.wording import as_formulas, count, joined, listed, short
 from scripts.drawing import hopf_plane, parameters
 from scripts.drawing.special_points import in_words, words_of
 from scripts.drawing.spectrum_rows import lines_in_words
-from scripts.drawing.trajectory_rows import WORDS
+from scripts.drawing.trajectory_rows import MOST_MISSED, WORDS, share_missed
 from scripts.figures.scene import end_shown, roots_in_words
 from scripts.files.inputs import read
 from scripts.files.tsv import read_table
@@ -41,10 +41,12 @@ def of_scene(given: dict, _params: dict) -> dict:
     v = trajectory.v.sel(t=slice(max(0.0, last - end_shown(spectrum, last)), None))
     numbers = range(1, attractors.sizes["exponent"] + 1)
     exponents = [with_error(row[f"exponent_{i}"], row[f"error_{i}"]) for i in numbers]
+    missed = share_missed(trajectory)
     return {
         "place": place_of(trajectory.attrs),
         "met": motion_of(row),
         "end": end_in_words(v, row),
+        "missed": short(100 * missed, 2) if missed > MOST_MISSED else "",
         "exponents": [value for value in exponents if value != "not measured"],
         "lines": as_formulas(lines_in_words(spectrum)),
         "roots": as_formulas(roots_in_words(roots)),

@@ -90,7 +90,8 @@ def read(path: str | Path) -> dict:
             raise ConfigError(f"{path}: larger than {MOST_BYTES} bytes; divide the file")
         text = content.decode()
     except OSError as problem:
-        raise ConfigError(f"{path}: cannot be read: {problem.strerror}") from None
+        order = "" if path.suffix in (".yaml", ".yml") else "; a target stands before --configfile"
+        raise ConfigError(f"{path}: cannot be read: {problem.strerror}{order}") from None
     except UnicodeDecodeError as problem:
         raise ConfigError(f"{path}: {problem}; expected text in UTF-8") from None
     said = parsed(text, str(path))

@@ -24,5 +24,7 @@ def in_one_line(message: str) -> str:
     lines = [line for line in lines if not re.match(r'File ".*", line \d+, in ', line)]
     if len(lines) > 1 and HEADER.fullmatch(lines[0]):
         lines = lines[1:]
+    if len(lines) > 2 and lines[0].endswith(" is refused:"):
+        lines[1:] = [f"({number}) {line}" for number, line in enumerate(lines[1:], start=1)]
     words = re.sub(r"^(error|\w+Error|\w+Exception): ", "", " ".join(lines), flags=re.IGNORECASE)
     return f"error: {words}"

@@ -12,6 +12,8 @@ from scripts.drawing import parameters
 from scripts.drawing.style import FAINT, INK
 
 COLUMNS = ("from the start", "at the end", "phase portrait")
+MOST_MISSED = 0.01
+"""Maxima of v that exceed their samples by a larger share are mentioned."""
 WORDS = {"cycle": "limit cycle"}
 """Of classes of motion, where those of the tables are shorter."""
 MOST_TURNS = 150
@@ -66,6 +68,20 @@ def titles_of(settings: dict, table: list[dict]) -> dict[str, str]:
             met = seen[row["scene"]]
             titles[label] += f"; here: {WORDS.get(met, met)}"
     return titles
+
+
+def share_missed(trajectory: xr.Dataset) -> float:
+    """The largest share by which a maximum of v > 1 exceeds the nearest sample.
+
+    The maximum is the vertex of the parabola through the largest sample and its neighbours.
+    """
+    t, v = trajectory.t.values, trajectory.v.values
+    slopes = np.diff(v) / np.diff(t)
+    before, after = np.diff(t)[:-1], np.diff(t)[1:]
+    slope = (slopes[:-1] * after + slopes[1:] * before) / (before + after)
+    bend = (slopes[:-1] - slopes[1:]) / (before + after)
+    top = (slopes[:-1] > 0) & (slopes[1:] < 0) & (v[1:-1] > 1)
+    return float(np.max(slope[top] ** 2 / (4 * bend[top]) / v[1:-1][top], initial=0.0))
 
 
 def draw_velocity(axes: Axes, trajectory: xr.Dataset, start: float, end: float) -> bool:

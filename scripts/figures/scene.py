@@ -1,5 +1,7 @@
 """Figure of one scene: in time, phase portrait, section, exponents, and spectrum."""
 
+import warnings
+
 import numpy as np
 import xarray as xr
 from matplotlib import pyplot as plt
@@ -9,7 +11,12 @@ from matplotlib.figure import Figure
 from scripts.drawing import parameters
 from scripts.drawing.spectrum_rows import label_peaks, lines_in_words
 from scripts.drawing.style import FAINT, logged, save
-from scripts.drawing.trajectory_rows import draw_portrait, draw_velocity
+from scripts.drawing.trajectory_rows import (
+    MOST_MISSED,
+    draw_portrait,
+    draw_velocity,
+    share_missed,
+)
 from scripts.files.inputs import read
 from scripts.tables.attractor_tables import rows_of
 from scripts.tables.motion_rows import UNDECIDED, kind_of
@@ -37,6 +44,9 @@ def draw(
     trajectory: xr.Dataset, spectrum: xr.Dataset, attractors: xr.Dataset, roots: xr.Dataset
 ) -> Figure:
     """v(t) from the start and at the end; portrait, section and exponents; spectrum."""
+    missed = share_missed(trajectory)
+    if missed > MOST_MISSED:
+        warnings.warn(f"maxima of v are about {missed:.0%} higher than their samples", stacklevel=2)
     figure = plt.figure(figsize=(6.7, 6.6))
     above, middle, below = figure.subfigures(3, 1, height_ratios=[1.1, 1.2, 1.1])
     start, end = above.subplots(1, 2, sharey=True)

@@ -15,7 +15,8 @@ SHOWN = 1000.0
 DRAWN = ["v", "u"]
 """Variables that are drawn, as far as the scene's file has them."""
 MOST_POINTS = 12_000
-"""Of a trajectory; of longer ones every second, third, ... sample is kept."""
+"""Of a trajectory. Of longer ones every second, third, ... sample is kept, or the last ones where
+samples follow the motion."""
 SIGNS = {"epsilon": "ε", "tau": "τ", "xi": "ξ", "gamma": "γ"}
 """Parameters by their names in files."""
 
@@ -63,8 +64,9 @@ def trajectory(run: xr.Dataset, attractors: list[dict]) -> dict:
     scene = run.attrs["scene"]
     end = float(run.t[-1])
     shown = run.sel(t=slice(max(0.0, end - SHOWN), end))
-    every = math.ceil(shown.sizes["t"] / MOST_POINTS)
-    shown = shown.isel(t=slice(None, None, every))
+    uneven = (run.sizes["t"] - 1.5) * run.attrs["sample_interval"] > end
+    every = 1 if uneven else math.ceil(shown.sizes["t"] / MOST_POINTS)
+    shown = shown.isel(t=slice(-MOST_POINTS, None) if uneven else slice(None, None, every))
     own = [row for row in attractors if row["scene"] == scene and row["history"] == 1]
     known = verdict(own[0]) if own else "its attractor was not computed"
     return {
@@ -73,6 +75,7 @@ def trajectory(run: xr.Dataset, attractors: list[dict]) -> dict:
         "every": every,
         "start": float(shown.t[0]),
         "step": every * run.attrs["sample_interval"],
+        "times": as_base64(shown.t.values - float(shown.t[0])) if uneven else "",
         "series": [
             {"name": name, "values": as_base64(shown[name].values)}
             for name in DRAWN

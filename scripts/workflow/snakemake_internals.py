@@ -205,14 +205,15 @@ def run_here_all_but(workflow, long_rules: set[str]) -> None:
     workflow.localrules(*({rule.name for rule in workflow.rules} - long_rules))
 
 
-def benchmarks_of(workflow, rules) -> dict[str, str]:
+def benchmarks_of(rules) -> dict[str, str]:
     """Patterns of benchmark files, by rule, of the rules so far that have them.
 
-    `rules` is the object that a Snakefile has, whose patterns hold no constraints of wildcards.
+    `rules` is the object that a Snakefile has. Its names have no prefix of a module, and its
+    patterns hold no constraints of wildcards.
     """
     use = "by which the page finds the seconds of each rule"
-    expect(workflow, "rules", use)
-    for rule in workflow.rules:
-        expect(rule, "benchmark", use)
-    names = [rule.name for rule in workflow.rules if rule.benchmark]
-    return {name: str(getattr(rules, name).benchmark) for name in names}
+    expect(rules, "_rules", use)
+    for rule in rules._rules.values():
+        expect(rule, "rule", use)
+        expect(rule.rule, "benchmark", use)
+    return {name: str(rule.benchmark) for name, rule in rules._rules.items() if rule.rule.benchmark}

@@ -1,7 +1,7 @@
 !> What the solver does on its way: samples, breaking points, limits, and only the work it needs.
 module test_dde_behaviour
    use dde, only: dde_problem_type, integrate, integration_options, integration_result, &
-                  table_sampler
+                  sampler_type, table_sampler
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_success
    use dde_kinds, only: int64, wp
@@ -9,10 +9,18 @@ module test_dde_behaviour
    use published_problems, only: mackey_glass
    use solving, only: at_tolerance, solve
    use test_problems, only: linear, wille_baker
-   use undelayed_problems, only: oscillator, swing
+   use undelayed_problems, only: blow_up, oscillator, swing, without_delays
    implicit none (type, external)
    private
    public :: collect_dde_behaviour
+
+   !> A sampler that wants no times of its own.
+   type, extends(sampler_type) :: following_sampler
+      !> Times and values
+      real(wp), allocatable :: time(:), y(:)
+   contains
+      procedure :: take => append_sample
+   end type following_sampler
 
 contains
 
@@ -22,6 +30,7 @@ contains
 
       testsuite = [new_unittest("samples", test_samples), &
                    new_unittest("samples before and after", test_samples_outside), &
+                   new_unittest("samples that follow the steps", test_following), &
                    new_unittest("a run that ends at a sample", test_end_at_sample), &
                    new_unittest("breaking points of one delay", test_one_delay), &
                    new_unittest("breaking points of two delays", test_two_delays), &
@@ -69,6 +78,40 @@ contains
       call expect_close(error, table%values(1, 1:3), [1.0_wp, cos(0.5_wp), cos(1.0_wp)], &
                         1.0e-11_wp, "sample")
    end subroutine test_samples_outside
+
+   !> y = 1/(1 - t) grows a thousandfold before the end, between two samples by a small part.
+   subroutine test_following(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(blow_up) :: problem
+      type(failure_type), allocatable :: failure
+      type(following_sampler) :: samples
+      type(integration_result) :: outcome
+
+      problem = blow_up(n=1, past=[1.0_wp], first=[1.0_wp])
+      call without_delays(problem)
+      samples = following_sampler(wanted=[1], share_of_step=0.25_wp, time=[0.0_wp], y=[1.0_wp])
+      call integrate(problem, 0.0_wp, 0.999_wp, at_tolerance(1.0e-9_wp), outcome, failure, samples)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      associate (t => samples%time, y => samples%y, n => size(samples%time))
+         call expect(error, all(t(2:) > t(:n - 1)), "times ascend")
+         call expect_between(error, maxval(y(2:)/y(:n - 1)), 1.0_wp, 1.2_wp, "growth")
+         call expect_between(error, y(n), 800.0_wp, 1000.0_wp, "last sample")
+         call expect_close(error, y*(1.0_wp - t), spread(1.0_wp, 1, n), 1.0e-6_wp, "y")
+      end associate
+   end subroutine test_following
+
+   !> Append a sample.
+   subroutine append_sample(self, y)
+      !> The sampler
+      class(following_sampler), intent(inout) :: self
+      !> Value of the component
+      real(wp), intent(in) :: y(:)
+
+      self%time = [self%time, self%next]
+      self%y = [self%y, y]
+      self%next = huge(1.0_wp)
+   end subroutine append_sample
 
    !> Dense output agrees with a run that ends there.
    subroutine test_end_at_sample(error)

@@ -40,6 +40,10 @@ contains
       table = table_sampler([1, 2], [0.5_wp])
       call integrate(sine(), 0.0_wp, 1.0_wp, integration_options(), outcome, failure, table)
       call expect_failure(error, failure, "wanted(2) = 2 of the sampler; 1..1 expected")
+      table = table_sampler([1], [0.5_wp])
+      table%share_of_step = 0.0_wp
+      call integrate(sine(), 0.0_wp, 1.0_wp, integration_options(), outcome, failure, table)
+      call expect_failure(error, failure, "share_of_step = 0.0 of the sampler; a number > 0")
       call expect(error, outcome%reason == refused .and. table%received == 0, "no sample is taken")
    end subroutine test_samplers
 

@@ -1,5 +1,6 @@
 !> Trajectory files: samples go to disk in blocks while the integration runs, only the variables
-!> that the scene lists.
+!> that the scene lists. For gamma > 1 they also follow the steps of the solver, so that slip events
+!> shorter than the sample interval are resolved.
 module trajectory_output
    use block_attributes, only: put_history, put_parameters
    use dde, only: integration_result, sampler_type
@@ -17,6 +18,10 @@ module trajectory_output
    !> Samples held before they are written.
    integer, parameter :: block_length = 8192
 
+   !> Longest time between samples as a share of the step, for gamma > 1. The largest sample of a
+   !> slip event is within 0.2 % of its maximum, measured for gamma from 100 to 1e10.
+   real(wp), parameter :: largest_share = 0.25_wp
+
    !> Sampler that writes a trajectory file.
    type, extends(sampler_type) :: trajectory_writer_type
       private
@@ -30,10 +35,12 @@ module trajectory_output
       integer, allocatable :: ids(:)
       !> Samples not written yet: time and variables, shape (block_length, 1 + variables)
       real(wp), allocatable :: block(:, :)
-      !> Number of samples in the file, and in all
-      integer :: written = 0, samples = 0
-      !> Number of samples in the block
-      integer :: held = 0
+      !> Number of samples in the file, and in the block
+      integer :: written = 0, held = 0
+      !> Number of even times reached, and of all
+      integer :: reached = 0, times = 0
+      !> The next even time
+      real(wp) :: even = 0.0_wp
    contains
       procedure :: take
       !> Complete the file with what the integration did
@@ -57,15 +64,19 @@ contains
       type(scene_type), intent(in) :: scene
       type(trajectory_writer_type) :: writer
       integer :: dimension, i, variables
+      logical :: refined
 
       writer%scene = scene
       variables = count(scene%variables /= "")
       ! the quotient may be one rounding below a whole number
-      writer%samples = floor(scene%t_end/scene%sample_interval*(1.0_wp + epsilon(1.0_wp))) + 1
+      writer%times = floor(scene%t_end/scene%sample_interval*(1.0_wp + epsilon(1.0_wp))) + 1
+      refined = scene%parameters%gamma > 1.0_wp
+      if (refined) writer%share_of_step = largest_share
       allocate (writer%wanted(variables), writer%ids(0:variables))
       allocate (writer%block(block_length, 0:variables))
       call writer%file%create(path, "Trajectory of the spring block with delayed friction")
-      dimension = writer%file%dimension("t", writer%samples)
+      ! length 0 is NetCDF's unlimited dimension
+      dimension = writer%file%dimension("t", merge(0, writer%times, refined))
       writer%ids(0) = writer%file%real_variable("t", dimension, "time", "1")
       do i = 1, variables
          select case (scene%variables(i))
@@ -84,13 +95,12 @@ contains
       writer%progress = progress_type("trajectory of "//trim(scene%name))
    end function new_writer
 
-   !> Take one sample.
+   !> Take one sample; the next one is at the next even time, unless the solver brings it forward.
    subroutine take(self, y)
       !> The writer
       class(trajectory_writer_type), intent(inout) :: self
       !> theta, u, ln v as wanted
       real(wp), intent(in) :: y(:)
-      integer :: taken
 
       if (self%held == block_length) call self%flush()
       if (allocated(self%file%error)) then
@@ -101,10 +111,15 @@ contains
       self%held = self%held + 1
       self%block(self%held, 0) = self%next
       self%block(self%held, 1:) = merge(exp(y), y, self%wanted == index_of_ln_v)
-      taken = self%written + self%held
-      self%next = huge(1.0_wp)
-      if (taken < self%samples) self%next = min(taken*self%scene%sample_interval, self%scene%t_end)
-      call self%progress%advance(taken, self%samples)
+      if (self%next >= self%even) then
+         self%reached = self%reached + 1
+         self%even = huge(1.0_wp)
+         if (self%reached < self%times) then
+            self%even = min(self%reached*self%scene%sample_interval, self%scene%t_end)
+         end if
+         call self%progress%advance(self%reached, self%times)
+      end if
+      self%next = self%even
    end subroutine take
 
    !> Write the block.

@@ -14,6 +14,9 @@ module dde_sampler
       integer, allocatable :: wanted(:)
       !> Time of the next sample; beyond the end of the integration when no more are wanted
       real(wp) :: next = huge(1.0_wp)
+      !> Longest time between samples as a share of the step size; the integrator then brings `next`
+      !> forward, and samples follow the solution however fast it is
+      real(wp) :: share_of_step = huge(1.0_wp)
       !> Work space of the integrator: dense output of the wanted components over a step, and their
       !> values at a sample
       real(wp), allocatable :: dense(:, :), values_here(:)
@@ -80,6 +83,11 @@ contains
                     //" of the sampler; 1.."//text(n)//" expected")
          return
       end do
+      if (.not. self%share_of_step > 0.0_wp) then
+         call raise(error, "integrate: share_of_step = "//text(self%share_of_step) &
+                    //" of the sampler; a number > 0 expected")
+         return
+      end if
       if (.not. ieee_is_nan(self%next)) then
          if (self%next >= t_start) return
       end if

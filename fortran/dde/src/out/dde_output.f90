@@ -35,7 +35,10 @@ contains
 
       delayed = size(problem%lag) > 0
       sampled = .false.
-      if (present(sampler)) sampled = elapsed(instant_at(sampler%next), step_end) >= 0.0_wp
+      if (present(sampler)) then
+         call limit_next(sampler, run%now%hi, run%step%h)
+         sampled = elapsed(instant_at(sampler%next), step_end) >= 0.0_wp
+      end if
       if (delayed .or. sampled .or. present(watcher)) then
          call run%step%extend(problem, run%past, run%cursor, run%work)
       end if
@@ -107,7 +110,7 @@ contains
       type(instant), intent(in) :: start
       !> Where the run stands after it
       type(instant), intent(in) :: step_end
-      real(wp) :: s
+      real(wp) :: s, time
       integer :: degree, i
 
       degree = size(step%nodes)
@@ -119,11 +122,26 @@ contains
          call step%interpolant(sampler%wanted(i), sampler%dense(:degree, i))
       end do
       do while (elapsed(instant_at(sampler%next), step_end) >= 0.0_wp)
-         s = elapsed(start, instant_at(sampler%next))/step%h
+         time = sampler%next
+         s = elapsed(start, instant_at(time))/step%h
          do i = 1, size(sampler%wanted)
             sampler%values_here(i) = newton_value(degree, step%nodes, sampler%dense(:, i), s)
          end do
          call sampler%take(sampler%values_here)
+         call limit_next(sampler, time, step%h)
       end do
    end subroutine sample
+
+   !> Let the next sample follow a time by no more than the sampler's share of the step.
+   pure subroutine limit_next(sampler, time, step_size)
+      !> Receiver
+      class(sampler_type), intent(inout) :: sampler
+      !> Time of the last sample, or of the start of the step
+      real(wp), intent(in) :: time
+      !> Size of the step
+      real(wp), intent(in) :: step_size
+
+      if (sampler%share_of_step >= huge(1.0_wp)) return
+      sampler%next = min(sampler%next, time + max(sampler%share_of_step*step_size, spacing(time)))
+   end subroutine limit_next
 end module dde_output
