@@ -22,28 +22,29 @@ DATA_OF = {
         [
             *("equation_3", "equation_4", "equation_6", "equation_8", "equation_9", "equation_10"),
             *("hopf_curves", "hopf_depends_on", "kinds_of_hopf", "pairs_gained_and_lost"),
-            "independent_of_spring",
+            "lag_of_the_plate",
         ],
         ("curves",),
     ),
-    **dict.fromkeys(
-        ["hopf_by_delay", "delay_destabilises", "amplitude_death"], ("linear_stability",)
-    ),
-    "hopf_only_by_delay": ("hopf_points",),
-    "roots_decide": ("atlas", "attractors"),
-    "attractor_class": ("attractors", "linear_stability"),
-    "positive_exponent": ("attractors",),
+    **dict.fromkeys(["hopf_by_delay", "delay_destabilises"], ("linear_stability",)),
+    "amplitude_death": ("linear_stability", "basins"),
+    "hopf_only_by_delay": ("hopf_points", "linear_stability"),
+    "roots_decide": ("atlas", "attractors", "basins"),
+    "independent_of_spring": ("curves", "routes"),
+    "attractor_class": ("attractors", "exponents", "linear_stability"),
+    "positive_exponent": ("attractors", "exponents"),
     "route": ("routes",),
     "leads_to": ("routes",),
     "delays_in_turn": ("attractors", "linear_stability", "routes"),
+    "chaos_by_a_and_b": ("routes",),
     "torus_route": ("routes", "cycle_points"),
-    **dict.fromkeys(
-        ["torus_of_scene", "second_hopf", "confirmed_by_multipliers"],
-        ("attractors", "linear_stability", "cycles", "cycle_points"),
-    ),
+    "quasiperiodic_route": ("routes", "cycle_points", "atlas"),
+    "two_supercritical_hopfs": ("curves", "routes", "cycle_points"),
+    "torus_of_scene": ("attractors", "exponents", "linear_stability", "cycles"),
+    "second_hopf": ("attractors", "linear_stability", "cycles", "cycle_points"),
     "single_peak": ("spectra",),
     "spectrum_class": ("spectra",),
-    **dict.fromkeys(["aperiodic_events", "power_law_of_sizes", "relaxation"], ("slip_events",)),
+    **dict.fromkeys(["aperiodic_events", "equal_events", "relaxation"], ("slip_events",)),
     **dict.fromkeys(["out_of_reach", "stiffness_forbids", "stationary_state"], ("stability",)),
     **dict.fromkeys(
         [
@@ -60,7 +61,9 @@ FILES = {
     "linear_stability": "<results>/tables/linear-stability.tsv",
     "stability": "<results>/tables/stability.tsv",
     "attractors": "<results>/tables/attractors.tsv",
+    "exponents": "<results>/tables/exponents.tsv",
     "atlas": "<results>/tables/atlas.tsv",
+    "basins": "<results>/tables/basins.tsv",
     "cycle_points": "<results>/tables/cycle-points.tsv",
 }
 """What is in one file."""
