@@ -48,32 +48,21 @@ def test_variation_in_words():
     assert "repeats best after 3 events, with differences of 0 % of the mean." in words
 
 
-def power_law(slip):
-    """The finding on these slips."""
-    made = results(slip_events={"mine": slip_events(slip=slip)})
-    return TESTS["power_law_of_sizes"](made, scene="mine", spread=1.5)
-
-
 @pytest.mark.parametrize(
-    ("slip", "verdict"),
+    ("times", "verdict"),
     [
-        (np.random.default_rng(3).pareto(1.0, 2000) + 1, REPRODUCED),
-        (np.random.default_rng(3).pareto(3.0, 2000) + 1, REPRODUCED),
-        (np.random.default_rng(3).exponential(1.0, 2000), NOT_REPRODUCED),
-        (np.random.default_rng(3).normal(10.0, 1.0, 2000), NOT_REPRODUCED),
-        (CYCLE, NOT_REPRODUCED),
-        ([5.0, 6.0], NOT_REPRODUCED),
+        (CYCLE, REPRODUCED),
+        (np.tile([8.0, 8.1], 100), NOT_REPRODUCED),
+        (RANDOM, NOT_REPRODUCED),
+        (CYCLE[: FEWEST - 1], NOT_REPRODUCED),
     ],
 )
-def test_power_law_of_sizes(slip, verdict):
-    """One power over the whole range, whichever."""
-    assert power_law(slip).verdict == verdict
-
-
-def test_power_in_words():
-    """Exact quantiles of N(>= s) = 1/s^2."""
-    words = power_law(np.linspace(1, 0, 100000, endpoint=False) ** -0.5).evidence
-    assert "Here b is 2 (slip 1.03 to 1.41), 2 (slip 1.41 to 2), 2 (slip 2 to 4.47)." in words
+def test_equal_events(times, verdict):
+    """In every scene; a doubled period is the beginning of a cascade."""
+    made = {"a": slip_events(recurrence_time=CYCLE), "b": slip_events(recurrence_time=times)}
+    found = TESTS["equal_events"](results(slip_events=made), scenes=["a", "b"])
+    assert found.verdict == verdict
+    assert ("It is not found here" in found.evidence) == (verdict == REPRODUCED)
 
 
 @pytest.mark.parametrize(

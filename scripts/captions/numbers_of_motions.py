@@ -35,7 +35,6 @@ def of_trajectories(given: dict, params: dict) -> dict:
             "paper": row["paper"],
             "met": WORDS.get(met.get("class"), met.get("class", "unknown")),
             "end": end_in_words(v, met),
-            "exponent": with_error(met.get("exponent_1", math.nan), met.get("error_1", math.nan)),
         }
     return {"rows": rows}
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from scripts.config.check_config import in_words, validator_of
 from scripts.config.read_config import ConfigError, read
-from scripts.workflow.result_files import cycles_of_lines
+from scripts.workflow.result_files import cycles_of_lines, exponents_of_scenes, runs_of_basins
 
 FOLDER = Path(__file__).parents[2] / "config"
 CLAIMS = FOLDER / "claims.yaml"
@@ -105,7 +105,8 @@ def named_test(claim: dict) -> tuple[str, dict]:
 def files_for(claims: dict, config: dict) -> dict[str, str | list[str]]:
     """What the tests of the claims read, by the names of `Results`; of what none reads, no file.
 
-    Of cycles it is what the configuration lists.
+    Of cycles it is what the configuration lists, and tables of exponents and basins are read if it
+    lists some.
     """
     tested = [named_test(claim) for claim in claims.values() if "test" in claim]
     read_by_some = {data for test, _ in tested for data in DATA_OF[test]}
@@ -113,6 +114,9 @@ def files_for(claims: dict, config: dict) -> dict[str, str | list[str]]:
     for data, (kind, path) in FILES_OF.items():
         named = (_named(kind, parameters) for test, parameters in tested if data in DATA_OF[test])
         files[data] = list(dict.fromkeys(path.format(name) for names in named for name in names))
+    for data, made_of in (("exponents", exponents_of_scenes), ("basins", runs_of_basins)):
+        if files[data] and not made_of(config):
+            files[data] = []
     files["cycles"] = cycles_of_lines(config) if "cycles" in read_by_some else []
     return files
 

@@ -64,10 +64,9 @@ def equal_events(results: Results, *, scenes: list[str]) -> Finding:
         )
     return decided(
         holds,
-        f"{' '.join(parts)} Erickson, Birnir and Lavallee (2008) report a cascade to chaos near"
-        " epsilon = 11 without delay; it is not found here."
-        if holds
-        else " ".join(parts),
+        f"{' '.join(parts)} Erickson, Birnir and Lavallee (2008) report a cascade of period"
+        " doublings to chaos without delay, near epsilon = 11."
+        f"{' It is not found here.' if holds else ''}",
         "Without delay events do not repeat, either.",
     )
 

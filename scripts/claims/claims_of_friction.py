@@ -74,7 +74,7 @@ def friction_falls_with_epsilon(results: Results) -> Finding:
     friction = results.friction
     by_b = np.log(friction.theta.values / friction.attrs["b_state"] + 1)
     by_a = np.log(friction.attrs["v0"] / friction.velocity.values + 1)
-    most = float(friction.velocity.max()) / friction.attrs["v0"]
+    most = float(abs(friction.velocity).max()) / friction.attrs["v0"]
     return decided_after_correction(
         bool((by_b < 0).all() and (by_a < 0).all()),
         most > 1,
