@@ -320,11 +320,10 @@ def powers_of_slip(scene: str) -> list[float]:
     drawn = slip[(starts + np.arange(BLOCK)) % slip.size].reshape(len(starts), -1)
     found = []
     for more, less in ((0.95, 0.5), (0.25, 0.05)):
-        slopes = [
-            math.log(more / less) / np.log(np.divide(*np.quantile(s, [1 - less, 1 - more], axis=-1)))
-            for s in (slip, drawn)
-        ]
-        found += [slopes[0], slopes[1].std()]
+        shares = [1 - less, 1 - more]
+        ends = [np.log(np.quantile(each, shares, axis=-1)) for each in (slip, drawn)]
+        own, others = (math.log(more / less) / (high - low) for high, low in ends)
+        found += [own, others.std()]
     return found
 
 
@@ -394,8 +393,8 @@ SAID = [
         ],
     ),
     Said(
-        "docs/findings.md", "the block is slower than the plate for {:.0f} % of the time, and v spans a"
-        " factor of {} in each",
+        "docs/findings.md", "the block is slower than the plate for {:.0f} % of the time, and v"
+        " spans a factor of {} in each",
         lambda: [
             slower_than_the_plate("no_delay_less"),
             f"{least_span('no_delay_less'):.0e}".replace("e+0", "e"),

@@ -51,10 +51,10 @@ def end_in_words(v: xr.DataArray, met: dict) -> str:
 
 
 def with_error(value: float, error: float) -> str:
-    """An exponent with its standard error, where it was measured; that of the flow has none."""
+    """An exponent with its standard error, where it was measured; an exact one has none."""
     if math.isnan(value):
         return "not measured"
-    return "0" if value == error == 0 else f"{short(value)} ± {short(error, 2)}"
+    return short(value) if error == 0 else f"{short(value)} ± {short(error, 2)}"
 
 
 def of_spectra(given: dict, params: dict) -> dict:

@@ -65,9 +65,10 @@ def hopf_only_by_delay(results: Results, *, plane: str, scenes: list[str]) -> Fi
     return Finding(
         CORRECTED if suffices else NOT_REPRODUCED,
         f"Read as 'only by a delay' it fails: at tau = 0, xi = {short(xi)} and gamma ="
-        f" {short(point['gamma'])} there is a Hopf point at epsilon = {short(epsilon, 9)}. The Routh-Hurwitz criterion gives the same value,"
-        f" gamma^2 xi/(xi + gamma^2) = {short(expected, 9)}. The bifurcation is {kind}: the first"
-        f" Lyapunov coefficient is {short(point['l1_1'])}. Read as 'merely by a delay' it"
+        f" {short(point['gamma'])} there is a Hopf point at epsilon = {short(epsilon, 9)}. The"
+        " Routh-Hurwitz criterion gives the same value, gamma^2 xi/(xi + gamma^2) ="
+        f" {short(expected, 9)}. The bifurcation is {kind}: the first Lyapunov coefficient is"
+        f" {short(point['l1_1'])}. Read as 'merely by a delay' it"
         f" {'holds' if suffices else 'fails'}. {merely.evidence}",
         f"At tau = 0 there is one at epsilon = gamma^2 xi/(xi + gamma^2) = {short(expected)}.",
     )
@@ -230,9 +231,7 @@ def roots_decide(results: Results, *, least_motion: float) -> Finding:
     )
 
 
-def independent_of_spring(
-    results: Results, *, plane: str, route: str, limit: float
-) -> Finding:
+def independent_of_spring(results: Results, *, plane: str, route: str, limit: float) -> Finding:
     """Whether epsilon alone, whatever xi = k L/A, decides on stability, and on chaos on a route."""
     curves, rows = results.curves[plane], results.route(route)
     at_boundary = curves.unstable_pairs.values == 0

@@ -9,6 +9,7 @@ from scripts.claims.claims_results import (
     decided,
     short,
 )
+from scripts.namelists.study_cases import HISTORY
 
 FEWEST = 100
 """Events that a statement about their distribution needs."""
@@ -55,7 +56,7 @@ def equal_events(results: Results, *, scenes: list[str]) -> Finding:
             return few(scene, times.size, "to show whether they repeat")
         spread = float(np.ptp(times) / times.mean())
         holds = holds and spread <= PERIODIC
-        history = ", ".join(f"{key} = {short(place[f'history_{key}'])}" for key in ("theta", "u", "v"))
+        history = ", ".join(f"{key} = {short(place[f'history_{key}'])}" for key in HISTORY)
         parts.append(
             f"At tau = {short(place['tau'])}, epsilon = {short(place['epsilon'])}, from {history},"
             f" {times.size} events come after {short(times.mean(), 6)} L/v0 each, with v up to"

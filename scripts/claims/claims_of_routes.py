@@ -22,7 +22,6 @@ from scripts.claims.claims_results import (
 from scripts.namelists.study_cases import PARAMETERS
 from scripts.tables.motion_rows import UNDECIDED, parameter_of
 
-
 THREE = "3-torus"
 """Class of a torus with three frequencies."""
 
