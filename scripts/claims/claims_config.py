@@ -35,7 +35,7 @@ DATA_OF = {
     "positive_exponent": ("attractors", "exponents"),
     "route": ("routes",),
     "leads_to": ("routes",),
-    "delays_in_turn": ("attractors", "linear_stability", "routes"),
+    "delays_in_turn": ("attractors", "linear_stability", "routes", "cycle_points"),
     "chaos_by_a_and_b": ("routes",),
     "torus_route": ("routes", "cycle_points"),
     "quasiperiodic_route": ("routes", "cycle_points", "atlas"),
