@@ -43,7 +43,8 @@ def changed(curves: xr.Dataset, **values) -> xr.Dataset:
 def results(**given) -> Results:
     """Results of which a test uses some."""
     empty = {"curves": {}, "friction": xr.Dataset(), "hopf_points": [], "linear_stability": []}
-    tables = ("fault_limit", "stability", "attractors", "atlas", "routes", "cycle_points")
+    tables = ("fault_limit", "stability", "attractors", "exponents", "atlas", "basins", "routes")
+    tables += ("cycle_points",)
     empty |= {name: [] for name in tables} | {"cycles": {}}
     return Results(**{**empty, "spectra": {}, "slip_events": {}, **given})
 
@@ -201,6 +202,7 @@ def cycles_to_a_torus(along: str = "tau", cusps: int = 0, **fixed: float) -> xr.
 def torus_point(at: float = 0.25, **given) -> dict:
     """A row of cycle-points.tsv: a torus bifurcation of a stable cycle along tau."""
     stable = {"kind": "torus", "unstable_before": 0.0, "unstable_behind": 2.0}
+    stable |= {"criticality": "supercritical"}
     return {"of": "mine", **PLACE, "tau": at, **stable, **given}
 
 
@@ -222,7 +224,9 @@ def slip_events(**values) -> xr.Dataset:
     made = {"recurrence_time": 8.0, "duration": 4.0, "slip": 6.0, "peak_velocity": 2.0}
     made |= {"least_velocity": 0.2, **values}
     data = {name: ("event", np.broadcast_to(value, size)) for name, value in made.items()}
-    return xr.Dataset(data, attrs={"tau": 7.0, "gamma": 0.8})
+    place = {"tau": 7.0, "epsilon": 0.7, "xi": 0.5, "gamma": 0.8}
+    history = {"history_theta": 0.0, "history_u": 0.0, "history_v": 1.1}
+    return xr.Dataset(data, attrs={**place, **history})
 
 
 def run_row(**given) -> dict:

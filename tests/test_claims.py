@@ -101,16 +101,8 @@ def test_files_are_read_by_name(tmp_path):
     hopf_curve(k=2).to_netcdf(tmp_path / "friction.nc")
     spectrum(x1=1.0).to_netcdf(tmp_path / "a_spectrum.nc")
     slip_events().to_netcdf(tmp_path / "some_events.nc")
-    names = [
-        "hopf_points",
-        "fault_limit",
-        "linear_stability",
-        "stability",
-        "attractors",
-        "atlas",
-        "routes",
-    ]
-    names.append("cycle_points")
+    names = ["hopf_points", "fault_limit", "linear_stability", "stability", "attractors", "atlas"]
+    names += ["routes", "cycle_points", "exponents", "basins"]
     for name in names:
         write_table(tmp_path / name, [{"scene": name}])
     files = {

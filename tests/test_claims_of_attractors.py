@@ -75,8 +75,24 @@ def test_positive_exponent(exponents, verdict, beyond):
     ]
     found = TESTS["positive_exponent"](results(attractors=rows), scene="mine")
     assert found.verdict == verdict
-    assert f"above zero in {beyond} of them" in found.evidence
+    assert f"above zero from {beyond} of {len(exponents)} histories" in found.evidence
     assert "nan" not in found.evidence
+
+
+def test_exponents_are_those_of_the_long_run():
+    """In both claims, at the scene's own tolerance; that along the flow has no error."""
+    long = [(0.019, 0.0007), (0.0, 0.0), (-0.0145, 0.001)]
+    rows = [
+        {"scene": scene, "exponent": value + off, "error": error, "mean_step": 0.1 + off}
+        for scene, off in (("other", 0.2), ("mine", 0.0), ("mine", 0.3))
+        for value, error in long
+    ]
+    made = of_classes("chaos")
+    made.exponents = rows
+    found = TESTS["attractor_class"](made, scene="mine", expected="chaos")
+    assert "(exponents 0.019 +- 0.0007, 0 (along the flow), -0.0145 +- 0.001)" in found.evidence
+    found = TESTS["positive_exponent"](made, scene="mine")
+    assert "of scene mine is 0.019 +- 0.0007 v0/L." in found.evidence
 
 
 def test_no_exponent_is_no_chaos():

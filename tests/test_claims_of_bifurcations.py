@@ -11,6 +11,7 @@ from made_up_results import (
     hopf_curve,
     on_plane,
     results,
+    route_rows,
     stability_row,
 )
 
@@ -38,17 +39,24 @@ def test_changes_of_a_cell():
 
 
 def test_hopf_only_by_delay():
-    """A point without delay refutes it, in its own plane only."""
+    """A point without delay refutes "only by", in its own plane; "merely by" needs a scene."""
     point = {"of": "plane", "kind": "hopf_without_delay", "xi": 0.5, "gamma": 0.8, "l1_1": -0.05}
     point["epsilon"] = 0.64 * 0.5 / 1.14
     test = TESTS["hopf_only_by_delay"]
-    found = test(results(hopf_points=[point]), plane="plane")
-    assert found.verdict == NOT_REPRODUCED
+    scenes = {"good": {}, "mine": {"tau_of_changes": "1 (1 -> 0); 5 (0 -> 1)"}}
+    made = with_scenes(**scenes)
+    made.hopf_points = [point]
+    assert test(made, plane="plane", scenes=["mine"]).verdict == NOT_REPRODUCED
+    found = test(made, plane="plane", scenes=["good", "mine"])
+    assert found.verdict == CORRECTED
+    assert "Read as 'merely by a delay' it holds." in found.evidence
+    assert "already unstable without delay in mine (epsilon" in found.evidence
     assert "epsilon = 0.280701754" in found.evidence
     assert "gamma^2 xi/(xi + gamma^2) = 0.280701754" in found.evidence
     assert "supercritical" in found.evidence
     others = [point | {"of": "other"}, point | {"kind": "double_hopf"}]
-    assert test(results(hopf_points=others), plane="plane").verdict == REPRODUCED
+    made.hopf_points = others
+    assert test(made, plane="plane", scenes=["mine"]).verdict == REPRODUCED
 
 
 @pytest.mark.parametrize(("depth", "verdict"), [(1e-17, NOT_REPRODUCED), (1e-3, REPRODUCED)])
@@ -137,8 +145,11 @@ def test_pairs_gained_and_lost(crossing, verdict, instead):
 def test_amplitude_death(cell, verdict, words):
     """Fewer unstable pairs are not enough: none must be left."""
     made = with_scenes(mine={"tau_of_changes": cell})
+    place = {"tau": 5.25, "epsilon": 0.5, "xi": 0.8, "histories": 60.0}
+    made.basins = [place | {"class": met, "share": 0.5} for met in ("cycle", "fixed point")]
     found = TESTS["amplitude_death"](made, scenes=["mine"])
     assert found.verdict == verdict
+    assert "50 % of 60 at tau = 5.25, epsilon = 0.5, xi = 0.8." in found.evidence
     assert words in found.evidence
 
 
@@ -265,13 +276,24 @@ def test_pairs_are_those_of_the_program(smoke, plane, xi):
 
 
 def test_independent_of_spring():
-    """The same epsilon at every xi, or not; or no such point at all."""
-    test = TESTS["independent_of_spring"]
+    """The same epsilon and class at every xi, or one that changes; or no such point at all."""
     curves = changed(hopf_curve(), xi=np.linspace(0.1, 1, 12), tau=12.0)
-    found = test(on_plane(curves), plane="plane", limit=1e-3)
-    assert found.verdict == NOT_REPRODUCED
-    assert "At tau = 12 " in found.evidence
-    same = on_plane(changed(curves, epsilon=0.3))
-    assert test(same, plane="plane", limit=1e-3).verdict == REPRODUCED
-    nowhere = on_plane(changed(curves, unstable_pairs=1))
-    assert test(nowhere, plane="plane", limit=1e-3).verdict == NOT_REPRODUCED
+    same = changed(curves, epsilon=0.3)
+    alike, other = ["chaos"] * 4, ["cycle"] * 2 + ["chaos"] * 2
+
+    def found(given, classes):
+        made = on_plane(given)
+        made.routes = route_rows(*classes, along="xi")
+        return TESTS["independent_of_spring"](made, plane="plane", route="mine", limit=1e-3)
+
+    assert found(same, alike).verdict == REPRODUCED
+    assert found(curves, alike).instead == (
+        "With xi = k L/A changes the critical epsilon of stability."
+    )
+    assert found(same, other).instead == (
+        "With xi = k L/A changes the class of the motion at one epsilon."
+    )
+    evidence = found(curves, other).evidence
+    assert "At tau = 12 " in evidence
+    assert "Along xi at epsilon = 0.5 and tau = 10: cycle 0.1 to 0.2, chaos 0.3 to 0.4." in evidence
+    assert found(changed(curves, unstable_pairs=1), alike).verdict == NOT_REPRODUCED

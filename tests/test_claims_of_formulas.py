@@ -123,6 +123,16 @@ def test_hopf_curves_together():
     assert finding("hopf_curves", broken).verdict == NOT_REPRODUCED
 
 
+def test_lag_of_the_plate():
+    """Curves with delays are not those without; at tau = 0 (5) has no delay."""
+    assert finding("lag_of_the_plate", hopf_curve()).verdict == NOT_REPRODUCED
+    gamma, xi = 0.8, 0.5
+    # the Hopf point without delay: omega^2 = epsilon = gamma^2 xi/(xi + gamma^2)
+    epsilon = gamma**2 * xi / (xi + gamma**2)
+    without = changed(hopf_curve(), epsilon=epsilon, omega=np.sqrt(epsilon), tau=0.0)
+    assert finding("lag_of_the_plate", without).verdict == REPRODUCED
+
+
 def test_one_wrong_plane_is_enough():
     """The worst of several planes counts."""
     both = results(curves={"a": hopf_curve(), "b": changed(hopf_curve(), residual=1e-3)})

@@ -5,7 +5,7 @@ import xarray as xr
 from made_up_results import results
 
 from scripts.claims.claims_of_friction import TESTS
-from scripts.claims.claims_results import NOT_REPRODUCED, REPRODUCED
+from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED
 
 
 def a_velocity_step(direct=0.006, evolution=-0.009, theta=10.0, end=0.0, first=0.6):
@@ -37,13 +37,14 @@ def test_velocity_step(given, verdict):
 @pytest.mark.parametrize(
     ("given", "verdict", "words"),
     [
-        ({"theta": 10.0}, NOT_REPRODUCED, "by 0.6931 to 0.6931 per unit of B, and by 0.09531 to"),
-        ({"theta": -5.0}, NOT_REPRODUCED, "by -0.6931 to -0.6931 per unit of B"),
-        ({"evolution": 0.003}, NOT_REPRODUCED, "after the step up is another quantity: 0.2 per"),
+        ({"theta": 10.0}, CORRECTED, "by 0.6931 to 0.6931 per unit of B, and by 0.09531 to"),
+        ({"theta": -5.0}, CORRECTED, "by -0.6931 to -0.6931 per unit of B"),
+        # ln 10 = 2.303
+        ({}, CORRECTED, "of the step, 10 v0, it changes by -2.303 per unit of B - A"),
     ],
 )
 def test_friction_falls_with_epsilon(given, verdict, words):
-    """In every state by B and by A; its change after the step is a remark."""
+    """In every state by (1.1), by B and by A; in steady sliding by (2), where v > v0."""
     found = TESTS["friction_falls_with_epsilon"](a_velocity_step(**given))
     assert found.verdict == verdict
     assert words in found.evidence
@@ -54,6 +55,9 @@ def test_friction_that_falls_with_epsilon():
     made = a_velocity_step(theta=-5.0)
     made.friction = made.friction.assign(velocity=-5 * made.friction.velocity)
     assert TESTS["friction_falls_with_epsilon"](made).verdict == REPRODUCED
+    slower = a_velocity_step()
+    slower.friction = slower.friction.assign(velocity=0.05 * slower.friction.velocity)
+    assert TESTS["friction_falls_with_epsilon"](slower).verdict == NOT_REPRODUCED
 
 
 @pytest.mark.parametrize(("first", "verdict"), [(0.6, REPRODUCED), (0.6035, NOT_REPRODUCED)])

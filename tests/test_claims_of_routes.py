@@ -1,7 +1,15 @@
 """Verdicts on what changes along a parameter, on made-up tables of routes."""
 
 import pytest
-from made_up_results import attractor_row, results, route_rows, stability_row, torus_point
+from made_up_results import (
+    attractor_row,
+    changed,
+    hopf_curve,
+    results,
+    route_rows,
+    stability_row,
+    torus_point,
+)
 
 from scripts.claims.claims_of_routes import TESTS
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED
@@ -142,6 +150,89 @@ def test_torus_route(point, verdict):
     known = "A pair of multipliers of a stable cycle leaves the unit circle at tau = "
     there = point["kind"] == "torus" and point["xi"] == 0.8 and not point["unstable_before"]
     assert (f"{known}{point['tau']}." in found.evidence) == there
+
+
+BREAKDOWN, STRICT = ["cycle", "torus", "chaos"], ["torus", "3-torus", "chaos"]
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "verdict", "words"),
+    [
+        (BREAKDOWN, STRICT, REPRODUCED, ""),
+        (BREAKDOWN, ["torus", "chaos"], CORRECTED, "chaos), but not the third frequency"),
+        (["cycle", *STRICT], ["chaos"], CORRECTED, "Newhouse, but not torus breakdown"),
+        (["cycle", "chaos"], ["torus", "3-torus"], NOT_REPRODUCED, "show neither torus"),
+    ],
+)
+def test_quasiperiodic_route(first, second, verdict, words):
+    """Torus breakdown and a third frequency, one of them, or neither."""
+    rows = route_rows(*twice(*first)) + route_rows(*twice(*second), name="other")
+    made = results(routes=rows, cycle_points=[torus_point()])
+    found = TESTS["quasiperiodic_route"](made, routes=["mine", "other"])
+    assert found.verdict == verdict
+    assert words in found.instead
+    assert found.evidence.endswith("The atlas has no torus of three frequencies.")
+
+
+def test_three_tori_of_the_atlas():
+    """Where they are; what follows is the next class on the same line, undecided ones left out."""
+    grid = {
+        0.4: ["torus", "3-torus", UNDECIDED, "chaos"],
+        0.5: ["torus", "3-torus", "torus", "chaos"],
+        0.6: ["torus", "chaos", "chaos", "3-torus"],
+    }
+    rows = [
+        attractor_row(met, epsilon=epsilon, tau=10.0 + i)
+        for epsilon, classes in grid.items()
+        for i, met in enumerate(classes)
+    ]
+    rows.append(attractor_row("chaos", epsilon=0.4, tau=11.5, xi=0.5))
+    made = results(routes=route_rows(*twice("cycle")), atlas=rows)
+    evidence = TESTS["quasiperiodic_route"](made, routes=["mine"]).evidence
+    assert evidence.endswith(
+        "The atlas has 3 tori of three frequencies: 3 at xi = 0.8, gamma = 0.8, for tau from 11 to"
+        " 13. The next class is chaos beyond 1 of them with a longer delay, and beyond 2 with a"
+        " larger epsilon."
+    )
+
+
+@pytest.mark.parametrize(
+    ("l1", "points", "verdict"),
+    [
+        (-0.1, [torus_point()], REPRODUCED),
+        (0.1, [torus_point()], NOT_REPRODUCED),
+        (-0.1, [torus_point(criticality="subcritical")], NOT_REPRODUCED),
+        (-0.1, [], NOT_REPRODUCED),
+        (-0.1, [torus_point(), torus_point(epsilon=0.4)], REPRODUCED),
+    ],
+)
+def test_two_supercritical_hopfs(l1, points, verdict):
+    """That of steady sliding and all torus bifurcations of stable cycles on the line."""
+    curves = changed(hopf_curve(xi=0.8), l1=l1)
+    made = results(
+        curves={"a": hopf_curve(), "b": curves},
+        routes=route_rows(*twice("cycle", "torus")),
+        cycle_points=points,
+    )
+    found = TESTS["two_supercritical_hopfs"](made, routes=["mine"], planes=["a", "b"])
+    assert found.verdict == verdict
+
+
+@pytest.mark.parametrize(
+    ("in_epsilon", "in_xi", "verdict"),
+    [
+        (["cycle", "chaos"], ["chaos", "cycle"], REPRODUCED),
+        (["cycle", "chaos"], ["cycle", "chaos"], CORRECTED),
+        (["chaos", "cycle"], ["chaos", "cycle"], CORRECTED),
+        (["chaos"], ["cycle", "chaos"], NOT_REPRODUCED),
+    ],
+)
+def test_chaos_by_a_and_b(in_epsilon, in_xi, verdict):
+    """B alone raises epsilon, A and B in proportion lower xi."""
+    rows = route_rows(*twice(*in_epsilon), name="one", along="epsilon")
+    rows += route_rows(*twice(*in_xi), name="two", along="xi")
+    found = TESTS["chaos_by_a_and_b"](results(routes=rows), routes=["one", "two"])
+    assert found.verdict == verdict
 
 
 def test_route_without_rows_is_an_error():

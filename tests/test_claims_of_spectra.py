@@ -16,14 +16,15 @@ def of(made):
     ("made", "verdict"),
     [
         (spectrum(x1=50.0), REPRODUCED),
-        (spectrum(x1=50.0, x2=1.0), CORRECTED),
+        (spectrum(x1=50.0, x2=0.4), REPRODUCED),
+        (spectrum(x1=50.0, x2=3.4), CORRECTED),
         (spectrum("quasiperiodic", x1=50.0), NOT_REPRODUCED),
         (spectrum("undecided", x1=50.0), NOT_REPRODUCED),
         (spectrum("none"), NOT_REPRODUCED),
     ],
 )
 def test_single_peak(made, verdict):
-    """One fundamental frequency without harmonics, with some, or another spectrum."""
+    """One fundamental frequency with harmonics of 0.8 or 6.8 % or none, or another spectrum."""
     assert TESTS["single_peak"](of(made), scene="mine").verdict == verdict
 
 

@@ -13,7 +13,7 @@ def test_figure_row_of_an_unknown_scene_is_refused(config, figure):
     line = line_about(refusal(config), "scene")
     assert figure in line
     assert " a: scene = 'nowhere'; expected one of: " in line
-    assert line.endswith("fixed_point, oscillation, torus, chaos, true_torus, stick_slip")
+    assert line.endswith(", ".join(config["scenes"]))
 
 
 def test_values_that_contradict_others_are_refused(config):

@@ -36,7 +36,6 @@ def of_trajectories(given: dict, params: dict) -> dict:
             "paper": row["paper"],
             "met": WORDS.get(met.get("class"), met.get("class", "unknown")),
             "end": end_in_words(v, met),
-            "exponent": with_error(met.get("exponent_1", math.nan), met.get("error_1", math.nan)),
         }
     return {"rows": rows}
 
@@ -53,10 +52,10 @@ def end_in_words(v: xr.DataArray, met: dict) -> str:
 
 
 def with_error(value: float, error: float) -> str:
-    """An exponent with its standard error, where it was measured; that of the flow has none."""
+    """An exponent with its standard error, where it was measured; an exact one has none."""
     if math.isnan(value):
         return "not measured"
-    return "0" if value == error == 0 else f"{short(value)} ± {short(error, 2)}"
+    return short(value) if error == 0 else f"{short(value)} ± {short(error, 2)}"
 
 
 def of_spectra(given: dict, params: dict) -> dict:

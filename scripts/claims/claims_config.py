@@ -4,7 +4,7 @@ from pathlib import Path
 
 from scripts.config.check_config import in_words, validator_of
 from scripts.config.read_config import ConfigError, read
-from scripts.workflow.result_files import cycles_of_lines
+from scripts.workflow.result_files import cycles_of_lines, exponents_of_scenes, runs_of_basins
 
 FOLDER = Path(__file__).parents[2] / "config"
 CLAIMS = FOLDER / "claims.yaml"
@@ -22,29 +22,30 @@ DATA_OF = {
         [
             *("equation_3", "equation_4", "equation_6", "equation_8", "equation_9", "equation_10"),
             *("hopf_curves", "hopf_depends_on", "kinds_of_hopf", "pairs_gained_and_lost"),
-            "independent_of_spring",
+            "lag_of_the_plate",
         ],
         ("curves",),
     ),
-    **dict.fromkeys(
-        ["hopf_by_delay", "delay_destabilises", "amplitude_death"], ("linear_stability",)
-    ),
-    "hopf_only_by_delay": ("hopf_points",),
+    **dict.fromkeys(["hopf_by_delay", "delay_destabilises"], ("linear_stability",)),
+    "amplitude_death": ("linear_stability", "basins"),
+    "hopf_only_by_delay": ("hopf_points", "linear_stability"),
     "hopf_by_delay_at_faults": ("fault_limit",),
-    "roots_decide": ("atlas", "attractors"),
-    "attractor_class": ("attractors", "linear_stability"),
-    "positive_exponent": ("attractors",),
+    "roots_decide": ("atlas", "attractors", "basins"),
+    "independent_of_spring": ("curves", "routes"),
+    "attractor_class": ("attractors", "exponents", "linear_stability"),
+    "positive_exponent": ("attractors", "exponents"),
     "route": ("routes",),
     "leads_to": ("routes",),
-    "delays_in_turn": ("attractors", "linear_stability", "routes"),
+    "delays_in_turn": ("attractors", "linear_stability", "routes", "cycle_points"),
+    "chaos_by_a_and_b": ("routes",),
     "torus_route": ("routes", "cycle_points"),
-    **dict.fromkeys(
-        ["torus_of_scene", "second_hopf", "confirmed_by_multipliers"],
-        ("attractors", "linear_stability", "cycles", "cycle_points"),
-    ),
+    "quasiperiodic_route": ("routes", "cycle_points", "atlas"),
+    "two_supercritical_hopfs": ("curves", "routes", "cycle_points"),
+    "torus_of_scene": ("attractors", "exponents", "linear_stability", "cycles"),
+    "second_hopf": ("attractors", "linear_stability", "cycles", "cycle_points"),
     "single_peak": ("spectra",),
     "spectrum_class": ("spectra",),
-    **dict.fromkeys(["aperiodic_events", "power_law_of_sizes", "relaxation"], ("slip_events",)),
+    **dict.fromkeys(["aperiodic_events", "equal_events", "relaxation"], ("slip_events",)),
     **dict.fromkeys(["out_of_reach", "stiffness_forbids", "stationary_state"], ("stability",)),
     **dict.fromkeys(
         [
@@ -62,7 +63,9 @@ FILES = {
     "linear_stability": "<results>/tables/linear-stability.tsv",
     "stability": "<results>/tables/stability.tsv",
     "attractors": "<results>/tables/attractors.tsv",
+    "exponents": "<results>/tables/exponents.tsv",
     "atlas": "<results>/tables/atlas.tsv",
+    "basins": "<results>/tables/basins.tsv",
     "cycle_points": "<results>/tables/cycle-points.tsv",
 }
 """What is in one file."""
@@ -104,7 +107,8 @@ def named_test(claim: dict) -> tuple[str, dict]:
 def files_for(claims: dict, config: dict) -> dict[str, str | list[str]]:
     """What the tests of the claims read, by the names of `Results`; of what none reads, no file.
 
-    Of cycles it is what the configuration lists.
+    Of cycles it is what the configuration lists, and tables of exponents and basins are read if it
+    lists some.
     """
     tested = [named_test(claim) for claim in claims.values() if "test" in claim]
     read_by_some = {data for test, _ in tested for data in DATA_OF[test]}
@@ -112,6 +116,9 @@ def files_for(claims: dict, config: dict) -> dict[str, str | list[str]]:
     for data, (kind, path) in FILES_OF.items():
         named = (_named(kind, parameters) for test, parameters in tested if data in DATA_OF[test])
         files[data] = list(dict.fromkeys(path.format(name) for names in named for name in names))
+    for data, made_of in (("exponents", exponents_of_scenes), ("basins", runs_of_basins)):
+        if files[data] and not made_of(config):
+            files[data] = []
     files["cycles"] = cycles_of_lines(config) if "cycles" in read_by_some else []
     return files
 

@@ -14,7 +14,12 @@ from scripts.claims.claims_results import (
     short,
 )
 
-MOTIONS = {"fixed point": "rest", "cycle": "a limit cycle", "torus": "a torus"}
+MOTIONS = {
+    "fixed point": "rest",
+    "cycle": "a limit cycle",
+    "torus": "a torus",
+    "3-torus": "a torus of three frequencies",
+}
 """Classes in a sentence, where the word alone is none."""
 ERRORS = 3
 """Standard errors beyond which an exponent is not zero."""
@@ -25,9 +30,10 @@ def attractor_class(results: Results, *, scene: str, expected: str) -> Finding:
     own, *others = results.attractors_of(scene)
     met = Counter(in_words(row) for row in others)
     known = results.stability_of(scene)
+    exponents = exponents_of(own, results.exponents_of(scene))
     where = ", ".join(f"{key} = {short(known[key])}" for key in ("tau", "epsilon", "xi", "gamma"))
     evidence = (
-        f"Scene {scene} ({where}). Class from its own history: {in_words(own)}{exponents_of(own)}."
+        f"Scene {scene} ({where}). Class from its own history: {in_words(own)}{exponents}."
         f" Class by the section: {own['by_section']}. Class by the spectrum: {own['by_spectrum']}."
         f" Classes from {len(others)} other histories:"
         f" {listed([f'{count} {name}' for name, count in sorted(met.items())])}."
@@ -38,7 +44,7 @@ def attractor_class(results: Results, *, scene: str, expected: str) -> Finding:
     motion = MOTIONS.get(own["class"], own["class"])
     if in_words(own) != own["class"]:
         motion = f"a {in_words(own)}"
-    instead = f"The motion is {motion}{exponents_of(own)}."
+    instead = f"The motion is {motion}{exponents}."
     return Finding(CORRECTED if elsewhere else NOT_REPRODUCED, evidence, instead)
 
 
@@ -49,14 +55,14 @@ def positive_exponent(results: Results, *, scene: str) -> Finding:
     if not measured:
         evidence = f"No exponent of scene {scene} is measured."
         return Finding(NOT_REPRODUCED, evidence, "No exponent is measured.")
-    values = [row["exponent_1"] for row in measured]
+    first = measured[0]
+    own = results.exponents_of(scene) or [(first["exponent_1"], first["error_1"])]
     beyond = sum(row["exponent_1"] > ERRORS * row["error_1"] for row in measured)
     return decided(
         beyond == len(rows),
-        f"The largest Lyapunov exponent of scene {scene} is {short(values[0], 3)} +-"
-        f" {short(measured[0]['error_1'], 2)} v0/L from the first of {len(rows)} histories. From"
-        f" all of them it is {short(min(values), 3)} to {short(max(values), 3)} v0/L. It is more"
-        f" than {ERRORS} standard errors above zero in {beyond} of them.",
+        f"The largest Lyapunov exponent of scene {scene} is {with_error(*own[0])} v0/L."
+        f" It is more than {ERRORS} standard errors above zero from {beyond} of {len(rows)}"
+        " histories.",
         f"The largest exponent is positive beyond its error from {beyond} of {len(rows)}"
         f" {'history' if len(rows) == 1 else 'histories'}.",
     )
@@ -69,14 +75,21 @@ def in_words(row: dict) -> str:
     return f"cycle of period {period:.0f}" if several else row["class"]
 
 
-def exponents_of(row: dict) -> str:
-    """The largest exponents with their errors, in brackets, as far as there are any."""
-    parts = [
-        f"{short(row[f'exponent_{i}'], 3)} +- {short(row[f'error_{i}'], 2)}"
-        for i in (1, 2, 3)
-        if not math.isnan(row[f"exponent_{i}"])
-    ]
+def exponents_of(row: dict, long: list[tuple[float, float]]) -> str:
+    """The largest exponents with their errors, in brackets: of the scene's long run if it has one.
+
+    Of others it is those of the row, as far as there are any.
+    """
+    short_run = [(row[f"exponent_{i}"], row[f"error_{i}"]) for i in (1, 2, 3)]
+    parts = [with_error(*pair) for pair in (long or short_run)[:3] if not math.isnan(pair[0])]
     return f" (exponents {', '.join(parts)})" if parts else ""
+
+
+def with_error(exponent: float, error: float) -> str:
+    """An exponent with its standard error; that along the flow is exact, that of rest, too."""
+    if error > 0:
+        return f"{short(exponent, 3)} +- {short(error, 2)}"
+    return short(exponent, 3) if exponent else "0 (along the flow)"
 
 
 TESTS = {

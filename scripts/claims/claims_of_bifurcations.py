@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from scripts.claims.claims_of_routes import stretches_of
 from scripts.claims.claims_results import (
     CORRECTED,
     NOT_REPRODUCED,
@@ -14,7 +15,7 @@ from scripts.claims.claims_results import (
     short,
 )
 from scripts.claims.roots_of_5 import unstable_pairs as unstable_pairs_of_5
-from scripts.tables.motion_rows import is_computed
+from scripts.tables.motion_rows import is_computed, parameter_of
 
 KINDS = {"supercritical": -1, "subcritical": 1}
 """Kinds of a Hopf bifurcation by the sign of the first Lyapunov coefficient."""
@@ -22,45 +23,53 @@ KINDS = {"supercritical": -1, "subcritical": 1}
 
 def hopf_by_delay(results: Results, *, scenes: list[str]) -> Finding:
     """Whether steady sliding that is stable without delay loses its stability at some delay."""
-    parts, beside, lost = [], [], False
+    parts, already, never = [], [], []
     for scene in scenes:
         row = results.stability_of(scene)
         where = f"{scene} (epsilon = {short(row['epsilon'])}, xi = {short(row['xi'])})"
         crossed = changes(row["tau_of_changes"])
-        if not crossed or crossed[0][1] > 0:
-            beside.append(where)
-            continue
-        place = crossed[0][0]
-        lost = True
-        parts.append(f"{where} at tau = {short(place, 6)}")
+        if not crossed:
+            never.append(where)
+        elif crossed[0][1] > 0:
+            already.append(where)
+        else:
+            parts.append(f"{where} at tau = {short(crossed[0][0], 6)}")
     return decided(
-        lost,
+        bool(parts),
         "Steady sliding is stable without delay, and a pair of roots crosses the imaginary axis"
-        f" when only the delay grows, in {listed(parts)}. There is no such point in:"
-        f" {listed(beside)}.",
+        f" when only the delay grows, in {listed(parts)}. It is already unstable without delay in"
+        f" {listed(already)}.{f' No pair crosses the axis in {listed(never)}.' if never else ''}",
         "In none of the scenes does a delay make stable steady sliding unstable.",
     )
 
 
-def hopf_only_by_delay(results: Results, *, plane: str) -> Finding:
-    """Whether there is no Hopf point without delay."""
+def hopf_only_by_delay(results: Results, *, plane: str, scenes: list[str]) -> Finding:
+    """Whether there is no Hopf point without delay ("only by"), or a delay suffices ("merely by").
+
+    It holds if the first reading does, and with a correction if the second does.
+    """
+    merely = hopf_by_delay(results, scenes=scenes)
+    suffices = merely.verdict == REPRODUCED
     points = [
         row
         for row in results.hopf_points
         if row["of"] == plane and row["kind"] == "hopf_without_delay"
     ]
     if not points:
-        return Finding(REPRODUCED, f"No Hopf point at tau = 0 in the plane {plane}.")
+        evidence = f"Read as 'only by a delay': no Hopf point at tau = 0 in the plane {plane}."
+        return Finding(REPRODUCED, evidence)
     point = points[0]
     epsilon, xi, square = point["epsilon"], point["xi"], point["gamma"] ** 2
     expected = square * xi / (xi + square)
     kind = "supercritical" if point["l1_1"] < 0 else "subcritical"
     return Finding(
-        NOT_REPRODUCED,
-        f"At tau = 0, xi = {short(xi)} and gamma = {short(point['gamma'])} there is a Hopf point at"
-        f" epsilon = {short(epsilon, 9)}. The Routh-Hurwitz criterion gives the same value,"
-        f" gamma^2 xi/(xi + gamma^2) = {short(expected, 9)}. The bifurcation is {kind}: the first"
-        f" Lyapunov coefficient is {short(point['l1_1'])}.",
+        CORRECTED if suffices else NOT_REPRODUCED,
+        f"Read as 'only by a delay' it fails: at tau = 0, xi = {short(xi)} and gamma ="
+        f" {short(point['gamma'])} there is a Hopf point at epsilon = {short(epsilon, 9)}. The"
+        " Routh-Hurwitz criterion gives the same value, gamma^2 xi/(xi + gamma^2) ="
+        f" {short(expected, 9)}. The bifurcation is {kind}: the first Lyapunov coefficient is"
+        f" {short(point['l1_1'])}. Read as 'merely by a delay' it"
+        f" {'holds' if suffices else 'fails'}. {merely.evidence}",
         f"At tau = 0 there is one at epsilon = gamma^2 xi/(xi + gamma^2) = {short(expected)}.",
     )
 
@@ -194,8 +203,23 @@ def amplitude_death(results: Results, *, scenes: list[str]) -> Finding:
             parts.append(f"{scene} at tau = {', '.join(short(place, 6) for place in regained)}")
     return decided(
         bool(parts),
-        f"Scenes in which a longer delay restores stability: {'; '.join(parts) or 'none'}.",
+        f"Scenes in which a longer delay restores stability: {'; '.join(parts) or 'none'}."
+        f" {motions_beside_rest(results)}",
         "In none of the scenes does a longer delay restore stability.",
+    )
+
+
+def motions_beside_rest(results: Results) -> str:
+    """What linear stability leaves out: the share of random histories that come to rest."""
+    parts = [
+        f"{100 * row['share']:.0f} % of {row['histories']:.0f} at tau = {short(row['tau'])},"
+        f" epsilon = {short(row['epsilon'])}, xi = {short(row['xi'])}"
+        for row in results.basins
+        if row["class"] == "fixed point"
+    ]
+    return (
+        "The roots say what small disturbances do. Of random histories, up to slip events, these"
+        f" come to rest where it is stable: {'; '.join(parts) or 'none'}."
     )
 
 
@@ -222,15 +246,15 @@ def roots_decide(results: Results, *, least_motion: float) -> Finding:
         f" {sum(at_rest)} come to rest, {len(stable) - sum(at_rest)} move on another attractor."
         f" {len(unstable)} are at parameters with unstable roots: {len(rests)} come to rest, and in"
         f" the others the largest v is at least 1 + {short(least, 2)}. {undecided} more motions are"
-        " undecided.",
+        f" undecided. Each point of the atlas has one history. {motions_beside_rest(results)}",
         f"{len(rests)} of {len(unstable)} motions come to rest where a root is unstable, and"
         f" {sum(at_rest)} of {len(stable)} where none is.",
     )
 
 
-def independent_of_spring(results: Results, *, plane: str, limit: float) -> Finding:
-    """Whether epsilon alone, whatever xi = k L/A, decides on stability."""
-    curves = results.curves[plane]
+def independent_of_spring(results: Results, *, plane: str, route: str, limit: float) -> Finding:
+    """Whether epsilon alone, whatever xi = k L/A, decides on stability, and on chaos on a route."""
+    curves, rows = results.curves[plane], results.route(route)
     at_boundary = curves.unstable_pairs.values == 0
     epsilon, xi = (curves[key].values[at_boundary] for key in ("epsilon", "xi"))
     if not at_boundary.any():
@@ -238,12 +262,20 @@ def independent_of_spring(results: Results, *, plane: str, limit: float) -> Find
         return Finding(NOT_REPRODUCED, evidence, evidence)
     delays = curves.tau.values
     delay = short(delays[0]) if np.ptp(delays) == 0 else "various values"
+    stretches = next(iter(stretches_of(rows).values()))
+    steady, alike = np.ptp(epsilon) <= limit, len({one.motion for one in stretches}) == 1
+    changed = [
+        *["the critical epsilon of stability"] * (not steady),
+        *["the class of the motion at one epsilon"] * (not alike),
+    ]
     return decided(
-        bool(np.ptp(epsilon) <= limit),
+        steady and alike,
         f"At tau = {delay} and gamma = {short(curves.attrs['gamma'])} steady sliding changes"
         f" its stability at epsilon from {short(epsilon.min())} to {short(epsilon.max())}. There"
-        f" xi = k L/A ranges from {short(xi.min())} to {short(xi.max())}.",
-        "The critical epsilon changes with xi = k L/A.",
+        f" xi = k L/A ranges from {short(xi.min())} to {short(xi.max())}. Along"
+        f" {parameter_of(rows)} at epsilon = {short(rows[0]['epsilon'])} and tau ="
+        f" {short(rows[0]['tau'])}: {', '.join(map(str, stretches))}.",
+        f"With xi = k L/A changes {' and '.join(changed)}.",
     )
 
 

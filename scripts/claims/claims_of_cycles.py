@@ -5,10 +5,10 @@ import xarray as xr
 from scripts.claims.claims_of_attractors import attractor_class
 from scripts.claims.claims_results import (
     CORRECTED,
-    NOT_REPRODUCED,
     REPRODUCED,
     Finding,
     Results,
+    decided,
     listed,
     short,
 )
@@ -28,7 +28,7 @@ def torus_of_scene(results: Results, *, scene: str) -> Finding:
 
 
 def second_hopf(results: Results, *, scene: str) -> Finding:
-    """Whether the cycle at a scene has undergone a torus bifurcation, or one elsewhere has.
+    """Whether the cycle at a scene has undergone a torus bifurcation; if not, where one does.
 
     It has if the scene's run has two zero exponents, no stable cycle exists at its parameters, and
     a line through the scene has a torus bifurcation of a stable cycle.
@@ -50,49 +50,11 @@ def second_hopf(results: Results, *, scene: str) -> Finding:
         f" {cycles_in_words(found)} Torus bifurcations of stable cycles on lines through the"
         f" scene: {'; '.join(parts) or 'none'}."
     )
-    if not elsewhere:
-        instead = "No torus bifurcation of a stable cycle is known on these lines."
-        return Finding(NOT_REPRODUCED, evidence, instead)
-    if own["by_exponents"] == "torus" and not has_stable(found):
-        return Finding(REPRODUCED, evidence)
-    instead = f"With all other parameters the same it occurs {' or '.join(elsewhere)}."
-    return Finding(CORRECTED, evidence, instead)
-
-
-def confirmed_by_multipliers(
-    results: Results, *, scenes: list[str], expected: list[str]
-) -> Finding:
-    """Whether roots of (5) and multipliers of cycles agree with the classes of all scenes, or some.
-
-    They agree with a fixed point where no root is unstable, with a cycle where a stable one exists,
-    and with a torus or chaos where steady sliding is unstable and all cycles followed are.
-    """
-    parts, agree = [], []
-    for scene, motion in zip(scenes, expected, strict=True):
-        pairs = results.stability_of(scene)["unstable_pairs"]
-        found = cycles_at(results, scene)
-        stable = has_stable(found)
-        if motion == "fixed point":
-            agree.append(pairs == 0)
-        elif motion == "cycle":
-            agree.append(stable)
-        else:
-            agree.append(pairs > 0 and bool(found) and not stable)
-        counted = f"cycles: {len(found)}, {'one of them' if stable else 'none of them'} stable"
-        sliding = "unstable" if pairs > 0 else "stable"
-        parts.append(
-            f"{scene} ({motion} in the paper) {'agrees' if agree[-1] else 'does not agree'}: steady"
-            f" sliding is {sliding}; {counted if found else 'no cycle'}"
-        )
-    evidence = (
-        "The paper shows neither output nor settings of its run. The same methods were used here:"
-        f" roots of (5), cycles by collocation, and their multipliers. {'. '.join(parts)}."
-    )
-    if all(agree):
-        return Finding(REPRODUCED, evidence)
-    others = [scene for scene, agrees in zip(scenes, agree, strict=True) if not agrees]
-    instead = f"Roots and multipliers do not agree with the paper for {listed(others)}."
-    return Finding(CORRECTED if any(agree) else NOT_REPRODUCED, evidence, instead)
+    instead = "No torus bifurcation of a stable cycle is known on these lines."
+    if elsewhere:
+        instead = f"With all other parameters the same it occurs {' or '.join(elsewhere)}."
+    here = own["by_exponents"] == "torus" and not has_stable(found)
+    return decided(bool(elsewhere) and here, evidence, instead)
 
 
 def lines_through(results: Results, scene: str) -> dict[str, xr.Dataset]:
@@ -153,5 +115,4 @@ def torus_points(results: Results, fixed: dict[str, float]) -> list[dict]:
 TESTS = {
     "torus_of_scene": torus_of_scene,
     "second_hopf": second_hopf,
-    "confirmed_by_multipliers": confirmed_by_multipliers,
 }

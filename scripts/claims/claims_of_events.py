@@ -1,7 +1,5 @@
 """Claims about slip events, the times in which the block is faster than the plate."""
 
-from itertools import pairwise
-
 import numpy as np
 
 from scripts.claims.claims_results import (
@@ -9,9 +7,9 @@ from scripts.claims.claims_results import (
     Finding,
     Results,
     decided,
-    listed,
     short,
 )
+from scripts.namelists.study_cases import HISTORY
 
 FEWEST = 100
 """Events that a statement about their distribution needs."""
@@ -21,8 +19,6 @@ PERIODIC = 1e-3
 """Recurrence times repeat if they return to within this share of their mean."""
 NOTHING = 1e-5
 """Shares below this are not given as numbers: they are errors of the solver."""
-RANKS = (0.95, 0.5, 0.25, 0.05)
-"""Shares of events at least as large as the ends of the three ranges in which a power is fitted."""
 
 
 def aperiodic_events(results: Results, *, scene: str, periodic: str) -> Finding:
@@ -50,26 +46,29 @@ def aperiodic_events(results: Results, *, scene: str, periodic: str) -> Finding:
     )
 
 
-def power_law_of_sizes(results: Results, *, scene: str, spread: float) -> Finding:
-    """Whether the number of events with at least a slip is a power of the slip."""
-    slip = np.sort(results.events_of(scene).slip.values)
-    if slip.size < FEWEST:
-        return few(scene, slip.size, "for a distribution of their sizes")
-    ends = np.quantile(slip, 1 - np.array(RANKS))
-    if np.any(np.diff(ends) <= 0):
-        evidence = f"All slips of {scene} between two of the quantiles are equal."
-        return Finding(NOT_REPRODUCED, evidence, "The sizes are not a power law: many are equal.")
-    powers = -np.diff(np.log(RANKS)) / np.diff(np.log(ends))
-    ranges = [f"{short(a, 3)} to {short(b, 3)}" for a, b in pairwise(ends)]
-    fits = [f"{short(power, 3)} (slip {here})" for power, here in zip(powers, ranges, strict=True)]
+def equal_events(results: Results, *, scenes: list[str]) -> Finding:
+    """Whether all events of each scene come after the same time: a cycle of one event, no chaos."""
+    parts, holds = [], True
+    for scene in scenes:
+        events = results.events_of(scene)
+        times, place = events.recurrence_time.values, events.attrs
+        if times.size < FEWEST:
+            return few(scene, times.size, "to show whether they repeat")
+        spread = float(np.ptp(times) / times.mean())
+        holds = holds and spread <= PERIODIC
+        history = ", ".join(f"{key} = {short(place[f'history_{key}'])}" for key in HISTORY)
+        parts.append(
+            f"At tau = {short(place['tau'])}, epsilon = {short(place['epsilon'])}, from {history},"
+            f" {times.size} events come after {short(times.mean(), 6)} L/v0 each, with v up to"
+            f" {short(events.peak_velocity.values.max())}. These times differ by up to"
+            f" {percent(spread)}."
+        )
     return decided(
-        powers.max() <= spread * powers.min(),
-        f"The block of scene {scene} makes {slip.size} events with slips from {short(slip[0])} to"
-        f" {short(slip[-1])} L. By the law the number of events with at least a slip s is"
-        f" proportional to 1/s^b with one b. Here b is {listed(fits)}. The law is known from models"
-        " of many blocks; this model has one.",
-        f"The slope b changes with the slip, from {short(powers.min(), 2)} to"
-        f" {short(powers.max(), 2)}.",
+        holds,
+        f"{' '.join(parts)} Erickson, Birnir and Lavallee (2008) report a cascade of period"
+        " doublings to chaos without delay, near epsilon = 11."
+        f"{' It is not found here.' if holds else ''}",
+        "Without delay events do not repeat, either.",
     )
 
 
@@ -127,6 +126,6 @@ def few(scene: str, events: int, why: str) -> Finding:
 
 TESTS = {
     "aperiodic_events": aperiodic_events,
-    "power_law_of_sizes": power_law_of_sizes,
+    "equal_events": equal_events,
     "relaxation": relaxation,
 }

@@ -148,6 +148,25 @@ def hopf_curves(results: Results, *, planes: list[str], limit: float) -> Finding
     )
 
 
+def lag_of_the_plate(results: Results, *, plane: str, limit: float) -> Finding:
+    """Whether the curves are those of a block that a lag parts from the plate.
+
+    A plate of constant speed that lags by tau shifts u by -tau and nothing else, so (5) holds
+    without its factor exp(-s tau).
+    """
+    points = points_of(results.curves[plane])
+    lagging = residual_of_5(points, points.epsilon, np.zeros_like(points.tau)).max()
+    return decided(
+        lagging <= limit,
+        "The plate has a constant speed: a lag tau between plate and block only shifts u by -tau,"
+        " and the roots of (5) are those without delay. On the Hopf curves the residual of (5)"
+        f" without delay is up to {short(lagging)}, with delay"
+        f" {short(residual_of_5(points, points.epsilon, points.tau).max())}.",
+        "The delay of (4) is another: friction responds to the velocity of the block a time tau"
+        " ago.",
+    )
+
+
 TESTS = {
     "equation_3": equation_3,
     "equation_4": equation_4,
@@ -156,4 +175,5 @@ TESTS = {
     "equation_9": equation_9,
     "equation_10": equation_10,
     "hopf_curves": hopf_curves,
+    "lag_of_the_plate": lag_of_the_plate,
 }

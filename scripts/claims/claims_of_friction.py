@@ -2,7 +2,13 @@
 
 import numpy as np
 
-from scripts.claims.claims_results import Finding, Results, decided, short
+from scripts.claims.claims_results import (
+    Finding,
+    Results,
+    decided,
+    decided_after_correction,
+    short,
+)
 
 
 def mu0_is_steady_friction(results: Results, *, limit: float) -> Finding:
@@ -61,21 +67,27 @@ def velocity_step(results: Results) -> Finding:
 
 
 def friction_falls_with_epsilon(results: Results) -> Finding:
-    """Whether friction (1.1) in a given state is smaller where epsilon is larger, by B or by A."""
+    """Whether friction falls with epsilon: by (1.1) in any state, by (2) in steady sliding.
+
+    In steady sliding theta of (2) is -B ln(v/v0), and its friction is -(B - A) ln(v/v0).
+    """
     friction = results.friction
     by_b = np.log(friction.theta.values / friction.attrs["b_state"] + 1)
     by_a = np.log(friction.attrs["v0"] / friction.velocity.values + 1)
-    change = friction.attrs["evolution_effect"] / friction.attrs["b"]
-    return decided(
+    most = float(abs(friction.velocity).max()) / friction.attrs["v0"]
+    return decided_after_correction(
         bool((by_b < 0).all() and (by_a < 0).all()),
+        most > 1,
         "epsilon = (B - A)/A grows with a larger B or a smaller A. In the"
         f" {by_b.size} states of the velocity step friction by (1.1) changes by {short(by_b.min())}"
         f" to {short(by_b.max())} per unit of B, and by {short(by_a.min())} to {short(by_a.max())}"
-        " per unit by which A becomes smaller. A positive number is more friction. The change of"
-        f" friction over the slip after the step up is another quantity: {short(change)} per unit"
-        " of B.",
-        f"Friction grows with epsilon in {int(((by_b > 0) & (by_a > 0)).sum())} of {by_b.size}"
-        " states.",
+        " per unit by which A becomes smaller. A positive number is more friction. By (2), the law"
+        " that is solved, friction in steady sliding is -(B - A) ln(v/v0). At the largest velocity"
+        f" of the step, {short(most)} v0, it changes by {short(-np.log(most))} per unit of B - A."
+        " Slower than v0 it grows with B - A.",
+        "By (1.1) friction grows with epsilon in"
+        f" {int(((by_b > 0) & (by_a > 0)).sum())} of {by_b.size} states. It falls by (2), in steady"
+        " sliding faster than v0.",
     )
 
 

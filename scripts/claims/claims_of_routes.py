@@ -22,6 +22,9 @@ from scripts.claims.claims_results import (
 from scripts.namelists.study_cases import PARAMETERS
 from scripts.tables.motion_rows import UNDECIDED, parameter_of
 
+THREE = "3-torus"
+"""Class of a torus with three frequencies."""
+
 
 @dataclass
 class Stretch:
@@ -61,6 +64,124 @@ def torus_route(results: Results, *, routes: list[str], expected: list[str]) -> 
         f"No run shows {', then '.join(expected)} with a torus bifurcation between cycle and torus."
     )
     return decided(any(any(met.values()) for met in found), " ".join(told), instead)
+
+
+def quasiperiodic_route(results: Results, *, routes: list[str]) -> Finding:
+    """Whether chaos follows a torus of two frequencies, and one of three, along the routes.
+
+    The first is torus breakdown, the second the route of Ruelle, Takens and Newhouse. Where both
+    are found the claim holds, with a correction where one is.
+    """
+    breakdown = torus_route(results, routes=routes, expected=["cycle", "torus", "chaos"])
+    strict = route(results, routes=routes, expected=["torus", THREE, "chaos"])
+    found = {
+        "torus breakdown (cycle, torus of two frequencies, chaos)": breakdown.verdict,
+        "the third frequency of Ruelle, Takens and Newhouse": strict.verdict,
+    }
+    fails = [name for name, verdict in found.items() if verdict != REPRODUCED]
+    holds = [name for name in found if name not in fails]
+    evidence = (
+        f"Torus breakdown: {breakdown.evidence} A torus of three frequencies between torus and"
+        f" chaos: {strict.evidence} {three_tori_in_atlas(results.atlas)}"
+    )
+    if not fails:
+        return Finding(REPRODUCED, evidence)
+    if not holds:
+        return Finding(NOT_REPRODUCED, evidence, f"The routes show neither {' nor '.join(fails)}.")
+    return Finding(CORRECTED, evidence, f"The routes show {holds[0]}, but not {fails[0]}.")
+
+
+def three_tori_in_atlas(atlas: list[dict]) -> str:
+    """Where the atlas has tori of three frequencies, and beside how many it has chaos."""
+    tori = [row for row in atlas if row["class"] == THREE]
+    if not tori:
+        return "The atlas has no torus of three frequencies."
+    next_to = {"tau": 0, "epsilon": 0}
+    for torus in tori:
+        for along in next_to:
+            beyond = [
+                row
+                for row in atlas
+                if row[along] > torus[along]
+                and row["class"] not in (THREE, UNDECIDED)
+                and all(row[key] == torus[key] for key in PARAMETERS if key != along)
+            ]
+            following = min(beyond, key=lambda row: row[along], default={"class": ""})
+            next_to[along] += following["class"] == "chaos"
+    places = Counter(f"xi = {short(row['xi'])}, gamma = {short(row['gamma'])}" for row in tori)
+    counts = [f"{count} at {place}" for place, count in places.items()]
+    ends = [f"{short(end(row['tau'] for row in tori))}" for end in (min, max)]
+    return (
+        f"The atlas has {len(tori)} tori of three frequencies: {'; '.join(counts)}, for tau from"
+        f" {ends[0]} to {ends[1]}. The next class is chaos beyond {next_to['tau']} of them with a"
+        f" longer delay, and beyond {next_to['epsilon']} with a larger epsilon."
+    )
+
+
+def two_supercritical_hopfs(results: Results, *, routes: list[str], planes: list[str]) -> Finding:
+    """Whether the Hopf bifurcation of steady sliding and that of the cycle are supercritical.
+
+    The second is a torus bifurcation of a stable cycle. The first is where a pair of roots becomes
+    unstable in the plane with the xi of the route, nearest to its epsilon.
+    """
+    parts, kinds = [], []
+    for name in routes:
+        rows = results.route(name)
+        at = rows[0]
+        (curves,) = (
+            results.curves[plane] for plane in planes if results.curves[plane].xi[0] == at["xi"]
+        )
+        lost = curves.isel(point=(curves.unstable_pairs == 0) & (curves.crossing > 0))
+        first = lost.isel(point=abs(lost.epsilon.values - at["epsilon"]).argmin())
+        along = parameter_of(rows)
+        fixed = {key: at[key] for key in PARAMETERS if key != along}
+        found = [
+            (float(first[along]), "subcritical" if first.l1 > 0 else "supercritical"),
+            *((point[along], point["criticality"]) for point in torus_points(results, fixed)),
+        ]
+        kinds.append([kind for _, kind in found])
+        of_sliding, *of_cycles = (f"{kind} near {along} = {short(at)}" for at, kind in found)
+        where = ", ".join(f"{key} = {short(value)}" for key, value in fixed.items())
+        parts.append(
+            f"With {where} the Hopf bifurcation of steady sliding is {of_sliding}. Torus"
+            f" bifurcations of stable cycles: {', '.join(of_cycles) or 'none'}."
+        )
+    holds = [len(each) > 1 and set(each) == {"supercritical"} for each in kinds]
+    evidence = " ".join(parts)
+    if all(holds):
+        return Finding(REPRODUCED, evidence)
+    instead = f"All are supercritical on {sum(holds)} of {len(holds)} lines."
+    return Finding(CORRECTED if any(holds) else NOT_REPRODUCED, evidence, instead)
+
+
+def chaos_by_a_and_b(results: Results, *, routes: list[str]) -> Finding:
+    """Whether chaos follows from a larger B alone, and from a larger A with B in proportion.
+
+    B alone raises epsilon = (B - A)/A. A and B in proportion lower xi = k L/A. A alone lowers both.
+    """
+    leads = {}
+    for name in routes:
+        rows = results.route(name)
+        ends = [(run[0].motion, run[-1].motion) for run in stretches_of(rows).values() if run]
+        for direction, before, behind in (("larger", 0, 1), ("smaller", 1, 0)):
+            chaotic = [pair[before] != "chaos" == pair[behind] for pair in ends]
+            leads[parameter_of(rows), direction] = sum(chaotic), len(ends)
+    parts = [
+        f"A {direction} {along} leads to chaos in {count} of {runs} runs."
+        for (along, direction), (count, runs) in leads.items()
+    ]
+    by_b, by_both = leads["epsilon", "larger"][0] > 0, leads["xi", "smaller"][0] > 0
+    evidence = (
+        "A larger B raises epsilon = (B - A)/A. A larger A lowers epsilon and xi = k L/A; with B in"
+        f" proportion it lowers xi alone. {' '.join(parts)}"
+    )
+    if by_b and by_both:
+        return Finding(REPRODUCED, evidence)
+    if not (by_b or by_both):
+        return Finding(NOT_REPRODUCED, evidence, "Neither B alone nor A and B in proportion do.")
+    alone = "A larger B alone does; A and B in proportion do not."
+    both = "A and B in proportion do; a larger B alone does not."
+    return Finding(CORRECTED, evidence, alone if by_b else both)
 
 
 def leads_to(results: Results, *, routes: list[str], before: list[str], after: str) -> Finding:
@@ -208,5 +329,8 @@ TESTS = {
     "route": route,
     "leads_to": leads_to,
     "torus_route": torus_route,
+    "quasiperiodic_route": quasiperiodic_route,
+    "two_supercritical_hopfs": two_supercritical_hopfs,
+    "chaos_by_a_and_b": chaos_by_a_and_b,
     "delays_in_turn": delays_in_turn,
 }

@@ -12,12 +12,16 @@ from scripts.claims.claims_results import (
     short,
 )
 
+SMALL = 0.02
+"""A harmonic below this share of the highest peak is not seen in a figure with a linear axis."""
+
 
 def single_peak(results: Results, *, scene: str) -> Finding:
-    """Whether the spectrum has one fundamental frequency, and no harmonic beside it."""
+    """Whether the spectrum has one fundamental frequency, and no harmonic beside it but small ones."""
     spectrum = results.spectrum_of(scene)
     periodic = spectrum.attrs["spectrum_kind"] == "periodic"
-    alone = spectrum.sizes["peak"] == 1
+    power = spectrum.peak_power.values
+    alone = bool((power > SMALL * power.max(initial=0)).sum() == 1)
     verdict = (REPRODUCED if alone else CORRECTED) if periodic else NOT_REPRODUCED
     instead = second_peak(scene, spectrum) if not (periodic and alone) else ""
     return Finding(verdict, in_words(scene, spectrum), instead)

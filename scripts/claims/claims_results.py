@@ -40,7 +40,9 @@ class Results:
     linear_stability: list[dict]
     stability: list[dict]
     attractors: list[dict]
+    exponents: list[dict]
     atlas: list[dict]
+    basins: list[dict]
     routes: list[dict]
     cycle_points: list[dict]
     cycles: dict[str, xr.Dataset]
@@ -64,6 +66,13 @@ class Results:
         """The scene's attractors, that of its own history first."""
         rows = rows_about(self.attractors, "attractors.tsv", scene)
         return sorted(rows, key=lambda row: row["history"])
+
+    def exponents_of(self, scene: str) -> list[tuple[float, float]]:
+        """The exponents of the scene's long run with their errors, largest first, if it has one."""
+        rows = [row for row in self.exponents if row["scene"] == scene]
+        # the other runs of a scene check tolerance and step size
+        own = [row for row in rows if row["mean_step"] == rows[0]["mean_step"]]
+        return [(row["exponent"], row["error"]) for row in own]
 
     def route(self, name: str) -> list[dict]:
         """Points of a route, of all runs; to have none is an error."""
