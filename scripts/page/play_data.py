@@ -82,11 +82,12 @@ def in_words(row: dict) -> list[str]:
 
 
 def frequencies(row: dict) -> str:
-    """The period of a cycle, or both base frequencies of a torus, as far as they are known."""
+    """The period of a cycle, or the base frequencies of a torus, as far as they are known."""
     if row["class"] == "cycle" and not math.isnan(row["f1"]):
         return f"period {1 / row['f1']:.4g} (units of L/v₀)"
-    if row["class"] == "torus" and not math.isnan(row["f2"]):
-        return f"base frequencies {row['f1']:.4g} and {row['f2']:.4g} (units of v₀/L)"
+    if row["class"] in ("torus", "3-torus") and not math.isnan(row["f2"]):
+        known = [f"{row[f'f{i}']:.4g}" for i in (1, 2, 3) if not math.isnan(row[f"f{i}"])]
+        return f"base frequencies {', '.join(known[:-1])} and {known[-1]} (units of v₀/L)"
     return ""
 
 
