@@ -234,8 +234,8 @@ contains
    subroutine test_names(error)
       type(error_type), allocatable, intent(out) :: error
 
-      call expect(error, all(class_names([undecided, fixed_point, cycle_motion, torus, three_torus, &
-                                          chaos]) == &
+      call expect(error, all(class_names([undecided, fixed_point, cycle_motion, torus, &
+                                          three_torus, chaos]) == &
                              ["undecided  ", "fixed point", "cycle      ", "torus      ", &
                               "3-torus    ", "chaos      "]), "names of classes")
    end subroutine test_names

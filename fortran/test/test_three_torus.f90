@@ -166,8 +166,8 @@ contains
       end do
    end subroutine test_exponents
 
-   !> Look for a third phase in motion that is a sum of cosines with these frequencies: v is known by
-   !> its spectrum, the section is met when the first phase is 0.
+   !> Look for a third phase in motion that is a sum of cosines with these frequencies: v is known
+   !> by its spectrum, the section is met when the first phase is 0.
    subroutine find_third(error, frequency, amplitude, noise, third, roughness)
       !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error

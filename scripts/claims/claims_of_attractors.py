@@ -14,7 +14,12 @@ from scripts.claims.claims_results import (
     short,
 )
 
-MOTIONS = {"fixed point": "rest", "cycle": "a limit cycle", "torus": "a torus", "3-torus": "a 3-torus"}
+MOTIONS = {
+    "fixed point": "rest",
+    "cycle": "a limit cycle",
+    "torus": "a torus",
+    "3-torus": "a 3-torus",
+}
 """Classes in a sentence, where the word alone is none."""
 ERRORS = 3
 """Standard errors beyond which an exponent is not zero."""

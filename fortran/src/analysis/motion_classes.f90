@@ -41,10 +41,10 @@ module motion_classes
 contains
 
    !> The class by leading exponents: all negative, a fixed point; one zero, the others negative, a
-   !> cycle; two zero, a torus; three zero and the fourth as far from zero as a clear one, a 3-torus;
-   !> positive ones, chaos. It is undecided if there are positive and negative exponents but no zero
-   !> one, if all or more than three are zero, if the error bar of a zero exponent is too long, or if
-   !> one that is not zero has no sign.
+   !> cycle; two zero, a torus; three zero and the fourth far from zero, a 3-torus; positive ones,
+   !> chaos. It is undecided if there are positive and negative exponents but no zero one, if all or
+   !> more than three are zero, if the error bar of a zero exponent is too long, or if one that is
+   !> not zero has no sign.
    pure integer function class_by_exponents(exponents, zero_level, longest_bar) result(found)
       !> Exponents, descending
       type(exponent_type), intent(in) :: exponents(:)

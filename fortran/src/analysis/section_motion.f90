@@ -1,7 +1,7 @@
 !> The class of motion by the points of a Poincare section: a few points that repeat are a cycle;
 !> points that are a smooth function of two phases, each turning at a base frequency, are a torus,
 !> and a smooth function of three phases but not of two is a 3-torus. Other points have no class:
-!> they may be those of chaos, of a long cycle, or of a torus that is not smooth at their resolution.
+!> they may be those of chaos, of a long cycle, or of a torus that is not smooth at this resolution.
 module section_motion
    use dde_kinds, only: wp
    implicit none (type, external)
@@ -35,9 +35,9 @@ module section_motion
 
 contains
 
-   !> Roughness of the last points of a section as a function of two or three phases: the mean square
-   !> distance of the points that are nearest in phase, over twice the variance. It is 1 for points
-   !> in random order, 0 for a smooth function of the phases, and `not_measured` if a phase lacks.
+   !> Roughness of the last points of a section as a function of phases, two or three: the mean
+   !> square distance of the points that are nearest in phase, over twice the variance. It is 1 for
+   !> points in random order, 0 for a smooth function, and `not_measured` where a phase is missing.
    pure real(wp) function section_roughness(points, times, scale, bases) result(roughness)
       !> Points in order of time, shape (coordinates, points)
       real(wp), intent(in) :: points(:, :)

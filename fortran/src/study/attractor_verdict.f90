@@ -7,7 +7,8 @@ module attractor_verdict
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: growth_type
    use motion_classes, only: agree, chaos, class_by_exponents, clear_by_exponents, &
-                             cycle_motion, no_class_by_exponents, none, three_torus, torus, undecided
+                             cycle_motion, no_class_by_exponents, none, three_torus, torus, &
+                             undecided
    use observed_motion, only: observed_motion_type
    use section_motion, only: find_third_phase, not_measured, period_of_tail, section_roughness, &
                              torus_roughness
@@ -33,7 +34,7 @@ module attractor_verdict
       real(wp) :: t_path = 0.0_wp
       !> Longest time between orthonormalisations
       real(wp) :: interval = 0.0_wp
-      !> Number of exponents; up to four if all of these are zero, without delay no more than equations
+      !> Number of exponents; four if all of fewer are zero, without delay no more than equations
       integer :: exponents = 0
       !> An exponent this close to zero has no sign
       real(wp) :: zero_level = 0.0_wp

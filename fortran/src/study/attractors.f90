@@ -24,8 +24,8 @@ module attractors
 
    !> Parts of the approach, after each of which rest and cycles are looked for.
    integer, parameter :: approach_parts = 10
-   !> Exponents that are measured if fewer were asked for and all of them are zero: three zero ones and
-   !> a negative one are a 3-torus.
+   !> Exponents that are measured if fewer were asked for and all of them are zero: three zero ones
+   !> and a negative one are a 3-torus.
    integer, parameter :: most_with_zeros = 4
    !> How close the line that is kept of a path is to it, as a share of its extent: one pixel in a
    !> plot of 250 pixels, and of 500 for a cycle.
@@ -153,8 +153,8 @@ contains
       type(exponent_type), allocatable :: exponents(:)
 
       if (.not. settles(attractor%motion%samples(index_of_ln_v))) return
-      call sliding_exponents(block_model, exponents_of(block_model, settings%exponents), exponents, &
-                             error)
+      call sliding_exponents(block_model, exponents_of(block_model, settings%exponents), &
+                             exponents, error)
       if (allocated(error)) return
       if (.not. all(exponents%value < 0.0_wp)) return
       attractor%exponents = exponents
