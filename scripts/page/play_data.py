@@ -86,7 +86,8 @@ def frequencies(row: dict) -> str:
     if row["class"] == "cycle" and not math.isnan(row["f1"]):
         return f"period {1 / row['f1']:.4g} (units of L/v₀)"
     if row["class"] in ("torus", "3-torus") and not math.isnan(row["f2"]):
-        known = [f"{row[f'f{i}']:.4g}" for i in (1, 2, 3) if not math.isnan(row[f"f{i}"])]
+        keys = ["f1", "f2", "f3"] if row["class"] == "3-torus" else ["f1", "f2"]
+        known = [f"{row[key]:.4g}" for key in keys]
         return f"base frequencies {', '.join(known[:-1])} and {known[-1]} (units of v₀/L)"
     return ""
 
