@@ -75,7 +75,7 @@ def in_words(row: dict) -> str:
 
 
 def exponents_of(row: dict) -> str:
-    """The largest three exponents, four of a 3-torus, with errors, in brackets, if there are any."""
+    """The largest three exponents, four of a 3-torus, with errors in brackets, if there are any."""
     parts = [
         f"{short(row[f'exponent_{i}'], 3)} +- {short(row[f'error_{i}'], 2)}"
         for i in range(1, 5 if row["class"] == "3-torus" else 4)
