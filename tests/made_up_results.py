@@ -87,7 +87,8 @@ def attractor_row(met: str, scene: str = "mine", history: int = 1, **given) -> d
         **{f"exponent_{i}": -0.01 * i for i in (1, 2, 3)},
         **{f"error_{i}": 0.001 for i in (1, 2, 3)},
         "f1": 0.1,
-        "f2": 0.17 if met == "torus" else math.nan,
+        "f2": 0.17 if met.endswith("torus") else math.nan,
+        "f3": 0.13 if met == "3-torus" else math.nan,
         "largest_maximum": 1.0 if met == "fixed point" else 2.0,
         **given,
     }

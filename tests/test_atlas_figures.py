@@ -45,6 +45,7 @@ def a_row(met: str, epsilon: float, tau: float = 7.0, xi: float = 0.5, **given) 
 def grid_of(xi: float) -> list[dict]:
     """Three by four points with every class, one cycle of three loops and one failure."""
     classes = ["fixed point", "cycle", "cycle", "torus", "chaos", "undecided"] * 2
+    classes[9] = "3-torus"
     places = [(e, t) for t in (0.0, 10.0, 20.0) for e in (0.0, 0.5, 1.0, 1.5)]
     rows = [a_row(met, e, t, xi) for met, (e, t) in zip(classes, places, strict=True)]
     rows[2]["period"] = 3.0

@@ -14,7 +14,7 @@ from scripts.tables import attractor_tables, basins_table
 from scripts.tables.motion_rows import count_in_words, kind_of, parameter_of
 from scripts.workflow import result_files
 
-CLASSES = ["undecided", "fixed point", "cycle", "torus", "chaos"]
+CLASSES = ["undecided", "fixed point", "cycle", "torus", "3-torus", "chaos"]
 
 
 @pytest.fixture
@@ -147,8 +147,8 @@ def a_run(classes: list[str], **given) -> xr.Dataset:
     points = {
         **dict.fromkeys(("tau", "epsilon", "xi", "gamma"), 1.0),
         **dict.fromkeys(("history_theta", "history_u", "history_v"), 1.0),
-        **{"period": 1, "base_1": 0.1, "base_2": 0.0, "roughness": 0.5, "time": 900.0},
-        **{"smallest_maximum": 1.0, "largest_maximum": 2.0},
+        **{"period": 1, "base_1": 0.1, "base_2": 0.0, "base_3": 0.0},
+        **{"roughness": 0.5, "time": 900.0, "smallest_maximum": 1.0, "largest_maximum": 2.0},
         **given,
     }
     exponents = {key: points.pop(key, 0.0) for key in ("lyapunov_exponent", "lyapunov_error")}
@@ -193,6 +193,7 @@ def test_rows_say_what_the_file_holds():
     assert (first["class"], first["period"], first["f1"]) == ("cycle", 3.0, 0.1)
     assert (first["exponent_1"], first["exponent_2"]) == (0.0, -1.0)
     assert math.isnan(first["f2"])
+    assert math.isnan(first["f3"])
     assert (first["reason"], second["reason"]) == ("", "not confirmed")
     assert first["time"] == 900.0
     assert math.isnan(second["period"])
@@ -220,7 +221,7 @@ def test_histories_slower_than_the_attractor_are_tame(fastest, tame):
     assert [row["tame_histories"] for row in rows] == [tame] * 3
 
 
-@pytest.mark.parametrize("name", ["cycle", "torus"])
+@pytest.mark.parametrize("name", ["cycle", "torus", "3-torus"])
 @pytest.mark.parametrize(("factor", "numbers"), [(1.005, [1, 1]), (1.02, [1, 2])])
 @pytest.mark.parametrize("key", ["smallest_maximum", "largest_maximum"])
 def test_cycles_and_tori_are_told_apart_by_their_maxima(name, key, factor, numbers):

@@ -27,10 +27,10 @@ def test_points_are_the_rectangle_for_each_history(programs, groups):
     assert found.history_theta.values.tolist() == [0.0] * 4 + [0.5] * 4
     assert found.history_u.values.tolist() == [0.0] * 4 + [-0.5] * 4
     assert found.history_v.values.tolist() == [1.1] * 4 + [1.5] * 4
-    meanings = "undecided fixed_point cycle torus chaos"
+    meanings = "undecided fixed_point cycle torus 3-torus chaos"
     for key in ("class", "by_exponents", "by_section", "by_spectrum"):
         assert found[key].attrs["flag_meanings"] == meanings
-        assert set(found[key].values) <= set(range(5))
+        assert set(found[key].values) <= set(range(6))
     assert found.xi.values.tolist() == found.gamma.values.tolist() == [0.8] * 8
     settings = {"name": "a part", "sweep": "none", "method": "auto", "tolerance": 1e-6}
     recorded = ("t_transient", "t_observed", "t_turning", "interval", "zero_level")

@@ -247,6 +247,29 @@ def shares(kind: str) -> list[float]:
     return found
 
 
+def three_tori(plane: str) -> list[float]:
+    """How many 3-tori a plane of the atlas has, and the least delay of one."""
+    at = {key: f"{settings('atlas', 'planes')[plane][key]:g}" for key in ("xi", "gamma")}
+    delays = [
+        float(row["tau"])
+        for row in table("atlas.tsv")
+        if row["class"] == "3-torus" and all(row[key] == value for key, value in at.items())
+    ]
+    return [len(delays), *([min(delays)] if delays else [])]
+
+
+def next_in_epsilon(kind: str, plane: str, beside: set[str]) -> int:
+    """How many points of a class have these classes as neighbours along epsilon."""
+    at = {key: f"{settings('atlas', 'planes')[plane][key]:g}" for key in ("xi", "gamma")}
+    rows = [row for row in table("atlas.tsv") if all(row[key] == at[key] for key in at)]
+    lines = {tau: [row for row in rows if row["tau"] == tau] for tau in {r["tau"] for r in rows}}
+    return sum(
+        two["class"] == kind and {one["class"], three["class"]} == beside
+        for line in lines.values()
+        for one, two, three in zip(line, line[1:], line[2:], strict=False)
+    )
+
+
 def points_of_a_plane() -> int:
     """Points of each plane of the atlas."""
     return settings("atlas")["epsilon_count"] * settings("atlas")["tau_count"]
@@ -697,7 +720,25 @@ SAID = [
             "docs/findings.md", f"| {kind} | {{:.0f}} | {{:.0f}} | {{:.0f}} |",
             lambda kind=kind: shares(kind),
         )
-        for kind in ("fixed point", "cycle", "torus", "chaos", "undecided")
+        for kind in ("fixed point", "cycle", "torus", "3-torus", "chaos", "undecided")
+    ),
+    Said(
+        "docs/findings.md", "gamma = 0.8 there are {} of them, from tau = {:.1f} on.",
+        lambda: three_tori("xi_08"),
+    ),
+    Said(
+        "docs/findings.md", "{} of the 7 have chaos and a torus as their neighbours in epsilon.",
+        lambda: [
+            ("Four", "Five", "Six")[next_in_epsilon("3-torus", "xi_08", {"torus", "chaos"}) - 4]
+        ],
+    ),
+    Said(
+        "docs/findings.md", "gamma = 1e8 there are {} of them, from tau = {:.1f} on.",
+        lambda: three_tori("fault"),
+    ),
+    Said(
+        "docs/findings.md", "gamma = 0.8 there are {} of them on this grid",
+        lambda: three_tori("xi_05"),
     ),
     Said(
         "docs/findings.md", "double Hopf point ({:.3f}, {:.2f}) and contains `true_torus`",

@@ -29,11 +29,11 @@ def caption(kind: str, **given) -> str:
 
 def attractors_of(met: str, period: int = 0, problem: str = "") -> xr.Dataset:
     """What was found from one history, with three exponents."""
-    classes = {"flag_meanings": "undecided fixed_point cycle torus chaos"}
+    classes = {"flag_meanings": "undecided fixed_point cycle torus 3-torus chaos"}
     kind = classes["flag_meanings"].split().index(met)
     flags = dict.fromkeys(("class", "by_exponents", "by_section", "by_spectrum"), kind)
     values = dict.fromkeys(
-        ("smallest_maximum", "largest_maximum", "time", "roughness", "base_2"), 0.0
+        ("smallest_maximum", "largest_maximum", "time", "roughness", "base_2", "base_3"), 0.0
     )
     values |= {"base_1": 0.1, "period": period, "problem": problem, **PLACE}
     values |= {f"history_{key}": 1.0 for key in ("theta", "u", "v")}

@@ -124,7 +124,7 @@ def test_events_shorter_than_the_interval_leave_no_false_peaks(spectrum_of, prog
     bin_width = float(spectrum.frequency[1])
     np.testing.assert_allclose(spectrum.peak_frequency, lines / period, atol=0.02 * bin_width)
     np.testing.assert_allclose(spectrum.peak_power, 2 / (1.5 * bin_width), rtol=0.02)
-    assert spectrum.attrs["spectrum_kind"] == "one base"
+    assert spectrum.attrs["spectrum_kind"] == "periodic"
 
 
 @pytest.mark.parametrize("shift", [-0.49, -0.25, 0.1, 0.4])

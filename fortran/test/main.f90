@@ -48,6 +48,7 @@ program tester
    use test_tangent_series, only: collect_tangent_series
    use test_tangents, only: collect_tangents
    use test_thinned_line, only: collect_thinned_line
+   use test_three_torus, only: collect_three_torus
    use test_torus_normal_form, only: collect_torus_normal_form
    use test_velocity_step, only: collect_velocity_step
    implicit none (type, external)
@@ -101,6 +102,7 @@ program tester
                              new_testsuite("tangent_series", collect_tangent_series), &
                              new_testsuite("tangents", collect_tangents), &
                              new_testsuite("thinned_line", collect_thinned_line), &
+                             new_testsuite("three_torus", collect_three_torus), &
                              new_testsuite("torus_normal_form", collect_torus_normal_form), &
                              new_testsuite("velocity_step", collect_velocity_step)])
    wanted = ""

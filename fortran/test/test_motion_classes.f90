@@ -7,7 +7,8 @@ module test_motion_classes
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use motion_classes, only: agree, chaos, class_by_exponents, class_names, clear_by_exponents, &
                              contradicted, cycle_motion, fixed_point, leaves_cycle, &
-                             no_class_by_exponents, none, not_confirmed, torus, undecided
+                             no_class_by_exponents, none, not_confirmed, three_torus, torus, &
+                             undecided
    implicit none (type, external)
    private
    public :: collect_motion_classes
@@ -24,6 +25,7 @@ contains
       testsuite = [new_unittest("fixed point", test_fixed_point), &
                    new_unittest("cycle", test_cycle), &
                    new_unittest("torus", test_torus), &
+                   new_unittest("3-torus", test_three_torus), &
                    new_unittest("chaos", test_chaos), &
                    new_unittest("undecided", test_undecided), &
                    new_unittest("clear exponents", test_clear), &
@@ -95,6 +97,20 @@ contains
                         torus)
    end subroutine test_torus
 
+   !> Three zeros, the fourth at least six standard errors below zero.
+   subroutine test_three_torus(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: values(4) = [1.0e-5_wp, 0.0_wp, -1.0e-5_wp, -6.1e-3_wp]
+      real(wp), parameter :: bars(4) = [1.0e-6_wp, 0.0_wp, 1.0e-5_wp, 1.0e-3_wp]
+
+      call expect_class(error, values, bars, three_torus)
+      call expect_class(error, [values, -0.1_wp], [bars, 0.0_wp], three_torus)
+      call expect_class(error, [values(:3), -5.9e-3_wp], bars, undecided)
+      ! a positive exponent, however weak, and one whose bar is too long
+      call expect_class(error, [1.1e-4_wp, values(2:)], bars, chaos)
+      call expect_class(error, values, [3.4e-4_wp, bars(2:)], undecided)
+   end subroutine test_three_torus
+
    !> Positive ones with a zero, however long its bar, or nothing but positive ones.
    subroutine test_chaos(error)
       type(error_type), allocatable, intent(out) :: error
@@ -119,8 +135,8 @@ contains
       call expect_class(error, [1.1e-4_wp, -0.1_wp], [3.0e-4_wp, 0.0_wp], undecided)
       call expect_class(error, [0.0_wp, -1.0e-3_wp, -0.1_wp], [0.0_wp, 3.4e-4_wp, 0.0_wp], &
                         undecided)
-      call expect_class(error, [0.0_wp, 0.0_wp, 0.0_wp, -0.1_wp], &
-                        [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], undecided)
+      call expect_class(error, [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, -0.1_wp], &
+                        [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], undecided)
       call expect_class(error, [0.0_wp], [0.0_wp], undecided)
       call expect_class(error, [1.0e-5_wp, 0.0_wp], [0.0_wp, 0.0_wp], undecided)
       call expect_class(error, [1.0e-5_wp, 1.0e-5_wp, 0.0_wp], [0.0_wp, 0.0_wp, 0.0_wp], undecided)
@@ -218,8 +234,9 @@ contains
    subroutine test_names(error)
       type(error_type), allocatable, intent(out) :: error
 
-      call expect(error, all(class_names([undecided, fixed_point, cycle_motion, torus, chaos]) == &
+      call expect(error, all(class_names([undecided, fixed_point, cycle_motion, torus, &
+                                          three_torus, chaos]) == &
                              ["undecided  ", "fixed point", "cycle      ", "torus      ", &
-                              "chaos      "]), "names of classes")
+                              "3-torus    ", "chaos      "]), "names of classes")
    end subroutine test_names
 end module test_motion_classes

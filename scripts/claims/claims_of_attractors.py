@@ -76,12 +76,13 @@ def in_words(row: dict) -> str:
 
 
 def exponents_of(row: dict, long: list[tuple[float, float]]) -> str:
-    """The largest exponents with their errors, in brackets: of the scene's long run if it has one.
+    """The largest three exponents, four of a 3-torus, with their errors, in brackets.
 
-    Of others it is those of the row, as far as there are any.
+    They are those of the scene's long run if it has one, else those of the row, if there are any.
     """
-    short_run = [(row[f"exponent_{i}"], row[f"error_{i}"]) for i in (1, 2, 3)]
-    parts = [with_error(*pair) for pair in (long or short_run)[:3] if not math.isnan(pair[0])]
+    number = 4 if row["class"] == "3-torus" else 3
+    short_run = [(row[f"exponent_{i}"], row[f"error_{i}"]) for i in range(1, number + 1)]
+    parts = [with_error(*pair) for pair in (long or short_run)[:number] if not math.isnan(pair[0])]
     return f" (exponents {', '.join(parts)})" if parts else ""
 
 

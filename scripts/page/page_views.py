@@ -45,10 +45,13 @@ def motion(row: dict) -> str:
 
 
 def exponents(row: dict) -> str:
-    """Exponents with their standard errors, where they have one; empty if none is known."""
+    """Exponents with their standard errors, where they have one; empty where none is known.
+
+    Three, and the fourth of a 3-torus.
+    """
     listed = ", ".join(
         f"{row[f'exponent_{i}']:.3g}" + f" ± {row[f'error_{i}']:.1g}" * (row[f"error_{i}"] > 0)
-        for i in (1, 2, 3)
+        for i in range(1, 5 if row["class"] == "3-torus" else 4)
         if not math.isnan(row[f"exponent_{i}"])
     )
     return in_signs(listed)

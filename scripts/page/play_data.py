@@ -82,11 +82,13 @@ def in_words(row: dict) -> list[str]:
 
 
 def frequencies(row: dict) -> str:
-    """The period of a cycle, or the fundamental frequencies of a torus, if they are known."""
+    """The period of a cycle, or the fundamental frequencies of a torus, as far as they are known."""
     if row["class"] == "cycle" and not math.isnan(row["f1"]):
         return f"period {1 / row['f1']:.4g} (units of L/v₀)"
-    if row["class"] == "torus" and not math.isnan(row["f2"]):
-        return f"fundamental frequencies {row['f1']:.4g} and {row['f2']:.4g} (units of v₀/L)"
+    if row["class"] in ("torus", "3-torus") and not math.isnan(row["f2"]):
+        keys = ["f1", "f2", "f3"] if row["class"] == "3-torus" else ["f1", "f2"]
+        known = [f"{row[key]:.4g}" for key in keys]
+        return f"fundamental frequencies {', '.join(known[:-1])} and {known[-1]} (units of v₀/L)"
     return ""
 
 

@@ -34,6 +34,7 @@ def rows_of(run: xr.Dataset) -> list[dict]:
         },
         "f1": positive(run.base_1),
         "f2": positive(run.base_2),
+        "f3": positive(run.base_3),
         **{key: numbers(run[key]) for key in ("smallest_maximum", "largest_maximum", "roughness")},
         "problem": run.problem.values.tolist(),
     }
@@ -112,10 +113,10 @@ def same_attractor(one: dict, other: dict) -> bool:
         return False
     if one["class"] == "fixed point":
         return True
-    if one["class"] in ("cycle", "torus"):
+    if one["class"] in ("cycle", "torus", "3-torus"):
         keys = ["smallest_maximum", "largest_maximum"]
         near = all(np.isclose(one[key], other[key], rtol=SAME_MAXIMUM, atol=0) for key in keys)
-        return near and (one["class"] == "torus" or one["period"] == other["period"])
+        return near and (one["class"] != "cycle" or one["period"] == other["period"])
     apart = abs(one["exponent_1"] - other["exponent_1"])
     return bool(apart <= ERROR_BARS * np.hypot(one["error_1"], other["error_1"]))
 

@@ -10,6 +10,7 @@ COLOURS = {
     "cycle": "#56b4e9",
     "multi-loop cycle": "#0072b2",
     "torus": "#f0e442",
+    "3-torus": "#009e73",
     "chaos": "#d55e00",
     UNDECIDED: "#ffffff",
 }

@@ -10,7 +10,7 @@ module base_frequencies
                              second_base_peak
    implicit none (type, external)
    private
-   public :: bases_type, label_peaks
+   public :: bases_type, descending, label_peaks
 
    !> Error of a line's frequency in bins where there is no background; a background adds as many
    !> bins as its amplitude over the line's.

@@ -5,18 +5,19 @@ module motion_classes
    implicit none (type, external)
    private
    public :: agree, chaos, class_by_exponents, class_names, clear_by_exponents, cycle_motion
-   public :: fixed_point, leaves_cycle, torus, undecided
+   public :: fixed_point, leaves_cycle, three_torus, torus, undecided
    public :: contradicted, no_class_by_exponents, none, not_confirmed, not_stationary, reason_names
    public :: unstable_rest
 
    !> Classes of motion.
    enum, bind(c)
-      enumerator :: undecided, fixed_point, cycle_motion, torus, chaos
+      enumerator :: undecided, fixed_point, cycle_motion, torus, three_torus, chaos
    end enum
 
    !> Their names, from `undecided` on.
-   character(len=11), parameter :: class_names(0:4) = ["undecided  ", "fixed point", &
-                                                       "cycle      ", "torus      ", "chaos      "]
+   character(len=11), parameter :: class_names(0:5) = ["undecided  ", "fixed point", &
+                                                       "cycle      ", "torus      ", &
+                                                       "3-torus    ", "chaos      "]
 
    !> Why a class is undecided.
    enum, bind(c)
@@ -40,9 +41,10 @@ module motion_classes
 contains
 
    !> The class by leading exponents: all negative, a fixed point; one zero, the others negative, a
-   !> cycle; two zero, a torus; positive ones, chaos. It is undecided if there are positive and
-   !> negative exponents but no zero one, if all or more than two are zero, if the error bar of a
-   !> zero exponent is too long, or if one that is not zero has no sign.
+   !> cycle; two zero, a torus; three zero and the fourth far from zero, a 3-torus; positive ones,
+   !> chaos. It is undecided if there are positive and negative exponents but no zero one, if all or
+   !> more than three are zero, if the error bar of a zero exponent is too long, or if one that is
+   !> not zero has no sign.
    pure integer function class_by_exponents(exponents, zero_level, longest_bar) result(found)
       !> Exponents, descending
       type(exponent_type), intent(in) :: exponents(:)
@@ -69,6 +71,8 @@ contains
             found = cycle_motion
          case (2)
             found = torus
+         case (3)
+            if (-exponents(4)%value > least_distance*exponents(4)%error) found = three_torus
          case default
             found = undecided
          end select

@@ -1,15 +1,21 @@
 !> The class of motion by the points of a Poincare section: a few points that repeat are a cycle;
 !> points that are a smooth function of two phases, each turning at a fundamental frequency, are a
-!> torus. Other points have no class: they may be those of chaos, of a long cycle, or of a torus
-!> that is not smooth at their resolution.
+!> torus, and a smooth function of three phases but not of two is a 3-torus. Other points have no
+!> class: they may be those of chaos, of a long cycle, or of a torus that is not smooth at this
+!> resolution.
 module section_motion
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: drifts, not_measured, period_of_tail, section_roughness, torus_roughness
+   public :: drifts, find_third_phase, not_measured, period_of_tail, section_roughness
+   public :: torus_roughness
 
-   !> Fewest and most points whose roughness is found.
-   integer, parameter :: fewest_points = 40, most_points = 1000
+   !> Fewest and most points whose roughness is found. Those of a 3-torus cover a surface and not a
+   !> line, so that more are needed.
+   integer, parameter :: fewest_points = 40, most_points = 1000, most_on_surface = 2000
+   !> Lines tried as the third base, and the largest roughness with it over that without it.
+   integer, parameter :: most_tried = 8
+   real(wp), parameter :: most_left = 0.5_wp
    !> Longest period of a cycle, in points.
    integer, parameter :: longest_period = 128
    !> The last points of a cycle that is reached repeat within the first share of the scale, those
@@ -31,9 +37,9 @@ module section_motion
 
 contains
 
-   !> Roughness of the last points of a section as a function of two phases: the mean square
-   !> distance of the points that are nearest in phase, over twice the variance. It is 1 for points
-   !> in random order, 0 for a smooth function of the phases, and `not_measured` without two phases.
+   !> Roughness of the last points of a section as a function of phases, two or three: the mean
+   !> square distance of the points that are nearest in phase, over twice the variance. It is 1 for
+   !> points in random order, 0 for a smooth function, and `not_measured` where a phase is missing.
    pure real(wp) function section_roughness(points, times, scale, bases) result(roughness)
       !> Points in order of time, shape (coordinates, points)
       real(wp), intent(in) :: points(:, :)
@@ -42,19 +48,57 @@ contains
       !> Scale of the motion in each coordinate, > 0
       real(wp), intent(in) :: scale(:)
       !> Fundamental frequencies, 0 where there is none
-      real(wp), intent(in) :: bases(2)
+      real(wp), intent(in) :: bases(:)
       real(wp), allocatable :: scaled(:, :)
       integer :: first, i
 
       roughness = not_measured
       if (size(times) < fewest_points .or. .not. all(bases > 0.0_wp)) return
-      first = max(1, size(times) - most_points + 1)
+      first = max(1, size(times) + 1 - merge(most_on_surface, most_points, size(bases) > 2))
       scaled = points(:, first:)
       do i = 1, size(scaled, 2)
          scaled(:, i) = scaled(:, i)/scale
       end do
-      roughness = roughness_of(scaled, times(first:)*bases(1), times(first:)*bases(2))
+      roughness = roughness_of(scaled, spread(times(first:), 2, size(bases)) &
+                               *spread(bases, 1, size(scaled, 2)))
    end function section_roughness
+
+   !> Find a third phase of which a section is a smooth function, while it is none of two phases,
+   !> whichever of the lines turns the second one.
+   pure subroutine find_third_phase(points, times, scale, bases, lines, third, roughness)
+      !> Points in order of time, shape (coordinates, points)
+      real(wp), intent(in) :: points(:, :)
+      !> When each was met, shape (points)
+      real(wp), intent(in) :: times(:)
+      !> Scale of the motion in each coordinate, > 0
+      real(wp), intent(in) :: scale(:)
+      !> Two base frequencies
+      real(wp), intent(in) :: bases(2)
+      !> Frequencies of lines that these do not explain, the highest line first
+      real(wp), intent(in) :: lines(:)
+      !> Third base frequency, 0 where there is none
+      real(wp), intent(out) :: third
+      !> Roughness with it
+      real(wp), intent(out) :: roughness
+      real(wp) :: of_three, of_two
+      integer :: i
+
+      third = 0.0_wp
+      roughness = not_measured
+      of_two = section_roughness(points, times, scale, bases)
+      if (of_two < 0.0_wp) return
+      roughness = huge(1.0_wp)
+      do i = 1, min(most_tried, size(lines))
+         of_two = min(of_two, section_roughness(points, times, scale, [bases(1), lines(i)]))
+         of_three = section_roughness(points, times, scale, [bases, lines(i)])
+         if (of_three >= roughness) cycle
+         roughness = of_three
+         third = lines(i)
+      end do
+      if (roughness <= min(torus_roughness, most_left*of_two)) return
+      third = 0.0_wp
+      roughness = not_measured
+   end subroutine find_third_phase
 
    !> Points after which the last ones repeat so closely that the cycle is reached, 0 if it is not.
    pure integer function period_of_tail(points, scale, on_the_way) result(period)
@@ -117,20 +161,25 @@ contains
               maxval(mean) - minval(mean) > least_drift*abs(sum(mean)/drift_blocks)
    end function has_trend
 
-   !> Roughness of points as a function of two phases.
-   pure real(wp) function roughness_of(points, first_phase, second_phase) result(roughness)
+   !> Roughness of points as a function of phases.
+   pure real(wp) function roughness_of(points, phases) result(roughness)
       !> Points
       real(wp), intent(in) :: points(:, :)
-      !> Phases of each, in turns
-      real(wp), intent(in) :: first_phase(:), second_phase(:)
-      real(wp) :: distance(size(points, 2)), total
-      integer :: i, nearest
+      !> Phases of each in turns, shape (points, phases)
+      real(wp), intent(in) :: phases(:, :)
+      real(wp) :: distance(size(points, 2)), fraction(size(phases, 1), size(phases, 2)), total
+      integer :: i, k, nearest
 
       total = 0.0_wp
+      fraction = modulo(phases, 1.0_wp)
       associate (n => size(points, 2))
          do i = 1, n
-            distance = turned(first_phase - first_phase(i))**2 &
-                       + turned(second_phase - second_phase(i))**2
+            distance = 0.0_wp
+            do k = 1, size(phases, 2)
+               associate (apart => abs(fraction(:, k) - fraction(i, k)))
+                  distance = distance + min(apart, 1.0_wp - apart)**2
+               end associate
+            end do
             distance(i) = huge(1.0_wp)
             nearest = minloc(distance, dim=1)
             total = total + sum((points(:, nearest) - points(:, i))**2)
@@ -139,12 +188,4 @@ contains
                      /sum((points - spread(sum(points, dim=2)/n, 2, n))**2)
       end associate
    end function roughness_of
-
-   !> The part of a phase within half a turn of 0.
-   elemental real(wp) function turned(phase) result(value)
-      !> Phase, in turns
-      real(wp), intent(in) :: phase
-
-      value = phase - anint(phase)
-   end function turned
 end module section_motion

@@ -2,7 +2,7 @@
 module attractors_output
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use attractor_points, only: finding_type
-   use attractors, only: attractor_settings_type
+   use attractors, only: attractor_settings_type, most_with_zeros
    use dde, only: integration_options
    use dde_errors, only: error_type
    use exponent_averages, only: sign_bound
@@ -63,10 +63,13 @@ contains
          call put_exponents()
          call put_integers("period", found%period, "points of a cycle in the section, 0: none")
          call put_found("roughness", found%roughness, &
-                        "of the section as a function of two phases, 0: smooth, 1: random")
+                        "of the section as a function of two phases, of three on a 3-torus, "// &
+                        "0: smooth, 1: random")
          call put("base_1", found%bases(1), "first fundamental frequency of v, 0: none")
          call put("base_2", found%bases(2), "second fundamental frequency of v, 0: none")
-         call put_found("line_share", found%line_share, "share of the power of v in their lines")
+         call put("base_3", found%bases(3), "third fundamental frequency of v, 0: none")
+         call put_found("line_share", found%line_share, &
+                        "share of the power of v in the lines of the first two")
          do i = 1, size(findings)
             call reach(findings(i), least(i), most(i))
          end do
@@ -134,7 +137,8 @@ contains
 
       !> Exponents and their errors.
       subroutine put_exponents()
-         real(wp), dimension(settings%exponents, size(findings)) :: bars, bounds, values
+         real(wp), dimension(max(most_with_zeros, settings%exponents), size(findings)) :: &
+            bars, bounds, values
          integer :: dimensions(2), k, n
 
          values = ieee_value(1.0_wp, ieee_quiet_nan)
@@ -147,7 +151,7 @@ contains
             bars(:n, k) = findings(k)%attractor%exponents%error
             bounds(:n, k) = sign_bound(findings(k)%attractor%exponents, settings%zero_level)
          end do
-         dimensions = [file%dimension("exponent", settings%exponents), rows]
+         dimensions = [file%dimension("exponent", size(values, 1)), rows]
          call file%table("lyapunov_exponent", dimensions, values, "Lyapunov exponents, descending")
          call file%table("lyapunov_error", dimensions, bars, "standard errors of the exponents")
          call file%table("sign_bound", dimensions, bounds, &

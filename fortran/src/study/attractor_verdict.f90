@@ -1,16 +1,18 @@
 !> The class of an attractor by what was seen of it: by Lyapunov exponents, confirmed by a Poincare
 !> section and by the spectrum of v.
 module attractor_verdict
-   use base_frequencies, only: bases_type, label_peaks
+   use base_frequencies, only: bases_type, descending, label_peaks
    use dde_errors, only: error_type
    use exponent_averages, only: average_growth, exponent_type
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: growth_type
    use motion_classes, only: agree, chaos, class_by_exponents, clear_by_exponents, &
-                             cycle_motion, no_class_by_exponents, none, torus, undecided
+                             cycle_motion, no_class_by_exponents, none, three_torus, torus, &
+                             undecided
    use observed_motion, only: observed_motion_type
-   use section_motion, only: not_measured, period_of_tail, section_roughness, torus_roughness
-   use spectral_peaks, only: find_peaks, peak_type
+   use section_motion, only: find_third_phase, not_measured, period_of_tail, section_roughness, &
+                             torus_roughness
+   use spectral_peaks, only: find_peaks, other_peak, peak_type
    use spectrum, only: power_spectrum
    use spectrum_verdict, only: continuum, line_share, one_base, spectrum_kind, two_bases
    use spring_block, only: index_of_ln_v
@@ -32,7 +34,7 @@ module attractor_verdict
       real(wp) :: t_path = 0.0_wp
       !> Longest time between orthonormalisations
       real(wp) :: interval = 0.0_wp
-      !> Number of exponents; without delay no more are measured than equations
+      !> Number of exponents; four if all of fewer are zero, without delay no more than equations
       integer :: exponents = 0
       !> An exponent this close to zero has no sign
       real(wp) :: zero_level = 0.0_wp
@@ -64,10 +66,11 @@ module attractor_verdict
       type(exponent_type), allocatable :: exponents(:)
       !> Points after which a cycle repeats in the section, 0 where none
       integer :: period = 0
-      !> Roughness of the section as a function of two phases, see `section_roughness`
+      !> Roughness of the section as a function of two phases, of three on a 3-torus, see
+      !> `section_roughness`
       real(wp) :: roughness = not_measured
       !> Fundamental frequencies of v, 0 where none
-      real(wp) :: bases(2) = 0.0_wp
+      real(wp) :: bases(3) = 0.0_wp
       !> Share of the power of v in the lines of these, or `not_measured`
       real(wp) :: line_share = not_measured
       !> What was seen of it
@@ -90,6 +93,7 @@ contains
       type(attractor_type), intent(inout) :: attractor
       !> Too few samples
       type(error_type), allocatable, intent(out) :: error
+      type(peak_type), allocatable :: peaks(:)
       logical :: clear
 
       attractor%exponents = average_growth(measured%growth, measured%length, blocks=1, flow=.true.)
@@ -109,16 +113,18 @@ contains
          if (attractor%period > 0) then
             attractor%by_section = cycle_motion
             associate (time => motion%section_time, n => size(motion%section_time))
-               attractor%bases = [1.0_wp/(time(n) - time(n - attractor%period)), 0.0_wp]
+               attractor%bases = [1.0_wp/(time(n) - time(n - attractor%period)), 0.0_wp, 0.0_wp]
             end associate
          else if (.not. clear) then
-            call judge_spectrum(exp(motion%samples(index_of_ln_v)), settings, attractor, error)
+            call judge_spectrum(exp(motion%samples(index_of_ln_v)), settings, attractor, peaks, &
+                                error)
             if (allocated(error)) return
             attractor%roughness = section_roughness(motion%section, motion%section_time, &
-                                                    motion%scale(), attractor%bases)
+                                                    motion%scale(), attractor%bases(:2))
             if (attractor%roughness >= 0.0_wp .and. attractor%roughness <= torus_roughness) then
                attractor%by_section = torus
             end if
+            if (attractor%by_exponents == three_torus) call look_for_third(peaks, attractor)
          end if
       end associate
       call agree(attractor%by_exponents, clear, attractor%by_section, attractor%by_spectrum, &
@@ -126,17 +132,18 @@ contains
    end subroutine judge
 
    !> The class by the lines in the spectrum of v.
-   subroutine judge_spectrum(v, settings, attractor, error)
+   subroutine judge_spectrum(v, settings, attractor, peaks, error)
       !> Samples of v
       real(wp), intent(in) :: v(:)
       !> How
       type(attractor_settings_type), intent(in) :: settings
       !> The attractor
       type(attractor_type), intent(inout) :: attractor
+      !> Its peaks
+      type(peak_type), allocatable, intent(out) :: peaks(:)
       !> Too few samples
       type(error_type), allocatable, intent(out) :: error
       type(bases_type) :: bases
-      type(peak_type), allocatable :: peaks(:)
       real(wp), allocatable :: frequency(:), power(:)
 
       call power_spectrum(v, settings%sample_interval, trim(settings%window), settings%segments, &
@@ -144,7 +151,7 @@ contains
       if (allocated(error)) return
       peaks = find_peaks(frequency, power, settings%peak_floor, settings%peak_prominence)
       call label_peaks(peaks, frequency(2), bases)
-      attractor%bases = bases%frequency
+      attractor%bases(:2) = bases%frequency
       attractor%line_share = line_share(power, peaks)
       select case (spectrum_kind(power, peaks, bases))
       case (one_base)
@@ -157,6 +164,27 @@ contains
          attractor%by_spectrum = undecided
       end select
    end subroutine judge_spectrum
+
+   !> Look for a third base among the lines that two bases do not explain: with it the section must
+   !> be a smooth function of three phases, but not of two.
+   subroutine look_for_third(peaks, attractor)
+      !> Peaks of the spectrum of v
+      type(peak_type), intent(in) :: peaks(:)
+      !> The attractor
+      type(attractor_type), intent(inout) :: attractor
+      type(peak_type), allocatable :: others(:)
+      real(wp) :: roughness
+
+      others = pack(peaks, peaks%kind == other_peak)
+      associate (motion => attractor%motion)
+         call find_third_phase(motion%section, motion%section_time, motion%scale(), &
+                               attractor%bases(:2), others(descending(others%power))%frequency, &
+                               attractor%bases(3), roughness)
+      end associate
+      if (attractor%bases(3) <= 0.0_wp) return
+      attractor%by_section = three_torus
+      attractor%roughness = roughness
+   end subroutine look_for_third
 
    !> Whether the last points of the section are those of a cycle.
    pure logical function on_cycle(motion) result(value)

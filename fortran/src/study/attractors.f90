@@ -7,11 +7,11 @@ module attractors
    use attractor_verdict, only: attractor_settings_type, attractor_type, judge, on_cycle
    use dde, only: continuation_type, integrate, integration_options, integration_result
    use dde_errors, only: error_type
-   use exponent_averages, only: exponent_type
+   use exponent_averages, only: exponent_type, without_sign
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, measure_growth
    use motion_classes, only: chaos, contradicted, cycle_motion, fixed_point, leaves_cycle, &
-                             none, not_stationary, torus, undecided, unstable_rest
+                             none, not_stationary, three_torus, torus, undecided, unstable_rest
    use motion_path, only: follow_path
    use observed_motion, only: observed_motion_type
    use section_motion, only: drifts
@@ -20,10 +20,13 @@ module attractors
    use tangent_vectors, only: undisturbed_part
    implicit none (type, external)
    private
-   public :: attractor_settings_type, attractor_type, find_attractor
+   public :: attractor_settings_type, attractor_type, find_attractor, most_with_zeros
 
    !> Parts of the approach, after each of which rest and cycles are looked for.
    integer, parameter :: approach_parts = 10
+   !> Exponents that are measured if fewer were asked for and all of them are zero: three zero ones
+   !> and a negative one are a 3-torus.
+   integer, parameter :: most_with_zeros = 4
    !> How close the line that is kept of a path is to it, as a share of its extent: one pixel in a
    !> plot of 250 pixels, and of 500 for a cycle.
    real(wp), parameter :: closeness_of_path = 1.0_wp/250.0_wp, closeness_of_cycle = 1.0_wp/500.0_wp
@@ -150,7 +153,8 @@ contains
       type(exponent_type), allocatable :: exponents(:)
 
       if (.not. settles(attractor%motion%samples(index_of_ln_v))) return
-      call sliding_exponents(block_model, exponents_of(block_model, settings), exponents, error)
+      call sliding_exponents(block_model, exponents_of(block_model, settings%exponents), &
+                             exponents, error)
       if (allocated(error)) return
       if (.not. all(exponents%value < 0.0_wp)) return
       attractor%exponents = exponents
@@ -162,13 +166,13 @@ contains
    end subroutine judge_rest
 
    !> Number of exponents: without delay there are no more than equations.
-   pure integer function exponents_of(block_model, settings) result(exponents)
+   pure integer function exponents_of(block_model, wanted) result(exponents)
       !> The block
       type(spring_block_type), intent(in) :: block_model
       !> How many are wanted
-      type(attractor_settings_type), intent(in) :: settings
+      integer, intent(in) :: wanted
 
-      exponents = settings%exponents
+      exponents = wanted
       if (size(block_model%lag) == 0) exponents = min(exponents, block_model%n)
    end function exponents_of
 
@@ -188,15 +192,18 @@ contains
       type(growth_type) :: measured
       logical :: last, reached, surviving, turned
       real(wp) :: spent, time
+      integer :: exponents
 
       reached = on_cycle(attractor%motion)
       surviving = .false.
       turned = .false.
+      exponents = exponents_of(block_model, settings%exponents)
       spent = 0.0_wp
       time = settings%t_observed
       if (.not. reached) call attractor%motion%clear()
       do
-         call go_on(block_model, settings, options, time, attractor%motion, measured, error)
+         call go_on(block_model, settings, exponents, options, time, attractor%motion, measured, &
+                    error)
          if (allocated(error)) return
          spent = spent + time
          last = spent >= longest_time(settings)
@@ -218,7 +225,15 @@ contains
          end if
          call judge(settings, measured, last, attractor, error)
          if (allocated(error)) return
-         if (any(attractor%by_exponents == [torus, chaos]) &
+         if (last .and. exponents < exponents_of(block_model, most_with_zeros) &
+             .and. all(without_sign(attractor%exponents, settings%zero_level))) then
+            exponents = exponents_of(block_model, most_with_zeros)
+            call attractor%motion%clear()
+            time = longest_time(settings)
+            deallocate (measured%growth)
+            cycle
+         end if
+         if (any(attractor%by_exponents == [torus, three_torus, chaos]) &
              .and. (drifts(attractor%motion%maxima) .or. leaves_cycle(attractor%exponents))) then
             attractor%class = undecided
             attractor%reason = not_stationary
@@ -256,11 +271,13 @@ contains
    end subroutine judge_motion
 
    !> Observe the block for a time, and measure exponents: go on, or begin if nothing was measured.
-   subroutine go_on(block_model, settings, options, time, motion, measured, error)
+   subroutine go_on(block_model, settings, exponents, options, time, motion, measured, error)
       !> The block
       type(spring_block_type), intent(in) :: block_model
       !> How
       type(attractor_settings_type), intent(in) :: settings
+      !> Number of exponents
+      integer, intent(in) :: exponents
       !> Method and tolerances
       type(integration_options), intent(in) :: options
       !> How long
@@ -275,7 +292,7 @@ contains
       type(growth_settings_type) :: wanted
 
       now = motion%continuation
-      wanted = growth_settings_type(exponents=exponents_of(block_model, settings), &
+      wanted = growth_settings_type(exponents=exponents, &
                                     t_turning=settings%t_turning, &
                                     t_end=now%time(1) + settings%t_turning + time, &
                                     interval=settings%interval, bounds=.true., across_flow=.true.)
