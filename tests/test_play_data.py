@@ -126,7 +126,10 @@ def test_torus_and_failed_run_in_words():
     assert play_data.in_words(torus)[2] == "fundamental frequencies 0.1 and 0.0437 (units of v₀/L)"
     torus |= {"class": "3-torus", "f3": 0.25, "exponent_4": -0.3, "error_4": 0.01}
     assert play_data.in_words(torus)[1].endswith(", −0.3 ± 0.01")
-    assert play_data.in_words(torus)[2] == "fundamental frequencies 0.1, 0.0437 and 0.25 (units of v₀/L)"
+    assert (
+        play_data.in_words(torus)[2]
+        == "fundamental frequencies 0.1, 0.0437 and 0.25 (units of v₀/L)"
+    )
     failed = attractor(0.1, 0.0, f1=np.nan, f2=np.nan, problem="too stiff")
     failed |= {"class": "undecided", **{f"exponent_{i}": np.nan for i in (1, 2, 3)}}
     assert play_data.in_words(failed) == ["no result: too stiff", "", ""]

@@ -177,7 +177,7 @@ contains
       real(wp), intent(in) :: amplitude
       !> A part of the section that is chaotic, shape (points)
       real(wp), intent(in) :: noise(:)
-      !> Third base frequency
+      !> Third fundamental frequency
       real(wp), intent(out) :: third
       !> Roughness
       real(wp), intent(out) :: roughness

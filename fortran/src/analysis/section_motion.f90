@@ -72,11 +72,11 @@ contains
       real(wp), intent(in) :: times(:)
       !> Scale of the motion in each coordinate, > 0
       real(wp), intent(in) :: scale(:)
-      !> Two base frequencies
+      !> Two fundamental frequencies
       real(wp), intent(in) :: bases(2)
       !> Frequencies of lines that these do not explain, the highest line first
       real(wp), intent(in) :: lines(:)
-      !> Third base frequency, 0 where there is none
+      !> Third fundamental frequency, 0 where there is none
       real(wp), intent(out) :: third
       !> Roughness with it
       real(wp), intent(out) :: roughness
