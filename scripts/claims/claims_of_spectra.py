@@ -17,7 +17,7 @@ SMALL = 0.02
 
 
 def single_peak(results: Results, *, scene: str) -> Finding:
-    """Whether the spectrum has one fundamental frequency, and no harmonic beside it but small ones."""
+    """Whether the spectrum has one fundamental frequency and only small harmonics."""
     spectrum = results.spectrum_of(scene)
     periodic = spectrum.attrs["spectrum_kind"] == "periodic"
     power = spectrum.peak_power.values

@@ -82,7 +82,7 @@ def in_words(row: dict) -> list[str]:
 
 
 def frequencies(row: dict) -> str:
-    """The period of a cycle, or the fundamental frequencies of a torus, as far as they are known."""
+    """The period of a cycle, or the fundamental frequencies of a torus, if they are known."""
     if row["class"] == "cycle" and not math.isnan(row["f1"]):
         return f"period {1 / row['f1']:.4g} (units of L/v₀)"
     if row["class"] in ("torus", "3-torus") and not math.isnan(row["f2"]):
