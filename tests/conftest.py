@@ -183,6 +183,13 @@ class Programs:
         return sorted(path.name for path in self.folder.iterdir() if path.suffix != ".nml")
 
 
+def write_script(path: Path, text: str) -> None:
+    """A shell script that can be run."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(f"#!/bin/bash\n{text}\n")
+    path.chmod(0o755)
+
+
 def rules_in(log: str) -> set[str]:
     """Names of the rules in the log of a run or a dry run."""
     return set(re.findall(r"^(?:local)?(?:rule|checkpoint) (\w+):", log, flags=re.MULTILINE))

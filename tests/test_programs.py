@@ -175,7 +175,7 @@ def test_namelist_that_is_too_long_is_refused(programs, good_groups):
 
 
 def test_memory_that_cannot_be_had_is_an_error(programs, good_groups):
-    """A past of a million short steps in a process of at most 150 MB."""
+    """The past of a stiff run in short steps outgrows a process of at most 150 MB."""
     good_groups["trajectory"]["scene"] |= {"gamma": 1e4, "method": "explicit"}
     programs.write(good_groups["trajectory"])
     program = [programs.binaries / "trajectory", "input.nml", "output.nc"]

@@ -1,0 +1,265 @@
+"""The set-up, with stand-ins for what would install something."""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from conftest import ROOT, write_script
+
+
+@pytest.fixture
+def bare() -> Iterator[Path]:
+    """The set-up in a folder that any user may read, with tools that pretend."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        folder.chmod(0o755)
+        shutil.copytree(ROOT / "setup", folder / "setup")
+        shutil.copy(ROOT / "requirements.lock", folder)
+        write_script(folder / "bin" / "dpkg-query", f"cat '{folder}/installed'")
+        write_script(folder / "bin" / "dpkg", "exit 0")
+        write_script(folder / "bin" / "sudo", '[[ $1 == -n ]] && shift; exec "$@"')
+        yield folder
+
+
+def set_up_in(
+    folder: Path, *before: str, part: tuple[str, ...] = ()
+) -> subprocess.CompletedProcess[str]:
+    """Run the set-up with the tools that pretend, in the folder, for all or for a part."""
+    return subprocess.run(
+        [*before, folder / "setup" / "setup.sh", *part],
+        env={**os.environ, "PATH": f"{folder}/bin:/usr/bin:/bin", "PIP_NO_INDEX": "1"},
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+    )
+
+
+def debian_packages(folder: str = "setup") -> list[str]:
+    """Packages that the set-up wants, sorted."""
+    text = (ROOT / folder / "apt-packages.txt").read_text()
+    return sorted({line for line in text.split("\n") if line and not line.startswith("#")})
+
+
+def made_from(folder: Path) -> str:
+    """What the set-up notes of the .venv that it made there."""
+    files = "setup/requirements.lock requirements.lock setup/setup.sh"
+    command = f"sha256sum {files}; /usr/bin/python3 --version; pwd"
+    run = subprocess.run(["bash", "-c", command], cwd=folder, capture_output=True, text=True)
+    return run.stdout
+
+
+def pretend_installed(folder: Path, packages: list[str]) -> None:
+    """Let dpkg-query list these."""
+    (folder / "installed").write_text("".join(f"{package} installed\n" for package in packages))
+
+
+def test_missing_packages_without_root_are_asked_for(bare):
+    """One line to copy, exit status 1, and nothing made."""
+    wanted = debian_packages()
+    pretend_installed(bare, [name for name in wanted if name not in ("cmake", "gfortran")])
+    write_script(bare / "bin" / "sudo", "exit 1")
+    nobody = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
+    run = set_up_in(bare, *(nobody if os.geteuid() == 0 else []))
+    assert run.returncode == 1
+    assert "sudo apt-get install -y --no-install-recommends cmake gfortran\n" in run.stderr
+    assert not (bare / ".venv").exists()
+
+
+def test_packages_of_other_compilers_are_asked_for(bare):
+    """One line to copy; once they are there the part needs no Python packages of its own."""
+    shutil.copytree(ROOT / "compilers", bare / "compilers")
+    wanted = debian_packages("compilers/bookworm")
+    assert {"flang-19", "gfortran-11"} <= set(wanted)
+    pretend_installed(bare, [name for name in wanted if name not in ("flang-19", "gfortran-11")])
+    write_script(bare / "bin" / "apt-get", "exit 1")
+    run = set_up_in(bare, part=("compilers/bookworm",))
+    assert run.returncode == 1
+    assert "--no-install-recommends flang-19 gfortran-11\n" in run.stderr
+    pretend_installed(bare, wanted)
+    run = set_up_in(bare, part=("compilers/bookworm",))
+    assert (run.returncode, run.stderr) == (0, "")
+    assert not (bare / "compilers" / "bookworm" / ".venv").exists()
+
+
+def test_each_compiler_has_a_preset():
+    """By the name of its package, which compilers/run builds with."""
+    presets = json.loads((ROOT / "fortran" / "CMakePresets.json").read_text())["configurePresets"]
+    names = {preset["name"] for preset in presets}
+    lists = [path.parent for path in ROOT.glob("compilers/*/apt-packages.txt")]
+    wanted = {name for folder in lists for name in debian_packages(str(folder.relative_to(ROOT)))}
+    assert {name for name in wanted if re.match("(gfortran|flang)-", name)} <= names
+
+
+def test_packages_of_slurm_are_asked_for(bare):
+    """One line to copy; once they are there nothing is left to do."""
+    (bare / "tests" / "slurm").mkdir(parents=True)
+    shutil.copy(ROOT / "tests" / "slurm" / "apt-packages.txt", bare / "tests" / "slurm")
+    wanted = debian_packages("tests/slurm")
+    assert {"munge", "slurmctld", "slurmd"} <= set(wanted)
+    pretend_installed(bare, [name for name in wanted if name not in ("munge", "slurmd")])
+    write_script(bare / "bin" / "apt-get", "exit 1")
+    run = set_up_in(bare, part=("tests/slurm",))
+    assert run.returncode == 1
+    assert "--no-install-recommends munge slurmd\n" in run.stderr
+    pretend_installed(bare, wanted)
+    run = set_up_in(bare, part=("tests/slurm",))
+    assert (run.returncode, run.stderr) == (0, "")
+
+
+UNMENDED = {
+    "snakemake/script/__init__.py": 'run("{py_exec} {fname:q}")\n',
+    "snakemake/common/configfile.py": "def load_configfile(configpath):\n    return {}\n",
+    "snakemake_interface_executor_plugins/executors/remote.py": "(\n            sys.executable\n)",
+    "snakemake_executor_plugin_slurm_jobstep/__init__.py": "    return sys.executable\n",
+}
+"""What the set-up mends, by file."""
+
+
+@pytest.fixture
+def to_mend(bare) -> Path:
+    """The installed packages of a folder where the set-up is to add those of a profile."""
+    pretend_installed(bare, debian_packages())
+    (bare / "profiles" / "slurm").mkdir(parents=True)
+    shutil.copy(ROOT / "profiles" / "slurm" / "requirements.lock", bare / "profiles" / "slurm")
+    write_script(bare / ".venv" / "bin" / "python", f"echo \"$*\" >>'{bare}/calls'")
+    (bare / ".venv" / "made-from").write_text(made_from(bare))
+    site = bare / ".venv" / "lib" / "python3.11" / "site-packages"
+    for name, text in UNMENDED.items():
+        (site / name).parent.mkdir(parents=True, exist_ok=True)
+        (site / name).write_text(text)
+    return site
+
+
+def test_packages_of_a_profile_are_added(bare, to_mend):
+    """To .venv as it is, once, and Snakemake is mended; a .venv made anew gets them again."""
+    for _ in range(2):
+        run = set_up_in(bare, part=("profiles/slurm",))
+        assert run.returncode == 0, run.stderr
+    build_tool, added = (bare / "calls").read_text().splitlines()
+    assert "pip install" in added
+    assert build_tool.endswith("--require-hashes -r setup/requirements.lock")
+    assert added.endswith("--require-hashes -r profiles/slurm/requirements.lock")
+    assert "--no-build-isolation" in added
+    mended = {name: (to_mend / name).read_text() for name in UNMENDED}
+    assert mended["snakemake/common/configfile.py"].count("read_config.py") == 1
+    assert [name for name, text in mended.items() if text == UNMENDED[name]] == []
+    (bare / ".venv" / "made-from-slurm").unlink()
+    assert set_up_in(bare, part=("profiles/slurm",)).returncode == 0
+    assert len((bare / "calls").read_text().splitlines()) == 4
+    assert {name: (to_mend / name).read_text() for name in UNMENDED} == mended
+
+
+@pytest.mark.parametrize("file", UNMENDED)
+def test_snakemake_that_cannot_be_mended_is_told(bare, to_mend, file):
+    """Another version may have other text there."""
+    (to_mend / file).write_text("other\n")
+    run = set_up_in(bare, part=("profiles/slurm",))
+    assert run.returncode == 1
+    assert f"set-up: cannot mend {file} in .venv: it does not hold " in run.stderr.splitlines()[-1]
+    assert not (bare / ".venv" / "made-from-slurm").exists()
+    assert (to_mend / file).read_text() == "other\n"
+
+
+@pytest.mark.parametrize("character", list('$;"\\|<>:[]\n\t'))
+def test_folder_in_which_nothing_can_be_built_is_refused(tmp_path, character):
+    """At once: CMake, Make or PATH give the character a meaning of their own."""
+    folder = tmp_path / f"a{character}b"
+    shutil.copytree(ROOT / "setup", folder / "setup")
+    run = subprocess.run([folder / "setup" / "setup.sh"], capture_output=True, text=True)
+    assert run.returncode == 1
+    (line,) = run.stderr.splitlines()
+    named = str(folder).replace("\n", "\\n").replace("\t", "\\t")
+    assert re.match(f"set-up: cannot build in .?'{re.escape(named)}': a path without ", line)
+    assert [path.name for path in folder.iterdir()] == ["setup"]
+
+
+def test_read_only_folder_is_told(bare):
+    """Before anything is installed."""
+    pretend_installed(bare, debian_packages())
+    bare.chmod(0o555)
+    nobody = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
+    run = set_up_in(bare, *(nobody if os.geteuid() == 0 else []))
+    bare.chmod(0o755)
+    assert run.returncode == 1
+    (line,) = run.stderr.splitlines()
+    assert line.startswith(
+        f"set-up: nothing can be written in {bare}; see that it is on no read-only"
+    )
+
+
+def test_only_missing_packages_are_installed(bare):
+    """As root or with sudo, without what is only recommended."""
+    wanted = debian_packages()
+    pretend_installed(bare, [name for name in wanted if name not in ("cmake", "gfortran")])
+    write_script(bare / "bin" / "apt-get", f'echo "$*" >>"{bare}/calls"; [[ $1 == update ]]')
+    run = set_up_in(bare)
+    assert run.returncode == 1
+    update, install = (bare / "calls").read_text().splitlines()
+    assert update.startswith("update")
+    assert "--no-install-recommends" in install
+    assert install.endswith(" cmake gfortran")
+    assert "sudo apt-get install -y --no-install-recommends cmake gfortran\n" in run.stderr
+
+
+def test_half_installed_package_counts_as_missing(bare):
+    """dpkg knows it, but not as installed."""
+    wanted = debian_packages()
+    pretend_installed(bare, [name for name in wanted if name != "cmake"])
+    with open(bare / "installed", "a") as listed:
+        listed.write("cmake half-configured\n")
+    write_script(bare / "bin" / "apt-get", "exit 1")
+    run = set_up_in(bare)
+    assert run.returncode == 1
+    assert "--no-install-recommends cmake\n" in run.stderr
+
+
+def test_set_up_that_is_complete_does_nothing(bare):
+    """All packages there, .venv made from this lock in this folder: no word, no call."""
+    pretend_installed(bare, debian_packages())
+    write_script(bare / ".venv" / "bin" / "python", "exit 0")
+    (bare / ".venv" / "made-from").write_text(made_from(bare))
+    write_script(bare / "bin" / "apt-get", f"touch '{bare}/called'")
+    run = set_up_in(bare)
+    assert (run.returncode, run.stdout, run.stderr) == (0, "", "")
+    assert not (bare / "called").exists()
+
+
+def test_build_of_another_folder_is_dropped(bare):
+    """It holds the paths of that folder; a build of this one stays."""
+    pretend_installed(bare, [])
+    write_script(bare / "bin" / "apt-get", "exit 1")
+    (bare / "fortran").mkdir()
+    for name, source in (("moved", "/elsewhere/fortran"), ("own", f"{bare}/fortran")):
+        (bare / "build" / name).mkdir(parents=True)
+        cache = bare / "build" / name / "CMakeCache.txt"
+        cache.write_text(f"CMAKE_HOME_DIRECTORY:INTERNAL={source}\n")
+    set_up_in(bare)
+    assert [path.name for path in (bare / "build").iterdir()] == ["own"]
+
+
+def test_linked_packages_are_not_emptied(bare):
+    """A .venv that is a link to that of another project."""
+    pretend_installed(bare, debian_packages())
+    (bare / "other").mkdir()
+    (bare / "other" / "kept").touch()
+    (bare / ".venv").symlink_to("other")
+    run = set_up_in(bare)
+    assert run.returncode == 1
+    assert run.stderr.splitlines()[-1].startswith("set-up: .venv is a link; expected a folder")
+    assert (bare / "other" / "kept").exists()
+
+
+def test_folder_in_which_a_build_works_is_accepted(bare):
+    """Each of these characters was tried with a build and a run."""
+    pretend_installed(bare, [])
+    write_script(bare / "bin" / "apt-get", "exit 1")
+    folder = bare / "a #%={}()&*?~'!@,+`^éb"
+    shutil.copytree(bare / "setup", folder / "setup")
+    shutil.copytree(bare / "bin", folder / "bin")
+    assert "cannot build in" not in set_up_in(folder).stderr
