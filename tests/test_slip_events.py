@@ -5,6 +5,7 @@ import pytest
 import xarray as xr
 from figure_contents import title_of
 from made_up_results import slip_events
+from scipy.integrate import solve_ivp
 
 from scripts.figures import events
 
@@ -40,6 +41,50 @@ def test_events_are_those_of_the_trajectory(programs, good_inputs, smoke_config)
         assert v[within].max() == pytest.approx(float(event.peak_velocity), rel=1e-3)
         loading = (time >= last) & (time <= first + float(event.recurrence_time))
         assert v[loading].min() == pytest.approx(float(event.least_velocity), rel=1e-3)
+
+
+def stuck_cycle(epsilon: float, xi: float, gamma: float) -> tuple[float, float]:
+    """Recurrence time and least velocity without delay, by scipy and, where v < e^-20, by hand.
+
+    There theta' vanishes, u' = -1, and the inertial term of (3) is below v: ln v = -theta - xi u.
+    """
+    slow = np.exp(-20.0)
+
+    def rates(_: float, state: np.ndarray) -> list[float]:
+        theta, u, v = state
+        friction = theta + np.log(max(v, 1e-12))
+        steady = theta + (1 + epsilon) * np.log(max(v, 1e-12))
+        return [-v * steady, v - 1, -(gamma**2) * (u + friction / xi)]
+
+    def stops(_: float, state: np.ndarray) -> float:
+        return state[2] - slow
+
+    def slips(_: float, state: np.ndarray) -> float:
+        return state[2] - 1
+
+    stops.terminal, stops.direction, slips.direction = True, -1, 1
+    time, state, onsets, least = 0.0, [0.0, 0.0, 1.1], [], 0.0
+    for _ in range(4):
+        run = solve_ivp(
+            rates, (time, np.inf), state, "Radau", rtol=1e-9, atol=1e-10, events=[stops, slips]
+        )
+        onsets += list(run.t_events[1])
+        theta, u, _ = run.y_events[0][0]
+        log_v = -theta - xi * u
+        stuck = (-20.0 - log_v) / xi
+        time, state, least = run.t_events[0][0] + stuck, [theta, u - stuck, slow], np.exp(log_v)
+    return float(onsets[-1] - onsets[-2]), float(least)
+
+
+def test_stuck_block_is_that_of_another_solver(programs, good_inputs):
+    """Where v falls to 1e-43 between events, the recurrence time is right to 1e-8."""
+    parameters = {"epsilon": 11.0, "xi": 0.5, "gamma": 0.8}
+    ends = {"tau": 0.0, "t_end": 4000.0, "t_transient": 2000.0, "tolerance": 1e-9}
+    found = programs.made_by("slip_events", {**good_inputs["slip_events"], **parameters, **ends})
+    recurrence_time, least_velocity = stuck_cycle(**parameters)
+    assert found.sizes["event"] > 3
+    np.testing.assert_allclose(found.recurrence_time, recurrence_time, rtol=1e-8)
+    np.testing.assert_allclose(found.least_velocity, least_velocity, rtol=1e-5)
 
 
 def test_figure_shows_each_scene():
