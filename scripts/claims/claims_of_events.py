@@ -60,8 +60,8 @@ def equal_events(results: Results, *, scenes: list[str]) -> Finding:
         parts.append(
             f"At tau = {short(place['tau'])}, epsilon = {short(place['epsilon'])}, from {history},"
             f" {times.size} events come after {short(times.mean(), 6)} L/v0 each, with v up to"
-            f" {short(events.peak_velocity.values.max())}. These times differ by up to"
-            f" {percent(spread)}."
+            f" {short(events.peak_velocity.values.max())}. The longest is longer than"
+            f" the shortest by {percent(spread)}."
         )
     return decided(
         holds,
