@@ -241,7 +241,7 @@ function playView(view) {
       slider.setAttribute("aria-valuetext", `${sign} = ${value}`);
     }
     place = { epsilon: plane.epsilon[epsilon.value], tau: plane.tau[tau.value] };
-    const isCycle = kindOf(plane, shown).startsWith("cycle");
+    const isCycle = kindOf(plane, shown).endsWith("cycle");
     drawMotion(view, plane, once(known, plane, pathsOf).get(shown) || restOf(plane, shown), isCycle);
     drawMap(plane);
     say(plane, number, shown);

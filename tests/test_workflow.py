@@ -70,7 +70,7 @@ def test_every_job_has_a_log_and_every_computation_a_benchmark(smoke):
     results = smoke.folder / "results"
     computed = {path.relative_to(results) for path in results.rglob("*.nc")}
     computed |= {path.relative_to(results) for path in (results / "references").rglob("*.tsv")}
-    assert len(computed) == 60 + len(CYCLE_LINES) + 2 * len(FAMILIES) - 2 + 3 * len(WORK_SCENES)
+    assert len(computed) == 70 + len(CYCLE_LINES) + 2 * len(FAMILIES) - 2 + 3 * len(WORK_SCENES)
     for path in computed:
         assert (results / "logs" / path).with_suffix(".log").is_file()
         assert (results / "benchmarks" / path).with_suffix(".tsv").is_file()

@@ -28,9 +28,9 @@ module spectrum_verdict
 
 contains
 
-   !> Periodic: the explained lines hold at least 99.9 % of the power and all others at most 1e-4;
-   !> those of f2 at most 1e-5. Quasiperiodic: those of f2 hold more, if f2 is distinguished from
-   !> fractions of f1. Continuum: at least 2 % outside all lines. Without power no_spectrum, else
+   !> A spectrum is periodic if the explained lines hold at least 99.9 % of the power, all others
+   !> at most 1e-4, and those of f2 at most 1e-5; quasiperiodic if those of f2 hold more and f2 is
+   !> no fraction of f1; a continuum if 2 % is outside all lines. Without power no_spectrum, else
    !> undecided_spectrum.
    pure integer function spectrum_kind(power, peaks, bases) result(kind)
       !> Power spectral density
