@@ -55,7 +55,7 @@ def test_table_as_it_is_written(tmp_path):
     made = results(attractors=read_table(path), linear_stability=[stability_row()])
     found = TESTS["attractor_class"](made, scene="mine", expected="cycle")
     assert found.verdict == CORRECTED
-    assert "1 cycle of period 2" in found.evidence
+    assert "1 cycle with 2 loops" in found.evidence
     assert "nan" not in found.evidence
 
 

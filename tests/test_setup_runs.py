@@ -71,20 +71,25 @@ def test_missing_packages_without_root_are_asked_for(bare):
     assert not (bare / ".venv").exists()
 
 
-def test_packages_of_other_compilers_are_asked_for(bare):
+@pytest.mark.parametrize(
+    ("part", "missing"),
+    [("compilers/bookworm", ["flang-19", "gfortran-11"]), ("tests/slurm", ["munge", "slurmd"])],
+)
+def test_packages_of_parts_are_named(bare, part, missing):
     """One line to copy; once they are there the part needs no Python packages of its own."""
-    shutil.copytree(ROOT / "compilers", bare / "compilers")
-    wanted = debian_packages("compilers/bookworm")
-    assert {"flang-19", "gfortran-11"} <= set(wanted)
-    pretend_installed(bare, [name for name in wanted if name not in ("flang-19", "gfortran-11")])
+    (bare / part).mkdir(parents=True)
+    shutil.copy(ROOT / part / "apt-packages.txt", bare / part)
+    wanted = debian_packages(part)
+    assert set(missing) <= set(wanted)
+    pretend_installed(bare, [name for name in wanted if name not in missing])
     write_script(bare / "bin" / "apt-get", "exit 1")
-    run = set_up_in(bare, part=("compilers/bookworm",))
+    run = set_up_in(bare, part=(part,))
     assert run.returncode == 1
-    assert "--no-install-recommends flang-19 gfortran-11\n" in run.stderr
+    assert f"--no-install-recommends {' '.join(missing)}\n" in run.stderr
     pretend_installed(bare, wanted)
-    run = set_up_in(bare, part=("compilers/bookworm",))
+    run = set_up_in(bare, part=(part,))
     assert (run.returncode, run.stderr) == (0, "")
-    assert not (bare / "compilers" / "bookworm" / ".venv").exists()
+    assert not (bare / part / ".venv").exists()
 
 
 def test_each_compiler_has_a_preset():
@@ -94,22 +99,6 @@ def test_each_compiler_has_a_preset():
     lists = [path.parent for path in ROOT.glob("compilers/*/apt-packages.txt")]
     wanted = {name for folder in lists for name in debian_packages(str(folder.relative_to(ROOT)))}
     assert {name for name in wanted if re.match("(gfortran|flang)-", name)} <= names
-
-
-def test_packages_of_slurm_are_asked_for(bare):
-    """One line to copy; once they are there nothing is left to do."""
-    (bare / "tests" / "slurm").mkdir(parents=True)
-    shutil.copy(ROOT / "tests" / "slurm" / "apt-packages.txt", bare / "tests" / "slurm")
-    wanted = debian_packages("tests/slurm")
-    assert {"munge", "slurmctld", "slurmd"} <= set(wanted)
-    pretend_installed(bare, [name for name in wanted if name not in ("munge", "slurmd")])
-    write_script(bare / "bin" / "apt-get", "exit 1")
-    run = set_up_in(bare, part=("tests/slurm",))
-    assert run.returncode == 1
-    assert "--no-install-recommends munge slurmd\n" in run.stderr
-    pretend_installed(bare, wanted)
-    run = set_up_in(bare, part=("tests/slurm",))
-    assert (run.returncode, run.stderr) == (0, "")
 
 
 UNMENDED = {

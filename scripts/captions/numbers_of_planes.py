@@ -10,10 +10,10 @@ import xarray as xr
 from scripts.captions.wording import count, joined, short
 from scripts.drawing.parameters import SYMBOLS
 from scripts.drawing.special_points import in_words, words_of
-from scripts.figures.fault_limit import FAULTS, PAPER
 from scripts.files.inputs import read
 from scripts.files.tsv import read_table
 from scripts.tables.cycle_branches import branch_of
+from scripts.tables.fault_limit_table import FAULTS, PAPER
 from scripts.tables.motion_rows import UNDECIDED, parameter_of, planes_of
 
 
@@ -63,7 +63,7 @@ def of_atlas(given: dict, _params: dict) -> dict:
 def of_fault_limit(given: dict, _params: dict) -> dict:
     """Rows at the paper's gamma and at the least one of real faults."""
     rows = {row["gamma"]: row for row in read_table(given["table"])}
-    return {"paper": rows[PAPER], "fault": rows[FAULTS]}
+    return {"paper": rows[PAPER], "fault": rows[FAULTS[0]]}
 
 
 def of_routes(given: dict, _params: dict) -> dict:

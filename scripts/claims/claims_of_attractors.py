@@ -72,7 +72,7 @@ def in_words(row: dict) -> str:
     """The class, of a cycle with its period in the section."""
     period = row["period"]
     several = row["class"] == "cycle" and period > 1
-    return f"cycle of period {period:.0f}" if several else row["class"]
+    return f"cycle with {period:.0f} loops" if several else row["class"]
 
 
 def exponents_of(row: dict, long: list[tuple[float, float]]) -> str:

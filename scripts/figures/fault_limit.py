@@ -7,9 +7,8 @@ from matplotlib.figure import Figure
 from scripts.drawing import parameters
 from scripts.drawing.style import FAINT, INK, logged, save
 from scripts.files.tsv import read_table
+from scripts.tables.fault_limit_table import FAULTS, PAPER
 
-PAPER, FAULTS = 0.8, 1e4
-"""gamma of the paper's figures, and the least one of real faults."""
 MOST = 1e6
 """End of the axis; beyond it nothing changes."""
 
@@ -56,11 +55,11 @@ def draw(rows: list[dict]) -> Figure:
 
 def mark(axes: Axes) -> None:
     """The paper's gamma, and those of real faults."""
-    axes.axvspan(FAULTS, MOST, color=FAINT, alpha=0.25, lw=0, zorder=0)
+    axes.axvspan(FAULTS[0], MOST, color=FAINT, alpha=0.25, lw=0, zorder=0)
     axes.axvline(PAPER, color=FAINT, lw=0.8, zorder=0)
     place = {"transform": axes.get_xaxis_transform(), "va": "top", "fontsize": 8}
     axes.text(1.15 * PAPER, 0.98, "paper", **place)
-    axes.text(1.3 * FAULTS, 0.98, "real faults", **place)
+    axes.text(1.3 * FAULTS[0], 0.98, "real faults", **place)
     axes.set(xscale="log", xlim=(0.1, MOST), xlabel=parameters.axis_of("gamma"))
 
 

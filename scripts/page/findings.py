@@ -3,11 +3,10 @@
 from collections.abc import Callable
 
 from scripts.claims.claims_results import short
+from scripts.tables.fault_limit_table import FAULTS, PAPER
 
 TORUS, TRUE_TORUS = "torus", "true_torus"
 """The scene that the paper calls a torus, and one that has a longer delay."""
-PAPER_GAMMA, REAL_GAMMA = 0.8, (1e4, 1e12)
-"""gamma of the paper's figures, and the range of real faults in the paper."""
 MAIN_CLAIMS = ("delay_alone_makes_chaos", "quasiperiodic_route")
 """Claims of the abstract whose cards stand below the findings."""
 COUNTS = {0: "no", 1: "one", 2: "two", 3: "three"}
@@ -38,7 +37,7 @@ def of_the_torus(tables: dict[str, list[dict]]) -> dict:
 def of_the_fault_limit(tables: dict[str, list[dict]]) -> dict:
     """Where steady sliding becomes unstable without delay, and how much a delay changes that."""
     limit = {row["gamma"]: row for row in tables["fault_limit"]}
-    paper, fault = limit[PAPER_GAMMA], limit[REAL_GAMMA[0]]
+    paper, fault = limit[PAPER], limit[FAULTS[0]]
     kinds = [(row["of"], row["kind"]) for row in tables["hopf_points"]]
     turns = sum(kind == "generalised_hopf" for _, kind in kinds)
     planes = len({of for of, kind in kinds if not kind.startswith("amplitude_death")})
@@ -55,7 +54,7 @@ def of_the_fault_limit(tables: dict[str, list[dict]]) -> dict:
 
 def of_real_faults(tables: dict[str, list[dict]]) -> dict:
     """Whether the equations can be solved at the gamma of real faults."""
-    least, most = REAL_GAMMA
+    least, most = FAULTS
     runs = [row for row in tables["stability"] if least <= row["gamma"] <= most]
     done = {
         method: [row for row in runs if row["method"] == method and row["status"] == "ok"]

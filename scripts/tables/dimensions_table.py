@@ -4,9 +4,10 @@ import math
 
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
+from scripts.tables.fault_limit_table import PAPER
 
-PAPER = {"tau": 7.0, "gamma": 0.8}
-"""The delay of the paper's chaos, and its gamma."""
+DELAY = 7.0
+"""That of the paper's chaos."""
 
 
 def row_of(preset: str, *, length: float, v0: float, k: float, a: float, m: float) -> dict:
@@ -21,9 +22,9 @@ def row_of(preset: str, *, length: float, v0: float, k: float, a: float, m: floa
         "time_unit": unit,
         "xi": k * length / a,
         "gamma": math.sqrt(k / m) * unit,
-        "delay": PAPER["tau"] * unit,
+        "delay": DELAY * unit,
         "inertial_period": 2 * math.pi * math.sqrt(m / k),
-        "inertial_period_of_paper": 2 * math.pi * unit / PAPER["gamma"],
+        "inertial_period_of_paper": 2 * math.pi * unit / PAPER,
     }
 
 

@@ -5,8 +5,10 @@ import math
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
 
-GAMMAS = sorted([0.8, *(10 ** (i / 10) for i in range(-10, 121))])
-"""The paper's, and ten in each decade up to those of real faults."""
+PAPER, FAULTS = 0.8, (1e4, 1e12)
+"""gamma of the paper's figures, and its range for real faults."""
+GAMMAS = sorted([PAPER, *(10 ** (i / 10) for i in range(-10, 121))])
+"""The paper's, and ten in each decade from 0.1 up to the last of real faults."""
 ITERATIONS = 60
 """Of Newton's method; from gamma = 0.1 on ten are enough."""
 
