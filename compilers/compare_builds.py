@@ -1,5 +1,5 @@
 """Table of builds by several compilers: their unit tests, and whether their trajectories
-(fortran/test/trajectory_bits.f90) have the same bits as those of the first.
+(fortran/test/bits/trajectory_bits.f90) have the same bits as those of the first.
 
 Usage: compare_builds.py BUILD...
 Ends with status 1 unless all tests pass and all bits are the same.

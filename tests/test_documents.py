@@ -339,7 +339,7 @@ def test_unknown_target_is_caught():
 
 def test_friction_law_quotes_its_example():
     """Lines of code on the page stand in the worked example that the Fortran tests run."""
-    example = (ROOT / "fortran" / "test" / "cutoff_block.f90").read_text()
+    example = (ROOT / "fortran" / "test" / "suites" / "cutoff_block.f90").read_text()
     quoted = blocks_of("docs/friction-law.md", "fortran")
     assert quoted
     assert [block for block in quoted if block not in example] == []

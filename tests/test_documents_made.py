@@ -222,7 +222,7 @@ def test_first_program_of_the_manual(run_of):
     source = blocks_of(MANUAL, "fortran")[0]
     assert source == (ROOT / "fortran" / "dde" / "example" / "mackey_glass.f90").read_text()
     values = dict(map(float, line.split()) for line in run_of(source))
-    # as in fortran/dde/test/test_dde_solutions.f90
+    # as in fortran/dde/test/suites/test_dde_solutions.f90
     assert values[50.0] == pytest.approx(1.060954362898, abs=1e-8)
     assert values[200.0] == pytest.approx(1.186718107117, abs=1e-8)
     printed = re.findall(r"y\((\d+)\) = (\d+\.\d+)", prose_of(MANUAL))

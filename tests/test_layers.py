@@ -8,28 +8,28 @@ from conftest import ROOT
 
 FORTRAN = ROOT / "fortran"
 MAY_USE = {
-    "bindings": {"bindings", "face"},
-    "dde": {"dde", "face"},
-    "model": {"model", "face"},
-    "analysis": {"analysis", "bindings", "face"},
-    "study": {"study", "analysis", "model", "bindings", "face"},
-    "io": {"io", "study", "analysis", "model", "files", "face"},
-    "app": {"io", "study", "analysis", "model", "face"},
+    "bindings": {"bindings", "api"},
+    "dde": {"dde", "api"},
+    "model": {"model", "api"},
+    "methods": {"methods", "bindings", "api"},
+    "study": {"study", "methods", "model", "bindings", "api"},
+    "io": {"io", "study", "methods", "model", "files", "api"},
+    "app": {"io", "study", "methods", "model", "api"},
 }
-"""For each floor: the floors that its modules may use; `face` is what a user of the solver sees,
+"""For each layer: the layers that its modules may use; `api` is what a user of the solver sees,
 `files` is what of the bindings reads and writes."""
-FACE = ("dde", "dde_errors", "dde_kinds")
+API = ("dde", "dde_errors", "dde_kinds")
 FILES = ("file_system", "process")
-"""Modules that others may use: floors of their own."""
+"""Modules that others may use: layers of their own."""
 LIBRARIES = {
     "bindings": {"iso_c_binding"},
     "dde": {"ieee_arithmetic", "iso_fortran_env"},
     "model": {"ieee_arithmetic"},
-    "analysis": {"ieee_arithmetic", "iso_c_binding"},
+    "methods": {"ieee_arithmetic", "iso_c_binding"},
     "study": {"ieee_arithmetic"},
     "io": {"ieee_arithmetic", "iso_fortran_env", "netcdf"},
 }
-"""For each floor: modules of others that it may use."""
+"""For each layer: modules of others that it may use."""
 WITHOUT_ONLY = {("fftw", "iso_c_binding"), ("dde_explicit_stages", "dde_dop853_tableau")}
 """An interface passed on whole, and a list of coefficients used in one place."""
 PUBLIC = {"fftw", "dde_dop853_tableau"}
@@ -45,8 +45,8 @@ def code_of(text: str) -> str:
     return re.sub(r"&\s*\n\s*&?", "", text).lower()
 
 
-def floor_of(path: Path) -> str:
-    """Name of the floor that a file lives on."""
+def layer_of(path: Path) -> str:
+    """Name of the layer that a file lives on."""
     *folder, _ = path.relative_to(FORTRAN).parts
     return "dde" if folder[0] == "dde" else folder[:2][-1]
 
@@ -62,7 +62,7 @@ SOURCES = {
     )
 }
 """Text of each file."""
-MODULES = {path: text for path, text in SOURCES.items() if floor_of(path) != "app"}
+MODULES = {path: text for path, text in SOURCES.items() if layer_of(path) != "app"}
 """Text of each module."""
 
 
@@ -79,49 +79,49 @@ def uses_of(text: str) -> list[tuple[str, bool]]:
     return [(name, re.match(r"\s*,\s*only\s*:", rest) is not None) for name, rest in found]
 
 
-def floors() -> dict[str, str]:
-    """Floor of each module; those that others may use are floors of their own."""
-    by_folder = {name_of(path): floor_of(path) for path in MODULES}
-    return by_folder | dict.fromkeys(FACE, "face") | dict.fromkeys(FILES, "files")
+def layers() -> dict[str, str]:
+    """Floor of each module; those that others may use are layers of their own."""
+    by_folder = {name_of(path): layer_of(path) for path in MODULES}
+    return by_folder | dict.fromkeys(API, "api") | dict.fromkeys(FILES, "files")
 
 
-def violations(floor: str, text: str, known: dict[str, str]) -> list[str]:
-    """Modules that a file on this floor uses and may not."""
-    allowed = MAY_USE[floor]
-    others = LIBRARIES.get(floor, set())
+def violations(layer: str, text: str, known: dict[str, str]) -> list[str]:
+    """Modules that a file on this layer uses and may not."""
+    allowed = MAY_USE[layer]
+    others = LIBRARIES.get(layer, set())
     return [
-        f"{floor} uses {name}"
+        f"{layer} uses {name}"
         for name, _ in uses_of(text)
         if (known[name] not in allowed if name in known else name not in others)
     ]
 
 
-def test_all_floors_are_there():
+def test_all_layers_are_there():
     """The table and the folders are the same."""
-    assert {floor_of(path) for path in SOURCES} == set(MAY_USE)
+    assert {layer_of(path) for path in SOURCES} == set(MAY_USE)
 
 
 def test_no_import_from_a_higher_layer():
     """Modules use what lies below, and of the solver its facade."""
-    known = floors()
-    found = {path: violations(floor_of(path), text, known) for path, text in SOURCES.items()}
+    known = layers()
+    found = {path: violations(layer_of(path), text, known) for path, text in SOURCES.items()}
     assert {path: wrong for path, wrong in found.items() if wrong} == {}
 
 
 def test_facade_of_the_solver_uses_the_solver_only():
     """It passes names on."""
-    uses = {name for name, _ in uses_of((FORTRAN / "dde" / "src" / "face" / "dde.f90").read_text())}
+    uses = {name for name, _ in uses_of((FORTRAN / "dde" / "src" / "api" / "dde.f90").read_text())}
     assert len(uses) > 3
     assert all(name.startswith("dde_") for name in uses)
 
 
 @pytest.mark.parametrize(
-    ("floor", "line"),
+    ("layer", "line"),
     [
         ("bindings", "use spring_block, only: spring_block_type"),
         ("dde", "use spring_block, only: spring_block_type"),
         ("dde", "use lapack, only: solve"),
-        ("analysis", "use spring_block, only: spring_block_type"),
+        ("methods", "use spring_block, only: spring_block_type"),
         ("bindings", "use dde_integrator, only: integrate"),
         ("model", "use normal_form, only: first_lyapunov_coefficient"),
         ("dde", "use, intrinsic :: iso_c_binding, only: c_int"),
@@ -129,24 +129,24 @@ def test_facade_of_the_solver_uses_the_solver_only():
         ("model", "use fftw, only: fftw_plan_dft_r2c_1d"),
         ("model", "   USE :: netcdf_output, only: output_file_type"),
         ("model", "use measured_case, only: case_type"),
-        ("analysis", "use measured_run, only: run_type"),
+        ("methods", "use measured_run, only: run_type"),
         ("study", "use dde_integrator, only: integrate"),
         ("study", "use cases_input, only: read_cases"),
         ("study", "use file_system, only: rename_file"),
-        ("analysis", "use hopf_input, only: hopf_settings_type"),
-        ("analysis", "use netcdf, only: nf90_open"),
-        ("analysis", "use dde_integrator"),
-        ("analysis", "use file_system, only: rename_file"),
+        ("methods", "use hopf_input, only: hopf_settings_type"),
+        ("methods", "use netcdf, only: nf90_open"),
+        ("methods", "use dde_integrator"),
+        ("methods", "use file_system, only: rename_file"),
         ("io", "use gsl_roots, only: find_root"),
         ("io", "use dde_outcome, only: reached_end"),
         ("app", "use dde_outcome, only: reached_end"),
         ("app", "use nobody_knows, only: what"),
-        ("analysis", "use dde_errors, &\n   only: raise\nuse netcdf_output, only: output_file"),
+        ("methods", "use dde_errors, &\n   only: raise\nuse netcdf_output, only: output_file"),
     ],
 )
-def test_violation_is_caught(floor, line):
+def test_violation_is_caught(layer, line):
     """The checker itself, on made-up lines."""
-    assert len(violations(floor, line, floors())) == 1
+    assert len(violations(layer, line, layers())) == 1
 
 
 @pytest.mark.parametrize(
@@ -160,7 +160,7 @@ def test_violation_is_caught(floor, line):
 )
 def test_no_violation_is_made_up(line):
     """Comments, texts and other names."""
-    assert violations("analysis", line, floors()) == []
+    assert violations("methods", line, layers()) == []
 
 
 def names_of_modules(text: str) -> list[str]:
@@ -199,8 +199,8 @@ def test_file_holds_the_module_of_its_name():
 
 
 def test_programs_are_short():
-    """At most 60 lines: longer code belongs to a lower floor."""
-    programs = {path: text for path, text in SOURCES.items() if floor_of(path) == "app"}
+    """At most 60 lines: longer code belongs to a lower layer."""
+    programs = {path: text for path, text in SOURCES.items() if layer_of(path) == "app"}
     assert programs
     for path, text in programs.items():
         assert re.findall(r"^\s*program (\w+)$", code_of(text), re.MULTILINE), path

@@ -1,6 +1,6 @@
 """What all programs share: bad input is refused in words, and no output is left behind.
 
-The refusals of every key are tests of the readers, fortran/test/test_io_*.f90. Here each program
+The refusals of every key are tests of the readers, fortran/test/io/test_io_*.f90. Here each program
 passes one refusal on.
 """
 
@@ -111,7 +111,7 @@ def test_file_without_the_group_is_refused(programs, text):
 
 @every_program
 def test_key_or_group_given_twice_is_refused(programs, good_groups, program):
-    """Where Fortran would take the last. Every key of every group: fortran/test/test_io_*.f90."""
+    """Where Fortran would take the last. All keys: fortran/test/io/test_io_*.f90."""
     namelist = programs.write(good_groups[program])
     text = namelist.read_text()
     for group in good_groups[program]:

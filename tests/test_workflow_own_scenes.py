@@ -115,7 +115,7 @@ def test_program_that_dies_leaves_no_output(scratch):
 
 def test_build_that_fails_is_told(project):
     """The compiler's words are on the screen and in the log, and there is no program."""
-    with open(project.folder / "fortran" / "dde" / "src" / "face" / "dde_kinds.f90", "a") as source:
+    with open(project.folder / "fortran" / "dde" / "src" / "api" / "dde_kinds.f90", "a") as source:
         source.write("this is no Fortran\n")
     run = project.snakemake("build/release/bin/velocity_step")
     assert run.returncode != 0
