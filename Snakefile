@@ -51,6 +51,7 @@ onstart:
 
 onsuccess:
     manifest.record_run(plan.results)
+    print(plan.summary(), file=sys.stderr)
 
 
 onerror:

@@ -8,7 +8,7 @@ from pathlib import Path
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, VERDICTS
 from scripts.config.read_config import read as read_yaml
 from scripts.page import captions, mathematics
-from scripts.workflow.manifest import is_measured
+from scripts.results.manifest import is_measured
 
 BLOCK, HERO = "figure_1", "true_torus"
 """The figures of the model and of the findings, at the top of the page."""

@@ -9,7 +9,7 @@ from snakemake.io import glob_wildcards
 
 from scripts.config.read_config import read as read_yaml
 from scripts.files.inputs import read
-from scripts.workflow import packages
+from scripts.page import packages
 
 
 def programs(files: list[str]) -> list[dict]:

@@ -1,7 +1,9 @@
 """What a run is for: the paper, or what a user's file adds; read from the configuration."""
 
 import copy
+import json
 import re
+from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -59,6 +61,19 @@ class Plan:
         drawn = [f"<results>/figures/{name}.{kind}" for name in self.figures for kind in kinds]
         return [*drawn, *self._data_of_figures(), *self.tables(), "<results>/index.html"]
 
+    def summary(self) -> str:
+        """How many claims have each verdict, and the page to open, if they are there."""
+        ledger = Path(self.results, "tables", "claims.json")
+        page = Path(self.results, "index.html")
+        lines = []
+        if ledger.exists():
+            claims = json.loads(ledger.read_text())
+            counts = Counter(claim["verdict"] for claim in claims).most_common()
+            words = ", ".join(f"{number} {verdict}" for verdict, number in counts)
+            lines.append(f"{len(claims)} claims: {words}; see {ledger.with_suffix('.tsv')}")
+        lines += [f"open {page}"] * page.exists()
+        return "\n".join(lines)
+
     def trajectories(self) -> list[str]:
         """Trajectories that figures draw: the page lets a reader zoom into them."""
         kept = "<results>/trajectories/"
@@ -99,11 +114,12 @@ def read_plan(overlay: dict) -> Plan:
     overlay = copy.deepcopy(overlay)
     user_file = overlay.pop("user_file", None)
     whole = merged(read(CONFIG), overlay)
-    folder = whole.pop("pathvars", {"results": RESULTS})["results"]
     if user_file is None:
-        return plan_of_paper(checked(whole), folder)
+        return plan_of_paper(checked(whole), whole["pathvars"]["results"])
+    if "pathvars" in overlay:
+        raise ConfigError("pathvars and user_file exclude each other: a user's file has its own folder")
     said = read(user_file)
-    return plan_of_user(merged(whole, said), added(said, whole), f"{folder}/{name_of(user_file)}")
+    return plan_of_user(merged(whole, said), added(said, whole), f"{RESULTS}/{name_of(user_file)}")
 
 
 def plan_of_paper(config: dict, folder: str) -> Plan:
