@@ -10,7 +10,7 @@ import jsonschema
 
 from scripts.config import check_attractors
 from scripts.config.ranges import SCHEMA, range_of, rules_of
-from scripts.config.read_config import ConfigError, parsed
+from scripts.config.read_config import ConfigError, parse
 from scripts.namelists.study_cases import cases_of_family, number_of_cases
 
 EQUATIONS = 3
@@ -127,7 +127,7 @@ def _value_in_words(path: list[str], value, expected: str) -> str:
 def _is_number(text: str) -> bool:
     """Whether a text would be a finite number without quotes."""
     try:
-        return _is_finite_number(parsed(text))
+        return _is_finite_number(parse(text))
     except ConfigError:
         return False
 

@@ -7,16 +7,14 @@ from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
-from snakemake.utils import update_config
-
 from scripts.claims import claims_config
 from scripts.config.check_config import checked
-from scripts.config.read_config import ConfigError, read
+from scripts.config.read_config import ConfigError, merge, read
 from scripts.figures import entries
 from scripts.results import paths
 from scripts.results.programs import KINDS
 
-CONFIG = Path("config/config.yaml")
+CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"
 RESULTS = "results"
 """The folder of the paper's results; each user's file has a folder of its own in it."""
 NAME = re.compile(r"(?!.*?(.+?)\1{19}\Z)[A-Za-z0-9_-]{1,100}")
@@ -113,13 +111,13 @@ def read_plan(overlay: dict) -> Plan:
     """
     overlay = copy.deepcopy(overlay)
     user_file = overlay.pop("user_file", None)
-    whole = merged(read(CONFIG), overlay)
+    whole = merge(read(CONFIG), overlay)
     if user_file is None:
         return plan_of_paper(checked(whole), whole["pathvars"]["results"])
     if "pathvars" in overlay:
         raise ConfigError("pathvars and user_file exclude each other: a user's file has its own folder")
     said = read(user_file)
-    return plan_of_user(merged(whole, said), added(said, whole), f"{RESULTS}/{name_of(user_file)}")
+    return plan_of_user(merge(whole, said), added(said, whole), f"{RESULTS}/{name_of(user_file)}")
 
 
 def plan_of_paper(config: dict, folder: str) -> Plan:
@@ -215,13 +213,6 @@ def restrict(config: dict, *groups: dict[str, list[str]]) -> dict:
     for scene in kept["scenes"].values():
         scene.setdefault("attractors", {})
     return kept
-
-
-def merged(config: dict, overlay: dict) -> dict:
-    """A configuration with another one merged over it, as Snakemake does it."""
-    whole = copy.deepcopy(config)
-    update_config(whole, copy.deepcopy(overlay))
-    return whole
 
 
 def _inside(config: dict, path: tuple[str, ...]) -> dict:
