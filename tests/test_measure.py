@@ -25,17 +25,12 @@ def references_of(programs, groups: dict[str, dict]) -> list[dict]:
     """References of cases."""
     done = programs.run_groups("reference", groups)
     assert done.returncode == 0, done.stderr
-    return rows_of(programs.output)
-
-
-def rows_of(path) -> list[dict]:
-    """Rows of a table of references."""
-    with open(path) as file:
+    with open(programs.output) as file:
         return list(csv.DictReader(file, delimiter="\t"))
 
 
 def test_each_method_runs_at_each_setting(measured):
-    """In the order asked for, one case after the other."""
+    """In the order of the namelist, one case after the other."""
     settings = list(zip(measured.method.values, measured.setting.values, strict=True))
     solver = [(name, value) for name in ("auto", "explicit") for value in (1e-6, 1e-9)]
     expected = 2 * [*solver, ("rk4_cubic", 0.01)]
