@@ -9,7 +9,6 @@ from expected_rules import settings
 from figure_contents import assert_on_page, hyphens_before_numbers
 from matplotlib import pyplot as plt
 
-from scripts.claims.roots_of_5 import unstable_pairs
 from scripts.drawing.style import STYLE
 from scripts.figures import fault_limit
 from scripts.tables import dimensions_table, fault_limit_table
@@ -71,18 +70,6 @@ def test_least_epsilon_is_on_a_curve_of_the_program(programs, gamma):
     first = curves.isel(point=curves.branch.values == 1)
     tau = float(first.tau[int(first.epsilon.values.argmin())])
     assert tau == pytest.approx(row["tau"], rel=0.02)
-
-
-@pytest.mark.parametrize("gamma", [0.3, 0.8, 3.0, 10.0, 30.0])
-def test_delays_destabilise_between_least_and_without_delay(gamma):
-    """By the number of unstable roots: at the delay of the least epsilon, and at none below it."""
-    row = fault_limit_table.row_of(0.5, gamma)
-    place = {"xi": 0.5, "gamma": gamma}
-    inside, below = (row["least"] + share * row["depth"] for share in (0.5, -0.5))
-    assert unstable_pairs(epsilon=inside, tau=0.0, **place) == 0
-    assert unstable_pairs(epsilon=inside, tau=row["tau"], **place) == 1
-    for tau in np.linspace(0, 100, 1001):
-        assert unstable_pairs(epsilon=below, tau=tau, **place) == 0
 
 
 def test_no_delay_destabilises_at_large_gamma(smoke):

@@ -185,11 +185,3 @@ def test_only_listed_variables_are_stored(programs, scene, variables):
     some = programs.made_by("trajectory", {**scene, "variables": variables})
     assert list(some.data_vars) == variables
     xr.testing.assert_equal(some, everything[variables])
-
-
-def test_auto_is_the_taylor_method_here(programs, scene):
-    """The block gives its series, and these scenes are not stiff."""
-    auto = programs.made_by("trajectory", {**scene, "method": "auto"})
-    taylor = programs.made_by("trajectory", {**scene, "method": "taylor"})
-    assert auto.attrs["steps_implicit"] == taylor.attrs["steps_implicit"] == 0
-    xr.testing.assert_equal(auto, taylor)
