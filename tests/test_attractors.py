@@ -88,7 +88,7 @@ def test_route_along_a_value_of_the_history(full):
 
 
 def test_basins_have_random_histories_only(full):
-    """As many as asked for, at the parameters of the place."""
+    """`count` histories at the parameters of the place."""
     points = attractor_surveys.basin_groups(full, "three_cycles")["points"]
     assert len(points["v"]) == full["basins"]["count"]
     assert points["tau_window"] == [7.0, 7.0]
@@ -120,8 +120,8 @@ def test_histories_fill_their_ranges(full):
         assert (abs(counts - 500) < 100).all()
 
 
-def test_scene_asks_for_its_own_parameters_and_histories(full):
-    """Its own history is the first."""
+def test_scene_has_its_parameters_and_histories(full):
+    """The scene's history is the first."""
     groups = attractor_surveys.scene_groups(full, "true_torus")
     points, scene = groups["points"], full["scenes"]["true_torus"]
     assert (points["epsilon_window"], points["tau_window"]) == ([0.5, 0.5], [12.5, 12.5])
@@ -226,7 +226,7 @@ def test_attractors_are_numbered_as_they_are_met(classes, values, numbers):
 
 
 def test_rows_of_a_route_name_route_and_run():
-    """By folder and file."""
+    """The route is the folder, the run is the file."""
     rows = attractor_tables.route_rows(Path("results/mine/up.nc"), a_run(["cycle", "torus"]))
     assert [(row["route"], row["run"], row["class"]) for row in rows] == [
         ("mine", "up", "cycle"),
@@ -274,7 +274,7 @@ def test_motions_that_only_a_route_shows_have_no_share():
 
 
 def test_undecided_runs_share_a_row_of_basins():
-    """Whatever their exponents."""
+    """Their exponents do not matter."""
     run = a_run(["undecided", "cycle", "undecided"], lyapunov_exponent=[0.1, 0.0, 0.5])
     rows = basins_table.basin_rows("mine", run, [])
     assert [(row["class"], round(3 * row["share"])) for row in rows] == [

@@ -27,7 +27,7 @@ def groups(good_groups) -> dict[str, dict]:
 
 
 def test_points_are_the_rectangle_for_each_history(programs, groups):
-    """Epsilon runs fastest, histories slowest; names, flags and settings are told."""
+    """Epsilon runs fastest, histories slowest; the file has names, flags and settings."""
     found = programs.made_of("attractors", groups)
     np.testing.assert_allclose(found.epsilon, [0.3, 0.5] * 4, rtol=1e-15)
     assert found.tau.values.tolist() == [0.0, 0.0, 10.0, 10.0] * 2
@@ -60,7 +60,7 @@ def test_each_parameter_is_an_axis(programs, groups):
     ("direction", "order"), [("up", slice(None)), ("down", slice(None, None, -1))]
 )
 def test_sweep_is_in_its_order(programs, groups, direction, order):
-    """The direction is told; the first point is what it is alone, the others start elsewhere."""
+    """The first point is as in a run without sweep, the others start from the point before."""
     groups["points"] |= {"tau_part": [2, 2], **ONE_HISTORY}
     alone = programs.made_of("attractors", groups)
     groups["points"]["sweep"] = direction
@@ -161,7 +161,7 @@ def test_paths_are_kept_where_the_block_moves(programs, groups):
 
 @pytest.mark.parametrize("refinements", [0, 1])
 def test_same_bytes_in_one_thread_and_in_two(programs, groups, monkeypatch, refinements):
-    """Also in a second run, and where only some points are computed."""
+    """A second run gives the same bytes, also if only some points are computed."""
     groups["points"] |= {"epsilon_part": [1, 3], "refinements": refinements}
     groups["points"] |= ONE_HISTORY if refinements else {}
     contents = set()
@@ -183,7 +183,7 @@ def test_same_bytes_in_one_thread_and_in_two(programs, groups, monkeypatch, refi
     ],
 )
 def test_refinements_of_no_plane_are_refused(programs, groups, given, place):
-    """They need cells of epsilon and tau, and one history."""
+    """Refinements need cells of epsilon and tau, and one history."""
     groups["points"] |= {**ONE_HISTORY, "refinements": 1, **given}
     done = programs.run_groups("attractors", groups)
     assert f"refinements = 1 {place}; expected 0, or a plane of epsilon and tau" in done.stderr

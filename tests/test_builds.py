@@ -22,7 +22,7 @@ def test_program_has_the_same_bytes_wherever_it_is_built(smoke, binaries):
 
 @pytest.mark.long
 def test_more_programs_are_built_in_a_partly_built_folder(project: Project):
-    """One after the other, as a user asks for them, then all: Ninja 1.12 aborts."""
+    """Some targets, then others, then all: Ninja 1.12 aborts."""
     for names in (["trajectory"], ["attractors", "hopf"], PROGRAMS):
         targets = [f"build/release/bin/{name}" for name in names]
         run = project.snakemake(*targets)

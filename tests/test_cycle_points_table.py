@@ -46,7 +46,7 @@ ANOTHER_CYCLE = sweep(("cycle/1", 3.0), ("cycle/1", 3.1))
     ],
 )
 def test_confirmed_by_a_sweep(rows, word):
-    """It follows the stable cycle to the place before the point, and leaves it at the next."""
+    """The sweep follows the stable cycle up to the point, and leaves it beyond."""
     cycles = cycles_to_a_torus()
     (row,) = rows_of("mine", cycles, sweeps_over(cycles, rows))
     assert row["confirmed"] == word
@@ -105,7 +105,7 @@ def test_a_simulated_torus_has_the_amplitude_of_the_table(programs, good_inputs,
 
 
 def test_a_cusp_lies_beside_the_line():
-    """It has parameters and errors, but neither branch nor stability."""
+    """A cusp has parameters and errors, but neither branch nor stability."""
     row = rows_of("mine", cycles_to_a_torus(cusps=1), [])[1]
     place = {"tau": "3.5", "epsilon": "0.5", "xi": "0.8", "gamma": "0.8"}
     assert row == {

@@ -62,7 +62,7 @@ def test_more_exponents_than_equations_are_refused(programs, groups):
 
 
 def test_end_is_that_of_the_scene_where_none_is_given(config):
-    """And a scene without the key gets none."""
+    """A scene without the key `exponents` gets none."""
     del config["scenes"]["torus"]["exponents"]["t_end"]
     scenes = checked(config)["scenes"]
     assert scenes["torus"]["exponents"] == {"count": 6, "t_end": scenes["torus"]["t_end"]}
@@ -78,7 +78,7 @@ def test_more_exponents_than_equations_are_refused_without_delay(config):
 
 
 def test_table_holds_all_exponents_of_all_scenes(smoke):
-    """At each tolerance, in descending order, as in the files."""
+    """The exponents of each tolerance are in descending order, as in the files."""
     rows = read_table(smoke.folder / "results/tables/exponents.tsv")
     assert set(COLUMNS.split()) == set(rows[0])
     for scene in SCENES:

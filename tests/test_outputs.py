@@ -1,4 +1,4 @@
-"""Files of scripts are whole or absent, and what goes wrong is told in one line."""
+"""Files of scripts appear only when complete, and a failure is reported in one line."""
 
 import errno
 import os
@@ -13,7 +13,7 @@ from scripts.files.outputs import FileError, logged, written
 
 
 def test_file_is_there_when_complete(tmp_path):
-    """And not before; what an earlier run left unfinished is no hindrance."""
+    """The file appears at the end; unfinished files of earlier runs are removed."""
     path = tmp_path / "table.tsv"
     (tmp_path / "table.tsv.123-456.part").write_text("left by a run that was killed")
     (tmp_path / "a.table.tsv.123-456.part").write_text("of another file")
@@ -61,7 +61,7 @@ def test_last_of_two_writers_wins(tmp_path, first_to_end):
 
 
 def test_failure_leaves_the_older_file_and_nothing_else(tmp_path):
-    """Also where the writing itself is interrupted."""
+    """An interrupted write changes nothing."""
     path = tmp_path / "table.tsv"
     path.write_text("older")
 
@@ -76,7 +76,7 @@ def test_failure_leaves_the_older_file_and_nothing_else(tmp_path):
     assert path.read_text() == "older"
 
 
-def test_full_disk_is_told(tmp_path):
+def test_full_disk_is_reported(tmp_path):
     """The device that is always full stands in."""
     path = tmp_path / "table.tsv"
 
@@ -110,7 +110,7 @@ def test_damaged_netcdf_is_removed(tmp_path, size):
 
 
 def test_netcdf_that_is_closed_to_reading_stays(tmp_path, monkeypatch):
-    """It may be whole."""
+    """A file without permission to read may be complete."""
     path = tmp_path / "data.nc"
     path.touch()
     problem = PermissionError(errno.EACCES, "Permission denied")
@@ -121,7 +121,7 @@ def test_netcdf_that_is_closed_to_reading_stays(tmp_path, monkeypatch):
 
 
 def test_problem_with_a_file_ends_a_script_in_one_line(tmp_path):
-    """Its details are in the log."""
+    """The traceback is in the log."""
     with pytest.raises(SystemExit) as end, logged(tmp_path / "log"):
         read(tmp_path / "nowhere.nc")
     assert str(end.value.code).startswith(f"error: {tmp_path}/nowhere.nc: cannot be read: No such")
@@ -130,7 +130,7 @@ def test_problem_with_a_file_ends_a_script_in_one_line(tmp_path):
 
 
 @pytest.mark.parametrize("log", ["nowhere/log", "."])
-def test_log_that_cannot_be_written_is_told(tmp_path, log):
+def test_log_that_cannot_be_written_is_refused(tmp_path, log):
     """The script does not begin."""
     with (
         pytest.raises(SystemExit, match=r"error: .*; check that its folder"),

@@ -107,7 +107,7 @@ def test_errors_are_relative_above_one():
 
 
 def test_samples_at_other_times_are_refused(reference):
-    """They would be compared with the wrong state."""
+    """Two states at different times cannot be compared."""
     run = made_up_run([0.0, 0.0])
     run["time"] = np.array([0.0, 0.9])
     with pytest.raises(ValueError, match=r"case 'made up'.*different times"):

@@ -99,7 +99,7 @@ def confirmed(point: xr.Dataset, cycles: xr.Dataset, swept: list[dict]) -> str:
 
 
 def leaves(cycle: dict, other: dict) -> bool:
-    """Whether the next row of a sweep is on another motion than a cycle."""
+    """Whether the next row of a sweep is no longer on a cycle."""
     jump = abs(other["largest_maximum"] / cycle["largest_maximum"] - 1) > JUMP
     return other["class"] != "cycle" or other["period"] != cycle["period"] or jump
 

@@ -16,8 +16,7 @@ COLOURS = {
     "chaos": "#d55e00",
     UNDECIDED: "#ffffff",
 }
-"""Kinds of motion by the colours of their cells, which people who see colours differently tell
-apart."""
+"""Colour of cells by kind of motion; colour-blind readers can distinguish them."""
 
 
 def has_problem(row: dict) -> bool:
