@@ -216,7 +216,7 @@ def spectrum(kind: str = "periodic", **heights: float) -> xr.Dataset:
 
 
 def slip_events(**values) -> xr.Dataset:
-    """Slip events, one for each element of the longest value; v spans 10, half of the time is stick."""
+    """Slip events, one for each element of the longest value; v spans 10, half of it is stick."""
     size = max((np.size(value) for value in values.values()), default=200)
     made = {"recurrence_time": 8.0, "duration": 4.0, "slip": 6.0, "peak_velocity": 2.0}
     made |= {"least_velocity": 0.2, **values}
