@@ -18,7 +18,6 @@ from scripts.files.tsv import read_table
 from scripts.tables import exponents_table
 
 SCENES = ["oscillation", "torus", "chaos", "true_torus"]
-COLUMNS = "scene i exponent error sign dimension dimension_error t tolerance longest_step mean_step"
 
 
 @pytest.fixture
@@ -80,7 +79,6 @@ def test_more_exponents_than_equations_are_refused_without_delay(config):
 def test_table_holds_all_exponents_of_all_scenes(smoke):
     """The exponents of each tolerance are in descending order, as in the files."""
     rows = read_table(smoke.folder / "results/tables/exponents.tsv")
-    assert set(COLUMNS.split()) == set(rows[0])
     for scene in SCENES:
         made = xr.load_dataset(smoke.folder / f"results/exponents/{scene}.nc")
         own = [row for row in rows if row["scene"] == scene]
