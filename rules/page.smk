@@ -27,7 +27,9 @@ rule play_data:
     input:
         runs=paths.parts_of_atlas(config),
         tables=(
-            expand("<results>/tables/atlas/{plane}.tsv", plane=config["atlas"]["planes"])
+            expand(
+                "<results>/tables/atlas/{plane}.tsv", plane=config["atlas"]["planes"]
+            )
             if plan.is_users
             else ["<results>/tables/atlas.tsv"]
         ),
@@ -46,9 +48,6 @@ rule play_data:
 rule page:
     """The page with figures, claims and verdicts: results/index.html."""
     input:
-        figures=expand("<results>/figures/{figure}.svg", figure=plan.figures),
-        claims="<results>/tables/claims.json" if plan.claims else [],
-        attractors="<results>/tables/attractors.tsv" if config["scenes"] else [],
         **(
             {"tables": plan.tables()}
             if plan.is_users
@@ -58,6 +57,9 @@ rule page:
                 "stability": "<results>/tables/stability.tsv",
             }
         ),
+        figures=expand("<results>/figures/{figure}.svg", figure=plan.figures),
+        claims="<results>/tables/claims.json" if plan.claims else [],
+        attractors="<results>/tables/attractors.tsv" if config["scenes"] else [],
         trajectories=plan.trajectories(),
         play="<results>/page/play-data.js" if config["atlas"]["planes"] else [],
         captions=expand("<results>/figures/{figure}.rst", figure=plan.figures),

@@ -14,8 +14,8 @@ rule attractors_table:
         "<results>/tables/attractors.tsv",
     log:
         "<results>/logs/tables/attractors.log",
-    localrule: True
     priority: PAPER
+    localrule: True
     params:
         of="scenes",
         code=code_of("tables/attractor_tables.py"),
@@ -193,8 +193,12 @@ rule stability_table:
 rule trusted_horizons:
     """Table of the times up to which runs of the scenes can be compared."""
     input:
-        measurements=expand("<results>/measurements/trust/{case}.nc", case=MEASURED["cases"]),
-        references=expand("<results>/references/trust/{case}.tsv", case=MEASURED["cases"]),
+        measurements=expand(
+            "<results>/measurements/trust/{case}.nc", case=MEASURED["cases"]
+        ),
+        references=expand(
+            "<results>/references/trust/{case}.tsv", case=MEASURED["cases"]
+        ),
     output:
         "<results>/tables/trusted-horizons.tsv",
     log:
@@ -213,7 +217,9 @@ rule work_precision_table:
         measurements=expand(
             "<results>/measurements/work_precision/{case}.nc", case=MEASURED["cases"]
         ),
-        references=expand("<results>/references/trust/{case}.tsv", case=MEASURED["cases"]),
+        references=expand(
+            "<results>/references/trust/{case}.tsv", case=MEASURED["cases"]
+        ),
     output:
         errors="<results>/tables/work-precision.tsv",
         proportionality="<results>/tables/tolerance-proportionality.tsv",
