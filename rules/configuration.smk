@@ -24,7 +24,7 @@ try:
 except packages.PackageError as problem:
     raise SystemExit(f"error: {problem}") from None
 
-from scripts.claims import claims_config
+from scripts.claims import ledger
 from scripts.config import check_config, read_config
 from scripts.figures import entries
 from scripts.figures.entries import FIGURES
@@ -70,25 +70,17 @@ except read_config.ConfigError as problems:
 
 try:
     # the user's claims are alone in their table
-    said = {
-        "claims": {
-            **({} if OWN else claims_config.listed()["claims"]),
-            **config["claims"],
-        }
+    shown = {*FIGURES, *entries.own_figures(config, NAMES)}
+    CLAIMS = {
+        **({} if OWN else ledger.paper_claims()),
+        **ledger.check_user_claims(config["claims"], config, shown),
     }
-    tables = [
-        Path(path).name
-        for path in claims_config.FILES.values()
-        if path.endswith(".tsv")
-    ]
-    shown = {*FIGURES, *entries.own_figures(config, NAMES), *tables}
-    CLAIMS = claims_config.checked(said, config, shown) if said["claims"] else {}
 except read_config.ConfigError as problems:
     raise WorkflowError(problems) from None
 
 if OWN:
     SHOWN = entries.own_figures(config, NAMES)
-    LISTED = own_file.listed(config, NAMES, claims_config.names_in(CLAIMS))
+    LISTED = own_file.listed(config, NAMES, ledger.names_in(CLAIMS))
 else:
     SHOWN, LISTED = FIGURES, config
 """Figures on the page; the configuration without what the run does not list in tables."""

@@ -4,7 +4,7 @@
 rule claims:
     """Verdicts on all claims of the paper, in results/tables/claims.tsv."""
     input:
-        **placed(claims_config.files_for(CLAIMS, LISTED)),
+        **placed(ledger.inputs_for(CLAIMS, LISTED)),
     output:
         tsv=report(
             "<results>/tables/claims.tsv",

@@ -38,6 +38,8 @@ from scripts.workflow.result_files import cycles_of_lines, exponents_of_scenes, 
 TEMPLATE = Path(__file__).parents[2] / "page" / "verdicts.html.jinja"
 SHOWN = [NOT_REPRODUCED, CORRECTED, REPRODUCED, NOT_TESTABLE]
 """Verdicts in the order of the page: failing claims first."""
+TABLES = [Path(path).name for path in FILES.values() if path.endswith(".tsv") and "{" not in path]
+"""Tables that a claim may tell the reader to look at."""
 KINDS = ("scene", "plane", "route")
 """What parameters of tests name."""
 
@@ -51,8 +53,9 @@ def check_user_claims(said: dict, config: dict, shown: set[str]) -> dict:
     """Return the claims with the defaults of their tests; raise ConfigError otherwise.
 
     `said` are the claims of a checked configuration, `config` is that whose scenes, planes and
-    routes they name, `shown` what they may tell the reader to look at.
+    routes they name. A reader may look at the figures `shown` and at the tables that tests read.
     """
+    shown = {*shown, *TABLES}
     document = {"claims": said}
     problems = [in_words(error) for error in validator_for(_rules(config)).iter_errors(document)]
     if not problems:
