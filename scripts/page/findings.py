@@ -48,7 +48,8 @@ def of_the_fault_limit(tables: dict[str, list[dict]]) -> dict:
         f" $gamma = {short(paper['gamma'])}$. Delays lower this least $epsilon$ by"
         f" {short(paper['depth'], 2)} there, but by {short(fault['depth'], 1)} only at"
         f" $gamma = {fault['gamma']:.0e}$. Along the Hopf curves of {planes} planes the bifurcation"
-        f" changes between supercritical and subcritical at {turns} point{'' if turns == 1 else 's'}.",
+        " changes between supercritical and subcritical at"
+        f" {turns} point{'' if turns == 1 else 's'}.",
     }
 
 
