@@ -4,10 +4,9 @@ import re
 
 import numpy as np
 import pytest
-from made_up_results import changed, hopf_curve, on_plane, results
+from made_up_results import NO, PARTLY, YES, Results, changed, hopf_curve, on_plane
 
-from scripts.claims import claims_of_formulas as tests_of
-from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED
+from scripts.claims import claims_of_formulas
 from scripts.claims.printed_formulas import epsilon_of_8, points_of, residual_of_5, xi_of_9
 
 LIMIT = 1e-10
@@ -18,7 +17,7 @@ def finding(test: str, curves, limit: float = LIMIT):
     """What a test finds on one plane."""
     name = "planes" if test in ("equation_6", "hopf_curves") else "plane"
     given = ["plane"] if name == "planes" else "plane"
-    return tests_of.TESTS[test](on_plane(curves), **{name: given, "limit": limit})
+    return getattr(claims_of_formulas, test)(on_plane(curves), **{name: given, "limit": limit})
 
 
 @pytest.mark.parametrize("gamma", [0.8, 3.0])
@@ -38,10 +37,10 @@ def test_corrected_formulas_hold_on_closed_form(gamma, k):
 def test_printed_equations_of_motion_need_a_correction(test):
     """And hold where the printed form happens to give (5): epsilon = 0, omega = gamma, tau = 0."""
     curves = hopf_curve()
-    assert finding(test, curves).verdict == CORRECTED
-    assert finding(test, curves, BELOW_ROUNDING).verdict == NOT_REPRODUCED
+    assert finding(test, curves).verdict == PARTLY
+    assert finding(test, curves, BELOW_ROUNDING).verdict == NO
     alike = changed(curves, epsilon=0.0, omega=0.8, tau=0.0)
-    assert finding(test, alike).verdict == REPRODUCED
+    assert finding(test, alike).verdict == YES
 
 
 def test_equation_4_has_no_value_at_long_delays():
@@ -54,16 +53,16 @@ def test_equation_4_has_no_value_at_long_delays():
 def test_equation_6():
     """On the curve, and beside it."""
     curves = hopf_curve()
-    assert finding("equation_6", curves).verdict == REPRODUCED
+    assert finding("equation_6", curves).verdict == YES
     beside = changed(curves, epsilon=curves.epsilon.values + 0.1)
-    assert finding("equation_6", beside).verdict == NOT_REPRODUCED
+    assert finding("equation_6", beside).verdict == NO
 
 
 def test_equation_8_needs_a_correction_unless_gamma_is_1():
     """Where gamma^1 is gamma^2 the printed one holds."""
-    assert finding("equation_8", hopf_curve()).verdict == CORRECTED
-    assert finding("equation_8", hopf_curve(gamma=1.0)).verdict == REPRODUCED
-    assert finding("equation_8", hopf_curve(), BELOW_ROUNDING).verdict == NOT_REPRODUCED
+    assert finding("equation_8", hopf_curve()).verdict == PARTLY
+    assert finding("equation_8", hopf_curve(gamma=1.0)).verdict == YES
+    assert finding("equation_8", hopf_curve(), BELOW_ROUNDING).verdict == NO
 
 
 def curve_at_delay(omega: np.ndarray):
@@ -81,13 +80,13 @@ def test_equation_9():
     stretch = np.linspace(0.49, 0.53, 10)
     curves = curve_at_delay(stretch)
     assert (curves.xi > 0).all()
-    assert finding("equation_9", curves).verdict == REPRODUCED
+    assert finding("equation_9", curves).verdict == YES
     wrong = changed(curves, xi=curves.xi.values * 1.01)
-    assert finding("equation_9", wrong).verdict == NOT_REPRODUCED
+    assert finding("equation_9", wrong).verdict == NO
     wide = curve_at_delay(np.append(stretch, 0.95))
     assert (wide.xi > 0).all()
     found = finding("equation_9", wide)
-    assert found.verdict == REPRODUCED
+    assert found.verdict == YES
     beside = re.search(r"at (\d+) of (\d+) frequencies", found.evidence)
     assert 0 < int(beside[1]) < int(beside[2])
     assert "at 0 of " in finding("equation_9", curves).evidence
@@ -96,9 +95,9 @@ def test_equation_9():
 @pytest.mark.parametrize(
     ("printed", "corrected", "verdict"),
     [
-        (1e-15, 1e-15, REPRODUCED),
-        (0.5, 1e-15, CORRECTED),
-        (0.5, 0.1, NOT_REPRODUCED),
+        (1e-15, 1e-15, YES),
+        (0.5, 1e-15, PARTLY),
+        (0.5, 0.1, NO),
     ],
 )
 def test_equation_10(printed, corrected, verdict):
@@ -115,29 +114,29 @@ def test_equation_10(printed, corrected, verdict):
 
 def test_hopf_curves_together():
     """As printed, as corrected, and neither; tau as printed counts only where tau is drawn."""
-    assert finding("hopf_curves", hopf_curve()).verdict == CORRECTED
+    assert finding("hopf_curves", hopf_curve()).verdict == PARTLY
     alike = hopf_curve(gamma=1.0, ordinate="xi")
-    assert finding("hopf_curves", alike).verdict == REPRODUCED
-    assert finding("hopf_curves", hopf_curve(gamma=1.0)).verdict == CORRECTED
+    assert finding("hopf_curves", alike).verdict == YES
+    assert finding("hopf_curves", hopf_curve(gamma=1.0)).verdict == PARTLY
     broken = changed(hopf_curve(), residual=1e-3)
-    assert finding("hopf_curves", broken).verdict == NOT_REPRODUCED
+    assert finding("hopf_curves", broken).verdict == NO
 
 
 def test_lag_of_the_plate():
     """Curves with delays are not those without; at tau = 0 (5) has no delay."""
-    assert finding("lag_of_the_plate", hopf_curve()).verdict == NOT_REPRODUCED
+    assert finding("lag_of_the_plate", hopf_curve()).verdict == NO
     gamma, xi = 0.8, 0.5
     # the Hopf point without delay: omega^2 = epsilon = gamma^2 xi/(xi + gamma^2)
     epsilon = gamma**2 * xi / (xi + gamma**2)
     without = changed(hopf_curve(), epsilon=epsilon, omega=np.sqrt(epsilon), tau=0.0)
-    assert finding("lag_of_the_plate", without).verdict == REPRODUCED
+    assert finding("lag_of_the_plate", without).verdict == YES
 
 
 def test_one_wrong_plane_is_enough():
     """The worst of several planes counts."""
-    both = results(curves={"a": hopf_curve(), "b": changed(hopf_curve(), residual=1e-3)})
-    found = tests_of.TESTS["hopf_curves"](both, planes=["a", "b"], limit=LIMIT)
-    assert found.verdict == NOT_REPRODUCED
+    both = Results(curves={"a": hopf_curve(), "b": changed(hopf_curve(), residual=1e-3)})
+    found = claims_of_formulas.hopf_curves(both, planes=["a", "b"], limit=LIMIT)
+    assert found.verdict == NO
     assert "24 points" in found.evidence
 
 

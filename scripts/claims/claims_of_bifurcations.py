@@ -226,7 +226,7 @@ def kinds_of_hopf(results: Results, *, planes: Planes, expected: Kinds) -> Findi
     instead = "Steady sliding does not change its stability."
     if met:
         both = f"Both kinds occur: {' and '.join(counts)}."
-        instead = both if len(met) > 1 else f"All {signs.size} points are {met.pop()}."
+        instead = both if len(met) > 1 else f"All {signs.size} points are {next(iter(met))}."
     return decided(met == set(expected), evidence, instead, partly=met > set(expected))
 
 

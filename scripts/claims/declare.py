@@ -28,7 +28,7 @@ class Names:
 
     def schema(self, known: list[str]) -> dict:
         """What the parameter may be, if these names are known."""
-        one = among(f"name of a {self.kind}", known)
+        one = among(f"name of a {self.kind}, ", known)
         if not self.several:
             return one
         words = f"names of {self.kind}s, at least one, each once"
@@ -39,13 +39,13 @@ class Names:
 
 def among(words: str, values: list[str]) -> dict:
     """JSON schema of one of these values."""
-    return {"enum": values, "description": f"{words}, one of: {', '.join(values)}"}
+    return {"enum": values, "description": f"{words}one of: {', '.join(values)}"}
 
 
 def some(words: str, values: list[str]) -> dict:
     """JSON schema of a list of these values."""
     described = {"description": f"{words}, some of: {', '.join(values)}"}
-    return {"type": "array", "minItems": 1, "items": among("one of them", values)} | described
+    return {"type": "array", "minItems": 1, "items": among("", values)} | described
 
 
 def number(words: str, above: float = 0, **bounds: float) -> dict:
@@ -62,7 +62,7 @@ Plane = Annotated[str, Names("plane")]
 Planes = Annotated[list[str], Names("plane", several=True)]
 Route = Annotated[str, Names("route")]
 Routes = Annotated[list[str], Names("route", several=True)]
-Class = Annotated[str, among("class of an attractor", CLASSES)]
+Class = Annotated[str, among("class of an attractor, ", CLASSES)]
 Classes = Annotated[list[str], some("classes of attractors in turn", CLASSES)]
 Gamma = Annotated[float, number("gamma, nondimensional, a finite number > 0")]
 Residual = Annotated[
