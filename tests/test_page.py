@@ -151,17 +151,17 @@ def test_findings_follow_the_tables():
     two, one, three = findings.findings([claim("figure_5a")], tables | {"fault_limit": limit})
     assert one["title"] == "The paper's torus is a limit cycle."
     assert (
-        "At tau = 10 it has one zero Lyapunov exponent and the fundamental frequency f1 = 0.1."
+        "At $tau = 10$ it has one zero Lyapunov exponent and the fundamental frequency $f1 = 0.1$."
         in (one["words"])
     )
     assert (
-        "a torus: it has two zero Lyapunov exponents and the fundamental frequencies f1 = 0.1 and"
+        "it has two zero Lyapunov exponents and the fundamental frequencies $f1 = 0.1$ and"
         in (one["words"])
     )
     assert [given["id"] for given in one["claims"]] == ["figure_5a"]
-    assert "at epsilon = 0.25 for xi = 0.5 and gamma = 0.8." in two["words"]
+    assert "at $epsilon = 0.25$ for $xi = 0.5$ and $gamma = 0.8$." in two["words"]
     assert (
-        "by 0.048 there, but by 9e-18 only at gamma = 1e+04. Along the Hopf curves of 2 planes"
+        "by 0.048 there, but by 9e-18 only at $gamma = 1e+04$. Along the Hopf curves of 2 planes"
         in (two["words"])
     )
     assert two["words"].endswith(" at 1 point.")
@@ -172,7 +172,7 @@ def test_findings_follow_the_tables():
     titles = [found["title"] for found in findings.findings([], changed)]
     assert titles[1:] == [
         "The paper's torus is a torus.",
-        "The paper's range of gamma is not accessible.",
+        "The paper's range of $gamma$ is not accessible.",
     ]
 
 
