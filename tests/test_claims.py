@@ -9,7 +9,8 @@ import pytest
 from conftest import SMOKE
 from made_up_results import NO, PARTLY, YES, Results, attractor_row, hopf_curve, stability_row
 
-from scripts.claims import claims_of_routes, declare, ledger
+from scripts.claims import declare, ledger
+from scripts.claims.claims_of_routes import route
 from scripts.claims.claims_results import NOT_TESTABLE, VERDICTS, Finding, read_results
 from scripts.config.check_config import checked
 from scripts.config.read_config import ConfigError
@@ -125,7 +126,7 @@ def test_claims_of_the_paper_are_those_of_a_good_file(default_config):
 def test_number_of_a_claim_is_its_own():
     """Two claims with one number have no order."""
     with pytest.raises(ValueError, match="claim 1 'mine': name or number taken"):
-        declare.claim(1, "here", "So.", name="mine", look_at="routes")(claims_of_routes.route)
+        declare.claim(1, "mine", "here", look_at="routes")(declare.says("So.")(route))
 
 
 def test_files_and_names_of_claims():

@@ -4,7 +4,7 @@ import math
 from collections import Counter
 
 from scripts.claims.claims_results import Finding, Results, decided, equations, listed, short
-from scripts.claims.declare import Class, Scene, claim, reads
+from scripts.claims.declare import Class, Scene, claim, reads, says, tested_with
 from scripts.namelists.study_cases import PARAMETERS
 
 MOTIONS = {
@@ -18,33 +18,15 @@ ERRORS = 3
 """Standard errors beyond which an exponent is not zero."""
 
 
-@claim(
-    35,
-    "Figure 4a",
-    "At $tau = 0$, $epsilon = 0.3$, $xi = gamma = 0.8$ the block comes to a fixed point.",
-    name="figure_4a",
-    look_at="figure_4",
-    scene="fixed_point",
-    expected="fixed point",
-)
-@claim(
-    36,
-    "Figure 4b",
-    "At $tau = 10$, $epsilon = 0.35$, $xi = gamma = 0.8$ the block oscillates.",
-    name="figure_4b",
-    look_at="figure_4",
-    scene="oscillation",
-    expected="cycle",
-)
-@claim(
-    38,
-    "Figure 5b",
-    "At $tau = 7$, $epsilon = 0.7$, $xi = 0.5$, $gamma = 0.8$ the block moves chaotically.",
-    name="figure_5b",
-    look_at="figure_5",
-    scene="chaos",
-    expected="chaos",
-)
+@claim(35, "figure_4a", "Figure 4a", look_at="figure_4")
+@says("At $tau = 0$, $epsilon = 0.3$, $xi = gamma = 0.8$ the block comes to a fixed point.")
+@tested_with(scene="fixed_point", expected="fixed point")
+@claim(36, "figure_4b", "Figure 4b", look_at="figure_4")
+@says("At $tau = 10$, $epsilon = 0.35$, $xi = gamma = 0.8$ the block oscillates.")
+@tested_with(scene="oscillation", expected="cycle")
+@claim(38, "figure_5b", "Figure 5b", look_at="figure_5")
+@says("At $tau = 7$, $epsilon = 0.7$, $xi = 0.5$, $gamma = 0.8$ the block moves chaotically.")
+@tested_with(scene="chaos", expected="chaos")
 @reads("attractors", "exponents", "linear_stability")
 def attractor_class(results: Results, *, scene: Scene, expected: Class) -> Finding:
     """Whether the scene's run ends on an attractor of this class, from whichever history."""
@@ -66,14 +48,9 @@ def attractor_class(results: Results, *, scene: Scene, expected: Class) -> Findi
     return decided(own["class"] == expected, evidence, instead, partly=elsewhere)
 
 
-@claim(
-    6,
-    "abstract; section 4",
-    "A single block with a delay can be chaotic.",
-    name="single_block_is_chaotic",
-    look_at="attractors.tsv",
-    scene="chaos",
-)
+@claim(6, "single_block_is_chaotic", "abstract; section 4", look_at="attractors.tsv")
+@says("A single block with a delay can be chaotic.")
+@tested_with(scene="chaos")
 @reads("attractors", "exponents")
 def positive_exponent(results: Results, *, scene: Scene) -> Finding:
     """Whether the largest exponent is positive beyond its error, from every history."""

@@ -26,7 +26,9 @@ from scripts.claims.declare import (
     claim,
     number,
     reads,
+    says,
     some,
+    tested_with,
 )
 from scripts.claims.roots_of_5 import unstable_pairs as unstable_pairs_of_5
 from scripts.tables.motion_rows import is_computed, parameter_of
@@ -43,13 +45,9 @@ Motion = Annotated[
 ]
 
 
-@claim(
-    1,
-    "abstract",
-    "With all else fixed, a delay leads from stable steady sliding to a Hopf bifurcation.",
-    look_at="linear-stability.tsv",
-    scenes=["fixed_point", "oscillation", "torus", "chaos"],
-)
+@claim(1, "hopf_by_delay", "abstract", look_at="linear-stability.tsv")
+@says("With all else fixed, a delay leads from stable steady sliding to a Hopf bifurcation.")
+@tested_with(scenes=["fixed_point", "oscillation", "torus", "chaos"])
 @reads("linear_stability")
 def hopf_by_delay(results: Results, *, scenes: Scenes) -> Finding:
     """Whether steady sliding that is stable without delay loses its stability at some delay."""
@@ -73,14 +71,9 @@ def hopf_by_delay(results: Results, *, scenes: Scenes) -> Finding:
     )
 
 
-@claim(
-    2,
-    "abstract",
-    "Steady sliding undergoes a Hopf bifurcation only by the delay.",
-    look_at="hopf-points.tsv",
-    plane="tau_of_epsilon",
-    scenes=["fixed_point", "oscillation", "torus", "chaos"],
-)
+@claim(2, "hopf_only_by_delay", "abstract", look_at="hopf-points.tsv")
+@says("Steady sliding undergoes a Hopf bifurcation only by the delay.")
+@tested_with(plane="tau_of_epsilon", scenes=["fixed_point", "oscillation", "torus", "chaos"])
 @reads("hopf_points", "linear_stability")
 def hopf_only_by_delay(results: Results, *, plane: Plane, scenes: Scenes) -> Finding:
     """Whether there is no Hopf point without delay ("only by"), or a delay suffices ("merely by").
@@ -114,16 +107,11 @@ def hopf_only_by_delay(results: Results, *, plane: Plane, scenes: Scenes) -> Fin
     )
 
 
-@claim(
-    3,
-    "abstract; section 3, below (10)",
-    "At the $gamma$ of real faults, 1e4 to 1e12, too, a delay makes stable steady sliding"
-    " unstable.",
-    look_at="fault_limit",
-    least=1e4,
-    most=1e12,
-    limit=1e-06,
+@claim(3, "hopf_by_delay_at_faults", "abstract; section 3, below (10)", look_at="fault_limit")
+@says(
+    "At the $gamma$ of real faults, 1e4 to 1e12, too, a delay makes stable steady sliding unstable."
 )
+@tested_with(least=1e4, most=1e12, limit=1e-06)
 @reads("fault_limit")
 def hopf_by_delay_at_faults(
     results: Results, *, least: Gamma, most: Gamma, limit: Share
@@ -146,15 +134,9 @@ def hopf_by_delay_at_faults(
     )
 
 
-@claim(
-    26,
-    "section 3, below (10); section 4",
-    "At constant $gamma$ the Hopf bifurcation depends on $epsilon$ and $xi$ only.",
-    look_at="figure_3",
-    at_fixed_xi="tau_of_epsilon",
-    at_fixed_tau="xi_of_epsilon",
-    limit=0.001,
-)
+@claim(26, "hopf_depends_on", "section 3, below (10); section 4", look_at="figure_3")
+@says("At constant $gamma$ the Hopf bifurcation depends on $epsilon$ and $xi$ only.")
+@tested_with(at_fixed_xi="tau_of_epsilon", at_fixed_tau="xi_of_epsilon", limit=0.001)
 @reads("curves")
 def hopf_depends_on(
     results: Results, *, at_fixed_xi: Plane, at_fixed_tau: Plane, limit: Spread
@@ -186,24 +168,12 @@ def boundary(curves: xr.Dataset) -> xr.Dataset:
     return curves.isel(point=curves.unstable_pairs.values == 0)
 
 
-@claim(
-    30,
-    "section 3, below Figure 2",
-    "Steady sliding loses its stability in a supercritical Hopf bifurcation as the delay varies.",
-    name="hopf_is_supercritical",
-    look_at="figure_2",
-    planes=["tau_of_epsilon"],
-    expected=["supercritical"],
-)
-@claim(
-    53,
-    "section 5",
-    "There are subcritical and supercritical Hopf bifurcations.",
-    name="both_kinds_of_hopf",
-    look_at="figure_2",
-    planes=["tau_of_epsilon", "xi_of_epsilon"],
-    expected=["supercritical", "subcritical"],
-)
+@claim(30, "hopf_is_supercritical", "section 3, below Figure 2", look_at="figure_2")
+@says("Steady sliding loses its stability in a supercritical Hopf bifurcation as the delay varies.")
+@tested_with(planes=["tau_of_epsilon"], expected=["supercritical"])
+@claim(53, "both_kinds_of_hopf", "section 5", look_at="figure_2")
+@says("There are subcritical and supercritical Hopf bifurcations.")
+@tested_with(planes=["tau_of_epsilon", "xi_of_epsilon"], expected=["supercritical", "subcritical"])
 @reads("curves")
 def kinds_of_hopf(results: Results, *, planes: Planes, expected: Kinds) -> Finding:
     """Kinds of the bifurcations at which steady sliding gains or loses stability."""
@@ -230,13 +200,9 @@ def kinds_of_hopf(results: Results, *, planes: Planes, expected: Kinds) -> Findi
     return decided(met == set(expected), evidence, instead, partly=met > set(expected))
 
 
-@claim(
-    52,
-    "section 5",
-    "At given parameters some delay makes steady sliding unstable.",
-    look_at="linear-stability.tsv",
-    scenes=["fixed_point", "oscillation", "torus", "chaos"],
-)
+@claim(52, "delay_destabilises", "section 5", look_at="linear-stability.tsv")
+@says("At given parameters some delay makes steady sliding unstable.")
+@tested_with(scenes=["fixed_point", "oscillation", "torus", "chaos"])
 @reads("linear_stability")
 def delay_destabilises(results: Results, *, scenes: Scenes) -> Finding:
     """Whether each scene has a delay at which steady sliding loses its stability."""
@@ -253,14 +219,12 @@ def delay_destabilises(results: Results, *, scenes: Scenes) -> Finding:
     )
 
 
-@claim(
-    32,
-    "section 3, above Figure 3",
+@claim(32, "pairs_gained_and_lost", "section 3, above Figure 3", look_at="figure_2")
+@says(
     "A longer delay makes a pair of roots unstable on some parts of the curves and stable on "
-    "others.",
-    look_at="figure_2",
-    plane="tau_of_epsilon",
+    "others."
 )
+@tested_with(plane="tau_of_epsilon")
 @reads("curves")
 def pairs_gained_and_lost(results: Results, *, plane: Plane) -> Finding:
     """Whether a longer delay makes pairs of roots unstable on some stretches, stable on others."""
@@ -274,13 +238,9 @@ def pairs_gained_and_lost(results: Results, *, plane: Plane) -> Finding:
     )
 
 
-@claim(
-    33,
-    "section 3, above Figure 3",
-    "A longer delay alone can bring oscillations back to rest (amplitude death).",
-    look_at="linear-stability.tsv",
-    scenes=["fixed_point", "oscillation", "torus", "chaos"],
-)
+@claim(33, "amplitude_death", "section 3, above Figure 3", look_at="linear-stability.tsv")
+@says("A longer delay alone can bring oscillations back to rest (amplitude death).")
+@tested_with(scenes=["fixed_point", "oscillation", "torus", "chaos"])
 @reads("linear_stability", "basins")
 def amplitude_death(results: Results, *, scenes: Scenes) -> Finding:
     """Whether steady sliding that is unstable at a delay is stable at a longer one."""
@@ -320,14 +280,9 @@ def motions_beside_rest(results: Results) -> str:
     )
 
 
-@claim(
-    19,
-    "section 3, below (5)",
-    "The signs of the real parts of the roots of (5) decide whether steady sliding is stable.",
-    name="roots_decide_stability",
-    look_at="atlas.tsv",
-    least_motion=0.001,
-)
+@claim(19, "roots_decide_stability", "section 3, below (5)", look_at="atlas.tsv")
+@says("The signs of the real parts of the roots of (5) decide whether steady sliding is stable.")
+@tested_with(least_motion=0.001)
 @reads("atlas", "attractors", "basins")
 def roots_decide(results: Results, *, least_motion: Motion) -> Finding:
     """Whether no computed motion of the atlas or a scene rests where (5) has an unstable root."""
@@ -358,17 +313,12 @@ def roots_decide(results: Results, *, least_motion: Motion) -> Finding:
     )
 
 
-@claim(
-    44,
-    "section 4",
+@claim(44, "epsilon_alone_decides", "section 4", look_at="routes")
+@says(
     "At constant $gamma$ the transitions depend on $(B - A)/A$ and not on the stiffness $k$ or"
-    " the length $L$.",
-    name="epsilon_alone_decides",
-    look_at="routes",
-    plane="xi_of_epsilon",
-    route="chaos_in_xi",
-    limit=0.001,
+    " the length $L$."
 )
+@tested_with(plane="xi_of_epsilon", route="chaos_in_xi", limit=0.001)
 @reads("curves", "routes")
 def independent_of_spring(
     results: Results, *, plane: Plane, route: Route, limit: Spread

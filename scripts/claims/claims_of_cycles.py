@@ -13,20 +13,15 @@ from scripts.claims.claims_results import (
     listed,
     short,
 )
-from scripts.claims.declare import Scene, claim, reads
+from scripts.claims.declare import Scene, claim, reads, says, tested_with
 from scripts.namelists.study_cases import PARAMETERS
 from scripts.tables.attractor_tables import SAME_MAXIMUM
 from scripts.tables.cycle_branches import CycleThere, cycles_there
 
 
-@claim(
-    37,
-    "Figure 5a",
-    "At $tau = 10$, $epsilon = 0.5$, $xi = gamma = 0.8$ the block moves on a torus.",
-    name="figure_5a",
-    look_at="figure_5",
-    scene="torus",
-)
+@claim(37, "figure_5a", "Figure 5a", look_at="figure_5")
+@says("At $tau = 10$, $epsilon = 0.5$, $xi = gamma = 0.8$ the block moves on a torus.")
+@tested_with(scene="torus")
 @reads("attractors", "exponents", "linear_stability", "cycles")
 def torus_of_scene(results: Results, *, scene: Scene) -> Finding:
     """Whether a scene's run ends on a torus, and no stable cycle exists at its parameters."""
@@ -38,13 +33,9 @@ def torus_of_scene(results: Results, *, scene: Scene) -> Finding:
     return Finding(by_runs.verdict, evidence, by_runs.instead)
 
 
-@claim(
-    42,
-    "section 3, below Figures 2 and 5; Figure 6b",
-    "A second Hopf bifurcation has occurred at the parameters of the torus.",
-    look_at="cycles",
-    scene="torus",
-)
+@claim(42, "second_hopf", "section 3, below Figures 2 and 5; Figure 6b", look_at="cycles")
+@says("A second Hopf bifurcation has occurred at the parameters of the torus.")
+@tested_with(scene="torus")
 @reads("attractors", "linear_stability", "cycles", "cycle_points")
 def second_hopf(results: Results, *, scene: Scene) -> Finding:
     """Whether the cycle at a scene has undergone a torus bifurcation; if not, where one does.

@@ -12,7 +12,7 @@ from scripts.claims.claims_results import (
     equations,
     short,
 )
-from scripts.claims.declare import Scene, Scenes, claim, number, reads
+from scripts.claims.declare import Scene, Scenes, claim, number, reads, says, tested_with
 from scripts.namelists.study_cases import HISTORY
 
 FEWEST = 100
@@ -35,14 +35,9 @@ Share = Annotated[
 ]
 
 
-@claim(
-    8,
-    "section 4",
-    "Slip events on the strange attractor are aperiodic.",
-    look_at="events",
-    scene="chaos",
-    periodic="oscillation",
-)
+@claim(8, "aperiodic_events", "section 4", look_at="events")
+@says("Slip events on the strange attractor are aperiodic.")
+@tested_with(scene="chaos", periodic="oscillation")
 @reads("slip_events")
 def aperiodic_events(results: Results, *, scene: Scene, periodic: Scene) -> Finding:
     """Whether recurrence times of events vary without repeating, unlike those of another scene."""
@@ -71,11 +66,13 @@ def aperiodic_events(results: Results, *, scene: Scene, periodic: Scene) -> Find
 
 @claim(
     7,
+    "chaos_by_delay_alone",
     "abstract; section 1 (Erickson, Birnir and Lavallee 2008)",
-    "It is the delay that makes a single block chaotic.",
-    name="chaos_by_delay_alone",
     look_at="linear-stability.tsv",
-    scenes=["no_delay", "no_delay_stuck", "no_delay_fast", "no_delay_less", "no_delay_more"],
+)
+@says("It is the delay that makes a single block chaotic.")
+@tested_with(
+    scenes=["no_delay", "no_delay_stuck", "no_delay_fast", "no_delay_less", "no_delay_more"]
 )
 @reads("slip_events")
 def equal_events(results: Results, *, scenes: Scenes) -> Finding:
@@ -104,26 +101,12 @@ def equal_events(results: Results, *, scenes: Scenes) -> Finding:
     )
 
 
-@claim(
-    12,
-    "section 1, Figure 1",
-    "The block moves along the rough surface in a stick-slip fashion.",
-    name="block_sticks_and_slips",
-    look_at="events",
-    scenes=["oscillation", "chaos"],
-    ratio=1e3,
-    stick=0.9,
-)
-@claim(
-    54,
-    "sections 1 and 5",
-    "Under some conditions the block sticks and slips like a relaxation oscillator.",
-    name="relaxation_oscillator",
-    look_at="events",
-    scenes=["oscillation", "chaos", "stick_slip", "no_delay_less"],
-    ratio=1e3,
-    stick=0.9,
-)
+@claim(12, "block_sticks_and_slips", "section 1, Figure 1", look_at="events")
+@says("The block moves along the rough surface in a stick-slip fashion.")
+@tested_with(scenes=["oscillation", "chaos"], ratio=1e3, stick=0.9)
+@claim(54, "relaxation_oscillator", "sections 1 and 5", look_at="events")
+@says("Under some conditions the block sticks and slips like a relaxation oscillator.")
+@tested_with(scenes=["oscillation", "chaos", "stick_slip", "no_delay_less"], ratio=1e3, stick=0.9)
 @reads("slip_events")
 def relaxation(results: Results, *, scenes: Scenes, ratio: Ratio, stick: Share) -> Finding:
     """Whether in some scene v spans this ratio in every event, and the block mostly sticks."""

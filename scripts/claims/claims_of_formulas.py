@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 
 from scripts.claims.claims_results import Finding, Results, decided, decided_after_correction, short
-from scripts.claims.declare import Plane, Planes, Residual, claim, reads
+from scripts.claims.declare import Plane, Planes, Residual, claim, reads, says, tested_with
 from scripts.claims.printed_formulas import (
     epsilon_of_8,
     friction_corrected,
@@ -23,13 +23,9 @@ FREQUENCIES = 2000
 """Frequencies at which (9) is tried."""
 
 
-@claim(
-    15,
-    "section 2, (3)",
-    "Without delay the scaled equations are (3); the first has $theta (1 + epsilon) log v$.",
-    look_at="figure_2",
-    plane="tau_of_epsilon",
-)
+@claim(15, "equation_3", "section 2, (3)", look_at="figure_2")
+@says("Without delay the scaled equations are (3); the first has $theta (1 + epsilon) log v$.")
+@tested_with(plane="tau_of_epsilon")
 @reads("curves")
 def equation_3(results: Results, *, plane: Plane, limit: Residual = 1e-10) -> Finding:
     """Whether (5) without delay follows from (3)."""
@@ -47,14 +43,12 @@ def equation_3(results: Results, *, plane: Plane, limit: Residual = 1e-10) -> Fi
     )
 
 
-@claim(
-    18,
-    "section 2, (4)",
+@claim(18, "equation_4", "section 2, (4)", look_at="figure_2")
+@says(
     "With the delay the equations are (4); the first has $theta (1 + epsilon) log(v - tau)$, and"
-    " (5) follows.",
-    look_at="figure_2",
-    plane="tau_of_epsilon",
+    " (5) follows."
 )
+@tested_with(plane="tau_of_epsilon")
 @reads("curves")
 def equation_4(results: Results, *, plane: Plane, limit: Residual = 1e-10) -> Finding:
     """Whether (5) follows from (4)."""
@@ -77,13 +71,9 @@ def equation_4(results: Results, *, plane: Plane, limit: Residual = 1e-10) -> Fi
     )
 
 
-@claim(
-    20,
-    "section 3, (6)",
-    "An imaginary root of (5) satisfies (6).",
-    look_at="figure_2",
-    planes=["tau_of_epsilon", "xi_of_epsilon"],
-)
+@claim(20, "equation_6", "section 3, (6)", look_at="figure_2")
+@says("An imaginary root of (5) satisfies (6).")
+@tested_with(planes=["tau_of_epsilon", "xi_of_epsilon"])
 @reads("curves")
 def equation_6(results: Results, *, planes: Planes, limit: Residual = 1e-10) -> Finding:
     """Whether (6) holds on the curves."""
@@ -96,13 +86,9 @@ def equation_6(results: Results, *, planes: Planes, limit: Residual = 1e-10) -> 
     )
 
 
-@claim(
-    21,
-    "section 3, (7) and (8)",
-    "(7) and (8), with $gamma^1$ in (8), give $epsilon$ on the Hopf curves.",
-    look_at="figure_2",
-    plane="tau_of_epsilon",
-)
+@claim(21, "equation_8", "section 3, (7) and (8)", look_at="figure_2")
+@says("(7) and (8), with $gamma^1$ in (8), give $epsilon$ on the Hopf curves.")
+@tested_with(plane="tau_of_epsilon")
 @reads("curves")
 def equation_8(results: Results, *, plane: Plane, limit: Residual = 1e-10) -> Finding:
     """Whether (5) can hold with the epsilon of (7) and (8), whatever the delay."""
@@ -121,14 +107,9 @@ def equation_8(results: Results, *, plane: Plane, limit: Residual = 1e-10) -> Fi
     )
 
 
-@claim(
-    22,
-    "section 3, (9)",
-    "(9) gives $xi$ on the Hopf curves.",
-    look_at="figure_3",
-    plane="xi_of_epsilon",
-    limit=1e-08,
-)
+@claim(22, "equation_9", "section 3, (9)", look_at="figure_3")
+@says("(9) gives $xi$ on the Hopf curves.")
+@tested_with(plane="xi_of_epsilon", limit=1e-08)
 @reads("curves")
 def equation_9(results: Results, *, plane: Plane, limit: Residual = 1e-10) -> Finding:
     """Whether (9) gives xi at every point of the curves; also, how often it gives others."""
@@ -154,14 +135,12 @@ def equation_9(results: Results, *, plane: Plane, limit: Residual = 1e-10) -> Fi
     )
 
 
-@claim(
-    23,
-    "section 3, (10)",
+@claim(23, "equation_10", "section 3, (10)", look_at="figure_2")
+@says(
     "(10), without $gamma^2$ in its numerator and with a plain arctangent, gives the critical"
-    " delay.",
-    look_at="figure_2",
-    plane="tau_of_epsilon",
+    " delay."
 )
+@tested_with(plane="tau_of_epsilon")
 @reads("curves")
 def equation_10(results: Results, *, plane: Plane, limit: Residual = 1e-10) -> Finding:
     """Whether (5) holds at the delay of (10)."""
@@ -178,30 +157,15 @@ def equation_10(results: Results, *, plane: Plane, limit: Residual = 1e-10) -> F
     )
 
 
-@claim(
-    29,
-    "Figure 2",
-    "The formulas give the Hopf curves $tau(epsilon)$ at $xi = 0.5$, $gamma = 0.8$.",
-    name="figure_2",
-    look_at="figure_2",
-    planes=["tau_of_epsilon"],
-)
-@claim(
-    34,
-    "Figure 3",
-    "The formulas give the Hopf curves $xi(epsilon)$ at $tau = 12$, $gamma = 0.8$.",
-    name="figure_3",
-    look_at="figure_3",
-    planes=["xi_of_epsilon"],
-)
-@claim(
-    51,
-    "section 5",
-    "The parametric formulas of the Hopf curves are exact.",
-    name="exact_curves",
-    look_at="figure_2",
-    planes=["tau_of_epsilon", "xi_of_epsilon"],
-)
+@claim(29, "figure_2", "Figure 2", look_at="figure_2")
+@says("The formulas give the Hopf curves $tau(epsilon)$ at $xi = 0.5$, $gamma = 0.8$.")
+@tested_with(planes=["tau_of_epsilon"])
+@claim(34, "figure_3", "Figure 3", look_at="figure_3")
+@says("The formulas give the Hopf curves $xi(epsilon)$ at $tau = 12$, $gamma = 0.8$.")
+@tested_with(planes=["xi_of_epsilon"])
+@claim(51, "exact_curves", "section 5", look_at="figure_2")
+@says("The parametric formulas of the Hopf curves are exact.")
+@tested_with(planes=["tau_of_epsilon", "xi_of_epsilon"])
 @reads("curves")
 def hopf_curves(results: Results, *, planes: Planes, limit: Residual = 1e-10) -> Finding:
     """Whether (7) to (10) taken together give the curves of these planes."""
@@ -225,13 +189,9 @@ def hopf_curves(results: Results, *, planes: Planes, limit: Residual = 1e-10) ->
     )
 
 
-@claim(
-    17,
-    "section 2, above (4); section 4",
-    "The delay is the lag between the motion of the plate and that of the block.",
-    look_at="figure_2",
-    plane="tau_of_epsilon",
-)
+@claim(17, "lag_of_the_plate", "section 2, above (4); section 4", look_at="figure_2")
+@says("The delay is the lag between the motion of the plate and that of the block.")
+@tested_with(plane="tau_of_epsilon")
 @reads("curves")
 def lag_of_the_plate(results: Results, *, plane: Plane, limit: Residual = 1e-10) -> Finding:
     """Whether the curves are those of a block that a lag parts from the plate.

@@ -5,18 +5,14 @@ from typing import Annotated
 import numpy as np
 
 from scripts.claims.claims_results import Finding, Results, decided, decided_after_correction, short
-from scripts.claims.declare import claim, number, reads
+from scripts.claims.declare import claim, number, reads, says, tested_with
 
 Difference = Annotated[float, number("largest difference that counts as none, a finite number > 0")]
 
 
-@claim(
-    13,
-    "section 1, below (1.2)",
-    "In (1.1) $mu0$ is the steady friction at $v = v0$.",
-    look_at="figure_8",
-    limit=1e-06,
-)
+@claim(13, "mu0_is_steady_friction", "section 1, below (1.2)", look_at="figure_8")
+@says("In (1.1) $mu0$ is the steady friction at $v = v0$.")
+@tested_with(limit=1e-06)
 @reads("friction")
 def mu0_is_steady_friction(results: Results, *, limit: Difference) -> Finding:
     """Whether steady friction at v0 is mu0."""
@@ -39,13 +35,9 @@ def mu0_is_steady_friction(results: Results, *, limit: Difference) -> Finding:
     )
 
 
-@claim(
-    14,
-    "section 2, above (2)",
-    "The equations of motion (2) are coupled with the friction law (1.1) and (1.2).",
-    look_at="figure_8",
-    limit=1e-06,
-)
+@claim(14, "same_state_law", "section 2, above (2)", look_at="figure_8")
+@says("The equations of motion (2) are coupled with the friction law (1.1) and (1.2).")
+@tested_with(limit=1e-06)
 @reads("friction")
 def same_state_law(results: Results, *, limit: Difference) -> Finding:
     """Whether the state law of (2) is (1.2), with theta of (2) as B ln(theta v0/Dc) of (1.2)."""
@@ -66,12 +58,9 @@ def same_state_law(results: Results, *, limit: Difference) -> Finding:
     )
 
 
-@claim(
-    46,
-    "Figure 8",
-    "After a step up of the velocity, friction jumps up and then falls over the slip that follows.",
-    name="figure_8",
-    look_at="figure_8",
+@claim(46, "figure_8", "Figure 8", look_at="figure_8")
+@says(
+    "After a step up of the velocity, friction jumps up and then falls over the slip that follows."
 )
 @reads("friction")
 def velocity_step(results: Results) -> Finding:
@@ -89,12 +78,8 @@ def velocity_step(results: Results) -> Finding:
     )
 
 
-@claim(
-    45,
-    "section 4",
-    "A larger $epsilon$ means a smaller friction on the contact.",
-    look_at="figure_8",
-)
+@claim(45, "friction_falls_with_epsilon", "section 4", look_at="figure_8")
+@says("A larger $epsilon$ means a smaller friction on the contact.")
 @reads("friction")
 def friction_falls_with_epsilon(results: Results) -> Finding:
     """Whether friction falls with epsilon: by (1.1) in any state, by (2) in steady sliding.

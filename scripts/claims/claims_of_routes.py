@@ -11,7 +11,18 @@ from itertools import pairwise
 from scripts.claims.claims_of_attractors import in_words
 from scripts.claims.claims_of_cycles import places_along, torus_points
 from scripts.claims.claims_results import REPRODUCED, Finding, Results, decided, equations, short
-from scripts.claims.declare import Class, Classes, Planes, Route, Routes, Scenes, claim, reads
+from scripts.claims.declare import (
+    Class,
+    Classes,
+    Planes,
+    Route,
+    Routes,
+    Scenes,
+    claim,
+    reads,
+    says,
+    tested_with,
+)
 from scripts.namelists.study_cases import PARAMETERS
 from scripts.tables.motion_rows import UNDECIDED, parameter_of
 
@@ -36,24 +47,12 @@ Turns = dict[str, list[list[Stretch]]]
 """Stretches that belong together, by run."""
 
 
-@claim(
-    48,
-    "section 5",
-    "A limit cycle bifurcates from the fixed point.",
-    name="fixed_point_to_cycle",
-    look_at="routes",
-    routes=["chaos_in_tau", "torus_in_tau"],
-    expected=["fixed point", "cycle"],
-)
-@claim(
-    50,
-    "section 5",
-    "As the parameters grow, the torus breaks up into a chaotic set.",
-    name="torus_to_chaos",
-    look_at="routes",
-    routes=["chaos_in_tau", "torus_in_tau"],
-    expected=["torus", "chaos"],
-)
+@claim(48, "fixed_point_to_cycle", "section 5", look_at="routes")
+@says("A limit cycle bifurcates from the fixed point.")
+@tested_with(routes=["chaos_in_tau", "torus_in_tau"], expected=["fixed point", "cycle"])
+@claim(50, "torus_to_chaos", "section 5", look_at="routes")
+@says("As the parameters grow, the torus breaks up into a chaotic set.")
+@tested_with(routes=["chaos_in_tau", "torus_in_tau"], expected=["torus", "chaos"])
 @reads("routes")
 def route(results: Results, *, routes: Routes, expected: Classes) -> Finding:
     """Whether these classes follow each other along at least one of the routes."""
@@ -64,15 +63,9 @@ def route(results: Results, *, routes: Routes, expected: Classes) -> Finding:
     return decided(any(any(met.values()) for met in found), " ".join(told), instead)
 
 
-@claim(
-    49,
-    "section 5",
-    "Quasiperiodic motion bifurcates from the limit cycle.",
-    name="cycle_to_torus",
-    look_at="routes",
-    routes=["chaos_in_tau", "torus_in_tau"],
-    expected=["cycle", "torus"],
-)
+@claim(49, "cycle_to_torus", "section 5", look_at="routes")
+@says("Quasiperiodic motion bifurcates from the limit cycle.")
+@tested_with(routes=["chaos_in_tau", "torus_in_tau"], expected=["cycle", "torus"])
 @reads("routes", "cycle_points")
 def torus_route(results: Results, *, routes: Routes, expected: Classes) -> Finding:
     """Whether these classes follow each other, a cycle and a torus at a torus bifurcation."""
@@ -88,13 +81,9 @@ def torus_route(results: Results, *, routes: Routes, expected: Classes) -> Findi
     return decided(any(any(met.values()) for met in found), " ".join(told), instead)
 
 
-@claim(
-    5,
-    "abstract; section 3, below Figure 2",
-    "The route to chaos is quasiperiodic, that of Ruelle, Takens and Newhouse.",
-    look_at="routes",
-    routes=["chaos_in_tau", "torus_in_tau"],
-)
+@claim(5, "quasiperiodic_route", "abstract; section 3, below Figure 2", look_at="routes")
+@says("The route to chaos is quasiperiodic, that of Ruelle, Takens and Newhouse.")
+@tested_with(routes=["chaos_in_tau", "torus_in_tau"])
 @reads("routes", "cycle_points", "atlas")
 def quasiperiodic_route(results: Results, *, routes: Routes) -> Finding:
     """Whether chaos follows a torus of two frequencies, and one of three, along the routes.
@@ -147,13 +136,10 @@ def three_tori_in_atlas(atlas: list[dict]) -> str:
     )
 
 
-@claim(
-    31,
-    "section 3, below Figure 2",
-    "Two supercritical Hopf bifurcations lead from regular motion to the strange attractor.",
-    look_at="cycles",
-    routes=["chaos_in_tau", "torus_in_tau"],
-    planes=["tau_of_epsilon", "tau_of_epsilon_xi_08"],
+@claim(31, "two_supercritical_hopfs", "section 3, below Figure 2", look_at="cycles")
+@says("Two supercritical Hopf bifurcations lead from regular motion to the strange attractor.")
+@tested_with(
+    routes=["chaos_in_tau", "torus_in_tau"], planes=["tau_of_epsilon", "tau_of_epsilon_xi_08"]
 )
 @reads("curves", "routes", "cycle_points")
 def two_supercritical_hopfs(results: Results, *, routes: Routes, planes: Planes) -> Finding:
@@ -189,13 +175,9 @@ def two_supercritical_hopfs(results: Results, *, routes: Routes, planes: Planes)
     return decided(all(holds), " ".join(parts), instead, partly=any(holds))
 
 
-@claim(
-    28,
-    "section 4",
-    "Larger values of $A$ and $B$ lead to chaos.",
-    look_at="routes",
-    routes=["chaos_in_epsilon", "chaos_in_xi"],
-)
+@claim(28, "chaos_by_a_and_b", "section 4", look_at="routes")
+@says("Larger values of $A$ and $B$ lead to chaos.")
+@tested_with(routes=["chaos_in_epsilon", "chaos_in_xi"])
 @reads("routes")
 def chaos_by_a_and_b(results: Results, *, routes: Routes) -> Finding:
     """Whether chaos follows from a larger B alone, and from a larger A with B in proportion.
@@ -226,22 +208,12 @@ def chaos_by_a_and_b(results: Results, *, routes: Routes) -> Finding:
     return decided(by_b and by_both, evidence, instead, partly=by_b or by_both)
 
 
-@claim(
-    4,
-    "abstract; section 3, below Figure 2",
-    "A longer delay makes the motion chaotic, with all other parameters the same.",
-    name="delay_alone_makes_chaos",
-    look_at="routes",
-    routes=["chaos_in_tau", "torus_in_tau"],
-    before=["fixed point"],
-    after="chaos",
-)
-@claim(
-    27,
-    "section 3, below (10); section 4",
-    "Larger values of $epsilon$ and of $xi$ lead to chaos.",
-    name="chaos_by_epsilon_and_xi",
-    look_at="routes",
+@claim(4, "delay_alone_makes_chaos", "abstract; section 3, below Figure 2", look_at="routes")
+@says("A longer delay makes the motion chaotic, with all other parameters the same.")
+@tested_with(routes=["chaos_in_tau", "torus_in_tau"], before=["fixed point"], after="chaos")
+@claim(27, "chaos_by_epsilon_and_xi", "section 3, below (10); section 4", look_at="routes")
+@says("Larger values of $epsilon$ and of $xi$ lead to chaos.")
+@tested_with(
     routes=["chaos_in_epsilon", "chaos_in_xi"],
     before=["fixed point", "cycle", "torus"],
     after="chaos",
@@ -260,13 +232,12 @@ def leads_to(results: Results, *, routes: Routes, before: Classes, after: Class)
     return decided(all(holds), evidence, instead, partly=any(holds))
 
 
-@claim(
-    39,
-    "section 3, below Figure 5",
+@claim(39, "longer_delays_in_turn", "section 3, below Figure 5", look_at="routes")
+@says(
     "With growing delay and slight changes of the other parameters, the fixed point gives way "
-    "to oscillations, torus and chaos in this order.",
-    name="longer_delays_in_turn",
-    look_at="routes",
+    "to oscillations, torus and chaos in this order."
+)
+@tested_with(
     scenes=["fixed_point", "oscillation", "torus", "chaos"],
     expected=["fixed point", "cycle", "torus", "chaos"],
     route="torus_in_tau",

@@ -5,7 +5,7 @@ from typing import Annotated
 import numpy as np
 
 from scripts.claims.claims_results import Finding, Results, decided, short
-from scripts.claims.declare import Gamma, among, claim, number, reads
+from scripts.claims.declare import Gamma, among, claim, number, reads, says, tested_with
 
 METHODS = ["auto", "explicit", "taylor", "radau5", "radau9", "radau13"]
 Method = Annotated[str, among("method of a run, ", METHODS)]
@@ -20,16 +20,9 @@ WITHIN_EXPECTED = 100.0
 """Largest error that is expected, over tolerance times amplification."""
 
 
-@claim(
-    24,
-    "section 3, below (10)",
-    "The equations are very stiff at $gamma = 1e4$ to 1e12, the values of real faults.",
-    name="very_stiff_at_real_gamma",
-    look_at="stability",
-    method="explicit",
-    least=1e4,
-    most=1e12,
-)
+@claim(24, "very_stiff_at_real_gamma", "section 3, below (10)", look_at="stability")
+@says("The equations are very stiff at $gamma = 1e4$ to 1e12, the values of real faults.")
+@tested_with(method="explicit", least=1e4, most=1e12)
 @reads("stability")
 def out_of_reach(results: Results, *, method: Method, least: Gamma, most: Gamma) -> Finding:
     """Whether no run of this method with gamma in this range is completed."""
@@ -43,17 +36,11 @@ def out_of_reach(results: Results, *, method: Method, least: Gamma, most: Gamma)
     )
 
 
-@claim(
-    25,
-    "section 3, below (10)",
-    "$gamma = 0.8$ is taken in the place of 1e4 to 1e12 because the equations are very stiff"
-    " there.",
-    name="real_gamma_left_out",
-    look_at="stability",
-    method="auto",
-    least=1e4,
-    most=1e12,
+@claim(25, "real_gamma_left_out", "section 3, below (10)", look_at="stability")
+@says(
+    "$gamma = 0.8$ is taken in the place of 1e4 to 1e12 because the equations are very stiff there."
 )
+@tested_with(method="auto", least=1e4, most=1e12)
 @reads("stability")
 def stiffness_forbids(results: Results, *, method: Method, least: Gamma, most: Gamma) -> Finding:
     """Whether stiffness is a reason to leave these gammas out: for all runs, for some, or for none.
@@ -87,13 +74,9 @@ def runs_between(results: Results, method: str, least: float, most: float) -> li
     ]
 
 
-@claim(
-    16,
-    "section 2, below (3)",
-    "Steady sliding, $(theta, u, v) = (0, 0, 1)$, is the only stationary state.",
-    look_at="stability.tsv",
-    within=1e-06,
-)
+@claim(16, "stationary_state", "section 2, below (3)", look_at="stability.tsv")
+@says("Steady sliding, $(theta, u, v) = (0, 0, 1)$, is the only stationary state.")
+@tested_with(within=1e-06)
 @reads("stability")
 def stationary_state(results: Results, *, within: Distance) -> Finding:
     """Whether runs over long times that decay end at (0, 0, 1), and nothing else is stationary."""

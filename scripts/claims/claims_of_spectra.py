@@ -5,7 +5,7 @@ from typing import Annotated
 import xarray as xr
 
 from scripts.claims.claims_results import Finding, Results, decided, short
-from scripts.claims.declare import Scene, among, claim, reads
+from scripts.claims.declare import Scene, among, claim, reads, says, tested_with
 
 KINDS = ["periodic", "quasiperiodic", "continuum"]
 Kind = Annotated[str, among("kind of a spectrum, ", KINDS)]
@@ -14,14 +14,9 @@ SMALL = 0.02
 """A harmonic below this share of the highest peak is not seen in a figure with a linear axis."""
 
 
-@claim(
-    40,
-    "Figure 6a",
-    "The spectrum of the oscillations has a single peak, that of periodic motion.",
-    name="figure_6a",
-    look_at="figure_6",
-    scene="oscillation",
-)
+@claim(40, "figure_6a", "Figure 6a", look_at="figure_6")
+@says("The spectrum of the oscillations has a single peak, that of periodic motion.")
+@tested_with(scene="oscillation")
 @reads("spectra")
 def single_peak(results: Results, *, scene: Scene) -> Finding:
     """Whether the spectrum has one fundamental frequency and only small harmonics."""
@@ -33,24 +28,12 @@ def single_peak(results: Results, *, scene: Scene) -> Finding:
     return decided(periodic and alone, evidence, instead, partly=periodic)
 
 
-@claim(
-    41,
-    "Figure 6b",
-    "A second peak in the spectrum shows a torus.",
-    name="figure_6b",
-    look_at="figure_6",
-    scene="torus",
-    expected="quasiperiodic",
-)
-@claim(
-    43,
-    "abstract; Figure 7",
-    "The spectrum of the chaotic motion is broadband noise.",
-    name="figure_7",
-    look_at="figure_7",
-    scene="chaos",
-    expected="continuum",
-)
+@claim(41, "figure_6b", "Figure 6b", look_at="figure_6")
+@says("A second peak in the spectrum shows a torus.")
+@tested_with(scene="torus", expected="quasiperiodic")
+@claim(43, "figure_7", "abstract; Figure 7", look_at="figure_7")
+@says("The spectrum of the chaotic motion is broadband noise.")
+@tested_with(scene="chaos", expected="continuum")
 @reads("spectra")
 def spectrum_class(results: Results, *, scene: Scene, expected: Kind) -> Finding:
     """Whether the spectrum is of this kind."""

@@ -1,7 +1,8 @@
 """How a claim is declared: decorators of its test, and the types of the test's parameters.
 
-    @claim(36, "Figure 4b", "The block oscillates.", name="figure_4b", look_at="figure_4",
-           scene="oscillation", expected="cycle")
+    @claim(36, "figure_4b", "Figure 4b", look_at="figure_4")
+    @says("The block oscillates.")
+    @tested_with(scene="oscillation", expected="cycle")
     @reads("attractors")
     def attractor_class(results: Results, *, scene: Scene, expected: Class) -> Finding:
 
@@ -117,18 +118,38 @@ def reads(*data: str) -> Callable:
     return register
 
 
-def claim(
-    number: int, place: str, words: str, *, look_at: str, name: str = "", **parameters
-) -> Callable:
-    """Declare a claim of the paper with the parameters of its test, the function below.
+def says(words: str) -> Callable:
+    """Give the words of the claim above."""
+    return _noting("claim", words)
 
-    The number is its place in the ledger, the name that of the function if none is given.
+
+def tested_with(**parameters) -> Callable:
+    """Give the parameters with which the function below tests the claim above."""
+    return _noting("parameters", parameters)
+
+
+def _noting(key: str, value: str | dict) -> Callable:
+    """A decorator that keeps a value until the claim above takes it."""
+
+    def note(find: Callable) -> Callable:
+        find.__dict__.setdefault("noted", {})[key] = value
+        return find
+
+    return note
+
+
+def claim(number: int, name: str, place: str, *, look_at: str) -> Callable:
+    """Declare a claim of the paper; its words, parameters and test stand below.
+
+    The number is its place in the ledger.
     """
 
     def register(find: Callable) -> Callable:
-        test = {find.__name__: {**TESTS[find.__name__].defaults, **parameters}}
-        about = {"place": place, "claim": words, "test": test, "look_at": look_at}
-        _add(name or find.__name__, number, about)
+        noted = find.__dict__.pop("noted")
+        parameters = {**TESTS[find.__name__].defaults, **noted.get("parameters", {})}
+        test = {find.__name__: parameters}
+        about = {"place": place, "claim": noted["claim"], "test": test, "look_at": look_at}
+        _add(name, number, about)
         return find
 
     return register
