@@ -1,5 +1,5 @@
 # Tables of results.
-from scripts.claims import claims_config
+from scripts.claims.ledger import inputs_for
 from scripts.namelists.study_cases import measured_study
 from scripts.results import paths
 
@@ -235,7 +235,7 @@ rule work_precision_table:
 rule claims:
     """Verdicts on all claims of the paper, in results/tables/claims.tsv."""
     input:
-        **claims_config.files_for(plan.claims, config),
+        **inputs_for(plan.claims, config),
     output:
         tsv=report(
             "<results>/tables/claims.tsv",

@@ -94,7 +94,7 @@ def content(**given) -> dict:
     claims = [claim(f"claim {i}", verdict) for i, verdict in enumerate(VERDICTS)]
     claims.append(claim("beside", look_at="results/figures/figure_1.png"))
     claims.append(claim("folded", VERDICTS[2], look_at="results/figures/atlas.png"))
-    claims.append(claim("equation_8", VERDICTS[1], instead="It is gamma^2."))
+    claims.append(claim("equation_8", VERDICTS[1], instead="It is $gamma^2$."))
     equations = page_content.equations(EQUATIONS, claims)
     others = page_content.beside_figures(claims, equations)
     own = [
@@ -105,7 +105,7 @@ def content(**given) -> dict:
     return {
         "opening": "What it is about.",
         "main_claims": [],
-        "findings": [{"title": "Found.", "words": "At tau = 2.", "claims": claims[:1]}],
+        "findings": [{"title": "Found.", "words": "At $tau = 2$.", "claims": claims[:1]}],
         "block": None,
         "hero": page_content.sections([figure("hero")], [])["Figures"][0],
         "equations": equations,

@@ -15,8 +15,8 @@ from docutils.utils import SystemMessage
 from jinja2 import UndefinedError
 from made_up_page import attractor, claim, content, figure, run
 
-from scripts.claims.claims_config import listed
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, NOT_TESTABLE, VERDICTS
+from scripts.claims.ledger import paper_claims
 from scripts.figures.entries import FIGURES, caption_of
 from scripts.page import (
     captions,
@@ -108,43 +108,9 @@ def test_claims_that_fail_stand_first():
     assert [one["id"] for one in page_content.failing_first(claims)] == ["3", "2", "0", "1", "4"]
 
 
-@pytest.mark.parametrize(
-    ("words", "expected"),
-    [
-        ("gamma^2 xi/(xi + gamma^2)", "γ2 ξ/(ξ + γ2)"),
-        ("0.0174 +- 0.0029 v0/L", "0.0174 ±\N{NO-BREAK SPACE}0.0029 v0/L"),
-        ("38 % of it", "38\N{NO-BREAK SPACE}% of it"),
-        (
-            "by -8.3e-07, at 1e4 to 1e+12",
-            "by −8.3\N{NO-BREAK SPACE}×\N{NO-BREAK SPACE}10−7, at 104 to 1012",
-        ),
-        ("d theta/dt = -x ln x <= 1", "dθ/dt\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}−x ln x ≤ 1"),
-        (
-            "(B - A)/A of a spring-block at A larger mu0",
-            "(B − A)/A of a spring-block at A larger μ0",
-        ),
-        ("tau_of_epsilon and fixed_point", "τ(ε) and fixed point"),
-        ("1e-06 m/s, the paper's, 1 < 2", "10−6 m/s, the paper’s, 1 < 2"),
-        ("1/s^b", "1/sb"),
-    ],
-)
-def test_words_become_mathematics(words, expected):
-    """Greek letters, powers, signs and minus; the article `a` and hyphens stay."""
-    assert Elements(mathematics.of_words(words)).text == expected
-
-
-def test_powers_and_indices_are_raised_and_lowered():
-    """As elements, so that they are read as such."""
-    assert mathematics.of_words("gamma^2 < v0") == (
-        "<var>γ</var><sup>2</sup> &lt; <var>v</var><sub>0</sub>"
-    )
-
-
 def test_equations_mark_what_differs_from_the_print():
     """A boxed part, and what is printed there; the claims beside them exist."""
-    shown = page_content.equations(
-        made_up_page.EQUATIONS, [claim(name) for name in listed()["claims"]]
-    )
+    shown = page_content.equations(made_up_page.EQUATIONS, [claim(name) for name in paper_claims()])
     equations = shown["model"] + shown["hopf"]
     assert [one["number"] for one in equations] == ["(4)", "(5)", "(6)", "(7), (8)", "(9)", "(10)"]
     for one in equations:
@@ -185,17 +151,17 @@ def test_findings_follow_the_tables():
     two, one, three = findings.findings([claim("figure_5a")], tables | {"fault_limit": limit})
     assert one["title"] == "The paper's torus is a limit cycle."
     assert (
-        "At tau = 10 it has one zero Lyapunov exponent and the fundamental frequency f1 = 0.1."
+        "At $tau = 10$ it has one zero Lyapunov exponent and the fundamental frequency $f1 = 0.1$."
         in (one["words"])
     )
     assert (
-        "a torus: it has two zero Lyapunov exponents and the fundamental frequencies f1 = 0.1 and"
+        "it has two zero Lyapunov exponents and the fundamental frequencies $f1 = 0.1$ and"
         in (one["words"])
     )
     assert [given["id"] for given in one["claims"]] == ["figure_5a"]
-    assert "at epsilon = 0.25 for xi = 0.5 and gamma = 0.8." in two["words"]
+    assert "at $epsilon = 0.25$ for $xi = 0.5$ and $gamma = 0.8$." in two["words"]
     assert (
-        "by 0.048 there, but by 9e-18 only at gamma = 1e+04. Along the Hopf curves of 2 planes"
+        "by 0.048 there, but by 9e-18 only at $gamma = 1e+04$. Along the Hopf curves of 2 planes"
         in (two["words"])
     )
     assert two["words"].endswith(" at 1 point.")
@@ -206,7 +172,7 @@ def test_findings_follow_the_tables():
     titles = [found["title"] for found in findings.findings([], changed)]
     assert titles[1:] == [
         "The paper's torus is a torus.",
-        "The paper's range of gamma is not accessible.",
+        "The paper's range of $gamma$ is not accessible.",
     ]
 
 

@@ -10,11 +10,8 @@ from scripts.drawing.style import STYLE
 from scripts.figures import stability, work_precision
 from scripts.files.tsv import as_digits, read_table, write_table
 from scripts.namelists.result_values import work_precision_groups
-from scripts.namelists.study_cases import (
-    cases_of_family,
-    columns,
-    work_precision_groups,
-)
+from scripts.namelists.study_cases import cases_of_family, columns
+from scripts.namelists.write_namelist import end_at_horizons
 from scripts.tables import stability_table
 from scripts.tables.accuracy import (
     Reference,

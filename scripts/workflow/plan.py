@@ -7,7 +7,7 @@ from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
-from scripts.claims import claims_config
+from scripts.claims.ledger import check_user_claims, names_in, paper_claims
 from scripts.config.check_config import checked
 from scripts.config.read_config import ConfigError, merge, read
 from scripts.figures import entries
@@ -124,8 +124,7 @@ def plan_of_paper(config: dict, folder: str) -> Plan:
     """All of the paper."""
     used = {scene: entries.variables_used(config, scene) for scene in config["scenes"]}
     config = set_variables(config, used, least=[])
-    claims = claims_config.checked(claims_config.listed(), config, set(entries.FIGURES) | TSV)
-    return Plan(config, folder, False, {}, entries.FIGURES, claims)
+    return Plan(config, folder, False, {}, entries.FIGURES, paper_claims())
 
 
 def plan_of_user(whole: dict, names: dict[str, list[str]], folder: str) -> Plan:
@@ -134,16 +133,13 @@ def plan_of_user(whole: dict, names: dict[str, list[str]], folder: str) -> Plan:
     drawn = {scene: {"u", "v"} for scene in config["scenes"]}
     config = set_variables(config, drawn, least=VARIABLES)
     figures = entries.own_figures(config, names)
-    claims = {}
-    if config["claims"]:
-        shown = {*entries.FIGURES, *figures} | TSV
-        claims = claims_config.checked({"claims": config["claims"]}, config, shown)
+    claims = check_user_claims(config["claims"], config, {*entries.FIGURES, *figures})
     if not figures and not claims and not any(names.values()):
         raise ConfigError(
             f"{folder}: the file adds no scene, plane, route, atlas, cycles, family or claim"
         )
     return Plan(
-        restrict(config, names, claims_config.names_in(claims)),
+        restrict(config, names, names_in(claims)),
         folder,
         True,
         names,
@@ -168,8 +164,6 @@ def set_variables(config: dict, used: dict[str, set[str]], *, least: list[str]) 
 
 
 VARIABLES = ["theta", "u", "v"]
-TSV = {Path(path).name for path in claims_config.FILES.values() if path.endswith(".tsv")}
-"""Tables that a claim may tell the reader to look at."""
 
 
 def name_of(user_file: str) -> str:
