@@ -54,8 +54,8 @@ include: "rules/exponents.smk"
 include: "rules/attractors.smk"
 include: "rules/studies.smk"
 include: "rules/ledger.smk"
-include: "rules/play.smk"
-include: "rules/own.smk" if OWN else "rules/page.smk"
+include: "rules/own.smk"
+include: "rules/page.smk"
 include: "rules/documents.smk"
 
 

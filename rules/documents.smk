@@ -1,5 +1,5 @@
-# Pages about the Fortran code, made by FORD from its comments; no part of everything. What they
-# need besides is set up when they are first asked for.
+# Pages about the Fortran code, made by FORD from its comments. `rule all` does not list them. Their
+# tools are set up by the rule.
 
 
 # A warning is a failure: the comment that it is about would be missing from the pages. FORD's own
