@@ -44,13 +44,12 @@ def content(given, params, folder: Path) -> dict:
         paper |= {"block": top.get(BLOCK), "hero": top.get(HERO)}
     at_top = [paper.get("block"), paper.get("hero")]
     groups = page_content.group_figures([one for one in figures if one not in at_top])
+    sections = {"The paper in its order": groups.pop(page_content.MAIN, [])} if paper else groups
     data = {path for figure in params.figures for path in figure["data"] if path.endswith(".nc")}
     return {
         "name": folder.name.replace("_", " "),
         "paper": paper,
-        "sections": {"The paper in its order": groups.pop(page_content.MAIN, [])}
-        if paper
-        else groups,
+        "sections": sections,
         "appendices": groups if paper else {},
         "claims": claims,
         "verdicts": page_content.tally(claims),
