@@ -12,7 +12,10 @@ from scripts.page import page_content, page_views, play_data, write_page
 from scripts.tables.motion_rows import COLOURS
 
 EQUATIONS = ROOT / "page" / "equations.yaml"
-PICTURE = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 60 40"><path d="M0 0h9v9"/></svg>'
+PICTURE = (
+    '<svg xmlns="http://www.w3.org/2000/svg" width="60pt" height="40pt" viewBox="0 0 60 40">'
+    '<path d="M0 0h9v9"/></svg>'
+)
 
 
 def claim(name: str, verdict: str = VERDICTS[0], **values) -> dict:
