@@ -91,7 +91,7 @@ def play() -> str:
     rows[7] |= {"computed": "no", **none}
     paths[7] = None
     scenes = {"my_scene": {"xi": 0.8, "gamma": 0.8, "epsilon": 0.21, "tau": 4.0}}
-    return play_data.script(rows, [atlas_run(*paths[:3]), atlas_run(*paths[3:])], scenes)
+    return play_data.write_script(rows, [atlas_run(*paths[:3]), atlas_run(*paths[3:])], scenes)
 
 
 def content(folder: Path, **values) -> dict:
@@ -129,7 +129,7 @@ def content(folder: Path, **values) -> dict:
         "verdicts": page_content.tally(all_claims),
         "unplaced": claims,
         "tables": [],
-        "trajectories": [page_views.trajectory(one, motions) for one in runs],
+        "trajectories": [page_views.describe_run(one, motions) for one in runs],
         "atlas": "atlas",
         "history": {"theta": 0.0, "u": 0.0, "v": 1.5},
         "colours": COLOURS,

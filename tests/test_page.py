@@ -153,7 +153,7 @@ def tables_of_findings() -> dict[str, list[dict]]:
 
 def test_findings_follow_the_tables():
     """Titles and words with their numbers."""
-    limit, torus, faults = findings.findings([claim("figure_5a")], tables_of_findings())
+    limit, torus, faults = findings.list_findings([claim("figure_5a")], tables_of_findings())
     assert torus["title"] == "The paper's torus is a limit cycle."
     assert torus["words"] == (
         "At tau = 10 it has one zero Lyapunov exponent and the fundamental frequency f1 = 0.1. At"
@@ -177,7 +177,7 @@ def test_titles_of_findings_follow_the_tables():
     _, true_torus = tables["attractors"]
     tables |= {"attractors": [true_torus | {"scene": "torus"}, true_torus]}
     tables |= {"stability": tables["stability"][1:]}
-    assert [found["title"] for found in findings.findings([], tables)][1:] == [
+    assert [found["title"] for found in findings.list_findings([], tables)][1:] == [
         "The paper's torus is a torus.",
         "The paper's range of gamma is not accessible.",
     ]
@@ -231,7 +231,7 @@ def sent(values: str) -> np.ndarray:
 
 def test_trajectory_is_thinned_to_its_last_part():
     """Every second sample of the last 1000 units of time, with class and exponents."""
-    shown = page_views.trajectory(run(), [{**MOTION, "history": 2.0, "class": "chaos"}, MOTION])
+    shown = page_views.describe_run(run(), [{**MOTION, "history": 2.0, "class": "chaos"}, MOTION])
     assert (shown["start"], shown["every"], shown["step"]) == (500.0, 2, 0.1)
     expected = 1 + 0.5 * np.cos(500 + 0.1 * np.arange(10001))
     np.testing.assert_allclose(sent(shown["series"][0]["values"]), expected, atol=1e-6)
@@ -243,7 +243,7 @@ def test_trajectory_is_thinned_to_its_last_part():
 
 def test_short_trajectory_is_shown_whole():
     """Every sample; if the attractor was not computed, the words say so."""
-    shown = page_views.trajectory(run(count=101), [])
+    shown = page_views.describe_run(run(count=101), [])
     assert (shown["start"], shown["every"], sent(shown["series"][1]["values"]).size) == (0, 1, 101)
     assert shown["words"].endswith("γ = 0.8: its attractor was not computed")
 
@@ -252,7 +252,7 @@ def test_samples_that_follow_the_motion_keep_their_times():
     """None of the last 12 000 is left out: it may be a maximum."""
     whole = run()
     times = np.sort(np.append(whole.t, whole.t[-200:-1] + 0.01))
-    shown = page_views.trajectory(whole.interp(t=times), [])
+    shown = page_views.describe_run(whole.interp(t=times), [])
     assert (shown["start"], shown["every"]) == (times[-12_000], 1)
     np.testing.assert_allclose(sent(shown["times"]), times[-12_000:] - times[-12_000], atol=1e-4)
 
@@ -260,7 +260,7 @@ def test_samples_that_follow_the_motion_keep_their_times():
 def test_scene_that_keeps_less_is_drawn_as_far_as_it_goes():
     """Without u, v alone; without both there is nothing to draw."""
     without_u = run(count=101).drop_vars("u")
-    series = page_views.trajectory(without_u, [MOTION])["series"]
+    series = page_views.describe_run(without_u, [MOTION])["series"]
     assert [one["name"] for one in series] == ["v"]
     assert page_views.can_be_drawn(without_u)
     assert not page_views.can_be_drawn(without_u.drop_vars("v"))

@@ -73,7 +73,9 @@ def content_of_paper(given, claims: list[dict]) -> dict:
     return {
         **page_content.set_equations(TEMPLATES / "equations.yaml", claims),
         "opening": page_content.opening((PROJECT / "README.md").read_text()),
-        "findings": findings.findings(claims, {name: read_table(given[name]) for name in names}),
+        "findings": findings.list_findings(
+            claims, {name: read_table(given[name]) for name in names}
+        ),
         "main_claims": [by_id[name] for name in findings.MAIN_CLAIMS if name in by_id],
         "cited": page_provenance.citation(PROJECT / "CITATION.cff"),
     }
@@ -83,7 +85,9 @@ def trajectories(given) -> list[dict]:
     """Trajectories to zoom into."""
     attractors = read_table(given.attractors) if given.attractors else []
     runs = [read(path) for path in given.trajectories]
-    return [page_views.trajectory(run, attractors) for run in runs if page_views.can_be_drawn(run)]
+    return [
+        page_views.describe_run(run, attractors) for run in runs if page_views.can_be_drawn(run)
+    ]
 
 
 def write_files(texts: dict[str, str], assets: list[str]) -> None:
