@@ -264,18 +264,6 @@ def test_every_picture_is_shown_and_has_its_command():
         assert name in drawing
 
 
-def test_catalog_file_is_what_the_catalog_reads():
-    """The keys that the Snakemake workflow catalog knows; Snakemake itself is told nothing more."""
-    usage = read(ROOT / ".snakemake-workflow-catalog.yml")["usage"]
-    assert set(usage) == {"mandatory-flags", "software-stack-deployment"}
-    assert usage["mandatory-flags"]["flags"] == []
-    stack = usage["software-stack-deployment"]
-    uses_conda = any("conda:" in path.read_text() for path in ROOT.glob("rules/*.smk"))
-    assert stack == {
-        "conda": uses_conda, "apptainer": False, "apptainer+conda": False, "report": True
-    }  # fmt: skip
-
-
 def cffconvert(*arguments: str) -> str:
     """What it says about CITATION.cff."""
     program = ROOT / "tests" / "formats" / ".venv" / "bin" / "cffconvert"
@@ -303,23 +291,15 @@ def test_citation_is_complete():
     assert not [name for name in names if "." in name]
 
 
-@pytest.mark.parametrize(
-    "token",
-    ["fortran/src/nowhere.f90", "scripts/removed.py", "results/tables/no-such.tsv", "no_such_*.py"],
-)
-def test_missing_file_is_caught(token):
+def test_missing_files_and_targets_are_caught():
     """The checker itself."""
-    assert is_path(token)
-    assert not exists(token, "README.md")
-    assert not is_made(token)
-
-
-def test_unknown_target_is_caught():
-    """The reader of commands itself."""
+    for token in ("fortran/src/nowhere.f90", "scripts/removed.py", "results/tables/no-such.tsv"):
+        assert is_path(token)
+        assert not exists(token, "README.md")
+        assert not is_made(token)
     found = commands_in("snakemake --cores 2 no_such --configfile=x.yaml\n./reproduce figure_5 -n")
     assert found == [["no_such"], ["figure_5"]]
     assert "no_such" not in rules()
-    assert not is_made("no_such")
 
 
 def test_friction_law_quotes_its_example():
