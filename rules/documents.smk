@@ -1,5 +1,5 @@
-# Pages about the Fortran code, made by FORD from its comments. `rule all` does not list them. Their
-# tools are set up by the rule.
+# Pages about the Fortran code, made by FORD from its comments; not among all results. The packages
+# that they need are installed by this rule.
 
 
 # A warning is a failure: the comment that it is about would be missing from the pages. FORD's own
@@ -11,9 +11,16 @@ rule docs:
         directory("results/docs"),
     log:
         "results/logs/docs.log",
+    localrule: True
     threads: 2
     params:
-        digest=digest_of_files(documentation()),
+        digest=digest_of_files(
+            [
+                *files_in("dde/src", "src", "app", endings={".f90"}),
+                *("docs/ford.md", "docs/offline_pages.py"),
+                *("docs/apt-packages.txt", "docs/requirements.lock"),
+            ]
+        ),
     shell:
         "(setup/setup.sh docs"
         " && docs/.venv/bin/ford --quiet docs/ford.md"

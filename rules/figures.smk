@@ -1,31 +1,36 @@
-# The figures, a rule of its name for each entry of scripts/figures/entries.py.
+# The figures, a rule of its name for each, and their captions.
+from scripts.figures import entries as registry
 
 
-for figure in dict.fromkeys([*FIGURES, *SHOWN]):
+def tables_read(figure):
+    """Tables of the project that a figure reads beside results."""
+    return [path for path in registry.files_of(figure, config) if not path.startswith("<results>/")]
+
+
+for figure in plan.figures:
 
     rule:
         name:
             figure
         input:
-            **placed(entries.inputs_of(figure, DRAWN)),
+            **registry.inputs_of(figure, config),
         output:
             pdf=f"<results>/figures/{figure}.pdf",
             png=report(
                 f"<results>/figures/{figure}.png",
-                caption=Path.cwd() / caption_file(figure),
-                category=entries.entry_of(figure).category,
-                labels={"figure": entries.title_of(figure).rstrip(".")},
+                caption=Path.cwd() / plan.results / "figures" / f"{figure}.rst",
+                category=registry.entry_of(figure).category,
+                labels={"figure": registry.title_of(figure).rstrip(".")},
             ),
             svg=f"<results>/figures/{figure}.svg",
         log:
             f"<results>/logs/figures/{figure}.log",
-        priority: OF_PAPER if entries.entry_of(figure).category == "Figures" else 0
+        localrule: True
+        priority: PAPER if registry.entry_of(figure).category == "Figures" else 0
         params:
-            **placed(entries.params_of(figure, DRAWN)),
-            script=entries.script_of(figure),
-            code=code_of(
-                f"figures/{entries.script_of(figure)}.py", *tables_read([figure])
-            ),
+            **fill_in(registry.params_of(figure, config)),
+            script=registry.script_of(figure),
+            code=code_of(f"figures/{registry.script_of(figure)}.py", *tables_read(figure)),
         script:
             "../scripts/figures/{params.script}.py"
 
@@ -33,27 +38,29 @@ for figure in dict.fromkeys([*FIGURES, *SHOWN]):
 rule captions:
     """Captions of all figures, filled with their numbers and the verdicts."""
     input:
-        data=[
-            path
-            for figure in SHOWN
-            for path in placed(entries.files_of(figure, DRAWN))
-        ],
-        claims=[] if OWN else "<results>/tables/claims.json",
+        data=[path for figure in plan.figures for path in registry.files_of(figure, config)],
+        claims=[] if plan.is_users else "<results>/tables/claims.json",
     output:
-        [caption_file(figure) for figure in SHOWN],
+        expand("<results>/figures/{figure}.rst", figure=plan.figures),
     log:
         "<results>/logs/figures/captions.log",
+    localrule: True
     params:
-        figures=to_caption(),
+        figures=fill_in(
+            [
+                {
+                    "name": registry.name_of_caption(name),
+                    "template": registry.template_of(name),
+                    "inputs": registry.inputs_of(name, config),
+                    "params": registry.params_of(name, config),
+                }
+                for name in plan.figures
+            ]
+        ),
         code=code_of(
             "captions/write_captions.py",
-            *map(entries.template_of, SHOWN),
-            *tables_read(SHOWN),
+            *map(registry.template_of, plan.figures),
+            *(path for figure in plan.figures for path in tables_read(figure)),
         ),
     script:
         "../scripts/captions/write_captions.py"
-
-
-snakemake_internals.describe(
-    workflow, {figure: entries.title_of(figure) for figure in [*FIGURES, *SHOWN]}
-)

@@ -84,61 +84,12 @@ make_venv() {
     # what comes as source is built by the locked build tool, not by one that pip would look for
     install_locked setup/requirements.lock
     install_locked "$lock" --no-build-isolation --use-pep517
-    [[ $venv != .venv ]] || mend_snakemake
     venv_source >"$made_from"
 }
 
 install_locked() {
     "$venv/bin/python" -m pip install --quiet --no-input --no-user --disable-pip-version-check \
         "${@:2}" --require-hashes -r "$1"
-}
-
-mend_snakemake() {
-    cd .venv/lib/python3.*/site-packages
-    quote_interpreter
-    read_as_the_project
-    cd - >/dev/null
-}
-
-# In a file of Snakemake's, puts one text in place of another; end where it holds neither.
-mend() {
-    local file=$1 old=$2 new=$3 text
-    text=$(<"$file")
-    [[ $text != *"$new"* ]] || return 0
-    [[ $text == *"$old"* ]] ||
-        refuse "cannot mend $file in .venv: it does not hold ${old@Q}; see mend_snakemake in setup/setup.sh"
-    printf '%s\n' "${text/"$old"/"$new"}" >"$file"
-}
-
-# Snakemake leaves its interpreter unquoted, so that scripts, and jobs on a cluster, fail in a folder
-# whose name holds a space (snakemake issue 2645, open).
-quote_interpreter() {
-    local quoted='__import__("shlex").quote(sys.executable)'
-    local jobstep=snakemake_executor_plugin_slurm_jobstep/__init__.py
-    mend snakemake/script/__init__.py '"{py_exec} {fname:q}"' '"{py_exec:q} {fname:q}"'
-    mend snakemake_interface_executor_plugins/executors/remote.py $'(\n            sys.executable\n' \
-        $'(\n            '"$quoted"$'\n'
-    [[ ! -e $jobstep ]] || mend "$jobstep" 'return sys.executable' "return $quoted"
-}
-
-# Snakemake does not name the line at which a configuration file is broken, and ends with a traceback
-# where there is none. It is to read them as the Snakefile does, which reads them once more.
-read_as_the_project() {
-    local name='def load_configfile(configpath):'
-    local body='
-    import runpy
-    import sys
-
-    # by its path: the package `scripts` is to be imported from where the Snakefile lies
-    reader = runpy.run_path(f"{Path(sys.prefix).parent}/scripts/config/read_config.py")
-    try:
-        return reader["read"](configpath)
-    except reader["ConfigError"] as problem:
-        raise WorkflowError(str(problem)) from None
-
-
-def replaced_load_configfile(configpath):'
-    mend snakemake/common/configfile.py "$name" "$name$body"
 }
 
 # A build, too, holds the path of its folder: drop those made before a move.
@@ -153,9 +104,10 @@ drop_moved_builds() {
 
 refuse() { say "$*" && exit 1; }
 
-# CMake and Make give some characters of a path a meaning of their own; : divides paths in PATH.
+# CMake, Make and Snakemake give some characters of a path a meaning of their own, Snakemake does not
+# quote the path of its Python (its issue 2645), and : divides paths in PATH.
 case $PWD in
-    *[]['$;"\|<>:'$'\t\n']*) refuse "cannot build in ${PWD@Q}: a path without \$ ; \" \\ | < > : [ ] tabs and line breaks is expected; move the project" ;;
+    *[]['${};"\|<>: '$'\t\n']*) refuse "cannot work in ${PWD@Q}: a path without blanks, \$ ; \" \\ | < > : [ ] { } and line breaks is expected; move the project" ;;
 esac
 drop_moved_builds
 missing=$(missing_packages)

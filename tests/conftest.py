@@ -19,9 +19,10 @@ import xarray as xr
 from namelist_groups import CASES, EXPONENTS, MEASURE, OBSERVATION, POINTS, REFERENCE
 
 from scripts.config.check_config import checked
-from scripts.config.read_config import merged, read
+from scripts.config.read_config import merge, read
 from scripts.namelists.write_namelist import write_groups
-from scripts.workflow import manifest
+from scripts.results import manifest
+from scripts.workflow.plan import Plan, read_plan
 
 ROOT = Path(__file__).parent.parent
 SMOKE = ("--configfile", "config/smoke.yaml")
@@ -83,6 +84,21 @@ class Project:
                 text=True,
                 timeout=900,
             )
+
+    def reproduce(self, *arguments: str) -> subprocess.CompletedProcess[str]:
+        """Run ./reproduce with the packages at hand; all it says is in stdout."""
+        write_script(self.folder / "setup" / "setup.sh", "exit 0")
+        for tool in ("python", "snakemake"):
+            path = Path(sys.executable).parent / tool
+            write_script(self.folder / ".venv" / "bin" / tool, f"exec '{path}' \"$@\"")
+        return subprocess.run(
+            [self.folder / "reproduce", *arguments],
+            cwd=self.folder,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            timeout=900,
+        )
 
     def copy_to(self, folder: Path) -> "Project":
         """A copy with results, programs and Snakemake's records."""
@@ -227,7 +243,7 @@ def default_config() -> dict:
 @pytest.fixture(scope="session")
 def filled_config(default_config) -> dict:
     """The config with its defaults; not to be changed."""
-    return checked(copy.deepcopy(default_config))
+    return paper_plan().config
 
 
 @pytest.fixture
@@ -236,22 +252,28 @@ def config(default_config) -> dict:
     return copy.deepcopy(default_config)
 
 
+@functools.cache
+def paper_plan() -> Plan:
+    """The plan of a run without arguments; not to be changed."""
+    return read_plan({})
+
+
 @pytest.fixture(scope="session")
 def smoke_config() -> dict:
     """The config of the smoke run, with its defaults; not to be changed."""
-    return checked(merged([ROOT / "config" / name for name in ("config.yaml", "smoke.yaml")], []))
+    return read_plan(read(ROOT / "config" / "smoke.yaml")).config
 
 
 @pytest.fixture
 def project(tmp_path) -> Project:
     """A fresh copy in which nothing was built."""
-    return copy_of_project(tmp_path / "a project")
+    return copy_of_project(tmp_path / "project")
 
 
 @pytest.fixture(scope="session")
 def fresh(tmp_path_factory) -> Project:
     """A fresh copy in which nothing was built; not to be changed."""
-    return copy_of_project(tmp_path_factory.mktemp("fresh") / "a project")
+    return copy_of_project(tmp_path_factory.mktemp("fresh") / "project")
 
 
 @pytest.fixture(scope="session")
@@ -274,7 +296,7 @@ def binaries() -> Path:
 @pytest.fixture(scope="session")
 def smoke_run(binaries, shared) -> tuple[Project, str]:
     """The whole workflow in smoke size, and its log; it builds one program of all."""
-    project, log = Project(shared / "smoke" / "a project"), shared / "smoke" / "log"
+    project, log = Project(shared / "smoke" / "project"), shared / "smoke" / "log"
     with locked(shared / "smoke.lock"):
         if not log.exists():
             copy_of_project(project.folder)
@@ -297,7 +319,7 @@ def smoke(smoke_run) -> Project:
 @pytest.fixture
 def scratch(smoke, tmp_path) -> Project:
     """A copy of the smoke run to change."""
-    return smoke.copy_to(tmp_path / "a copy")
+    return smoke.copy_to(tmp_path / "copy")
 
 
 @pytest.fixture

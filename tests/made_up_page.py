@@ -30,9 +30,8 @@ def figure(folder: Path, name: str, category: str = "Figures", *data: str) -> di
     drawing = folder / "drawing.svg"
     drawing.write_text(PICTURE)
     caption = ROOT / "scripts" / "figures" / "figure_1.rst"
-    flags = {"shows_classes": False, "measured": False}
     files = {"caption": str(caption), "drawing": str(drawing), "data": list(data)}
-    return {"name": name, "category": category, **files, **flags}
+    return {"name": name, "category": category, "shows_classes": False, **files}
 
 
 def attractor(epsilon: float, tau: float, **given) -> dict:

@@ -1,23 +1,80 @@
 """Checking a configuration: defaults filled in, and each refusal in words."""
 
+import copy
+import math
 from collections.abc import Iterator
 
 import pytest
-from config_refusals import line_about, put, refusal
 from conftest import ROOT
 
+from scripts.config.check_attractors import FEWEST_SAMPLES
 from scripts.config.check_config import checked
-from scripts.config.read_config import read
-from scripts.figures.entries import ENTRIES, FIGURES, Entry, variables_used
+from scripts.config.read_config import ConfigError, read
+from scripts.namelists.study_cases import case_of, measured_study
+
+NO_NUMBERS = ["0.5", True, None, [0.5], {"a": 0.5}, math.nan, math.inf, -math.inf]
+Place = tuple[str | int, ...]
+"""Keys, and places in lists, that lead to a value."""
+ROUTE = ("routes", "lines", "chaos_in_epsilon")
+FAMILY = ("stability", "families", "growth")
+CASE = ("work_precision", "cases", "stick")
+
+
+def put(config: dict, path: Place, value) -> None:
+    """Set the value at a place of a config."""
+    for key in path[:-1]:
+        config = config[key]
+    config[path[-1]] = value
+
+
+def numbers_in(value, path: Place = ()) -> Iterator[Place]:
+    """Places of all numbers, of a list the last one."""
+    if isinstance(value, dict | list):
+        items = value.items() if isinstance(value, dict) else [*enumerate(value)][-1:]
+        for key, item in items:
+            yield from numbers_in(item, (*path, key))
+    elif isinstance(value, int | float) and not isinstance(value, bool):
+        yield path
+
+
+def sections_in(config: dict, path: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
+    """Places of all mappings."""
+    yield path
+    for key, value in config.items():
+        if isinstance(value, dict):
+            yield from sections_in(value, (*path, key))
 
 
 def places(config: dict, path: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
-    """Places of all values."""
+    """Places of all values that are no mappings."""
     for key, value in config.items():
         if isinstance(value, dict):
             yield from places(value, (*path, key))
         else:
             yield (*path, key)
+
+
+def refuse(config: dict) -> list[str]:
+    """What is wrong with a config, one line each."""
+    with pytest.raises(ConfigError) as caught:
+        checked(config)
+    title, *lines = str(caught.value).splitlines()
+    assert title == "the configuration is refused:"
+    return lines
+
+
+def place_of(path: Place) -> str:
+    """How a refusal begins."""
+    if len(path) >= 2 and path[0] == "scenes":
+        return " ".join([f"scene '{path[1]}'", *map(str, path[2:])])
+    return " ".join(["config", *map(str, path)])
+
+
+@pytest.fixture
+def whole(config) -> dict:
+    """A config in which every section with a default stands, to change."""
+    config["atlas"]["history"] = {"v": 1.1}
+    return checked(config)
 
 
 def test_default_config_is_accepted_as_it_stands(config, default_config):
@@ -31,7 +88,7 @@ def test_default_config_is_accepted_as_it_stands(config, default_config):
 def test_overlays_name_only_keys_that_there_are(config, name):
     """A misspelt key would change nothing."""
     overlay = read(ROOT / "config" / f"{name}.yaml")
-    assert set(places(overlay)) <= {*places(checked(config)), ("pathvars", "results")}
+    assert set(places(overlay)) <= set(places(checked(config)))
 
 
 def test_smoke_config_has_all_scenes(config):
@@ -40,215 +97,189 @@ def test_smoke_config_has_all_scenes(config):
 
 
 def test_missing_keys_get_their_defaults(config):
-    """The least scene: the four parameters and t_end."""
-    config["scenes"]["mine"] = {"tau": 1, "epsilon": 0.5, "xi": 1, "gamma": 1, "t_end": 10}
-    assert checked(config)["scenes"]["mine"] == {
-        "tau": 1,
-        "epsilon": 0.5,
-        "xi": 1,
-        "gamma": 1,
-        "t_end": 10,
-        "history": {"theta": 0.0, "u": 0.0, "v": 1.1},
-        "t_transient": 0.0,
-        "sample_interval": 0.05,
-        "tolerance": 1e-9,
-        "method": "auto",
-        "variables": ["theta", "u", "v"],
-    }
-
-
-def test_defaults_are_not_shared_between_scenes(config):
-    """Changing one scene's history leaves the other's."""
-    for name in ("one", "two"):
+    """The least scene has the four parameters and t_end; no other scene shares its values."""
+    for name in ("mine", "other"):
         config["scenes"][name] = {"tau": 1, "epsilon": 0.5, "xi": 1, "gamma": 1, "t_end": 10}
     scenes = checked(config)["scenes"]
-    scenes["one"]["history"]["v"] = 2.0
-    assert scenes["two"]["history"]["v"] == 1.1
+    assert scenes["mine"] == {
+        **{"tau": 1, "epsilon": 0.5, "xi": 1, "gamma": 1, "t_end": 10},
+        "history": {"theta": 0.0, "u": 0.0, "v": 1.1},
+        **{"t_transient": 0.0, "sample_interval": 0.05, "tolerance": 1e-9, "method": "auto"},
+    }
+    scenes["mine"]["history"]["v"] = 2.0
+    assert scenes["other"]["history"]["v"] == 1.1
+
+
+def test_every_number_must_be_one(whole):
+    """In place of any number text, truth, nothing, lists, NaN and infinity are refused."""
+    places = list(numbers_in(whole))
+    assert len(places) > 300
+    for value in NO_NUMBERS:
+        spoiled = copy.deepcopy(whole)
+        for path in places:
+            put(spoiled, path, value)
+        lines = refuse(spoiled)
+        for path in places:
+            start = f"{place_of(path[:-1])}: {path[-1]} = {value!r}; expected "
+            assert [line for line in lines if line.startswith(start) and "number" in line], path
 
 
 @pytest.mark.parametrize(
-    ("scene", "variables"),
+    ("path", "value", "words"),
     [
-        ("fixed_point", ["u", "v"]),
-        ("oscillation", ["u", "v"]),
-        ("torus", ["u", "v"]),
-        ("chaos", ["u", "v"]),
+        (("scenes", "torus", "tau"), -1e-300, "delay, nondimensional, a finite number >= 0"),
+        (("scenes", "torus", "epsilon"), -1.0, "a finite number > -1"),
+        (("scenes", "torus", "xi"), 0.0, "a finite number > 0"),
+        (("scenes", "torus", "gamma"), 0.0, "a finite number > 0"),
+        (("scenes", "torus", "t_end"), 10**400, "a finite number > 0"),
+        (("scenes", "torus", "tolerance"), 9.9e-14, "[1e-13, 1e-2]"),
+        (("scenes", "torus", "method"), "radau", "one of: auto, explicit"),
+        (("scenes", "torus", "variables"), ["v", "v"], "theta, u, v"),
+        (("scenes", "torus", "history", "v"), 0.0, "a finite number > 0"),
+        (("scenes", "torus", "exponents", "count"), 65, "a whole number >= 2"),
+        (("scenes", "torus", "attractors", "histories"), 1001, "a whole number >= 1"),
+        (("figures", "figure_4", "end_shown"), 0.0, "> 0"),
+        (("spectra", "segments"), 8.0, "a whole number >= 1"),
+        (("spectra", "overlap"), 1.0, "[0, 1)"),
+        (("linear_stability", "root_bound"), 0.1, "<= 0"),
+        (("hopf_curves", "tau_of_epsilon", "cells"), 2001, "a whole number >= 1"),
+        (("hopf_curves", "tau_of_epsilon", "ordinate"), "gamma", "tau, xi"),
+        (("atlas", "refinements"), 5, "a whole number >= 0 and <= 4"),
+        (("routes", "sweeps", 0), "left", "one of: up, down"),
+        ((*ROUTE, "along"), "w", "one of: tau, epsilon, xi, gamma, theta, u, v"),
+        ((*FAMILY, "tau"), [], "at least one finite number >= 0"),
+        ((*FAMILY, "epsilon", 0), -1.0, "> -1"),
+        (("work_precision", "reference", "tolerance"), 1.1e-16, "[1e-22, 1e-16]"),
+        (("work_precision", "methods", 0), "euler", "one of: explicit"),
+        (("pathvars", "results"), "results/$(touch X)", "folder of the results"),
+        (("pathvars", "results"), "../outside/", "folder of the results"),
     ],
 )
-def test_scenes_store_what_their_figures_use(config, scene, variables):
-    """Portraits need u and v, nothing needs theta."""
-    assert checked(config)["scenes"][scene]["variables"] == variables
+def test_value_out_of_range_is_refused(whole, path, value, words):
+    """The line names section, key, value and range."""
+    put(whole, path, value)
+    lines = refuse(whole)
+    start = f"{place_of(path[:-1])}: {path[-1]} = {value!r}; expected "
+    assert [line for line in lines if line.startswith(start) and words in line], lines
 
 
-def test_scene_with_a_spectrum_only_stores_v(config):
-    """A spectrum needs v alone."""
-    config["figures"]["figure_5"]["rows"].pop("b")
-    assert variables_used(config, "chaos") == {"v"}
-    assert checked(config)["scenes"]["chaos"]["variables"] == ["v"]
+@pytest.mark.parametrize(
+    ("path", "bounds", "beyond"),
+    [
+        (("hopf_curves", "tau_of_epsilon", "epsilon_window"), "> -1", [-1.0, 1.0]),
+        (("hopf_curves", "tau_of_epsilon", "ordinate_window"), ">= 0", [-0.1, 1.0]),
+        (("hopf_curves", "xi_of_epsilon", "epsilon_window"), "> 0", [-0.5, 0.0]),
+        (("attractors", "histories", "theta"), "two ascending numbers", [-1e308, 1e308]),
+        (("basins", "histories", "ln_v"), ">= -700.0 and <= 700.0", [0.0, 701.0]),
+        (("atlas", "epsilon_window"), "> -1.0", [-1.0, 0.5]),
+        (("atlas", "planes", "xi_05", "tau_window"), ">= 0.0", [-0.1, 5.0]),
+        ((*ROUTE, "window"), "> -1.0", [-1.0, 0.5]),
+    ],
+)
+def test_window_that_is_none_is_refused(whole, path, bounds, beyond):
+    """No pair, a point, descending numbers, and numbers beyond the range of what varies."""
+    for value, words in (
+        *(((value, "two ascending")) for value in ([0.5], 0.5, None, [0.5, 0.5], [0.6, 0.5])),
+        (beyond, bounds),
+    ):
+        put(whole, path, value)
+        (line,) = [line for line in refuse(whole) if f"{path[-1]} = {value}; expected" in line]
+        assert words in line
 
 
-def test_scenes_store_what_a_new_figure_draws(config, monkeypatch):
-    """Its entry names the trajectory and the variables."""
-    path = "<results>/trajectories/chaos.nc"
-    entry = Entry(category="Figures", inputs={"trajectory": path}, variables=("theta",))
-    monkeypatch.setitem(ENTRIES, "figure_9", entry)
-    assert checked(config)["scenes"]["chaos"]["variables"] == ["theta", "u", "v"]
+def test_unknown_keys_are_refused(whole):
+    """In every section of fixed keys: the line names section and key, and lists what is known."""
+    named = ["scenes", "hopf_curves", "dimensions", "claims"]
+    named += ["planes", "families", "histories", "lines", "places", "cases", "rows"]
+    sections = [path for path in sections_in(whole) if not path or path[-1] not in named]
+    sections = [path for path in sections if path[:1] != ("claims",)]
+    sections = [path for path in sections if path != ("work_precision", "scenes")]
+    for path in sections:
+        section = whole
+        for key in path:
+            section = section[key]
+        section["colour"] = 1
+    lines = refuse(whole)
+    assert len(sections) > 60
+    for path in sections:
+        start = f"{place_of(path)}: unknown key ['colour']; allowed: "
+        assert [line for line in lines if line.startswith(start)], path
 
 
-def test_figures_with_rows_are_those_of_the_schema(config):
-    """An entry with rows has its settings in the configuration."""
-    assert {name for name, entry in ENTRIES.items() if entry.rows} == set(config["figures"])
+@pytest.mark.parametrize(
+    ("key", "hint"),
+    [("taus", " (is it meant to be 'tau'?)"), ("colour", ""), (3, ""), (None, "")],
+)
+def test_unknown_key_may_be_misspelt(config, key, hint):
+    """The nearest known key is named, if there is one."""
+    config["scenes"]["torus"][key] = 1.0
+    (line,) = refuse(config)
+    assert line.startswith(f"scene 'torus': unknown key [{key!r}]; allowed: tau, epsilon, xi, ")
+    assert line.partition(" (")[2] == hint.partition(" (")[2]
 
 
-def test_figures_of_the_paper_come_first():
-    """All eight, in its order."""
-    assert FIGURES[:8] == [f"figure_{number}" for number in range(1, 9)]
+@pytest.mark.parametrize(
+    "path",
+    [
+        *(("scenes", "torus", key) for key in ("tau", "epsilon", "xi", "gamma", "t_end")),
+        *(("attractors", "histories"), ("atlas", "planes"), ("routes", "histories")),
+        *((*ROUTE, "window"), (*ROUTE, "xi"), (*FAMILY, "t_end"), (*CASE, "tau"), ("scenes",)),
+    ],
+)
+def test_missing_key_is_named_once(config, path):
+    """With its section; nothing else is said."""
+    section = config
+    for key in path[:-1]:
+        section = section[key]
+    del section[path[-1]]
+    assert refuse(config) == [f"{place_of(path[:-1])}: key ['{path[-1]}'] is missing"]
 
 
-def test_variables_of_ones_own_are_kept(config):
-    """A scene may store more than its figures use."""
-    config["scenes"]["torus"]["variables"] = ["v", "u", "theta"]
-    assert checked(config)["scenes"]["torus"]["variables"] == ["v", "u", "theta"]
+@pytest.mark.parametrize("value", [None, 5, "torus", []])
+@pytest.mark.parametrize("path", [("scenes",), ("scenes", "torus", "history"), ("figures",)])
+def test_section_that_is_no_mapping_is_refused(config, path, value):
+    """The line names it and the value."""
+    put(config, path, value)
+    assert f"{path[-1]} = {value!r}" in "\n".join(refuse(config))
 
 
-def test_number_that_no_computer_holds_is_refused(config):
-    """A whole number of 400 digits is as good as infinite."""
-    config["scenes"]["torus"]["t_end"] = 10**400
-    assert "t_end = " in refusal(config)
-
-
-@pytest.mark.parametrize("t_transient", [8000.0, 8000.1])
-def test_transient_as_long_as_the_run_is_refused(config, t_transient):
-    """The range names t_end."""
-    config["scenes"]["torus"]["t_transient"] = t_transient
-    line = line_about(refusal(config), "t_transient")
-    assert line.startswith(f"scene 'torus': t_transient = {t_transient!r}; expected ")
-    assert "< t_end = 8000.0" in line
-
-
-def test_samples_farther_apart_than_the_run_is_long_are_refused(config):
-    """The range names t_end; one sample at each end is allowed."""
-    config["scenes"]["torus"]["sample_interval"] = 8000.5
-    line = line_about(refusal(config), "sample_interval")
-    assert line.startswith("scene 'torus': sample_interval = 8000.5; expected ")
-    assert "<= t_end = 8000.0" in line
-    config["scenes"]["torus"]["sample_interval"] = 8000.0
-    checked(config)
-
-
-def test_variables_that_figures_lack_are_refused(config):
-    """Figure 5 draws u."""
-    config["scenes"]["torus"]["variables"] = ["theta", "v"]
-    line = line_about(refusal(config), "variables")
-    assert line == "scene 'torus': variables = ['theta', 'v']; its figures also use ['u']"
+@pytest.mark.parametrize(
+    "path",
+    [
+        *(("scenes",), ("atlas", "planes"), ("routes", "lines"), ("routes", "histories")),
+        *(("basins", "places"), CASE[:2], ("hopf_curves",), ("cycles", "lines")),
+    ],
+)
+def test_name_that_makes_no_file_name_is_refused(config, path):
+    """Snakemake takes a name that ends with 20 equal parts for an endless recursion."""
+    section = config
+    for key in path:
+        section = section[key]
+    good = ["a" * 19, "torus" + "_1" * 19, "a" * 40 + "b"]
+    bad = ["Torus", "1st", "a b", "a/b", "", "torus\n", "a" * 65, "a" * 64, "torus" + "_1" * 20]
+    first = next(iter(section.values()))
+    section |= {name: copy.deepcopy(first) for name in good}
+    checked(copy.deepcopy(config))
+    for name in (*bad, 5, True, 1.5):
+        spoiled = copy.deepcopy(config)
+        put(spoiled, (*path, name), copy.deepcopy(first))
+        assert f"{place_of(path)}: name {name!r}; expected " in "\n".join(refuse(spoiled))
 
 
 @pytest.mark.parametrize("value", ["1e-9", "1.5", "-3"])
 def test_number_in_quotes_is_explained(config, value):
     """What the hint says to write is a number."""
     config["scenes"]["torus"]["tolerance"] = value
-    line = line_about(refusal(config), "tolerance")
-    assert f"tolerance = {value!r}; expected relative and absolute tolerance" in line
+    (line,) = refuse(config)
     assert line.endswith(f" (this is text; write {value} without quotes for the number)")
 
 
-@pytest.mark.parametrize("value", ["inf", "nan", ".inf", "1:30", "1,5", "a: b", "[1", "yes", ""])
+@pytest.mark.parametrize("value", ["inf", ".inf", "1:30", "1,5", "a: b", "[1", "yes", ""])
 def test_text_that_is_no_finite_number_gets_no_hint(config, value):
     """What the hint would say to write would be refused again."""
     config["scenes"]["torus"]["tolerance"] = value
-    line = line_about(refusal(config), "tolerance")
-    assert f"tolerance = {value!r}; expected relative and absolute tolerance" in line
+    (line,) = refuse(config)
     assert "without quotes" not in line
-
-
-@pytest.mark.parametrize("key", ["taus", "Tau", 3, None])
-def test_unknown_key_of_a_scene_is_refused(config, key):
-    """The line names scene and key, and lists what is known."""
-    config["scenes"]["torus"][key] = 1.0
-    words = refusal(config)
-    assert f"scene 'torus': unknown key [{key!r}]; allowed: tau, epsilon, xi, gamma, " in words
-
-
-@pytest.mark.parametrize(
-    ("key", "near"),
-    [("taus", "tau"), ("epsilom", "epsilon"), ("sample_intervall", "sample_interval")],
-)
-def test_nearest_key_is_named(config, key, near):
-    """Most unknown keys are misspelt."""
-    config["scenes"]["torus"][key] = 1.0
-    assert f" (is it meant to be '{near}'?)" in refusal(config)
-
-
-def test_no_key_is_named_where_none_is_near(config):
-    """Rather than one that is not meant."""
-    config["scenes"]["torus"]["colour"] = 1.0
-    assert "meant" not in refusal(config)
-
-
-def test_missing_keys_are_named_once(config):
-    """Two missing keys make no four lines."""
-    del config["scenes"]["torus"]["tau"], config["scenes"]["torus"]["xi"]
-    lines = refusal(config).splitlines()[1:]
-    assert len(lines) == len(set(lines))
-    assert all(any(f"'{key}'" in line for line in lines) for key in ("tau", "xi"))
-
-
-@pytest.mark.parametrize("value", [None, 5, "torus", []])
-@pytest.mark.parametrize(
-    "path", [("scenes",), ("scenes", "torus"), ("scenes", "torus", "history"), ("figures",)]
-)
-def test_section_that_is_no_mapping_is_refused(config, path, value):
-    """The line names it and the value."""
-    put(config, path, value)
-    assert f"{path[-1]} = {value!r}" in refusal(config)
-
-
-@pytest.mark.parametrize(
-    "name",
-    [
-        *("Torus", "1st", "a b", "a-b", "a/b", "", "torus\n", "a" * 65),
-        # Snakemake takes them for an endless recursion
-        *("a" * 64, "torus" + "_1" * 20),
-    ],
-)
-def test_scene_name_that_makes_no_file_name_is_refused(config, name):
-    """The line names the scene and says what a name may hold."""
-    config["scenes"][name] = dict(config["scenes"]["torus"])
-    assert f"config scenes: name {name!r}; expected small letters" in refusal(config)
-
-
-@pytest.mark.parametrize("name", ["a" * 19, "torus" + "_1" * 19, "a" * 40 + "b"])
-def test_scene_name_of_equal_parts_is_accepted(config, name):
-    """Up to 19 of them at the end."""
-    config["scenes"][name] = dict(config["scenes"]["torus"])
-    assert name in checked(config)["scenes"]
-
-
-@pytest.mark.parametrize(
-    "folder",
-    [
-        *("results/$(touch X)", ".", "../outside", "/abs", ".git", "scripts", "build"),
-        *("results/a b", "results/logs", "results/mine", "results/", "results\n", "", "<build>"),
-    ],
-)
-def test_other_folder_of_results_is_refused(config, folder):
-    """The folder is named after the file, or the paper's results are replaced."""
-    config["pathvars"] = {"results": folder}
-    assert f"config pathvars: results = {folder!r}; expected results (" in refusal(config)
-
-
-@pytest.mark.parametrize("name", ["build", "resources", "logs", "benchmarks"])
-def test_other_folder_is_refused(config, name):
-    """Of the programs, or one that Snakemake knows."""
-    config["pathvars"] = {"results": "results", name: "elsewhere"}
-    assert f"config pathvars: unknown key ['{name}']; allowed: results" in refusal(config)
-
-
-@pytest.mark.parametrize("name", [5, True, 1.5])
-def test_scene_name_that_is_no_text_is_refused(config, name):
-    """YAML reads `5:` and `yes:` as other things than text."""
-    config["scenes"][name] = dict(config["scenes"]["torus"])
-    assert f"config scenes: name {name!r}; expected " in refusal(config)
 
 
 def test_all_problems_are_listed_at_once(config):
@@ -257,21 +288,169 @@ def test_all_problems_are_listed_at_once(config):
     config["scenes"]["chaos"]["xi"] = "much"
     config["spectra"]["segments"] = 0
     config["threads"] = 4
-    words = refusal(config).splitlines()
-    assert words[0] == "the configuration is refused:"
-    assert len(words) == 5
+    lines = refuse(config)
     for part in ("tau = -1.0", "xi = 'much'", "segments = 0", "unknown key ['threads']"):
-        assert sum(part in line for line in words) == 1
+        assert sum(part in line for line in lines) == 1
+    assert len(lines) == 4
 
 
-def test_contradictions_are_listed_at_once(config):
-    """The same for what involves more than one key."""
-    config["scenes"]["torus"]["t_transient"] = 9000.0
-    config["scenes"]["chaos"]["sample_interval"] = 1e6
-    assert len(refusal(config).splitlines()) == 3
+@pytest.mark.parametrize(
+    ("path", "value", "line"),
+    [
+        (
+            ("scenes", "torus", "t_transient"),
+            8000.0,
+            "scene 'torus': t_transient = 8000.0; expected a finite number >= 0 and < t_end = 8000.0",
+        ),
+        (
+            ("scenes", "torus", "sample_interval"),
+            8000.5,
+            "scene 'torus': sample_interval = 8000.5; expected a finite number > 0 and"
+            " <= t_end = 8000.0",
+        ),
+        (
+            ("scenes", "torus", "exponents", "t_end"),
+            2000.0,
+            "scene 'torus' exponents: t_end = 2000.0; expected a finite number >"
+            " t_transient = 2000.0 and > tau = 10.0",
+        ),
+        (
+            ("scenes", "fixed_point", "exponents"),
+            {"count": 4},
+            "scene 'fixed_point' exponents: count = 4; expected a whole number >= 2 and <= 3"
+            " without delay",
+        ),
+        (
+            ("figures", "figure_6", "rows", "a", "scene"),
+            "nowhere",
+            "config figures figure_6 rows a: scene = 'nowhere'; expected one of: fixed_point, ",
+        ),
+        (
+            ("hopf_curves", "tau_of_epsilon", "fixed"),
+            0.0,
+            "config hopf_curves tau_of_epsilon: fixed (xi) = 0.0; expected a finite number > 0",
+        ),
+        (
+            ("routes", "histories", "up"),
+            {},
+            "config routes histories: name 'up'; expected another, this is the name of a sweep",
+        ),
+        (
+            (*ROUTE, "epsilon"),
+            0.5,
+            "config routes lines chaos_in_epsilon: epsilon = 0.5; expected no value, it is along"
+            " epsilon",
+        ),
+        (
+            ("cycles", "lines", "torus_in_tau", "starts"),
+            [17.0],
+            "config cycles lines torus_in_tau: starts = 17.0; expected a number in [0.05, 16.0]",
+        ),
+        (
+            ("atlas", "parts"),
+            26,
+            "config atlas: parts = 26; expected a whole number >= 1 and <= tau_count = 25",
+        ),
+        (
+            ("atlas", "epsilon_count"),
+            1,
+            "config atlas: refinements = 2; expected 0 for one line, epsilon_count = 1,"
+            " tau_count = 25",
+        ),
+        (("routes", "observation", "kept"), 0, "config routes observation: kept = 0; expected a "),
+        (
+            ("work_precision", "scenes", "mine"),
+            {"t_end": 1.0},
+            "config work_precision scenes: 'mine'; expected one of: fixed_point, ",
+        ),
+        (
+            ("work_precision", "cases", "chaos"),
+            {"tau": 1.0, "epsilon": 0.7, "xi": 0.5, "gamma": 1.0, "t_end": 10.0},
+            "config work_precision cases: 'chaos'; expected a name that no scene has",
+        ),
+        (
+            ("stability", "reference"),
+            {"tolerance": 1e-17, "check_tolerance": 1e-17},
+            "config stability reference: check_tolerance = 1e-17; expected a finite number >"
+            " tolerance = 1e-17",
+        ),
+        (
+            (*FAMILY, "tau"),
+            [float(i) for i in range(501)],
+            "config stability families growth: 1002 combinations; expected at most 1000",
+        ),
+        (
+            ("stability", "families", "abcdefghij" * 6),
+            {"tau": [1.0], "epsilon": [0.5], "xi": [1.0], "gamma": [1.0, 1e4], "t_end": 1.0},
+            f"config stability families {'abcdefghij' * 6}: case '{'abcdefghij' * 6}"
+            " gamma=10000' of 72 letters; expected at most 64",
+        ),
+        (
+            (*FAMILY, "reference"),
+            "stationary",
+            "config stability families growth: t_end = 400.0; expected a finite number >= 10000.0",
+        ),
+    ],
+)
+def test_values_that_contradict_others_are_refused(config, path, value, line):
+    """The line names the range that the other value leaves."""
+    put(config, path, value)
+    lines = refuse(config)
+    assert [each for each in lines if each.startswith(line)], lines
 
 
-@pytest.mark.parametrize("nothing", [None, [], "text", 5])
-def test_config_that_is_no_mapping_is_refused(nothing):
-    """An empty file, a list, a word."""
-    assert repr(nothing) in refusal(nothing)
+def test_part_of_too_many_points_is_refused(config):
+    """One run of the program takes a million of them."""
+    config["atlas"] |= {"epsilon_count": 100000, "tau_count": 80, "parts": 7, "refinements": 0}
+    assert "config atlas: parts = 7 of 1200000 points; expected at most 1000000 in each" in refuse(
+        config
+    )
+
+
+def test_endless_combinations_are_counted_not_made(config):
+    """A family of 10^18 cases is refused at once."""
+    for key in ("tau", "xi", "gamma", "theta", "u", "v"):
+        put(config, (*FAMILY, key), [float(i) for i in range(1, 1001)])
+    put(config, (*FAMILY, "epsilon"), [0.5])
+    assert f"{10**18} combinations; expected at most 1000" in refuse(config)[0]
+
+
+@pytest.mark.parametrize("along", ["tau", "epsilon", "xi", "gamma", "v"])
+def test_route_along_any_parameter_and_the_history(config, along):
+    """It has the values of the other parameters."""
+    values = {"tau": 7.0, "epsilon": 0.5, "xi": 0.5, "gamma": 0.8}
+    values.pop(along, None)
+    line = {"along": along, "window": [0.1, 0.2], "count": 3, **values}
+    config["routes"]["lines"]["mine"] = line
+    checked(copy.deepcopy(config))
+    missing = list(values)[-1]
+    del line[missing]
+    assert refuse(config) == [f"config routes lines mine: key ['{missing}'] is missing"]
+
+
+@pytest.mark.parametrize("section", ["attractors", "atlas", "routes", "basins"])
+def test_samples_of_an_observation_suffice_for_a_spectrum(config, section):
+    """Eight segments that overlap by half are as long as four and a half."""
+    given = {"kept": 10, "t_observed": 100.0, "sample_interval": 100.0 / (4.5 * FEWEST_SAMPLES)}
+    config[section]["observation"] = given
+    checked(copy.deepcopy(config))
+    for interval, words in (
+        (100.0 / (4.5 * FEWEST_SAMPLES - 2), f"at least {FEWEST_SAMPLES} samples"),
+        (1e-7, "at most 100000000 samples"),
+        (1e-310, "at most 100000000 samples"),
+        (100.1, "<= t_observed = 100.0"),
+    ):
+        given["sample_interval"] = interval
+        (line,) = refuse(copy.deepcopy(config))
+        assert line.startswith(f"config {section} observation: sample_interval = {interval}; ")
+        assert words in line
+
+
+def test_scenes_of_the_paper_are_measured_as_they_are(config):
+    """With the parameters and the history of the scene, whatever these are."""
+    config["scenes"]["torus"] |= {"epsilon": 0.4, "history": {"v": 1.3}}
+    cases = measured_study(checked(config))["cases"]
+    assert list(cases) == ["fixed_point", "oscillation", "torus", "chaos", "stick", "stiff"]
+    measured = case_of("torus", cases["torus"])
+    assert (measured["tau"], measured["epsilon"], measured["v"]) == (10.0, 0.4, 1.3)
+    assert measured["t_end"] == 1000.0

@@ -349,9 +349,7 @@ def test_page_of_a_users_file(tmp_path):
         figure(tmp_path, "scenes/small", "Scenes"),
     ]
     history = {"theta": 0.0, "u": 0.0, "v": 1.1}
-    params = SimpleNamespace(
-        is_users=True, figures=figures, history=history, commit="unknown", packages={}
-    )
+    params = SimpleNamespace(is_users=True, figures=figures, history=history, commit="unknown")
     shown = write_page.content(given, params, results)
     assert [(key, [one["name"] for one in some]) for key, some in shown["sections"].items()] == [
         ("Hopf curves", ["planes/a"]),

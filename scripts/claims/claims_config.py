@@ -4,7 +4,7 @@ from pathlib import Path
 
 from scripts.config.check_config import in_words, validator_of
 from scripts.config.read_config import ConfigError, read
-from scripts.workflow.result_files import cycles_of_lines, exponents_of_scenes, runs_of_basins
+from scripts.results.paths import cycles_of_lines, exponents_of_scenes, runs_of_basins
 
 FOLDER = Path(__file__).parents[2] / "config"
 CLAIMS = FOLDER / "claims.yaml"

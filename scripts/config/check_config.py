@@ -2,7 +2,6 @@
 
 import copy
 import math
-from collections.abc import Collection
 from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
@@ -11,8 +10,7 @@ import jsonschema
 
 from scripts.config import check_attractors
 from scripts.config.ranges import SCHEMA, range_of, rules_of
-from scripts.config.read_config import ConfigError, parsed
-from scripts.figures.entries import OWN_VARIABLES, variables_used
+from scripts.config.read_config import ConfigError, parse
 from scripts.namelists.study_cases import cases_of_family, number_of_cases
 
 EQUATIONS = 3
@@ -25,18 +23,14 @@ LONG = 1e4
 """Time after which a decaying case counts as stationary."""
 
 
-def checked(config: dict, own: Collection[str] = ()) -> dict:
-    """Return `config` with its defaults; raise ConfigError naming place, key, value and range.
-
-    The user's scenes are judged and drawn each in a figure.
-    """
+def checked(config: dict) -> dict:
+    """Return `config` with its defaults; raise ConfigError naming place, key, value and range."""
     problems = list(_names_that_are_no_text(config))
     if not problems:
         problems = [in_words(error) for error in validator_of(SCHEMA).iter_errors(config)]
     if not problems:
-        _fill_in_variables(config, own)
         _fill_in_ends_of_exponents(config)
-        problems = list(_contradictions(config, own))
+        problems = list(_contradictions(config))
     if problems:
         raise ConfigError("\n".join(["the configuration is refused:", *sorted(set(problems))]))
     return config
@@ -133,7 +127,7 @@ def _value_in_words(path: list[str], value, expected: str) -> str:
 def _is_number(text: str) -> bool:
     """Whether a text would be a finite number without quotes."""
     try:
-        return _is_finite_number(parsed(text))
+        return _is_finite_number(parse(text))
     except ConfigError:
         return False
 
@@ -145,15 +139,6 @@ def _place(path: list[str]) -> str:
     return " ".join(["config", *path])
 
 
-def _fill_in_variables(config: dict, own: Collection[str]) -> None:
-    """Scenes store what their figures use; everything where they are in none or the user's."""
-    order = ["theta", "u", "v"]
-    for name, scene in config["scenes"].items():
-        used = variables_used(config, name)
-        used = set(order) if name in own or not used else used
-        scene.setdefault("variables", [variable for variable in order if variable in used])
-
-
 def _fill_in_ends_of_exponents(config: dict) -> None:
     """Exponents are measured up to the end of their scene where nothing else is given."""
     for scene in config["scenes"].values():
@@ -162,7 +147,7 @@ def _fill_in_ends_of_exponents(config: dict) -> None:
             scene["exponents"].setdefault("t_end", scene["t_end"])
 
 
-def _contradictions(config: dict, own: Collection[str]):
+def _contradictions(config: dict):
     """Problems that involve more than one key."""
     for name, scene in config["scenes"].items():
         place = f"scene '{name}'"
@@ -177,12 +162,6 @@ def _contradictions(config: dict, own: Collection[str]):
                 f" > 0 and <= t_end = {scene['t_end']}"
             )
         yield from _contradictions_of_exponents(place, scene)
-        used = variables_used(config, name) | set(OWN_VARIABLES if name in own else ())
-        lacking = used - set(scene["variables"])
-        if lacking:
-            yield (
-                f"{place}: variables = {scene['variables']}; its figures also use {sorted(lacking)}"
-            )
     for figure, settings in config["figures"].items():
         for row, shown in settings["rows"].items():
             if shown["scene"] not in config["scenes"]:

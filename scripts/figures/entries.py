@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from scripts.workflow.result_files import (
+from scripts.results.paths import (
     curves_of_atlas,
     cycles_in_atlas,
     cycles_of_lines,

@@ -1,17 +1,25 @@
-"""What each result is computed from: the values of its namelists, by the configuration."""
-
-from pathlib import PurePath
+"""What each result is computed from: the groups of its namelist, by the configuration."""
 
 from scripts.namelists import attractor_surveys, study_cases
-
-PARAMETERS = study_cases.PARAMETERS
+from scripts.namelists.study_cases import PARAMETERS
 
 
 def scene_values(config: dict, scene: str) -> dict:
     """The namelist group of a scene."""
     settings = config["scenes"][scene]
-    own = {key: value for key, value in settings.items() if key not in ("exponents", "attractors")}
-    return {"name": scene, **own}
+    values = {k: v for k, v in settings.items() if k not in ("exponents", "attractors")}
+    return {"name": scene, **values}
+
+
+def scene_groups(config: dict, scene: str) -> dict:
+    """A scene, for its trajectory and its slip events."""
+    return {"scene": scene_values(config, scene)}
+
+
+def spectrum_groups(config: dict, scene: str) -> dict:
+    """The trajectory of a scene, and how its spectrum is estimated."""
+    trajectory = f"<results>/trajectories/{scene}.nc"
+    return {"spectrum": {"trajectory": trajectory, **config["spectra"]}}
 
 
 def exponents_groups(config: dict, scene: str) -> dict:
@@ -19,90 +27,72 @@ def exponents_groups(config: dict, scene: str) -> dict:
     settings, shared = config["scenes"][scene], dict(config["exponents"])
     default = {"count": shared.pop("count"), "t_end": settings["t_end"]}
     exponents = {**default, **settings.get("exponents", {}), **shared}
-    return {"runs": {"scene": scene_values(config, scene), "exponents": exponents}}
+    return {"scene": scene_values(config, scene), "exponents": exponents}
+
+
+def scene_survey_groups(config: dict, scene: str) -> dict:
+    """How attractors of a scene are looked for."""
+    return attractor_surveys.scene_groups(config, scene)
 
 
 def survey_groups(config: dict, survey: str, part: str) -> dict:
     """How attractors of a part of a survey are looked for."""
     kind, _, name = survey.partition("/")
-    if kind == "scenes":
-        groups = attractor_surveys.scene_groups(config, part)
-    elif kind == "basins":
-        groups = attractor_surveys.basin_groups(config, part)
-    elif kind == "routes":
-        groups = attractor_surveys.route_groups(config, name, part)
-    else:
-        groups = attractor_surveys.atlas_groups(config, name, int(part))
-    return {"runs": groups}
+    if kind == "basins":
+        return attractor_surveys.basin_groups(config, part)
+    if kind == "routes":
+        return attractor_surveys.route_groups(config, name, part)
+    return attractor_surveys.atlas_groups(config, name, int(part))
 
 
-def linear_stability_values(config: dict, scene: str) -> dict:
-    """The parameters of a scene, and what is asked of its linear stability."""
+def linear_stability_groups(config: dict, scene: str) -> dict:
+    """The parameters of a scene, and how its linear stability is examined."""
     settings = config["scenes"][scene]
-    return {**{key: settings[key] for key in PARAMETERS}, **config["linear_stability"]}
+    values = {**{key: settings[key] for key in PARAMETERS}, **config["linear_stability"]}
+    return {"linear_stability": values}
 
 
-def plane_values(config: dict, plane: str) -> dict:
-    """The namelist group of a plane."""
-    return config["hopf_curves"][plane]
+def plane_groups(config: dict, plane: str) -> dict:
+    """A plane of Hopf curves."""
+    return {"hopf_curves": config["hopf_curves"][plane]}
 
 
-def cycles_values(config: dict, line: str) -> dict:
+def velocity_step_groups(config: dict) -> dict:
+    """A velocity step."""
+    return {"velocity_step": config["velocity_step"]}
+
+
+def cycles_groups(config: dict, cycle_line: str) -> dict:
     """The line on which cycles are followed, and how."""
     cycles = config["cycles"]
+    line = cycles["lines"][cycle_line]
     how = {key: value for key, value in cycles.items() if key not in ("lines", "curves")}
     # curves are in planes of epsilon and tau
-    if cycles["lines"][line]["along"] in ("epsilon", "tau"):
+    if line["along"] in ("epsilon", "tau"):
         how |= cycles.get("curves", {})
     # a namelist has no empty lists
-    own = {key: value for key, value in cycles["lines"][line].items() if value != []}
-    return {**how, **own}
+    return {"cycles": {**how, **{key: value for key, value in line.items() if value != []}}}
 
 
-def family_groups(config: dict, family: str) -> dict:
-    """Namelists of a family of cases."""
-    return study_cases.stability_groups(config["stability"], family)
+def measurement_groups(config: dict, study: str, case: str) -> dict:
+    """Measured runs of a family of cases, or of a case whose horizon of trust is sought."""
+    return _study_groups(config, study, case)["measurement"]
 
 
-def trust_groups(config: dict, scene: str) -> dict:
-    """Namelists of a scene whose horizon of trust is sought."""
-    return study_cases.trust_groups(study_cases.measured_study(config), scene)
+def reference_groups(config: dict, study: str, case: str) -> dict:
+    """The same cases in quadruple precision."""
+    return _study_groups(config, study, case)["reference"]
 
 
-def study_groups(config: dict, study: str, name: str) -> dict:
-    """Namelists of a study, of one of these two kinds."""
-    return (family_groups if study == "stability" else trust_groups)(config, name)
+def _study_groups(config: dict, study: str, case: str) -> dict:
+    """Namelists of a study, of one of two kinds."""
+    if study == "stability":
+        return study_cases.stability_groups(config["stability"], case)
+    return study_cases.trust_groups(study_cases.measured_study(config), case)
 
 
-def values_of(config: dict, path: str) -> dict:
-    """All that a NetCDF file is computed from, by its path in the folder of results.
-
-    What does not stand in the configuration is a KeyError.
-    """
-    kind, *folders, name = PurePath(path).with_suffix("").parts
-    match kind:
-        case "trajectories" | "slip_events":
-            return scene_values(config, name)
-        case "spectra":
-            return {"scene": scene_values(config, name), "spectrum": config["spectra"]}
-        case "exponents":
-            return exponents_groups(config, name)
-        case "linear_stability":
-            return linear_stability_values(config, name)
-        case "hopf":
-            return plane_values(config, name)
-        case "cycles":
-            return cycles_values(config, name)
-        case "attractors":
-            return survey_groups(config, "/".join(folders), name)
-        case "measurements" | "references" if folders != ["work_precision"]:
-            return study_groups(config, folders[0], name)
-    raise KeyError(kind)
-
-
-def are_the_same(path: str, one: dict, other: dict) -> bool:
-    """Whether a file is computed from the same values by two configurations."""
-    try:
-        return values_of(one, path) == values_of(other, path)
-    except KeyError:
-        return False
+def work_precision_groups(config: dict, case: str) -> dict:
+    """Measured runs of a case in full length."""
+    study = study_cases.measured_study(config)
+    groups = study_cases.work_precision_groups(study, case, study["cases"][case]["t_end"])
+    return groups["measurement"]

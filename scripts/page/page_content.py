@@ -8,6 +8,7 @@ from pathlib import Path
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, VERDICTS
 from scripts.config.read_config import read as read_yaml
 from scripts.page import captions, mathematics
+from scripts.results.manifest import is_measured
 
 FIRST = [NOT_REPRODUCED, CORRECTED]
 """Verdicts of claims that stand first in their group."""
@@ -40,7 +41,7 @@ def describe_figures(figures: list[dict], claims: list[dict], folder: Path) -> l
     """Figures with captions, sizes and the claims beside them; links begin in the folder.
 
     A figure is given by its `name`, `category`, `caption`, `drawing` and `data` (files), and by
-    `shows_classes` and `measured` (flags).
+    `shows_classes`.
     """
     return [
         {
@@ -65,6 +66,7 @@ def describe_figure(figure: dict, folder: Path) -> dict:
         "data": [os.path.relpath(path, folder) for path in figure["data"]],
         "size": size,
         "fits": size[0] <= PHONE,
+        "measured": is_measured(f"figures/{figure['name']}"),
     }
 
 

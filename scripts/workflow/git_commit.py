@@ -1,4 +1,4 @@
-"""Which commit of the project is at work."""
+"""The commit of the project."""
 
 import subprocess
 from pathlib import Path
@@ -11,16 +11,16 @@ def commit_of(folder: Path) -> str:
 
     A repository that merely lies around the folder is not the project's.
     """
-    top = said_by_git(folder, "rev-parse", "--show-toplevel")
-    commit = said_by_git(folder, "rev-parse", "--verify", "--quiet", "HEAD")
+    top = run_git(folder, "rev-parse", "--show-toplevel")
+    commit = run_git(folder, "rev-parse", "--verify", "--quiet", "HEAD")
     if not commit or not top or not Path(top).samefile(folder):
         return UNKNOWN
-    changed = said_by_git(folder, "status", "--porcelain")
+    changed = run_git(folder, "status", "--porcelain")
     return f"{commit} with changes" if changed else commit
 
 
-def said_by_git(folder: Path, *arguments: str) -> str:
-    """What git answers; nothing where it cannot."""
+def run_git(folder: Path, *arguments: str) -> str:
+    """Output of a git command; empty if it fails."""
     command = ["git", "-C", str(folder), *arguments]
     try:
         return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()

@@ -1,0 +1,80 @@
+# Programs, each built when a result needs it, and their runs: scripts/results/programs.py lists them.
+
+
+rule build:
+    """A Fortran program, built from its sources."""
+
+    # by time too: a program built by CMake alone has no record of its digest
+    input:
+        lambda wildcards: sources_of(wildcards.program),
+    output:
+        "build/release/bin/{program}",
+    log:
+        "<results>/logs/build/{program}.log",
+    localrule: True
+    priority: BUILD
+    threads: 2
+    params:
+        digest=lambda wildcards: digest_of(wildcards.program),
+    # two builds must not write one build folder at the same time
+    shell:
+        "(flock 9"
+        " && cmake --preset release -S fortran"
+        " && cmake --build build/release --parallel {threads} --target {wildcards.program}_program)"
+        " > {log:q} 2>&1 9> build/lock || {{ cat {log:q} >&2; exit 1; }}"
+
+
+def groups_of(run):
+    """Groups of a run's namelist, by the wildcards."""
+
+    def find_groups(wildcards):
+        return fill_in(run.groups(config, **wildcards))
+
+    return find_groups
+
+
+for run in RUNS:
+    if not run.namelist:
+
+        rule:
+            name:
+                f"{run.rule}_namelist"
+            input:
+                horizons=f"<results>/{run.horizons}" if run.horizons else [],
+            output:
+                f"<results>/{run.namelist_path}",
+            log:
+                f"<results>/logs/namelists/{run.stem}.log",
+            localrule: True
+            priority: run.priority
+            params:
+                groups=groups_of(run),
+                code=code_of("namelists/write_namelist.py"),
+            script:
+                "../scripts/namelists/write_namelist.py"
+
+    rule:
+        name:
+            run.rule
+        input:
+            program=f"build/release/bin/{run.program}",
+            namelist=f"<results>/{run.namelist_path}",
+            **{name: f"<results>/{path}" for name, path in run.needs.items()},
+        output:
+            f"<results>/{run.output}",
+        log:
+            f"<results>/logs/{run.stem}.log",
+        benchmark:
+            f"<results>/benchmarks/{run.stem}.tsv"
+        localrule: not run.takes_minutes
+        priority: run.priority
+        params:
+            groups=groups_of(run),
+            sources=digest_of(run.program),
+        shell:
+            "OMP_NUM_THREADS={threads} {input.program} {input.namelist:q} {output:q}"
+            " 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"
+
+
+ruleorder: scene_attractors > attractors_runs
+ruleorder: work_precision_runs > measurement

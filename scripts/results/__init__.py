@@ -1,0 +1,1 @@
+"""Paths of results, the programs that make them, and their digests."""

@@ -1,0 +1,222 @@
+"""What a run is for: the paper, or what a user's file adds; read from the configuration."""
+
+import copy
+import json
+import re
+from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
+
+from scripts.claims import claims_config
+from scripts.config.check_config import checked
+from scripts.config.read_config import ConfigError, merge, read
+from scripts.figures import entries
+from scripts.results import paths
+from scripts.results.programs import KINDS
+
+CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"
+RESULTS = "results"
+"""The folder of the paper's results; each user's file has a folder of its own in it."""
+NAME = re.compile(r"(?!.*?(.+?)\1{19}\Z)[A-Za-z0-9_-]{1,100}")
+"""Names of users' files. Snakemake takes a word that ends with 20 equal parts for an endless
+recursion."""
+SECTIONS = {
+    "scenes": ("scenes",),
+    "atlas": ("atlas", "planes"),
+    "planes": ("hopf_curves",),
+    "routes": ("routes", "lines"),
+    "cycles": ("cycles", "lines"),
+    "basins": ("basins", "places"),
+    "families": ("stability", "families"),
+    "dimensions": ("dimensions",),
+    "measured_scenes": ("work_precision", "scenes"),
+    "measured_cases": ("work_precision", "cases"),
+}
+"""Where the configuration has entries with names that a user chooses; the atlas before the planes of
+Hopf curves that it draws."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A run: its configuration, and what it makes."""
+
+    config: dict
+    """The configuration; that of a user's file has the user's entries and those they name."""
+    results: str
+    """The folder of the results."""
+    is_users: bool
+    """Whether the run is for a user's file."""
+    names: dict[str, list[str]]
+    """Names of the entries of a user's file, by section."""
+    figures: list[str]
+    """Figures, in the order of the page."""
+    claims: dict[str, dict]
+    """Claims by name."""
+
+    def targets(self) -> list[str]:
+        """All results but what figures and tables need on the way."""
+        kinds = ("pdf", "png", "svg")
+        drawn = [f"<results>/figures/{name}.{kind}" for name in self.figures for kind in kinds]
+        return [*drawn, *self._data_of_figures(), *self.tables(), "<results>/index.html"]
+
+    def summary(self) -> str:
+        """How many claims have each verdict, and the page to open, if they are there."""
+        ledger = Path(self.results, "tables", "claims.json")
+        page = Path(self.results, "index.html")
+        lines = []
+        if ledger.exists():
+            claims = json.loads(ledger.read_text())
+            counts = Counter(claim["verdict"] for claim in claims).most_common()
+            words = ", ".join(f"{number} {verdict}" for verdict, number in counts)
+            lines.append(f"{len(claims)} claims: {words}; see {ledger.with_suffix('.tsv')}")
+        lines += [f"open {page}"] * page.exists()
+        return "\n".join(lines)
+
+    def trajectories(self) -> list[str]:
+        """Trajectories that figures draw: the page lets a reader zoom into them."""
+        kept = "<results>/trajectories/"
+        return [path for path in self._data_of_figures() if path.startswith(kept)]
+
+    def _data_of_figures(self) -> list[str]:
+        """Results that figures read, each once."""
+        read = [path for name in self.figures for path in entries.files_of(name, self.config)]
+        return [path for path in dict.fromkeys(read) if path.startswith("<results>/")]
+
+    def tables(self) -> list[str]:
+        """Tables of what is in the configuration, by their paths in the folder of results."""
+        there = {section for section, path in SECTIONS.items() if _inside(self.config, path)}
+        names = [table for table, section in TABLES.items() if section in there]
+        names += ["claims"] * bool(self.claims)
+        return [f"<results>/tables/{name}.tsv" for name in names]
+
+
+TABLES = {
+    "linear-stability": "scenes",
+    "attractors": "scenes",
+    "hopf-points": "planes",
+    "cycle-points": "cycles",
+    "basins": "basins",
+    "stability": "families",
+    "dimensions": "dimensions",
+    "tolerance-proportionality": "measured_scenes",
+}
+"""Tables, and the section whose entries they list. Others are made where a figure needs them."""
+
+
+def read_plan(overlay: dict) -> Plan:
+    """The plan of a run.
+
+    `overlay` is what Snakemake was given by --configfile and --config: it changes the paper's own
+    configuration, but for `user_file`, a path. Raises ConfigError in words.
+    """
+    overlay = copy.deepcopy(overlay)
+    user_file = overlay.pop("user_file", None)
+    whole = merge(read(CONFIG), overlay)
+    if user_file is None:
+        return plan_of_paper(checked(whole), whole["pathvars"]["results"])
+    if "pathvars" in overlay:
+        raise ConfigError("pathvars and user_file exclude each other: a user's file has its own folder")
+    said = read(user_file)
+    return plan_of_user(merge(whole, said), added(said, whole), f"{RESULTS}/{name_of(user_file)}")
+
+
+def plan_of_paper(config: dict, folder: str) -> Plan:
+    """All of the paper."""
+    used = {scene: entries.variables_used(config, scene) for scene in config["scenes"]}
+    config = set_variables(config, used, [])
+    claims = claims_config.checked(claims_config.listed(), config, set(entries.FIGURES) | TSV)
+    return Plan(config, folder, False, {}, entries.FIGURES, claims)
+
+
+def plan_of_user(whole: dict, names: dict[str, list[str]], folder: str) -> Plan:
+    """What a user's file adds or changes, by the names of its entries."""
+    config = set_variables(checked(whole), dict.fromkeys(whole["scenes"], {"u", "v"}), VARIABLES)
+    figures = entries.own_figures(config, names)
+    claims = {}
+    if config["claims"]:
+        shown = {*entries.FIGURES, *figures} | TSV
+        claims = claims_config.checked({"claims": config["claims"]}, config, shown)
+    if not figures and not claims and not any(names.values()):
+        raise ConfigError(
+            f"{folder}: the file adds no scene, plane, route, atlas, cycles, basins, family or claim"
+        )
+    return Plan(
+        restrict(config, names, claims_config.names_in(claims)),
+        folder,
+        True,
+        names,
+        figures,
+        claims,
+    )
+
+
+def set_variables(config: dict, used: dict[str, set[str]], least: list[str]) -> dict:
+    """The configuration in which each scene names the variables that it stores.
+
+    By default those that figures use and those of `least`, or all of a scene that is in no figure.
+    """
+    for name, scene in config["scenes"].items():
+        default = [key for key in VARIABLES if key in used[name].union(least)] or VARIABLES
+        lacking = sorted(used[name] - set(scene.setdefault("variables", default)))
+        if lacking:
+            raise ConfigError(
+                f"scene '{name}': variables = {scene['variables']}; its figures also use {lacking}"
+            )
+    return config
+
+
+VARIABLES = ["theta", "u", "v"]
+TSV = {Path(path).name for path in claims_config.FILES.values() if path.endswith(".tsv")}
+"""Tables that a claim may tell the reader to look at."""
+
+
+def name_of(user_file: str) -> str:
+    """Name of the folder of a user's results."""
+    name = Path(user_file).stem
+    if name in KINDS | {"logs", "benchmarks", "docs"} or not NAME.fullmatch(name):
+        raise ConfigError(
+            f"{user_file}: its results would be in {RESULTS}/{name}/; expected a name of letters,"
+            " digits, _ and -, at most 100, without 20 equal parts at the end, and none of"
+            f" {', '.join(sorted(KINDS))}"
+        )
+    return name
+
+
+def added(said: dict, whole: dict) -> dict[str, list[str]]:
+    """Names of what a user's file adds or changes, by section.
+
+    If the file changes shared settings of a section only, all entries of the section.
+    """
+    names = {section: list(_inside(said, path)) for section, path in SECTIONS.items()}
+    for section, path in SECTIONS.items():
+        if not names[section] and len(path) > 1 and _inside(said, path[:-1]):
+            names[section] = list(_inside(whole, path))
+    return names
+
+
+def restrict(config: dict, *groups: dict[str, list[str]]) -> dict:
+    """The configuration with the entries of these names alone.
+
+    The attractors of all its scenes are looked for. Planes of Hopf curves in planes of the atlas
+    stay, since the atlas draws them.
+    """
+    kept = copy.deepcopy(config)
+    for section, (first, *rest) in SECTIONS.items():
+        names = {name for group in groups for name in group.get(section, [])}
+        if section == "planes":
+            names |= {Path(path).stem for path in paths.curves_of_atlas(kept)}
+        inside = {k: v for k, v in _inside(config, (first, *rest)).items() if k in names}
+        if rest:
+            kept[first][rest[0]] = inside
+        else:
+            kept[first] = inside
+    for scene in kept["scenes"].values():
+        scene.setdefault("attractors", {})
+    return kept
+
+
+def _inside(config: dict, path: tuple[str, ...]) -> dict:
+    """A section; empty if it is not there."""
+    for key in path:
+        config = config.get(key) if isinstance(config, dict) else None
+    return config if isinstance(config, dict) else {}
