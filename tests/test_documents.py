@@ -15,7 +15,7 @@ from snakemake.utils import update_config
 
 from scripts.claims.claims_config import checked as checked_claims
 from scripts.config.check_config import checked
-from scripts.config.read_config import parsed, read
+from scripts.config.read_config import parse, read
 from scripts.figures.entries import ENTRIES
 
 RESULTS = "results/README.md"
@@ -203,10 +203,10 @@ def test_commands_that_are_named_exist(document):
 def test_examples_of_config_are_accepted(document, default_config):
     """Merged over the config, as Snakemake does it; claims over the claims."""
     for block in blocks_of(document, "yaml"):
-        mine = parsed(block)
+        mine = parse(block)
         config = copy.deepcopy(default_config)
         # examples build on the scene that the first one adds
-        scene = parsed(blocks_of("config/README.md", "yaml")[0])
+        scene = parse(blocks_of("config/README.md", "yaml")[0])
         update_config(config, scene)
         if "claims" in mine:
             checked_claims(mine, checked(config), {c["look_at"] for c in mine["claims"].values()})
