@@ -21,7 +21,7 @@ from scripts.claims.claims_config import listed
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, NOT_TESTABLE, VERDICTS
 from scripts.figures.entries import FIGURES
 from scripts.page import captions, findings, page_content, page_provenance, page_views, write_page
-from scripts.page.mathematics import of_words
+from scripts.page.mathematics import in_signs, of_words
 
 
 class Elements(HTMLParser):
@@ -239,6 +239,12 @@ def test_trajectory_is_thinned_to_its_last_part():
         "ε = 0.5, τ = 10, ξ = 0.8, γ = 0.8: cycle;"
         " exponents −0.01 ± 0.001, −0.02 ± 0.001, −0.03 ± 0.001"
     )
+
+
+def test_numbers_of_views_have_signs_of_print():
+    """A factor of 1 is left out; digits without an exponent stay."""
+    said = in_signs("1e+08, -1.1e-05, 21 and 0.1")
+    assert said == "10⁸, −1.1 × 10⁻⁵, 21 and 0.1"
 
 
 def test_short_trajectory_is_shown_whole():
