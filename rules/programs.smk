@@ -20,7 +20,7 @@ rule build:
     shell:
         "(flock 9"
         " && cmake --preset release -S fortran"
-        " && cmake --build build/release --parallel {threads} --target {wildcards.program}_program)"
+        " && cmake --build build/release --parallel {threads} --target {wildcards.program:q}_program)"
         " > {log:q} 2>&1 9> build/lock || {{ cat {log:q} >&2; exit 1; }}"
 
 
@@ -72,7 +72,7 @@ for run in RUNS:
             groups=groups_of(run),
             sources=digest_of(run.program),
         shell:
-            "OMP_NUM_THREADS={threads} {input.program} {input.namelist:q} {output:q}"
+            "OMP_NUM_THREADS={threads} {input.program:q} {input.namelist:q} {output:q}"
             " 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"
 
 

@@ -10,6 +10,8 @@ from scripts.claims.claims_results import Results
 CLASSES = ["fixed point", "cycle", "torus", "chaos", "undecided"]
 PLACE = {"tau": 10.0, "epsilon": 0.5, "xi": 0.8, "gamma": 0.8}
 """Parameters of a line, but for the one along it."""
+SCENE = {"tau": 3.0, "epsilon": 0.4, "xi": 0.8, "gamma": 0.8}
+"""Parameters of a scene."""
 
 
 def hopf_curve(gamma: float = 0.8, xi: float = 0.5, k: int = 1, ordinate: str = "tau"):
@@ -58,10 +60,7 @@ def stability_row(scene: str = "mine", **given) -> dict:
     """A row of linear-stability.tsv: stable without delay, lost at 2, regained at 5, lost at 8."""
     return {
         "scene": scene,
-        "tau": 3.0,
-        "epsilon": 0.4,
-        "xi": 0.8,
-        "gamma": 0.8,
+        **SCENE,
         "unstable_pairs": 1.0,
         "tau_of_changes": "2 (0 -> 1); 5 (1 -> 0); 8 (0 -> 1)",
         "epsilon_of_changes": "0.3 (0 -> 1); 0.9 (1 -> 2)",
@@ -74,10 +73,7 @@ def attractor_row(met: str, scene: str = "mine", history: int = 1, **given) -> d
     return {
         "scene": scene,
         "history": float(history),
-        "tau": 3.0,
-        "epsilon": 0.4,
-        "xi": 0.8,
-        "gamma": 0.8,
+        **SCENE,
         "class": met,
         "reason": "not confirmed" if met == "undecided" else math.nan,
         "period": 1.0 if met == "cycle" else math.nan,
@@ -220,7 +216,7 @@ def spectrum(kind: str = "periodic", **heights: float) -> xr.Dataset:
 
 
 def slip_events(**values) -> xr.Dataset:
-    """As many slip events as the longest of these values, in which v spans 10 and half is stick."""
+    """Slip events, one for each element of the longest value; v spans 10, half of it is stick."""
     size = max((np.size(value) for value in values.values()), default=200)
     made = {"recurrence_time": 8.0, "duration": 4.0, "slip": 6.0, "peak_velocity": 2.0}
     made |= {"least_velocity": 0.2, **values}

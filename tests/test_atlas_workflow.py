@@ -1,4 +1,7 @@
-"""The atlas in the workflow: only its own rules, one job a part, and no part twice."""
+"""The atlas in the workflow: only its own rules, one job a part, and no part twice.
+
+The suites refined_grid and attractor_points show which points of a refined plane are computed.
+"""
 
 import re
 from pathlib import Path
@@ -18,8 +21,6 @@ from scripts.page import play_data
 from scripts.tables import attractor_tables
 
 PARTS = "results/attractors/atlas"
-CYCLE = 2
-"""Its number among the classes."""
 
 
 def parts_in(log: str) -> list[str]:
@@ -86,50 +87,6 @@ def test_number_of_parts_does_not_matter(programs, tiny):
         write_table(tables[-1], [row for run in runs for row in attractor_tables.rows_of(run)])
     assert len(read_table(tables[0])) == 16
     assert tables[0].read_bytes() == tables[1].read_bytes()
-
-
-@pytest.mark.parametrize("refinements", [0, 1])
-def test_number_of_threads_does_not_matter(programs, tiny, monkeypatch, refinements):
-    """The files are the same bytes."""
-    contents = []
-    for threads in ("1", "2"):
-        monkeypatch.setenv("OMP_NUM_THREADS", threads)
-        (path,) = made_parts(programs, tiny, 1, refinements)
-        contents.append(path.read_bytes())
-    assert contents[0] == contents[1]
-
-
-def kinds_of(run: xr.Dataset, shape: tuple[int, int]) -> np.ndarray:
-    """Class and period of the points of a grid, as one number."""
-    period = np.where(run["class"] == CYCLE, run.period, 0)
-    return (run["class"].values + 10 * period).reshape(shape)
-
-
-def test_refined_plane_computes_only_where_neighbours_differ(programs, tiny):
-    """What is computed is as without refinements; every other point is like all its neighbours."""
-    counts = {"epsilon_count": 11, "tau_count": 9}
-    shape = 9, 11
-    paths = [made_parts(programs, tiny, 1, refinements, **counts)[0] for refinements in (0, 1, 2)]
-    whole, *refined = (xr.load_dataset(path) for path in paths)
-    assert whole.computed.values.all()
-    for refinements, run in enumerate(refined, start=1):
-        computed = run.computed.values == 1
-        assert run.attrs["refinements"] == refinements
-        assert 0 < computed.sum() < computed.size
-        xr.testing.assert_identical(
-            run.isel(point=computed).drop_attrs(), whole.isel(point=computed).drop_attrs()
-        )
-        others = run.isel(point=~computed)
-        assert np.isnan(others.lyapunov_exponent).all()
-        assert np.isnan(others.time).all()
-        kinds, grid = kinds_of(run, shape), computed.reshape(shape)
-        assert grid[:: 2**refinements, :: 2**refinements].all()
-        assert grid[-1, -1]
-        for j, i in np.argwhere(~grid):
-            around = [(j - 1, i), (j + 1, i), (j, i - 1), (j, i + 1)]
-            inside = [at for at in around if 0 <= at[0] < shape[0] and 0 <= at[1] < shape[1]]
-            assert {kinds[at] for at in inside} == {kinds[j, i]}
-            assert kinds[j, i] > 0
 
 
 def test_points_not_computed_reach_table_figure_and_page(programs, tiny):

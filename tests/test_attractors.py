@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from scripts.config.check_config import checked
 from scripts.namelists import attractor_surveys
+from scripts.namelists.study_cases import HISTORY, PARAMETERS
 from scripts.tables import attractor_tables, basins_table
 from scripts.tables.motion_rows import count_in_words, kind_of, parameter_of
 from scripts.workflow import result_files
@@ -18,33 +18,26 @@ CLASSES = ["undecided", "fixed point", "cycle", "torus", "3-torus", "chaos"]
 
 
 @pytest.fixture
-def full(config) -> dict:
-    """The whole config with its defaults."""
-    return checked(config)
+def full(filled_config) -> dict:
+    """The whole config with its defaults, to change."""
+    return copy.deepcopy(filled_config)
 
 
 @pytest.mark.parametrize(
-    ("count", "parts"), [(1, 1), (5, 2), (16, 4), (51, 17), (7, 7), (100, 3), (61, 8)]
+    ("count", "parts", "distance"),
+    [
+        *((1, 1, 1), (5, 2, 1), (16, 4, 1), (51, 17, 1), (7, 7, 1), (100, 3, 1), (61, 8, 1)),
+        *((51, 7, 2), (51, 3, 4), (9, 9, 16), (28, 5, 4), (1000, 31, 2), (1000, 31, 16)),
+    ],
 )
-def test_parts_hold_every_row_once(count, parts):
-    """In order, and no part is larger than another by more than one."""
-    ends = [attractor_surveys.part_of(count, parts, part) for part in range(1, parts + 1)]
-    rows = [row for first, last in ends for row in range(first, last + 1)]
-    assert rows == list(range(1, count + 1))
-    sizes = [last - first + 1 for first, last in ends]
-    assert max(sizes) - min(sizes) <= 1
-
-
-@pytest.mark.parametrize("distance", [2, 4, 16])
-@pytest.mark.parametrize(("count", "parts"), [(51, 7), (51, 3), (9, 9), (28, 5), (1000, 31)])
-def test_parts_end_with_lines_that_are_computed_first(count, parts, distance):
-    """All but the last; each row is in one part, and no part is much larger than another."""
+def test_parts_hold_every_row_once(count, parts, distance):
+    """All parts but the last end with a line that is computed first; sizes are nearly the same."""
     ends = [attractor_surveys.part_of(count, parts, part, distance) for part in range(1, parts + 1)]
     rows = [row for first, last in ends for row in range(first, last + 1)]
     assert rows == list(range(1, count + 1))
     assert all((last - first) % distance == 0 for first, last in ends[:-1])
     sizes = [last - first + 1 for first, last in ends]
-    assert max(sizes) - min(sizes) < 2 * distance
+    assert max(sizes) - min(sizes) <= (1 if distance == 1 else 2 * distance - 1)
 
 
 def test_parts_of_the_atlas_divide_its_delays(full):
@@ -74,9 +67,7 @@ def test_runs_of_a_route_go_along_its_parameter(full, run, sweep):
     assert points["epsilon_part"] == [1, line["count"]]
     assert (points["tau_window"], points["tau_count"]) == ([7.0, 7.0], 1)
     history = routes["histories"].get(run, routes["histories"]["near"])
-    assert [points[key] for key in ("theta", "u", "v")] == [
-        [history[key]] for key in ("theta", "u", "v")
-    ]
+    assert {key: points[key] for key in HISTORY} == {key: [history[key]] for key in HISTORY}
     assert groups["observation"].items() >= full["spectra"].items()
     assert "kept" not in groups["observation"]
     assert points["refinements"] == 0
@@ -86,19 +77,18 @@ def test_runs_of_a_route_go_along_its_parameter(full, run, sweep):
 def test_route_along_a_value_of_the_history(full):
     """One set of parameters and a history for each value; there are no sweeps."""
     line = {"along": "v", "window": [0.5, 1.5], "count": 3, "tau": 7.0, "epsilon": 0.5}
-    full = copy.deepcopy(full)
     full["routes"]["lines"]["mine"] = line | {"xi": 0.5, "gamma": 0.8}
     points = attractor_surveys.route_groups(full, "mine", "slip")["points"]
     assert points["v"] == [0.5, 1.0, 1.5]
     assert points["u"] == [full["routes"]["histories"]["slip"]["u"]] * 3
-    assert [points[f"{key}_count"] for key in ("tau", "epsilon", "xi", "gamma")] == [1, 1, 1, 1]
+    assert [points[f"{key}_count"] for key in PARAMETERS] == [1, 1, 1, 1]
     assert points["sweep"] == "none"
     names = [path.split("/")[-1] for path in result_files.runs_of_route(full, "mine")]
     assert names == ["near.nc", "slip.nc"]
 
 
 def test_basins_have_random_histories_only(full):
-    """As many as asked for, at the parameters of the place."""
+    """`count` histories at the parameters of the place."""
     points = attractor_surveys.basin_groups(full, "three_cycles")["points"]
     assert len(points["v"]) == full["basins"]["count"]
     assert points["tau_window"] == [7.0, 7.0]
@@ -130,8 +120,8 @@ def test_histories_fill_their_ranges(full):
         assert (abs(counts - 500) < 100).all()
 
 
-def test_scene_asks_for_its_own_parameters_and_histories(full):
-    """Its own history is the first."""
+def test_scene_has_its_parameters_and_histories(full):
+    """The scene's history is the first."""
     groups = attractor_surveys.scene_groups(full, "true_torus")
     points, scene = groups["points"], full["scenes"]["true_torus"]
     assert (points["epsilon_window"], points["tau_window"]) == ([0.5, 0.5], [12.5, 12.5])
@@ -145,8 +135,7 @@ def a_run(classes: list[str], **given) -> xr.Dataset:
     numbers = [CLASSES.index(name) for name in classes]
     meanings = " ".join(name.replace(" ", "_") for name in CLASSES)
     points = {
-        **dict.fromkeys(("tau", "epsilon", "xi", "gamma"), 1.0),
-        **dict.fromkeys(("history_theta", "history_u", "history_v"), 1.0),
+        **dict.fromkeys([*PARAMETERS, *(f"history_{key}" for key in HISTORY)], 1.0),
         **{"period": 1, "base_1": 0.1, "base_2": 0.0, "base_3": 0.0},
         **{"roughness": 0.5, "time": 900.0, "smallest_maximum": 1.0, "largest_maximum": 2.0},
         **given,
@@ -176,14 +165,8 @@ def test_points_that_were_not_computed_have_class_and_period_only():
     assert (first["computed"], second["computed"]) == ("yes", "no")
     assert first["by_section"] == "cycle"
     empty = {key for key, value in second.items() if isinstance(value, float) and math.isnan(value)}
-    place = {"epsilon", "tau", "xi", "gamma", "theta", "u", "v"}
-    assert set(columns) - empty == place | {"computed", "class", "period"}
+    assert set(columns) - empty == {*PARAMETERS, *HISTORY, "computed", "class", "period"}
     assert (second["class"], second["period"]) == ("cycle", 3.0)
-
-
-def attractors_in(run: xr.Dataset) -> list[int]:
-    """Numbers of the attractors that its histories reach."""
-    return [row["attractor"] for row in attractor_tables.scene_rows("mine", run)]
 
 
 def test_rows_say_what_the_file_holds():
@@ -200,14 +183,6 @@ def test_rows_say_what_the_file_holds():
     assert (first["problem"], second["problem"]) == ("", "it stopped")
 
 
-def test_attractors_are_numbered_as_they_are_met():
-    """Each history after the first is compared with all that were found."""
-    run = a_run(["cycle", "chaos", "cycle", "fixed point", "chaos"])
-    assert attractors_in(run) == [1, 2, 1, 3, 2]
-    rows = attractor_tables.scene_rows("mine", run)
-    assert [row["history"] for row in rows] == [1, 2, 3, 4, 5]
-
-
 @pytest.mark.parametrize(("fastest", "tame"), [(1.9, "yes"), (2.1, "no")])
 def test_histories_slower_than_the_attractor_are_tame(fastest, tame):
     """All of them; a run that failed has no attractor."""
@@ -221,36 +196,37 @@ def test_histories_slower_than_the_attractor_are_tame(fastest, tame):
     assert [row["tame_histories"] for row in rows] == [tame] * 3
 
 
-@pytest.mark.parametrize("name", ["cycle", "torus", "3-torus"])
-@pytest.mark.parametrize(("factor", "numbers"), [(1.005, [1, 1]), (1.02, [1, 2])])
-@pytest.mark.parametrize("key", ["smallest_maximum", "largest_maximum"])
-def test_cycles_and_tori_are_told_apart_by_their_maxima(name, key, factor, numbers):
-    """To a hundredth."""
-    assert attractors_in(a_run([name, name], **{key: [3.0, 3.0 * factor]})) == numbers
-
-
-def test_cycles_are_told_apart_by_their_period():
-    """A torus has none."""
-    assert attractors_in(a_run(["cycle", "cycle"], period=[1, 2])) == [1, 2]
-    assert attractors_in(a_run(["torus", "torus"], period=[0, 2])) == [1, 1]
-
-
-@pytest.mark.parametrize("name", ["chaos", "undecided"])
-@pytest.mark.parametrize(("apart", "numbers"), [(0.041, [1, 1]), (0.044, [1, 2])])
-def test_chaos_is_told_apart_by_its_first_exponent(name, apart, numbers):
-    """Beyond three error bars of the difference, sqrt(2) x 0.01 here."""
-    run = a_run([name, name], lyapunov_exponent=[0.1, 0.1 + apart], lyapunov_error=0.01)
-    assert attractors_in(run) == numbers
-
-
-def test_fixed_point_is_one():
-    """The block has a single state of steady sliding."""
-    run = a_run(["fixed point"] * 2, largest_maximum=[1.0, 2.0], lyapunov_exponent=[-1.0, -2.0])
-    assert attractors_in(run) == [1, 1]
+@pytest.mark.parametrize(
+    ("classes", "values", "numbers"),
+    [
+        (["cycle", "chaos", "cycle", "fixed point", "chaos"], {}, [1, 2, 1, 3, 2]),
+        *(
+            ([name, name], {key: [3.0, 3.0 * factor]}, numbers)
+            for name in ("cycle", "torus", "3-torus")
+            for factor, numbers in ((1.005, [1, 1]), (1.02, [1, 2]))
+            for key in ("smallest_maximum", "largest_maximum")
+        ),
+        (["cycle", "cycle"], {"period": [1, 2]}, [1, 2]),
+        (["torus", "torus"], {"period": [0, 2]}, [1, 1]),
+        *(
+            ([name, name], {"lyapunov_exponent": [0.1, 0.1 + apart], "lyapunov_error": 0.01}, found)
+            for name in ("chaos", "undecided")
+            for apart, found in ((0.041, [1, 1]), (0.044, [1, 2]))
+        ),
+        (["fixed point"] * 2, {"largest_maximum": [1, 2], "lyapunov_exponent": [-1, -2]}, [1, 1]),
+    ],
+)
+def test_attractors_are_numbered_as_they_are_met(classes, values, numbers):
+    """Cycles and tori differ by a hundredth of a maximum, cycles by their period as well, others by
+    three error bars of the first exponent, sqrt(2) x 0.01 here; the block has one fixed point.
+    """
+    rows = attractor_tables.scene_rows("mine", a_run(classes, **values))
+    assert [row["attractor"] for row in rows] == numbers
+    assert [row["history"] for row in rows] == list(range(1, len(classes) + 1))
 
 
 def test_rows_of_a_route_name_route_and_run():
-    """By folder and file."""
+    """The route is the folder, the run is the file."""
     rows = attractor_tables.route_rows(Path("results/mine/up.nc"), a_run(["cycle", "torus"]))
     assert [(row["route"], row["run"], row["class"]) for row in rows] == [
         ("mine", "up", "cycle"),
@@ -258,21 +234,14 @@ def test_rows_of_a_route_name_route_and_run():
     ]
 
 
-@pytest.mark.parametrize("along", ["tau", "epsilon", "xi", "gamma"])
+@pytest.mark.parametrize("along", ["tau", "epsilon", "xi", "gamma", "v"])
 def test_parameter_of_a_route(along):
-    """The one that varies."""
-    run = a_run(["cycle", "cycle"], **{along: [1.0, 2.0]})
-    assert parameter_of(attractor_tables.rows_of(run)) == along
-
-
-def test_value_of_the_history_along_a_route():
-    """The one that varies within a run."""
-    one, other = (
-        a_run(["cycle", "cycle"], history_v=[1.0, 2.0], history_u=[u, u]) for u in (0.0, -5.0)
-    )
-    rows = attractor_tables.route_rows(Path("mine/near.nc"), one)
-    rows += attractor_tables.route_rows(Path("mine/slip.nc"), other)
-    assert parameter_of(rows) == "v"
+    """The value that varies within a run; runs differ in their histories."""
+    rows = []
+    for path, u in (("mine/near.nc", 0.0), ("mine/slip.nc", -5.0)):
+        varied = {f"history_{along}" if along == "v" else along: [1.0, 2.0], "history_u": u}
+        rows += attractor_tables.route_rows(Path(path), a_run(["cycle", "cycle"], **varied))
+    assert parameter_of(rows) == along
 
 
 def test_shares_of_basins_have_standard_errors():
@@ -305,7 +274,7 @@ def test_motions_that_only_a_route_shows_have_no_share():
 
 
 def test_undecided_runs_share_a_row_of_basins():
-    """Whatever their exponents."""
+    """Their exponents do not matter."""
     run = a_run(["undecided", "cycle", "undecided"], lyapunov_exponent=[0.1, 0.0, 0.5])
     rows = basins_table.basin_rows("mine", run, [])
     assert [(row["class"], round(3 * row["share"])) for row in rows] == [

@@ -1,4 +1,7 @@
-"""The program `attractors`: what it writes, and what a table makes of it."""
+"""The program `attractors`: what it writes, and what a table makes of it.
+
+The suite attractor_points shows that a failed run changes no other one.
+"""
 
 import math
 
@@ -8,9 +11,13 @@ import xarray as xr
 from namelist_groups import OBSERVATION
 
 from scripts.files.tsv import read_table, write_table
+from scripts.namelists.study_cases import HISTORY
 from scripts.tables.attractor_tables import scene_rows
 
-VARIABLES = ("theta", "u", "v")
+ONE_HISTORY = {"theta": [0.0], "u": [0.0], "v": [1.1]}
+REST = {"epsilon_part": [2, 2], "tau_part": [1, 1]}
+"""A point at which the block comes to rest."""
+SECTION = ("maximum", "section_theta", "section_u")
 
 
 @pytest.fixture
@@ -20,7 +27,7 @@ def groups(good_groups) -> dict[str, dict]:
 
 
 def test_points_are_the_rectangle_for_each_history(programs, groups):
-    """Epsilon runs fastest, histories slowest; names, flags and settings are told."""
+    """Epsilon runs fastest, histories slowest; the file has names, flags and settings."""
     found = programs.made_of("attractors", groups)
     np.testing.assert_allclose(found.epsilon, [0.3, 0.5] * 4, rtol=1e-15)
     assert found.tau.values.tolist() == [0.0, 0.0, 10.0, 10.0] * 2
@@ -40,7 +47,7 @@ def test_points_are_the_rectangle_for_each_history(programs, groups):
 
 def test_each_parameter_is_an_axis(programs, groups):
     """Epsilon runs fastest, then tau, xi and gamma."""
-    groups["points"] |= {"tau_part": [1, 1], "theta": [0.0], "u": [0.0], "v": [1.0]}
+    groups["points"] |= {"tau_part": [1, 1], **ONE_HISTORY}
     groups["points"] |= {"xi_window": [0.5, 0.8], "xi_count": 4, "xi_part": [3, 4]}
     groups["points"] |= {"gamma_window": [0.8, 1e8], "gamma_count": 2, "gamma_part": [1, 2]}
     found = programs.made_of("attractors", groups)
@@ -53,8 +60,8 @@ def test_each_parameter_is_an_axis(programs, groups):
     ("direction", "order"), [("up", slice(None)), ("down", slice(None, None, -1))]
 )
 def test_sweep_is_in_its_order(programs, groups, direction, order):
-    """The direction is told; the first point is what it is alone, the others start elsewhere."""
-    groups["points"] |= {"tau_part": [2, 2], "theta": [0.0], "u": [0.0], "v": [1.1]}
+    """The first point is as in a run without sweep, the others start from the point before."""
+    groups["points"] |= {"tau_part": [2, 2], **ONE_HISTORY}
     alone = programs.made_of("attractors", groups)
     groups["points"]["sweep"] = direction
     found = programs.made_of("attractors", groups)
@@ -67,7 +74,7 @@ def test_sweep_is_in_its_order(programs, groups, direction, order):
 
 def test_fixed_point_has_the_roots_and_no_more(programs, groups):
     """Without delay three exponents, without error; maxima while it decays, NaN beyond them."""
-    groups["points"] |= {"epsilon_part": [2, 2], "tau_part": [1, 1]}
+    groups["points"] |= REST
     found = programs.made_of("attractors", groups)
     assert found["class"].values.tolist() == [1, 1]
     roots = np.roots([1, 1.8, 0.64 + 0.8 - 1.3 * 0.8, 0.64])
@@ -91,29 +98,16 @@ def test_fixed_point_has_the_roots_and_no_more(programs, groups):
     np.testing.assert_array_equal(found.maximum.max("kept"), found.largest_maximum)
 
 
-def test_steady_sliding_has_no_maxima(programs, groups):
-    """NaN where nothing was found, 0 points of a cycle, and no problem."""
-    groups["points"] |= {"epsilon_part": [2, 2], "tau_part": [1, 1]}
-    groups["points"] |= {"theta": [0.0], "u": [0.0], "v": [1.0]}
-    found = programs.made_of("attractors", groups)
-    assert found["class"].values.tolist() == [1]
-    for key in ("smallest_maximum", "largest_maximum", "maximum", "section_theta", "section_u"):
-        assert np.isnan(found[key]).all()
-    assert found.problem.values.tolist() == [""]
-
-
 def test_table_shows_runs_that_failed_as_no_attractors(programs, groups):
-    """Empty cells where nothing was found, and the words that say why; read back the same."""
-    groups["points"] |= {"epsilon_part": [2, 2], "tau_part": [1, 1]}
-    groups["points"] |= {"theta": [0.0] * 3, "u": [0.0] * 3, "v": [1.1, 1e-300, 1.0]}
+    """Empty cells and NaN where nothing was found, and the reason of a failure."""
+    groups["points"] |= {**REST, "theta": [0.0] * 3, "u": [0.0] * 3, "v": [1.1, 1e-300, 1.0]}
+    found = programs.made_of("attractors", groups)
+    for key in ("smallest_maximum", "largest_maximum", *SECTION):
+        assert np.isnan(found[key][1:]).all()
     table = programs.folder / "table.tsv"
-    write_table(table, scene_rows("mine", programs.made_of("attractors", groups)))
-    at_rest, failed, steady = read_table(table)
-    assert [row["class"] for row in (at_rest, failed, steady)] == [
-        "fixed point",
-        "undecided",
-        "fixed point",
-    ]
+    write_table(table, scene_rows("mine", found))
+    at_rest, failed, steady = rows = read_table(table)
+    assert [row["class"] for row in rows] == ["fixed point", "undecided", "fixed point"]
     assert (at_rest["attractor"], steady["attractor"]) == (1, 1)
     assert math.isnan(at_rest["problem"])
     assert math.isnan(at_rest["exponent_4"])
@@ -125,12 +119,12 @@ def test_table_shows_runs_that_failed_as_no_attractors(programs, groups):
 
 @pytest.mark.parametrize("kept", [0, 3])
 def test_the_last_points_are_kept(programs, groups, kept):
-    """As many as are wanted, or none at all."""
+    """The number of points that `kept` gives, or none at all."""
     groups["points"] |= {"epsilon_part": [3, 3], "tau_part": [2, 2]}
     whole = programs.made_of("attractors", groups)
     groups["points"]["kept"] = kept
     found = programs.made_of("attractors", groups)
-    for key in ("maximum", "section_theta", "section_u"):
+    for key in SECTION:
         if kept == 0:
             assert key not in found
             continue
@@ -141,8 +135,8 @@ def test_the_last_points_are_kept(programs, groups, kept):
 
 
 def test_paths_are_kept_where_the_block_moves(programs, groups):
-    """From v = 1 on for the time that is asked, or a period; nothing else in the file changes."""
-    groups["points"] |= {"theta": [0.0], "u": [0.0], "v": [1.1]}
+    """From v = 1 on for `t_path`, or a period; nothing else in the file changes."""
+    groups["points"] |= ONE_HISTORY
     without = programs.made_of("attractors", groups)
     groups["observation"]["t_path"] = 12.0
     found = programs.made_of("attractors", groups)
@@ -159,40 +153,17 @@ def test_paths_are_kept_where_the_block_moves(programs, groups):
     last = found.path_time.values[ends - 1]
     assert ((9.0 < last) & (last <= 12.0)).all()
     np.testing.assert_allclose(found.path_ln_v.values[starts], 0.0, atol=1e-6)
-    groups["points"] |= {"epsilon_part": [2, 2], "tau_part": [1, 1]}
+    groups["points"] |= REST
     at_rest = programs.made_of("attractors", groups)
     assert at_rest.path_length.values.tolist() == [0]
     assert "path_time" not in at_rest
 
 
-def test_run_that_cannot_be_finished_is_undecided(programs, groups):
-    """It is said why; the others are as they would be without it."""
-    groups["points"]["v"] = [1.1, 1e-300]
-    found = programs.made_of("attractors", groups)
-    assert found["class"].values[4:].tolist() == [0] * 4
-    assert all("stopped at t = " in str(words) for words in found.problem.values[4:])
-    for key in ("lyapunov_exponent", "lyapunov_error", "maximum", "section_theta", "section_u"):
-        assert np.isnan(found[key][4:]).all()
-    assert np.isnan(found.smallest_maximum[4:]).all()
-    assert found.base_1[4:].values.tolist() == [0.0] * 4
-    groups["points"] |= {"theta": [0.0], "u": [0.0], "v": [1.1]}
-    alone = programs.made_of("attractors", groups)
-    xr.testing.assert_identical(
-        alone.drop_vars("problem"), found.drop_vars("problem").isel(point=slice(4))
-    )
-    assert found.problem[:4].values.tolist() == [""] * 4
-
-
-def test_steps_that_run_out_are_told_at_each_point(programs, groups):
-    """The file is written all the same."""
-    groups["observation"]["most_steps"] = 5
-    found = programs.made_of("attractors", groups)
-    assert set(found["class"].values) == {0}
-    assert all("5 steps (most_steps) were used up" in str(words) for words in found.problem.values)
-
-
-def test_same_bytes_in_one_thread_and_in_two(programs, groups, monkeypatch):
-    """And when run again."""
+@pytest.mark.parametrize("refinements", [0, 1])
+def test_same_bytes_in_one_thread_and_in_two(programs, groups, monkeypatch, refinements):
+    """A second run gives the same bytes, also if only some points are computed."""
+    groups["points"] |= {"epsilon_part": [1, 3], "refinements": refinements}
+    groups["points"] |= ONE_HISTORY if refinements else {}
     contents = set()
     for threads in ("1", "2", "2"):
         monkeypatch.setenv("OMP_NUM_THREADS", threads)
@@ -212,9 +183,8 @@ def test_same_bytes_in_one_thread_and_in_two(programs, groups, monkeypatch):
     ],
 )
 def test_refinements_of_no_plane_are_refused(programs, groups, given, place):
-    """They need cells of epsilon and tau, and one history."""
-    one = {"theta": [0.0], "u": [0.0], "v": [1.1], "refinements": 1}
-    groups["points"] |= one | given
+    """Refinements need cells of epsilon and tau, and one history."""
+    groups["points"] |= {**ONE_HISTORY, "refinements": 1, **given}
     done = programs.run_groups("attractors", groups)
     assert f"refinements = 1 {place}; expected 0, or a plane of epsilon and tau" in done.stderr
     assert programs.left_behind() == []
@@ -222,12 +192,12 @@ def test_refinements_of_no_plane_are_refused(programs, groups, given, place):
 
 def test_points_that_are_none_or_too_many_are_refused(programs, groups):
     """Neither is met as lack of memory."""
-    points = {key: value for key, value in groups["points"].items() if key not in VARIABLES}
+    points = {key: value for key, value in groups["points"].items() if key not in HISTORY}
     done = programs.run_groups("attractors", {**groups, "points": points})
     assert "number of histories = 0; expected" in done.stderr
     groups["points"] |= {"epsilon_count": 1001, "epsilon_part": [1, 1001]}
     groups["points"] |= {"tau_count": 1000, "tau_part": [1, 1000]}
-    groups["points"] |= {"theta": [0.0], "u": [0.0], "v": [1.1]}
+    groups["points"] |= ONE_HISTORY
     done = programs.run_groups("attractors", groups)
     assert "number of points = " in done.stderr
     assert programs.left_behind() == []

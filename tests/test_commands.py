@@ -2,12 +2,11 @@
 
 import os
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
 import pytest
-from conftest import copy_of_project, rules_in, write_script
+from conftest import copy_of_project, write_script
 
 TOOLS = ["ruff", "snakefmt", "fortitude", "snakemake", "cmake", "ctest", "pytest"]
 """Tools that ./test runs."""
@@ -16,7 +15,7 @@ TOOLS = ["ruff", "snakefmt", "fortitude", "snakemake", "cmake", "ctest", "pytest
 @pytest.fixture
 def set_up(tmp_path) -> Path:
     """A copy of the project in which the set-up has nothing to do."""
-    folder = copy_of_project(tmp_path / "a project").folder
+    folder = copy_of_project(tmp_path / "project").folder
     write_script(folder / "setup" / "setup.sh", "exit 0")
     return folder
 
@@ -44,53 +43,23 @@ def calls_of(*command: str | Path, **options) -> tuple[int, list[str]]:
         (["figure_5"], "--cores 2 figure_5"),
         (["figure_5", "--cores", "4"], "figure_5 --cores 4"),
         (["-c1", "a b"], "-c1 a b"),
-        (["--jobs=3"], "--jobs=3"),
-        (["--dry-run", "--configfile=mine.yaml"], "--cores 2 --dry-run --configfile=mine.yaml"),
+        (["mine.yaml", "scenes/a"], "--cores 2 scenes/a --config user_file={here}/mine.yaml"),
     ],
 )
 def test_reproduce_hands_its_arguments_on(recording, tmp_path, arguments, passed):
-    """Two cores unless said otherwise, from any folder."""
-    status, calls = calls_of(recording / "reproduce", *arguments, cwd=tmp_path)
-    assert status == 0
-    command = f"python {recording}/scripts/console/reproduce.py"
-    assert calls == [
-        f"{command} --snakefile {recording}/Snakefile --directory {recording} {passed}"
-    ]
-
-
-def test_reproduce_works_through_a_link(recording, tmp_path):
-    """The project is where the script lies, not where the link does."""
+    """Two cores unless said otherwise, from any folder, also through a link."""
     (tmp_path / "link").symlink_to(recording / "reproduce")
-    status, calls = calls_of(tmp_path / "link", cwd=tmp_path)
-    assert status == 0
-    assert f"--directory {recording} " in calls[0]
+    for command in (recording / "reproduce", tmp_path / "link"):
+        status, calls = calls_of(command, *arguments, cwd=tmp_path)
+        assert status == 0
+        words = passed.format(here=tmp_path)
+        assert calls == [f"snakemake --quiet host reason rules --snakefile Snakefile {words}"]
 
 
-def test_reproduce_takes_files_from_the_current_folder(set_up, tmp_path):
-    """A scene file beside the user, results in the project."""
-    write_script(set_up / ".venv" / "bin" / "python", f"exec '{sys.executable}' \"$@\"")
-    (tmp_path / "mine.yaml").write_text(
-        "scenes: { mine: { tau: 1.0, epsilon: 0.5, xi: 1.0, gamma: 1.0, t_end: 9.0 } }"
-    )
-    target = ["--dry-run", "results/mine/trajectories/mine.nc", "--configfile", "mine.yaml"]
-    run = subprocess.run(
-        [set_up / "reproduce", *target], cwd=tmp_path, capture_output=True, text=True
-    )
-    assert run.returncode == 0, run.stderr
-    assert rules_in(run.stdout) == {"build", "scene_namelist", "trajectory"}
-
-
-def test_reproduce_ignores_settings_of_python(set_up):
-    """With PYTHONSAFEPATH Python does not look for modules beside a script."""
-    write_script(set_up / ".venv" / "bin" / "python", f"exec '{sys.executable}' \"$@\"")
-    run = subprocess.run(
-        [set_up / "reproduce", "results/namelists/velocity_step.nml"],
-        env={**os.environ, "PYTHONSAFEPATH": "1"},
-        capture_output=True,
-        text=True,
-    )
-    assert run.returncode == 0, run.stderr
-    assert (set_up / "results" / "namelists" / "velocity_step.nml").exists()
+def test_reproduce_shows_a_dry_run(recording):
+    """With all its jobs."""
+    status, calls = calls_of(recording / "reproduce", "--dry-run")
+    assert (status, calls) == (0, ["snakemake --snakefile Snakefile --cores 2 --dry-run"])
 
 
 def test_test_runs_everything(recording, tmp_path):
@@ -126,19 +95,14 @@ def test_test_runs_one_part(recording, part, tools):
     assert {call.split()[0] for call in calls} == tools
 
 
-def test_other_compilers_are_refused_where_packages_are_missing(recording):
-    """The set-up's own words and status, and nothing is built."""
-    write_script(recording / "setup" / "setup.sh", "[[ ${1-} != compilers/* ]] || exit 7")
-    status, calls = calls_of(recording / "test", "compilers")
-    assert (status, calls) == (7, [])
-
-
-@pytest.mark.parametrize("missing", ["tests/slurm", "profiles/slurm"])
-def test_slurm_is_refused_where_packages_are_missing(recording, missing):
-    """The set-up's own words and status, and no daemon is started."""
+@pytest.mark.parametrize(
+    ("part", "missing"),
+    [("compilers", "compilers/*"), ("slurm", "tests/slurm"), ("slurm", "profiles/slurm")],
+)
+def test_part_whose_packages_are_missing_is_refused(recording, part, missing):
+    """The set-up's own words and status, and nothing is started."""
     write_script(recording / "setup" / "setup.sh", f"[[ ${{1-}} != {missing} ]] || exit 7")
-    status, calls = calls_of(recording / "test", "slurm")
-    assert (status, calls) == (7, [])
+    assert calls_of(recording / "test", part) == (7, [])
 
 
 def test_slurm_runs_its_own_tests(recording):

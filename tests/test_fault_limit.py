@@ -6,12 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from expected_rules import settings
-from figure_contents import assert_on_page, hyphens_before_numbers
-from matplotlib import pyplot as plt
 
-from scripts.claims.roots_of_5 import unstable_pairs
-from scripts.drawing.style import STYLE
-from scripts.figures import fault_limit
 from scripts.tables import dimensions_table, fault_limit_table
 
 PRESETS = settings("dimensions")
@@ -73,18 +68,6 @@ def test_least_epsilon_is_on_a_curve_of_the_program(programs, gamma):
     assert tau == pytest.approx(row["tau"], rel=0.02)
 
 
-@pytest.mark.parametrize("gamma", [0.3, 0.8, 3.0, 10.0, 30.0])
-def test_delays_destabilise_between_least_and_without_delay(gamma):
-    """By the number of unstable roots: at the delay of the least epsilon, and at none below it."""
-    row = fault_limit_table.row_of(0.5, gamma)
-    place = {"xi": 0.5, "gamma": gamma}
-    inside, below = (row["least"] + share * row["depth"] for share in (0.5, -0.5))
-    assert unstable_pairs(epsilon=inside, tau=0.0, **place) == 0
-    assert unstable_pairs(epsilon=inside, tau=row["tau"], **place) == 1
-    for tau in np.linspace(0, 100, 1001):
-        assert unstable_pairs(epsilon=below, tau=tau, **place) == 0
-
-
 def test_no_delay_destabilises_at_large_gamma(smoke):
     """At gamma = 1e8 the program counts no root to the right below epsilon = xi, at any delay; at
     gamma = 0.8 it does below the Hopf point without delay.
@@ -95,15 +78,6 @@ def test_no_delay_destabilises_at_large_gamma(smoke):
         stable = curves.map_unstable_pairs[:, curves.map_epsilon.values < row["without_delay"]]
         assert stable.sizes["map_epsilon"] > 5
         assert bool((stable > 0).any()) is unstable
-
-
-def test_figure_of_the_fault_limit():
-    """It fits a page, and its band closes."""
-    with plt.style.context(STYLE):
-        figure = fault_limit.draw([fault_limit_table.row_of(0.5, g) for g in (0.1, 0.8, 10, 1e6)])
-        assert_on_page(figure)
-    assert hyphens_before_numbers(figure) == []
-    plt.close(figure)
 
 
 @pytest.mark.parametrize("preset", PRESETS)

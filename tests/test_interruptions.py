@@ -2,8 +2,8 @@
 
 import contextlib
 import copy
+import fcntl
 import os
-import re
 import signal
 import subprocess
 import sys
@@ -162,7 +162,7 @@ def assert_resumes(project: Project, before: dict[str, bytes]) -> None:
 
 @pytest.mark.parametrize("end", ["Ctrl-C", "program killed"])
 def test_workflow_resumes(smoke, scratch, workflow, end):
-    """Ctrl-C reaches all processes of a terminal; the kernel kills one where memory is short."""
+    """Ctrl-C reaches all processes of a terminal; the kernel kills one if memory is short."""
     if end == "Ctrl-C":
         os.killpg(workflow.pid, signal.SIGINT)
         os.killpg(workflow.pid, signal.SIGCONT)
@@ -172,59 +172,36 @@ def test_workflow_resumes(smoke, scratch, workflow, end):
     assert_resumes(scratch, smoke.outputs())
 
 
-AT_EXIT = """
-import atexit, sys
-
-if "--dry-run" in sys.orig_argv:
-    atexit.register(lambda: open({0!r}).close())
-"""
-"""What Python does before a script: a dry run waits at its end until somebody writes to a pipe."""
-
-
-@contextlib.contextmanager
-def unfinished_dry_run(project: Project) -> Iterator[None]:
-    """A dry run in the project that has said everything and lives on."""
-    folder = project.folder.parent / "waiting"
-    folder.mkdir()
-    pipe = folder / "pipe"
-    os.mkfifo(pipe)
-    (folder / "sitecustomize.py").write_text(AT_EXIT.format(str(pipe)))
-    with subprocess.Popen(
-        [SNAKEMAKE, "--dry-run", LONG, *SMOKE],
-        cwd=project.folder,
-        env={**os.environ, "PYTHONPATH": str(folder)},
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    ) as run:
-        # opens once the run is there to read
-        with open(pipe, "w"):
-            assert run.poll() is None
-            yield
-        assert run.wait(timeout=60) == 0
-
-
 def test_workflow_resumes_where_snakemake_itself_was_killed(smoke, scratch, workflow):
-    """The run that is alive is named; once it is killed nothing is locked.
+    """A second run is refused while the first is alive; its locks go once it is killed.
 
-    Its program lives on and does no harm, nor does a dry run.
+    Its program lives on and does no harm.
     """
     program = program_of(workflow)
-    with unfinished_dry_run(scratch):
-        refused = scratch.snakemake(LONG, *SMOKE)
-        assert refused.returncode != 0
-        (line,) = [line for line in refused.stdout.splitlines() if "another run" in line]
-        assert re.match(
-            rf"another run is active .*: process {workflow.pid}, started \d{{4}}-\S+ [\d:]+: "
-            rf".*snakemake --cores 2 {LONG} .*; wait until it has ended",
-            line,
-        )
-        assert "unlock" not in refused.stdout
-        os.kill(workflow.pid, signal.SIGKILL)
-        workflow.wait()
-        assert_resumes(scratch, smoke.outputs())
+    refused = scratch.snakemake(LONG, *SMOKE)
+    assert refused.returncode != 0
+    assert "cannot be locked" in refused.stdout
+    os.kill(workflow.pid, signal.SIGKILL)
+    workflow.wait()
+    again = scratch.reproduce(LONG, *SMOKE)
+    assert again.returncode == 0, again.stdout
+    assert scratch.outputs() == smoke.outputs()
     os.kill(program, signal.SIGCONT)
     wait_for(lambda: not Path(f"/proc/{program}").exists())
     assert scratch.outputs() == smoke.outputs()
+
+
+def test_locks_of_a_live_run_stay(scratch):
+    """A run of ./reproduce holds a lock of the operating system."""
+    lock = scratch.folder / ".snakemake" / "locks" / "0.input.lock"
+    lock.parent.mkdir(exist_ok=True)
+    lock.touch()
+    with open(scratch.folder / ".snakemake" / "runs", "a") as runs:
+        fcntl.flock(runs, fcntl.LOCK_SH)
+        scratch.reproduce("--dry-run", LONG, *SMOKE)
+        assert lock.exists()
+    scratch.reproduce("--dry-run", LONG, *SMOKE)
+    assert not lock.exists()
 
 
 WAIT = """

@@ -272,3 +272,29 @@ def test_versions_agree():
     )[1]
     entries = re.findall(r"^## \[?v?(\d[\d.]*)", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE)
     assert build == citation == entries[0]
+
+
+PYTHON_LAYERS = [
+    *("files", "namelists", "config", "results", "tables", "claims", "drawing", "figures"),
+    *("page", "workflow"),
+]
+"""Folders of scripts/, from the lowest to the highest."""
+SCRIPTS = {path: path.read_text() for path in sorted((ROOT / "scripts").glob("*/*.py"))}
+
+
+def layers_imported(text: str) -> set[str]:
+    """Folders of scripts/ whose modules a script imports."""
+    found = re.findall(r"^\s*(?:from|import) scripts\.(\w+)", text, re.MULTILINE)
+    return set(found) | set(re.findall(r"^\s*from scripts import (\w+)", text, re.MULTILINE))
+
+
+def test_no_python_module_imports_from_a_higher_layer():
+    """Of the project's own modules."""
+    assert {path.parent.name for path in SCRIPTS} == set(PYTHON_LAYERS)
+    wrong = {
+        (path.relative_to(ROOT).as_posix(), layer)
+        for path, text in SCRIPTS.items()
+        for layer in layers_imported(text)
+        if PYTHON_LAYERS.index(layer) > PYTHON_LAYERS.index(path.parent.name)
+    }
+    assert wrong == set()

@@ -5,6 +5,7 @@ import pytest
 from test_hopf import count_by_crossings, residual
 
 from scripts.files.tsv import read_table
+from scripts.namelists.study_cases import PARAMETERS
 from scripts.tables.hopf_points_table import death_rows_of
 from scripts.tables.linear_stability_table import amplitude_death, row_of
 
@@ -15,15 +16,12 @@ SCENES |= {"no_delay_less": 1, "no_delay_more": 1}
 """Number of unstable pairs."""
 
 
-@pytest.fixture
+@pytest.fixture(params=SCENES)
 def stability(programs, good_inputs, smoke_config, request):
     """Linear stability of a scene."""
     scene = smoke_config["scenes"][request.param]
-    parameters = {key: scene[key] for key in ("tau", "epsilon", "xi", "gamma")}
+    parameters = {key: scene[key] for key in PARAMETERS}
     return programs.made_by("linear_stability", good_inputs["linear_stability"] | parameters)
-
-
-every_scene = pytest.mark.parametrize("stability", SCENES, indirect=True)
 
 
 def parameters(stability, **other):
@@ -31,46 +29,32 @@ def parameters(stability, **other):
     return [{**stability.attrs, **other}[key] for key in ("epsilon", "tau", "xi", "gamma")]
 
 
-@every_scene
-def test_roots_solve_the_characteristic_equation(stability):
-    """Each above the bound, the rightmost first, with its partner."""
+def test_file_and_row_of_a_scene(stability):
+    """Roots and crossings solve (5); unstable pairs are those of roots and those by crossings.
+
+    Roots lie above the bound, the rightmost first, each with its partner.
+    """
     roots = stability.root_real.values + 1j * stability.root_imag.values
     assert roots.size >= 2
     assert residual(roots, *parameters(stability)).max() < 1e-12
     assert (roots.real > stability.attrs["root_bound"]).all()
     assert (np.diff(roots.real) <= 0).all()
     assert set(roots) == set(roots.conj())
-
-
-@every_scene
-def test_unstable_pairs_are_counted(stability):
-    """By the roots, and by the crossings on the way from no delay."""
-    pairs = int((stability.root_real > 0).sum()) // 2
-    assert stability.attrs["unstable_pairs"] == pairs
+    pairs = stability.attrs["unstable_pairs"]
+    assert pairs == np.count_nonzero(roots.real > 0) // 2
     assert pairs == count_by_crossings(*parameters(stability))
-
-
-@every_scene
-def test_changes_have_a_pair_on_the_axis(stability):
-    """In tau and in epsilon."""
     for key in ("tau", "epsilon"):
         places, omegas = stability[f"{key}_of_change"], stability[f"{key}_change_omega"]
         assert places.size > 0
         for place, omega in zip(places.values, omegas.values, strict=True):
             assert residual(1j * omega, *parameters(stability, **{key: place})) < 1e-12
-
-
-@every_scene
-def test_row_of_the_table(stability):
-    """It says what the file says."""
     row = row_of("mine", stability)
-    assert row["unstable_pairs"] == stability.attrs["unstable_pairs"]
-    first = stability.isel({stability.tau_of_change.dims[0]: 0})
-    before, after = int(first.tau_change_pairs_before), int(first.tau_change_pairs_after)
-    assert before != after
-    begin = f"{float(first.tau_of_change):.12g} ({before} -> {after})"
-    assert row["tau_of_changes"].split("; ")[0] == begin
-    assert row["tau_of_changes"].count("->") == stability.tau_of_change.size
+    assert row["unstable_pairs"] == pairs
+    first, *others = row["tau_of_changes"].split("; ")
+    before = int(stability.tau_change_pairs_before[0])
+    after = int(stability.tau_change_pairs_after[0])
+    assert first == f"{float(stability.tau_of_change[0]):.12g} ({before} -> {after})"
+    assert len(others) == stability.tau_of_change.size - 1
     assert row["leading_roots"].startswith(f"{float(stability.root_real[0]):.10g}")
 
 

@@ -1,4 +1,4 @@
-"""Files of scripts are whole or absent, and what goes wrong is told in one line."""
+"""Files of scripts appear only when complete, and a failure is reported in one line."""
 
 import errno
 import os
@@ -13,7 +13,7 @@ from scripts.files.outputs import FileError, logged, written
 
 
 def test_file_is_there_when_complete(tmp_path):
-    """And not before; what an earlier run left unfinished is no hindrance."""
+    """The file appears at the end; unfinished files of earlier runs are removed."""
     path = tmp_path / "table.tsv"
     (tmp_path / "table.tsv.123-456.part").write_text("left by a run that was killed")
     (tmp_path / "a.table.tsv.123-456.part").write_text("of another file")
@@ -61,7 +61,7 @@ def test_last_of_two_writers_wins(tmp_path, first_to_end):
 
 
 def test_failure_leaves_the_older_file_and_nothing_else(tmp_path):
-    """Also where the writing itself is interrupted."""
+    """An interrupted write changes nothing."""
     path = tmp_path / "table.tsv"
     path.write_text("older")
 
@@ -76,7 +76,7 @@ def test_failure_leaves_the_older_file_and_nothing_else(tmp_path):
     assert path.read_text() == "older"
 
 
-def test_full_disk_is_told(tmp_path):
+def test_full_disk_is_reported(tmp_path):
     """The device that is always full stands in."""
     path = tmp_path / "table.tsv"
 
@@ -92,33 +92,25 @@ def test_full_disk_is_told(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("size", [0, 100, -1000, -1])
-def test_truncated_netcdf_is_removed(tmp_path, size):
-    """Empty, cut in its head, and short of its end; so the same command makes it again."""
-    path = tmp_path / "data.nc"
-    xr.Dataset({"v": ("time", [float(i) for i in range(1000)])}).to_netcdf(path)
-    whole = path.read_bytes()
-    path.write_bytes(whole[: size % len(whole)])
-    with pytest.raises(FileError, match=r"data.nc: cannot be read: .* damaged and is removed; run"):
-        read(path)
-    assert not path.exists()
-
-
-def test_netcdf_with_a_wrong_checksum_is_removed(tmp_path):
-    """One bit of a value."""
+@pytest.mark.parametrize("size", [0, 100, -1000, -1, None])
+def test_damaged_netcdf_is_removed(tmp_path, size):
+    """Cut at a size, or one bit of a value wrong; so the same command makes it again."""
     path = tmp_path / "data.nc"
     values = xr.Dataset({"v": ("time", [1.25] * 1000)})
     values.to_netcdf(path, engine="netcdf4", encoding={"v": {"fletcher32": True}})
-    whole = bytearray(path.read_bytes())
-    whole[whole.index(np.float64(1.25).tobytes() * 9)] ^= 1
-    path.write_bytes(whole)
+    content = bytearray(path.read_bytes())
+    if size is None:
+        content[content.index(np.float64(1.25).tobytes() * 9)] ^= 1
+    else:
+        del content[size % len(content) :]
+    path.write_bytes(content)
     with pytest.raises(FileError, match=r"data.nc: cannot be read: .* damaged and is removed; run"):
         read(path)
     assert not path.exists()
 
 
 def test_netcdf_that_is_closed_to_reading_stays(tmp_path, monkeypatch):
-    """It may be whole."""
+    """A file without permission to read may be complete."""
     path = tmp_path / "data.nc"
     path.touch()
     problem = PermissionError(errno.EACCES, "Permission denied")
@@ -129,7 +121,7 @@ def test_netcdf_that_is_closed_to_reading_stays(tmp_path, monkeypatch):
 
 
 def test_problem_with_a_file_ends_a_script_in_one_line(tmp_path):
-    """Its details are in the log."""
+    """The traceback is in the log."""
     with pytest.raises(SystemExit) as end, logged(tmp_path / "log"):
         read(tmp_path / "nowhere.nc")
     assert str(end.value.code).startswith(f"error: {tmp_path}/nowhere.nc: cannot be read: No such")
@@ -138,7 +130,7 @@ def test_problem_with_a_file_ends_a_script_in_one_line(tmp_path):
 
 
 @pytest.mark.parametrize("log", ["nowhere/log", "."])
-def test_log_that_cannot_be_written_is_told(tmp_path, log):
+def test_log_that_cannot_be_written_is_refused(tmp_path, log):
     """The script does not begin."""
     with (
         pytest.raises(SystemExit, match=r"error: .*; check that its folder"),

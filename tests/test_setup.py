@@ -13,7 +13,6 @@ SCRIPTS = [
     "reproduce",
     "test",
     "setup/setup.sh",
-    "setup/build_needs.sh",
     ".ci/run",
     "benchmarks/run",
     "compilers/run",
@@ -151,7 +150,7 @@ def test_reproduce_says_how_it_is_used(option, tmp_path):
     """From any folder, before anything is set up."""
     result = run(str(ROOT / "reproduce"), option, cwd=tmp_path)
     assert result.returncode == 0
-    assert "./reproduce [TARGET...]" in result.stdout
+    assert "./reproduce [FILE.yaml] [TARGET...]" in result.stdout
     assert "./test" in result.stdout
 
 

@@ -101,32 +101,13 @@ def test_each_compiler_has_a_preset():
     assert {name for name in wanted if re.match("(gfortran|flang)-", name)} <= names
 
 
-UNMENDED = {
-    "snakemake/script/__init__.py": 'run("{py_exec} {fname:q}")\n',
-    "snakemake/common/configfile.py": "def load_configfile(configpath):\n    return {}\n",
-    "snakemake_interface_executor_plugins/executors/remote.py": "(\n            sys.executable\n)",
-    "snakemake_executor_plugin_slurm_jobstep/__init__.py": "    return sys.executable\n",
-}
-"""What the set-up mends, by file."""
-
-
-@pytest.fixture
-def to_mend(bare) -> Path:
-    """The installed packages of a folder where the set-up is to add those of a profile."""
+def test_packages_of_a_profile_are_added(bare):
+    """To .venv as it is, once; a .venv made anew gets them again."""
     pretend_installed(bare, debian_packages())
     (bare / "profiles" / "slurm").mkdir(parents=True)
     shutil.copy(ROOT / "profiles" / "slurm" / "requirements.lock", bare / "profiles" / "slurm")
     write_script(bare / ".venv" / "bin" / "python", f"echo \"$*\" >>'{bare}/calls'")
     (bare / ".venv" / "made-from").write_text(made_from(bare))
-    site = bare / ".venv" / "lib" / "python3.11" / "site-packages"
-    for name, text in UNMENDED.items():
-        (site / name).parent.mkdir(parents=True, exist_ok=True)
-        (site / name).write_text(text)
-    return site
-
-
-def test_packages_of_a_profile_are_added(bare, to_mend):
-    """To .venv as it is, once, and Snakemake is mended; a .venv made anew gets them again."""
     for _ in range(2):
         run = set_up_in(bare, part=("profiles/slurm",))
         assert run.returncode == 0, run.stderr
@@ -135,36 +116,21 @@ def test_packages_of_a_profile_are_added(bare, to_mend):
     assert build_tool.endswith("--require-hashes -r setup/requirements.lock")
     assert added.endswith("--require-hashes -r profiles/slurm/requirements.lock")
     assert "--no-build-isolation" in added
-    mended = {name: (to_mend / name).read_text() for name in UNMENDED}
-    assert mended["snakemake/common/configfile.py"].count("read_config.py") == 1
-    assert [name for name, text in mended.items() if text == UNMENDED[name]] == []
     (bare / ".venv" / "made-from-slurm").unlink()
     assert set_up_in(bare, part=("profiles/slurm",)).returncode == 0
     assert len((bare / "calls").read_text().splitlines()) == 4
-    assert {name: (to_mend / name).read_text() for name in UNMENDED} == mended
 
 
-@pytest.mark.parametrize("file", UNMENDED)
-def test_snakemake_that_cannot_be_mended_is_told(bare, to_mend, file):
-    """Another version may have other text there."""
-    (to_mend / file).write_text("other\n")
-    run = set_up_in(bare, part=("profiles/slurm",))
-    assert run.returncode == 1
-    assert f"set-up: cannot mend {file} in .venv: it does not hold " in run.stderr.splitlines()[-1]
-    assert not (bare / ".venv" / "made-from-slurm").exists()
-    assert (to_mend / file).read_text() == "other\n"
-
-
-@pytest.mark.parametrize("character", list('$;"\\|<>:[]\n\t'))
+@pytest.mark.parametrize("character", list('${};"\\|<>: []\n\t'))
 def test_folder_in_which_nothing_can_be_built_is_refused(tmp_path, character):
-    """At once: CMake, Make or PATH give the character a meaning of their own."""
+    """At once: CMake, Make, Snakemake or PATH give the character a meaning of their own."""
     folder = tmp_path / f"a{character}b"
     shutil.copytree(ROOT / "setup", folder / "setup")
     run = subprocess.run([folder / "setup" / "setup.sh"], capture_output=True, text=True)
     assert run.returncode == 1
     (line,) = run.stderr.splitlines()
     named = str(folder).replace("\n", "\\n").replace("\t", "\\t")
-    assert re.match(f"set-up: cannot build in .?'{re.escape(named)}': a path without ", line)
+    assert re.match(f"set-up: cannot work in .?'{re.escape(named)}': a path without ", line)
     assert [path.name for path in folder.iterdir()] == ["setup"]
 
 
@@ -248,7 +214,7 @@ def test_folder_in_which_a_build_works_is_accepted(bare):
     """Each of these characters was tried with a build and a run."""
     pretend_installed(bare, [])
     write_script(bare / "bin" / "apt-get", "exit 1")
-    folder = bare / "a #%={}()&*?~'!@,+`^éb"
+    folder = bare / "a#%=()&*?~'!@,+`^éb"
     shutil.copytree(bare / "setup", folder / "setup")
     shutil.copytree(bare / "bin", folder / "bin")
-    assert "cannot build in" not in set_up_in(folder).stderr
+    assert "cannot work in" not in set_up_in(folder).stderr

@@ -24,7 +24,7 @@ def unquoted(command: str) -> set[str]:
 def test_every_command_is_found():
     """None in another form."""
     texts = [path.read_text() for path in [ROOT / "Snakefile", *(ROOT / "rules").glob("*.smk")]]
-    assert len(COMMANDS) == len(re.findall(r"\bshell\b\s*[:(]", "".join(texts))) > 10
+    assert len(COMMANDS) == len(re.findall(r"\bshell\b\s*[:(]", "".join(texts))) > 2
 
 
 @pytest.mark.parametrize(("file", "command"), COMMANDS)

@@ -1,4 +1,4 @@
-"""What scripts read."""
+"""NetCDF files that scripts read."""
 
 from pathlib import Path
 
@@ -8,7 +8,7 @@ from scripts.files.outputs import FileError
 
 
 def read(path: str | Path) -> xr.Dataset:
-    """All of a NetCDF file; one that is damaged is removed, so that the next run makes it again."""
+    """All of a NetCDF file. Raises FileError; a damaged file is removed and so made again."""
     try:
         return xr.load_dataset(path, engine="netcdf4")
     except (OSError, RuntimeError) as problem:

@@ -1,4 +1,4 @@
-"""What scripts write is whole or absent; what goes wrong is said in one line with what to do."""
+"""Files that scripts write appear only when complete; failures are reported in one line."""
 
 import contextlib
 import os
@@ -26,10 +26,10 @@ def send_to_disk(path: Path) -> None:
 
 @contextlib.contextmanager
 def written(path: str | Path) -> Iterator[Path]:
-    """The path to write to: what is there at the end becomes `path`, of a failure nothing stays.
+    """A path to write to: the file there becomes `path` at the end; a failure leaves nothing.
 
-    Each run has another one, and removes those of earlier runs, as the Fortran programs do: the
-    last of several runs to begin writes the file.
+    Each run has a path of its own and removes those of earlier runs, as the Fortran programs do: of
+    several runs the one that began last writes the file. Raises FileError.
     """
     path = Path(path)
     unfinished = path.with_name(f"{path.name}.{os.getpid()}-{time.monotonic_ns()}.part")
@@ -56,9 +56,9 @@ def written(path: str | Path) -> Iterator[Path]:
 
 @contextlib.contextmanager
 def logged(path: str | Path) -> Iterator[None]:
-    """Write warnings and the reason of a failure to a log file.
+    """Write warnings and tracebacks to a log file.
 
-    Problems with files end the script in one line on standard error; their details are in the log.
+    A FileError ends the script with one line on standard error.
     """
     try:
         with open(path, "w") as log, contextlib.redirect_stderr(log):

@@ -1,4 +1,4 @@
-"""Tables as text with tabs between columns: empty where there is no value."""
+"""Tables as text with tabs between columns; a cell without a value is empty."""
 
 import csv
 import math
@@ -8,7 +8,10 @@ from scripts.files.outputs import written
 
 
 def write_table(path: str | Path, rows: list[dict], columns: list[str] | None = None) -> None:
-    """Write rows that all have the same keys; the file is whole or absent."""
+    """Write rows; the file appears only when complete.
+
+    Without `columns` these are the keys of the first row. What a row lacks is an empty cell.
+    """
     with written(path) as unfinished, open(unfinished, "w", newline="") as file:
         writer = csv.DictWriter(file, columns or list(rows[0]), delimiter="\t", lineterminator="\n")
         writer.writeheader()
@@ -17,7 +20,7 @@ def write_table(path: str | Path, rows: list[dict], columns: list[str] | None = 
 
 
 def as_text(value) -> str:
-    """Numbers with the digits that matter; no number is empty."""
+    """A cell: numbers with six digits, NaN as nothing."""
     if isinstance(value, float):
         if math.isnan(value):
             return ""
@@ -25,11 +28,16 @@ def as_text(value) -> str:
     return str(value)
 
 
-def read_table(path: str | Path) -> list[dict]:
-    """Rows of a table, numbers as numbers and NaN where a cell is empty.
+def as_digits(value, digits: int = 15, *, zero: float = 1e-12) -> str:
+    """A number with a number of digits; NaN is nothing, and up to `zero` in modulus it is 0."""
+    value = float(value)
+    if math.isnan(value):
+        return ""
+    return f"{value:.{digits}g}" if abs(value) > zero else "0"
 
-    Lines above it that begin with # are left out.
-    """
+
+def read_table(path: str | Path) -> list[dict]:
+    """Rows of a table with numbers as float, NaN where a cell is empty; # begins a comment line."""
     with open(path, newline="") as file:
         lines = (line for line in file if not line.startswith("#"))
         return [

@@ -23,11 +23,12 @@ class Reference:
     amplification: np.ndarray
 
 
-def read_references(path: str | Path) -> dict[str, Reference]:
-    """References of a file by case."""
+def read_references(paths: list[str] | list[Path]) -> dict[str, Reference]:
+    """References of several files by case."""
     by_case: dict[str, list[dict]] = {}
-    for row in read_table(path):
-        by_case.setdefault(row["case"], []).append(row)
+    for path in paths:
+        for row in read_table(path):
+            by_case.setdefault(row["case"], []).append(row)
     return {
         case: Reference(
             status=rows[0]["status"],
@@ -41,22 +42,28 @@ def read_references(path: str | Path) -> dict[str, Reference]:
 
 
 def read_runs(path: str | Path) -> list[dict]:
-    """Runs of a file: words, numbers, and samples as `time` and `state`."""
+    """Runs of a file: words, numbers, and samples as `time` and `state` (shape (3, samples))."""
     data = read(path)
+    numbers = {name for name, values in data.variables.items() if values.dims == ("run",)}
     runs = []
     for i in range(data.sizes["run"]):
         row = data.isel(run=i)
-        run = {name: str(row[name].values) for name in WORDS}
-        run |= {
-            name: float(row[name])
-            for name, values in data.variables.items()
-            if values.dims == ("run",) and name not in WORDS
-        }
-        there = np.isfinite(row.time.values)
-        run["time"] = row.time.values[there]
-        run["state"] = np.array([row[name].values[there] for name in STATE])
-        runs.append(run)
+        reached = np.isfinite(row.time.values)
+        runs.append(
+            {name: str(row[name].values) for name in WORDS}
+            | {name: float(row[name]) for name in numbers - set(WORDS)}
+            | {"time": row.time.values[reached]}
+            | {"state": np.array([row[name].values[reached] for name in STATE])}
+        )
     return runs
+
+
+def read_runs_with_references(
+    measurements: list[str], references: list[str]
+) -> list[tuple[dict, Reference]]:
+    """Runs of several files, each with the reference of its case."""
+    by_case = read_references(references)
+    return [(run, by_case[run["case"]]) for path in measurements for run in read_runs(path)]
 
 
 def distances(state: np.ndarray, reference: np.ndarray) -> np.ndarray:
@@ -65,7 +72,7 @@ def distances(state: np.ndarray, reference: np.ndarray) -> np.ndarray:
 
 
 def errors_of(run: dict, reference: Reference) -> np.ndarray:
-    """Error at each sample of a run; NaN where either did not come."""
+    """Error at each sample of a run; NaN at samples that the run or its reference did not reach."""
     samples = run["time"].size
     if not np.array_equal(run["time"], reference.time[:samples]):
         raise ValueError(f"case '{run['case']}': samples of run and reference at different times")
@@ -73,6 +80,6 @@ def errors_of(run: dict, reference: Reference) -> np.ndarray:
 
 
 def largest(values: np.ndarray) -> float:
-    """The largest value after the first sample, at which nothing has happened; NaN if none."""
+    """The largest finite value after the first sample, which is the history; NaN if none is."""
     values = values[1:][np.isfinite(values[1:])]
     return float(values.max()) if values.size else np.nan

@@ -8,20 +8,24 @@ import xarray as xr
 from scripts.files.inputs import read
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
-from scripts.tables.motion_rows import has_problem
+from scripts.namelists.study_cases import HISTORY, PARAMETERS
+from scripts.tables.motion_rows import AXES_FIRST, has_problem
 
 SAME_MAXIMUM = 0.02
-"""Maxima of v on one and the same cycle or torus differ by no more than this share: near a fold a
-cycle is approached slowly."""
+"""Greatest share by which maxima of v differ on one cycle or torus: near a fold a cycle is
+approached slowly."""
 ERROR_BARS = 3.0
-"""Exponents of one and the same chaotic attractor differ by no more error bars than this."""
+"""Greatest number of error bars by which exponents differ on one chaotic attractor."""
+NOT_COMPUTED = {*PARAMETERS, *HISTORY, "computed", "class", "period"}
+"""Columns of points of the atlas that were not computed; the others are empty."""
 
 
-def rows_of(run: xr.Dataset) -> list[dict]:
-    """Rows of a file; fundamental frequencies, periods and maxima that are not there are NaN."""
+def rows_of(run: xr.Dataset, **flags: list[str]) -> list[dict]:
+    """Rows of a file, with columns of further flags before the class; values not found are NaN."""
     columns = {
-        **{key: numbers(run[key]) for key in ("epsilon", "tau", "xi", "gamma")},
-        **{key: numbers(run[f"history_{key}"]) for key in ("theta", "u", "v")},
+        **{key: numbers(run[key]) for key in AXES_FIRST},
+        **{key: numbers(run[f"history_{key}"]) for key in HISTORY},
+        **flags,
         "class": words(run["class"]),
         "reason": ["" if word == "none" else word for word in words(run.reason)],
         "time": numbers(run.time),
@@ -43,20 +47,12 @@ def rows_of(run: xr.Dataset) -> list[dict]:
     ]
 
 
-NOT_COMPUTED = ["epsilon", "tau", "xi", "gamma", "theta", "u", "v", "computed", "class", "period"]
-"""Columns of points of the atlas that were not computed; the others are empty."""
-
-
 def atlas_rows(run: xr.Dataset) -> list[dict]:
     """Rows of a part of the atlas, with the column `computed` before the class."""
-    rows = []
-    for computed, row in zip(words(run.computed), rows_of(run), strict=True):
-        items = list(row.items())
-        at = list(row).index("class")
-        whole = dict([*items[:at], ("computed", computed), *items[at:]])
-        if computed == "no":
-            whole = {key: value if key in NOT_COMPUTED else np.nan for key, value in whole.items()}
-        rows.append(whole)
+    rows = rows_of(run, computed=words(run.computed))
+    for row in rows:
+        if row["computed"] == "no":
+            row |= dict.fromkeys(row.keys() - NOT_COMPUTED, np.nan)
     return rows
 
 
@@ -82,24 +78,21 @@ def scene_rows(scene: str, run: xr.Dataset) -> list[dict]:
     Histories are tame if v is at most as large in all of them as on the attractors: they cannot be
     expected to find motions of larger slip events.
     """
-    found: list[dict] = []
-    rows = []
-    of_runs = rows_of(run)
-    maxima = [row["largest_maximum"] for row in of_runs]
+    rows = rows_of(run)
+    maxima = [row["largest_maximum"] for row in rows]
     largest = max((value for value in maxima if not np.isnan(value)), default=0.0)
-    tame = "yes" if max(row["v"] for row in of_runs) <= largest else "no"
-    for history, row in enumerate(of_runs, start=1):
-        number = next(
-            (i for i, other in enumerate(found, start=1) if same_attractor(row, other)), None
-        )
-        if number is None and not row["problem"]:
+    tame = "yes" if max(row["v"] for row in rows) <= largest else "no"
+    found: list[dict] = []
+    numbered = []
+    for history, row in enumerate(rows, start=1):
+        alike = (i for i, other in enumerate(found, start=1) if same_attractor(row, other))
+        number = next(alike, np.nan)
+        if np.isnan(number) and not row["problem"]:
             found.append(row)
             number = len(found)
-        number = np.nan if number is None else number
-        rows.append(
-            {"scene": scene, "history": history, "attractor": number, **row, "tame_histories": tame}
-        )
-    return rows
+        place = {"scene": scene, "history": history, "attractor": number}
+        numbered.append({**place, **row, "tame_histories": tame})
+    return numbered
 
 
 def route_rows(path: Path, run: xr.Dataset) -> list[dict]:
@@ -108,7 +101,7 @@ def route_rows(path: Path, run: xr.Dataset) -> list[dict]:
 
 
 def same_attractor(one: dict, other: dict) -> bool:
-    """Whether two runs reached the same attractor, as far as can be told."""
+    """Whether two runs reached the same attractor, by their classes, maxima and exponents."""
     if one["class"] != other["class"] or has_problem(one):
         return False
     if one["class"] == "fixed point":
@@ -123,11 +116,11 @@ def same_attractor(one: dict, other: dict) -> bool:
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        runs = [(Path(path), read(path)) for path in snakemake.input.runs]
         rows_by_kind = {
             "scenes": lambda path, run: scene_rows(path.stem, run),
             "route": route_rows,
             "atlas": lambda _, run: atlas_rows(run),
         }
-        rows = rows_by_kind[snakemake.params.of]
-        write_table(snakemake.output[0], [row for path, run in runs for row in rows(path, run)])
+        make_rows = rows_by_kind[snakemake.params.of]
+        rows = [row for path in snakemake.input.runs for row in make_rows(Path(path), read(path))]
+        write_table(snakemake.output[0], rows)

@@ -13,7 +13,7 @@ from scripts.namelists.study_cases import PARAMETERS
 from scripts.tables.attractor_tables import same_attractor, scene_rows
 from scripts.tables.motion_rows import UNDECIDED
 
-OF_MOTION = (
+MOTION_KEYS = (
     *("class", "period", "exponent_1", "error_1", "exponent_2", "error_2", "f1", "f2"),
     *("smallest_maximum", "largest_maximum"),
 )
@@ -39,7 +39,7 @@ def basin_rows(place: str, run: xr.Dataset, on_routes: list[dict]) -> list[dict]
             "place": place,
             **{key: rows[0][key] for key in PARAMETERS},
             "motion": motion,
-            **{key: one[key] for key in OF_MOTION},
+            **{key: one[key] for key in MOTION_KEYS},
             "shown_by": f"{one['route']} {one['run']}" if count == 0 else "histories",
             "histories": len(rows),
             "share": count / len(rows),

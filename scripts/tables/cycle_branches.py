@@ -5,8 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from scripts.drawing.special_points import words_of
-
 
 @dataclass
 class CycleThere:
@@ -60,7 +58,7 @@ def branch_of(cycles: xr.Dataset, number: int, along: str) -> tuple[np.ndarray, 
     points = cycles.isel(special=cycles.special_branch.values == number)
     x, y = orbits[along].values, orbits.v_most.values
     unstable = orbits.unstable.values
-    if branch_word(cycles, "ending", number) == "closed":
+    if cycles.branch_ending.values[number - 1] == "closed":
         x, y, unstable = (np.append(values, values[0]) for values in (x, y, unstable))
     between = unstable[:-1].copy()
     inserted = []
@@ -80,8 +78,3 @@ def branch_of(cycles: xr.Dataset, number: int, along: str) -> tuple[np.ndarray, 
         x, y = np.insert(x, before, point_x), np.insert(y, before, point_y)
         between = np.insert(between, before, behind)
     return x, y, between
-
-
-def branch_word(cycles: xr.Dataset, kind: str, number: int) -> str:
-    """The origin or the ending of a branch."""
-    return words_of(cycles[f"branch_{kind}"])[number - 1]

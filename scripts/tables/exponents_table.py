@@ -29,7 +29,7 @@ def rows_of(run: xr.Dataset) -> list[dict]:
 
 
 def sign(value: float, bound: float) -> str:
-    """What can be told of an exponent's sign."""
+    """The sign of an exponent; zero if its modulus is at most `bound`."""
     if abs(value) <= bound:
         return "zero"
     return "positive" if value > 0 else "negative"

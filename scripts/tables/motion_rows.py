@@ -5,6 +5,8 @@ import numpy as np
 from scripts.namelists.study_cases import HISTORY, PARAMETERS
 
 UNDECIDED = "undecided"
+AXES_FIRST = ("epsilon", "tau", "xi", "gamma")
+"""PARAMETERS in the order of tables of planes: the axes of the atlas first."""
 COLOURS = {
     "fixed point": "#d9d9d9",
     "cycle": "#56b4e9",
@@ -14,8 +16,7 @@ COLOURS = {
     "chaos": "#d55e00",
     UNDECIDED: "#ffffff",
 }
-"""Kinds of motion by the colours of their cells, which people who see colours differently tell
-apart."""
+"""Colour of cells by kind of motion; colour-blind readers can distinguish them."""
 
 
 def has_problem(row: dict) -> bool:

@@ -4,6 +4,7 @@ import numpy as np
 
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
+from scripts.namelists.study_cases import HISTORY, PARAMETERS
 from scripts.tables.accuracy import (
     Reference,
     distances,
@@ -13,7 +14,6 @@ from scripts.tables.accuracy import (
     read_runs,
 )
 
-PARAMETERS = ["tau", "epsilon", "xi", "gamma", "history_theta", "history_u", "history_v", "t_end"]
 WORDS = {
     "quadruple": "same source in quadruple precision",
     "stationary": "exact stationary state, at t_end only",
@@ -22,13 +22,8 @@ WORDS = {
 """What errors are measured against, in words."""
 
 
-def rows_of(family: str, kind: str, runs: list[dict], references: dict) -> list[dict]:
-    """Rows of a family; `kind` is that of its reference."""
-    return [row_of(family, kind, run, references.get(run["case"])) for run in runs]
-
-
 def row_of(family: str, kind: str, run: dict, reference: Reference | None) -> dict:
-    """One run."""
+    """One run of a family; `kind` is that of the family's references, a key of WORDS."""
     error = uncertainty = amplification = np.nan
     status = ""
     if kind == "quadruple":
@@ -44,7 +39,8 @@ def row_of(family: str, kind: str, run: dict, reference: Reference | None) -> di
     return {
         "case": run["case"],
         "family": family,
-        **{name: run[name] for name in PARAMETERS},
+        **{name: run[name] for name in (*PARAMETERS, *(f"history_{key}" for key in HISTORY))},
+        "t_end": run["t_end"],
         "method": run["method"],
         "tolerance": run["setting"],
         "status": run["status"],
@@ -67,14 +63,12 @@ def row_of(family: str, kind: str, run: dict, reference: Reference | None) -> di
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        references = {}
-        for path in snakemake.input.references:
-            references |= read_references(path)
+        references = read_references(snakemake.input.references)
         kinds = snakemake.params.references
         measured = zip(kinds, snakemake.input.measurements, strict=True)
         table = [
-            row
+            row_of(family, kinds[family], run, references.get(run["case"]))
             for family, path in measured
-            for row in rows_of(family, kinds[family], read_runs(path), references)
+            for run in read_runs(path)
         ]
         write_table(snakemake.output[0], table)

@@ -4,7 +4,7 @@ import numpy as np
 
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
-from scripts.tables.accuracy import Reference, errors_of, largest, read_references, read_runs
+from scripts.tables.accuracy import Reference, errors_of, largest, read_runs_with_references
 
 
 def horizon(run: dict, reference: Reference, trusted_error: float) -> int:
@@ -33,11 +33,6 @@ def row_of(run: dict, reference: Reference, trusted_error: float) -> dict:
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        rows = []
-        for measured, computed in zip(
-            snakemake.input.measurements, snakemake.input.references, strict=True
-        ):
-            (run,) = read_runs(measured)
-            reference = read_references(computed)[run["case"]]
-            rows.append(row_of(run, reference, snakemake.params.trusted_error))
-        write_table(snakemake.output[0], rows)
+        runs = read_runs_with_references(snakemake.input.measurements, snakemake.input.references)
+        trusted_error = snakemake.params.trusted_error
+        write_table(snakemake.output[0], [row_of(*run, trusted_error) for run in runs])

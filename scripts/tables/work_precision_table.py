@@ -4,7 +4,7 @@ import numpy as np
 
 from scripts.files.outputs import logged
 from scripts.files.tsv import write_table
-from scripts.tables.accuracy import Reference, errors_of, largest, read_references, read_runs
+from scripts.tables.accuracy import Reference, errors_of, largest, read_runs_with_references
 
 FIXED = {"error_quarter": 0.25, "error_half": 0.5, "error_end": 1.0}
 """Columns of errors at fixed times, as shares of t_end."""
@@ -35,28 +35,25 @@ def row_of(run: dict, reference: Reference) -> dict:
 
 
 def proportionality(rows: list[dict]) -> list[dict]:
-    """Slope of log error over log tolerance for each scene and solver, with what it rests on."""
+    """Slope of log error over log tolerance for each scene and solver, and its number of points."""
+    points: dict[tuple[str, str], list] = {(row["scene"], row["solver"]): [] for row in rows}
+    for row in rows:
+        if USEFUL[0] <= row["error_max"] <= USEFUL[1]:
+            points[row["scene"], row["solver"]].append((row["tolerance"], row["error_max"]))
     found = []
-    for scene, solver in dict.fromkeys((row["scene"], row["solver"]) for row in rows):
-        points = np.array(
-            [
-                (row["tolerance"], row["error_max"])
-                for row in rows
-                if (row["scene"], row["solver"]) == (scene, solver)
-                and USEFUL[0] <= row["error_max"] <= USEFUL[1]
-            ]
-        ).reshape(-1, 2)
+    for (scene, solver), useful in points.items():
         slope = ratio = np.nan
-        if len(points) > 2:
-            slope = float(np.polyfit(*np.log10(points).T, 1)[0])
-            ratio = float(np.exp(np.median(np.log(points[:, 1] / points[:, 0]))))
+        if len(useful) > 2:
+            tolerances, errors = np.transpose(useful)
+            slope = float(np.polyfit(np.log10(tolerances), np.log10(errors), 1)[0])
+            ratio = float(np.exp(np.median(np.log(errors / tolerances))))
         found.append(
             {
                 "scene": scene,
                 "solver": solver,
                 "slope": slope,
                 "median_error_per_tolerance": ratio if not solver.startswith("rk4") else np.nan,
-                "points": len(points),
+                "points": len(useful),
             }
         )
     return found
@@ -64,11 +61,7 @@ def proportionality(rows: list[dict]) -> list[dict]:
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        table = []
-        for measured, computed in zip(
-            snakemake.input.measurements, snakemake.input.references, strict=True
-        ):
-            references = read_references(computed)
-            table += [row_of(run, references[run["case"]]) for run in read_runs(measured)]
+        runs = read_runs_with_references(snakemake.input.measurements, snakemake.input.references)
+        table = [row_of(*run) for run in runs]
         write_table(snakemake.output.errors, table)
         write_table(snakemake.output.proportionality, proportionality(table))

@@ -1,0 +1,291 @@
+"""Users' files: all that they add is made in a folder of their own, the paper's stays."""
+
+import csv
+import json
+import re
+import subprocess
+from pathlib import Path
+
+import f90nml
+import numpy as np
+import pytest
+import xarray as xr
+from conftest import ROOT, Project, rules_in
+
+from scripts.config.read_config import ConfigError, merge, parse, read
+from scripts.workflow.plan import CONFIG, added, name_of, read_plan
+
+SMALL = """
+scenes:
+  my_scene: { t_end: 300.0, t_transient: 100.0, sample_interval: 0.1, exponents: {} }
+hopf_curves:
+  my_plane: { cells: 20 }
+routes:
+  observation: &quick
+    t_transient: 100.0
+    t_observed: 100.0
+    t_lasting: 50.0
+    t_turning: 20.0
+    doublings: 0
+    kept: 20
+  lines:
+    my_route: { count: 2 }
+    my_start:
+      { along: v, window: [0.5, 1.5], count: 2, tau: 3.0, epsilon: 0.1, xi: 0.5, gamma: 0.8 }
+cycles:
+  t_transient: 500.0
+  intervals: 20
+  most_orbits: 5
+  lines:
+    my_cycles: { along: tau, window: [1.0, 2.5], epsilon: 0.7, xi: 0.5, gamma: 0.8 }
+atlas:
+  epsilon_count: 3
+  tau_count: 3
+  parts: 1
+  refinements: 0
+  observation: *quick
+  planes:
+    my_atlas: { xi: 0.5, gamma: 0.8, tau_window: [0.0, 10.0] }
+dimensions:
+  my_fault: { length: 0.1, v0: 1.0e-9, k: 1.0e+7, a: 1.0e+6, m: 1.0e+6 }
+exponents: { t_turning: 50.0, blocks: 3 }
+spectra: { segments: 3 }
+attractors:
+  observation: *quick
+"""
+"""Settings over the file that `./reproduce new` writes: small, and with what it does not have."""
+FIGURES = [
+    *("scenes/my_scene", "exponents/my_scene", "planes/my_plane", "routes/my_route"),
+    *("routes/my_start", "cycles/my_cycles", "atlas/my_atlas"),
+]
+MY_SCENE = """
+scenes:
+  mine: &scene
+    { tau: 3, epsilon: 0.6, xi: 7e-1, gamma: 0.9, history: { v: 1.2 }, t_end: 60, tolerance: 1e-7 }
+  mine_tight: { <<: *scene, tolerance: 1.0e-13 }
+"""
+
+
+def write_new_file(path: Path) -> subprocess.CompletedProcess[str]:
+    """What `./reproduce new` says."""
+    command = [ROOT / "reproduce", "new", path]
+    return subprocess.run(command, capture_output=True, text=True)
+
+
+def state_of(results: Path) -> dict[str, tuple[int, int]]:
+    """When each file was written, and its size."""
+    files = [path for path in results.rglob("*") if path.is_file()]
+    return {str(path): (path.stat().st_mtime_ns, path.stat().st_size) for path in files}
+
+
+@pytest.fixture(scope="module")
+def made(smoke, tmp_path_factory) -> Project:
+    """A copy of the smoke run after a run with the new file, in small."""
+    project = smoke.copy_to(tmp_path_factory.mktemp("user") / "project")
+    assert write_new_file(project.folder / "mine.yaml").returncode == 0
+    path = project.folder / "mine.yaml"
+    path.write_text(json.dumps(merge(read(path), parse(SMALL))))
+    before = state_of(project.folder / "results")
+    run = project.snakemake("--config", "user_file=mine.yaml")
+    assert run.returncode == 0, run.stdout
+    after = state_of(project.folder / "results")
+    assert {path: state for path, state in after.items() if "/results/mine/" not in path} == before
+    return project
+
+
+@pytest.fixture
+def mine(scratch) -> Path:
+    """The file of a user, in a copy of the smoke run."""
+    return scratch.folder / "mine.yaml"
+
+
+def test_everything_that_the_file_adds_is_made(made):
+    """Figures, tables with rows of these names alone, the verdict on its claim, captions, page."""
+    results = made.folder / "results" / "mine"
+    figures = {path.relative_to(results / "figures") for path in results.glob("figures/*/*")}
+    endings = ("pdf", "png", "svg", "rst")
+    assert figures == {Path(f"{name}.{end}") for name in FIGURES for end in endings}
+    tables = {
+        "attractors": ("scene", "my_scene"),
+        "linear-stability": ("scene", "my_scene"),
+        "exponents": ("scene", "my_scene"),
+        "routes/my_route": ("route", "my_route"),
+        "routes/my_start": ("route", "my_start"),
+        "dimensions": ("preset", "my_fault"),
+        "claims": ("id", "my_claim"),
+    }
+    for table, (column, name) in tables.items():
+        with open(results / "tables" / f"{table}.tsv", newline="") as file:
+            rows = list(csv.DictReader(file, delimiter="\t"))
+        assert {row[column] for row in rows} == {name}
+    assert rows[0]["verdict"] in ("reproduced", "not reproduced")
+    assert rows[0]["look_at"] == "results/mine/figures/scenes/my_scene.png"
+    assert xr.load_dataset(results / "exponents" / "my_scene.nc").attrs["t_end"] == 300.0
+    # the paper's Hopf curves in the same plane are drawn in the atlas
+    assert (results / "hopf" / "tau_of_epsilon.nc").exists()
+    texts = {name: (results / "figures" / f"{name}.rst").read_text() for name in FIGURES}
+    assert [name for name, text in texts.items() if re.search(r"[{}]{2}|\bnan\b", text)] == []
+    place = r":math:`\tau = 3`, :math:`\varepsilon = 0.1`, :math:`\xi = 0.5`, :math:`\gamma = 0.8`"
+    assert place in texts["routes/my_start"]
+    page = results / "index.html"
+    links = re.findall(r'(?:href|src)="([^"#][^"]*)"', page.read_text())
+    files = {link for link in links if not link.startswith(("data:", "http"))}
+    assert {f"figures/{name}.svg" for name in FIGURES} <= files
+    assert [link for link in files if not (page.parent / link).is_file()] == []
+    for part in ('id="trajectory-view"', 'id="claim-my_claim"', 'id="play-view"'):
+        assert part in page.read_text()
+
+
+def test_scene_of_a_user(scratch, mine):
+    """v is right to 100 x tolerance against a tighter run; numbers are those of YAML 1.2."""
+    mine.write_text(MY_SCENE)
+    targets = [f"results/mine/trajectories/{name}.nc" for name in ("mine", "mine_tight")]
+    run = scratch.reproduce("mine.yaml", *targets)
+    assert run.returncode == 0, run.stdout
+    loose, tight = (xr.load_dataset(scratch.folder / path) for path in targets)
+    assert list(loose.data_vars) == ["theta", "u", "v"]
+    for time in (3.0, 17.5, 60.0):
+        right = float(tight.v.sel(t=time))
+        assert float(loose.v.sel(t=time)) == pytest.approx(right, abs=100e-7)
+    assert not np.array_equal(loose.v, tight.v)
+
+
+def test_one_key_of_a_scene_can_be_changed(scratch, mine):
+    """The others keep their values; 010 is ten."""
+    mine.write_text("scenes: { torus: { tau: 010, history: { v: 1.5 } } }")
+    namelist = "results/mine/namelists/trajectories/torus.nml"
+    run = scratch.snakemake(namelist, "--config", "user_file=mine.yaml")
+    assert run.returncode == 0, run.stdout
+    scene = f90nml.read(scratch.folder / namelist)["scene"].todict()
+    assert (scene["tau"], scene["epsilon"], scene["t_end"]) == (10, 0.5, 8000.0)
+    assert scene["history"] == {"theta": 0.0, "u": 0.0, "v": 1.5}
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("scenes: { torus: { tau: -1.0 } }", "scene 'torus': tau = -1.0; expected "),
+        ("scenes:\n  torus:\n    tau: 1\n    tau: 2", "mine.yaml, line 4: found duplicate key"),
+        (None, "mine.yaml: cannot be read: No such file or directory"),
+        ("spectra: { segments: 4 }", "the file adds no scene, plane, route"),
+        ("scenes: { mine: { tau: 1 } }", "scene 'mine': key"),
+        ("pathvars: { results: 'results/$(touch X)' }", "pathvars: results = 'results/$(touch X)'"),
+    ],
+)
+def test_bad_file_is_refused_in_words(smoke, tmp_path, text, words):
+    """No traceback, a status other than 0, and nothing made."""
+    path = tmp_path / "mine.yaml"
+    if text is not None:
+        path.write_text(text)
+    before = state_of(smoke.folder / "results")
+    run = smoke.snakemake("--config", f"user_file={path}")
+    assert run.returncode != 0
+    assert re.search(rf"^(?:error: )?.*{re.escape(words)}", run.stdout, re.MULTILINE), run.stdout
+    assert "Traceback" not in run.stdout
+    assert state_of(smoke.folder / "results") == before
+
+
+def test_integration_that_fails_leaves_no_output(scratch, mine):
+    """What the program says is on the screen and in the log."""
+    mine.write_text(MY_SCENE.replace("v: 1.2", "v: 1.0e-300"))
+    run = scratch.reproduce("mine.yaml", "results/mine/trajectories/mine.nc")
+    assert run.returncode != 0
+    results = scratch.folder / "results" / "mine"
+    assert list((results / "trajectories").glob("mine*")) == []
+    said = (results / "logs" / "trajectories" / "mine.log").read_text()
+    assert said.startswith("error: ")
+    assert said.strip() in run.stdout
+
+
+def test_program_that_dies_leaves_no_output(scratch, mine):
+    """Even if it wrote half of it."""
+    program = scratch.folder / "build" / "release" / "bin" / "trajectory"
+    program.write_text('#!/bin/sh\necho half >"$2"\necho "it died" >&2\nexit 3\n')
+    mine.write_text(MY_SCENE)
+    target = "results/mine/trajectories/mine.nc"
+    run = scratch.snakemake(target, "--config", "user_file=mine.yaml")
+    assert run.returncode != 0
+    assert "it died" in run.stdout
+    assert not (scratch.folder / target).exists()
+
+
+def test_build_that_fails_leaves_no_program(project):
+    """The compiler's words are on the screen and in the log."""
+    with open(project.folder / "fortran" / "dde" / "src" / "api" / "dde_kinds.f90", "a") as source:
+        source.write("this is no Fortran\n")
+    run = project.snakemake("build/release/bin/velocity_step")
+    assert run.returncode != 0
+    assert "this is no Fortran" in run.stdout
+    log = project.folder / "results" / "logs" / "build" / "velocity_step.log"
+    assert "this is no Fortran" in log.read_text()
+    assert not (project.folder / "build" / "release" / "bin" / "velocity_step").exists()
+
+
+def test_paper_can_be_run_with_other_settings_in_another_folder(smoke, tmp_path):
+    """By Snakemake's own options."""
+    (tmp_path / "moved.yaml").write_text(
+        "{ pathvars: { results: moved }, scenes: { torus: { tau: 11.0 } } }"
+    )
+    run = smoke.snakemake("--dry-run", "figure_6", "--configfile", str(tmp_path / "moved.yaml"))
+    assert run.returncode == 0, run.stdout
+    assert "moved/figures/figure_6.svg" in run.stdout
+    assert {"trajectory", "spectrum", "figure_6"} <= rules_in(run.stdout)
+    assert "results/" not in re.sub("/results/", "", run.stdout).replace("scripts/results", "")
+
+
+def test_new_file_overwrites_none(tmp_path):
+    """It is named after itself and accepted by the schema; a second one is refused."""
+    path = tmp_path / "faults.yaml"
+    assert write_new_file(path).returncode == 0
+    assert "results/faults/" in path.read_text()
+    assert "mine" not in path.read_text()
+    plan = read_plan({"user_file": str(path)})
+    assert plan.results == "results/faults"
+    assert plan.figures == ["scenes/my_scene", "planes/my_plane", "routes/my_route"]
+    assert set(plan.config["scenes"]) == {"my_scene"}
+    path.write_text("mine")
+    again = write_new_file(path)
+    assert again.returncode != 0
+    assert "there already" in again.stderr
+    assert path.read_text() == "mine"
+
+
+@pytest.mark.parametrize("name", ["my file", "faults.v2", "a&b"])
+def test_new_file_promises_only_the_folder_that_it_gets(tmp_path, name):
+    """A folder has none of these characters."""
+    run = write_new_file(tmp_path / f"{name}.yaml")
+    assert run.returncode == 1
+    assert f"the name '{name}'; expected letters, digits, _ and - alone" in run.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_folder_is_named_after_the_file():
+    """None of those in the list of results/README.md, and none that Snakemake cannot take."""
+    assert name_of("/some/where/my-file_2.yaml") == "my-file_2"
+    kinds = set(re.findall(r"`results/(\w+)/", (ROOT / "results" / "README.md").read_text()))
+    for name in (kinds - {"mine"}) | {"page", "a" * 20, "mine" + "-1" * 20, "ab" * 51, "a b"}:
+        with pytest.raises(ConfigError, match="expected a name of letters"):
+            name_of(f"{name}.yaml")
+
+
+def test_list_of_what_a_file_adds():
+    """Names alone; all of a section whose shared settings change."""
+    whole = read(CONFIG)
+    overlay = read(ROOT / "config" / "new.yaml") | {"atlas": {"tau_count": 9}, "cycles": 3}
+    names = {section: found for section, found in added(overlay, whole).items() if found}
+    assert names == {
+        **{"scenes": ["my_scene"], "planes": ["my_plane"], "routes": ["my_route"]},
+        "atlas": list(whole["atlas"]["planes"]),
+    }
+
+
+def test_claims_of_a_user_may_name_scenes_of_the_paper(tmp_path):
+    """They are computed, too, in the user's folder; no figure shows them."""
+    (tmp_path / "mine.yaml").write_text(
+        "claims: { mine: { place: here, claim: It is chaos., look_at: attractors.tsv,"
+        " test: { attractor_class: { scene: chaos, expected: chaos } } } }"
+    )
+    plan = read_plan({"user_file": str(tmp_path / "mine.yaml")})
+    assert list(plan.config["scenes"]) == ["chaos"]
+    assert plan.figures == []
+    assert "<results>/tables/claims.tsv" in plan.targets()
