@@ -15,7 +15,7 @@ from measuring import (
     write_table,
 )
 
-from scripts.namelists.result_values import cycles_values
+from scripts.namelists.result_values import cycles_groups
 from scripts.namelists.study_cases import PARAMETERS
 from scripts.namelists.write_namelist import write_groups
 
@@ -37,7 +37,7 @@ def follow_here(config: dict, line: str) -> tuple[dict, list[tuple[str, float]]]
     along = config["cycles"]["lines"][line]["along"]
     with tempfile.TemporaryDirectory() as folder:
         namelist, output = Path(folder) / "line.nml", Path(folder) / "line.nc"
-        write_groups(namelist, {"cycles": cycles_values(config, line)})
+        write_groups(namelist, cycles_groups(config, line))
         seconds, _ = measure_command([BUILD / "bin" / "cycles", namelist, output])
         found = xr.load_dataset(output)
     columns = (found[name].values.tolist() for name in ("special_kind", f"special_{along}"))

@@ -14,7 +14,6 @@ from measuring import BUILD, HERE, ROOT, configuration
 
 from scripts.files.tsv import read_table
 from scripts.namelists.study_cases import case_of, measured_study
-from scripts.namelists.write_measured_scene import horizon_of
 from scripts.tables.accuracy import Reference, distances, read_references
 
 HORIZONS = ROOT / "results" / "tables" / "trusted-horizons.tsv"
@@ -61,9 +60,9 @@ def read_study() -> dict:
     return measured_study(configuration())
 
 
-def read_horizons() -> list[dict]:
-    """The table of times up to which each scene can be trusted."""
-    return read_table(HORIZONS)
+def read_horizons() -> dict[str, float]:
+    """Times up to which each scene can be trusted."""
+    return {row["scene"]: row["horizon"] for row in read_table(HORIZONS)}
 
 
 def reference_path(name: str) -> Path:
@@ -73,17 +72,17 @@ def reference_path(name: str) -> Path:
 
 def read_reference(name: str) -> Reference:
     """The solution of a scene in quadruple precision."""
-    return read_references(reference_path(name))[name]
+    return read_references([reference_path(name)])[name]
 
 
-def scene_of(study: dict, horizons: list[dict], name: str) -> Scene:
-    """A scene of the study, up to the time in the table of horizons."""
+def scene_of(study: dict, horizons: dict[str, float], name: str) -> Scene:
+    """A scene of the study, up to its horizon."""
     case = case_of(name, study["cases"][name])
     return Scene(
         name=name,
         **{key: float(case[key]) for key in ("tau", "epsilon", "xi", "gamma")},
         past=(float(case["theta"]), float(case["u"]), math.log(case["v"])),
-        t_end=horizon_of(horizons, name),
+        t_end=horizons[name],
         sample_interval=case["sample_interval"],
     )
 

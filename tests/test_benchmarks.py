@@ -100,7 +100,7 @@ def test_scenes_are_those_of_work_against_precision():
     study = solvers.read_study()
     names = tuple(study["cases"])
     assert names == ("fixed_point", "oscillation", "torus", "chaos", "stick", "stiff")
-    horizons = [{"scene": name, "horizon": 100.0 + i} for i, name in enumerate(names)]
+    horizons = {name: 100.0 + i for i, name in enumerate(names)}
     torus, stiff = (solvers.scene_of(study, horizons, name) for name in ("torus", "stiff"))
     assert (torus.tau, torus.epsilon, torus.t_end, torus.sample_interval) == (10.0, 0.5, 102.0, 1.0)
     assert torus.past == (0.0, 0.0, math.log(1.1))
