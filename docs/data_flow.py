@@ -55,10 +55,8 @@ def read_filegraph(text: str) -> tuple[list[Rule], set[tuple[str, str]]]:
         written = label.partition("output &rarr;")[2]
         files = re.findall(r'<font face="monospace">(.*?)</font>', written)
         # without the patterns that wildcards must match
-        plain = [re.sub(r"\{(\w+),[^{}]*\}", r"{\1}", html.unescape(file)) for file in files]
-        # the folder of the paper's results stands for that of any user's file
-        named = [file.replace("{results}/", "results/") for file in plain]
-        rules[number] = Rule(name, tuple(named))
+        plain = (re.sub(r"\{(\w+),[^{}]*\}", r"{\1}", html.unescape(file)) for file in files)
+        rules[number] = Rule(name, tuple(plain))
     kept = {number: rule.name for number, rule in rules.items() if rule.name != TARGET}
     edges = re.findall(r"^\s*(\d+) -> (\d+)$", text, re.MULTILINE)
     pairs = {(kept[a], kept[b]) for a, b in edges if a in kept and b in kept}
