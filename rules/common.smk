@@ -43,7 +43,11 @@ def files_in(*folders, endings):
 def sources_of(program):
     """Sources that a program is built from: its own and all modules."""
     return [
-        *("fortran/CMakeLists.txt", "fortran/CMakePresets.json", "fortran/dde/CMakeLists.txt"),
+        *(
+            "fortran/CMakeLists.txt",
+            "fortran/CMakePresets.json",
+            "fortran/dde/CMakeLists.txt",
+        ),
         f"fortran/app/{program}.f90",
         *files_in("src", "dde/src", "dde/lapack", endings={".f90", ".c", ".in"}),
     ]

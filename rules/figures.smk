@@ -4,7 +4,11 @@ from scripts.figures import entries as registry
 
 def tables_read(figure):
     """Tables of the project that a figure reads beside results."""
-    return [path for path in registry.files_of(figure, config) if not path.startswith("<results>/")]
+    return [
+        path
+        for path in registry.files_of(figure, config)
+        if not path.startswith("<results>/")
+    ]
 
 
 for figure in plan.figures:
@@ -25,12 +29,14 @@ for figure in plan.figures:
             svg=f"<results>/figures/{figure}.svg",
         log:
             f"<results>/logs/figures/{figure}.log",
-        localrule: True
         priority: PAPER if registry.entry_of(figure).category == "Figures" else 0
+        localrule: True
         params:
             **fill_in(registry.params_of(figure, config)),
             script=registry.script_of(figure),
-            code=code_of(f"figures/{registry.script_of(figure)}.py", *tables_read(figure)),
+            code=code_of(
+                f"figures/{registry.script_of(figure)}.py", *tables_read(figure)
+            ),
         script:
             "../scripts/figures/{params.script}.py"
 
@@ -38,7 +44,11 @@ for figure in plan.figures:
 rule captions:
     """Captions of all figures, filled with their numbers and the verdicts."""
     input:
-        data=[path for figure in plan.figures for path in registry.files_of(figure, config)],
+        data=[
+            path
+            for figure in plan.figures
+            for path in registry.files_of(figure, config)
+        ],
         claims=[] if plan.is_users else "<results>/tables/claims.json",
     output:
         expand("<results>/figures/{figure}.rst", figure=plan.figures),

@@ -11,8 +11,8 @@ rule build:
         "build/release/bin/{program}",
     log:
         "<results>/logs/build/{program}.log",
-    localrule: True
     priority: BUILD
+    localrule: True
     threads: 2
     params:
         digest=lambda wildcards: digest_of(wildcards.program),
@@ -45,8 +45,8 @@ for run in RUNS:
                 f"<results>/{run.namelist_path}",
             log:
                 f"<results>/logs/namelists/{run.stem}.log",
-            localrule: True
             priority: run.priority
+            localrule: True
             params:
                 groups=groups_of(run),
                 code=code_of("namelists/write_namelist.py"),
@@ -57,17 +57,17 @@ for run in RUNS:
         name:
             run.rule
         input:
+            **{name: f"<results>/{path}" for name, path in run.needs.items()},
             program=f"build/release/bin/{run.program}",
             namelist=f"<results>/{run.namelist_path}",
-            **{name: f"<results>/{path}" for name, path in run.needs.items()},
         output:
             f"<results>/{run.output}",
         log:
             f"<results>/logs/{run.stem}.log",
         benchmark:
             f"<results>/benchmarks/{run.stem}.tsv"
-        localrule: not run.takes_minutes
         priority: run.priority
+        localrule: not run.takes_minutes
         params:
             groups=groups_of(run),
             sources=digest_of(run.program),

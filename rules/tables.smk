@@ -1,5 +1,5 @@
 # Tables of results.
-from scripts.claims import claims_config
+from scripts.claims.ledger import inputs_for
 from scripts.namelists.study_cases import measured_study
 from scripts.results import paths
 
@@ -14,8 +14,8 @@ rule attractors_table:
         "<results>/tables/attractors.tsv",
     log:
         "<results>/logs/tables/attractors.log",
-    localrule: True
     priority: PAPER
+    localrule: True
     params:
         of="scenes",
         code=code_of("tables/attractor_tables.py"),
@@ -193,8 +193,12 @@ rule stability_table:
 rule trusted_horizons:
     """Table of the times up to which runs of the scenes can be compared."""
     input:
-        measurements=expand("<results>/measurements/trust/{case}.nc", case=MEASURED["cases"]),
-        references=expand("<results>/references/trust/{case}.tsv", case=MEASURED["cases"]),
+        measurements=expand(
+            "<results>/measurements/trust/{case}.nc", case=MEASURED["cases"]
+        ),
+        references=expand(
+            "<results>/references/trust/{case}.tsv", case=MEASURED["cases"]
+        ),
     output:
         "<results>/tables/trusted-horizons.tsv",
     log:
@@ -213,7 +217,9 @@ rule work_precision_table:
         measurements=expand(
             "<results>/measurements/work_precision/{case}.nc", case=MEASURED["cases"]
         ),
-        references=expand("<results>/references/trust/{case}.tsv", case=MEASURED["cases"]),
+        references=expand(
+            "<results>/references/trust/{case}.tsv", case=MEASURED["cases"]
+        ),
     output:
         errors="<results>/tables/work-precision.tsv",
         proportionality="<results>/tables/tolerance-proportionality.tsv",
@@ -229,7 +235,7 @@ rule work_precision_table:
 rule claims:
     """Verdicts on all claims of the paper, in results/tables/claims.tsv."""
     input:
-        **claims_config.files_for(plan.claims, config),
+        **inputs_for(plan.claims, config),
     output:
         tsv=report(
             "<results>/tables/claims.tsv",

@@ -18,8 +18,7 @@ import pytest
 import xarray as xr
 from namelist_groups import CASES, EXPONENTS, MEASURE, OBSERVATION, POINTS, REFERENCE
 
-from scripts.config.check_config import checked
-from scripts.config.read_config import merge, read
+from scripts.config.read_config import read
 from scripts.namelists.write_namelist import write_groups
 from scripts.results import manifest
 from scripts.workflow.plan import Plan, read_plan

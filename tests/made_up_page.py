@@ -100,7 +100,7 @@ def content(folder: Path, **values) -> dict:
         claim("beside", look_at="results/figures/figure_1.png"),
         claim("folded", VERDICTS[2], look_at="results/figures/atlas.png"),
     ]
-    about_equations = [claim("equation_8", VERDICTS[1], instead="It is gamma^2.")]
+    about_equations = [claim("equation_8", VERDICTS[1], instead="It is $gamma^2$.")]
     names = ("figure_1", "Figures"), ("atlas", "Atlas", "results/tables/a.tsv"), ("hero", "Atlas")
     given = [figure(folder, *name) for name in names]
     first, atlas, hero = page_content.describe_figures(given, beside, Path("results"))
@@ -113,7 +113,7 @@ def content(folder: Path, **values) -> dict:
     paper = {
         "opening": "What it is about.",
         "main_claims": [],
-        "findings": [{"title": "Found.", "words": "At tau = 2.", "claims": claims[:1]}],
+        "findings": [{"title": "Found.", "words": "At $tau = 2$.", "claims": claims[:1]}],
         "block": None,
         "hero": hero,
         "cited": {"licence": "MIT", "works": ["One (2020). A work."]},

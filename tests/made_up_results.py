@@ -5,8 +5,10 @@ import math
 import numpy as np
 import xarray as xr
 
-from scripts.claims.claims_results import Results
+from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED, Results
 
+YES, PARTLY, NO = REPRODUCED, CORRECTED, NOT_REPRODUCED
+"""Verdicts, short for tables of expected ones."""
 CLASSES = ["fixed point", "cycle", "torus", "chaos", "undecided"]
 PLACE = {"tau": 10.0, "epsilon": 0.5, "xi": 0.8, "gamma": 0.8}
 """Parameters of a line, but for the one along it."""
@@ -42,18 +44,9 @@ def changed(curves: xr.Dataset, **values) -> xr.Dataset:
     return curves.assign(new)
 
 
-def results(**given) -> Results:
-    """Results of which a test uses some."""
-    empty = {"curves": {}, "friction": xr.Dataset(), "hopf_points": [], "linear_stability": []}
-    tables = ("fault_limit", "stability", "attractors", "exponents", "atlas", "basins", "routes")
-    tables += ("cycle_points",)
-    empty |= {name: [] for name in tables} | {"cycles": {}}
-    return Results(**{**empty, "spectra": {}, "slip_events": {}, **given})
-
-
 def on_plane(curves: xr.Dataset) -> Results:
     """Results with one plane of Hopf curves."""
-    return results(curves={"plane": curves})
+    return Results(curves={"plane": curves})
 
 
 def stability_row(scene: str = "mine", **given) -> dict:

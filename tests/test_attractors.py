@@ -10,9 +10,9 @@ import xarray as xr
 
 from scripts.namelists import attractor_surveys
 from scripts.namelists.study_cases import HISTORY, PARAMETERS
+from scripts.results import paths
 from scripts.tables import attractor_tables, basins_table
 from scripts.tables.motion_rows import count_in_words, kind_of, parameter_of
-from scripts.workflow import result_files
 
 CLASSES = ["undecided", "fixed point", "cycle", "torus", "3-torus", "chaos"]
 
@@ -83,7 +83,7 @@ def test_route_along_a_value_of_the_history(full):
     assert points["u"] == [full["routes"]["histories"]["slip"]["u"]] * 3
     assert [points[f"{key}_count"] for key in PARAMETERS] == [1, 1, 1, 1]
     assert points["sweep"] == "none"
-    names = [path.split("/")[-1] for path in result_files.runs_of_route(full, "mine")]
+    names = [path.split("/")[-1] for path in paths.runs_of_route(full, "mine")]
     assert names == ["near.nc", "slip.nc"]
 
 

@@ -11,8 +11,8 @@ from made_up_results import attractor_row, followed_cycles, hopf_curve, route_ro
 from scripts.captions import numbers_of_motions, numbers_of_planes, numbers_of_solver
 from scripts.captions.wording import count, joined, short
 from scripts.captions.write_captions import IN_WORDS, caption_of
-from scripts.claims.claims_config import listed
 from scripts.claims.claims_results import VERDICTS
+from scripts.claims.ledger import paper_claims
 from scripts.figures.entries import FIGURES, template_of
 from scripts.figures.entries import caption_of as path_of
 from scripts.files.tsv import write_table
@@ -39,7 +39,7 @@ def test_captions_say_whether_claims_hold(smoke):
         figure: re.findall(r'verdict\("(\w+)"\)', (ROOT / template_of(figure)).read_text())
         for figure in FIGURES
     }
-    assert {name for names in named.values() for name in names} <= set(listed()["claims"])
+    assert {name for names in named.values() for name in names} <= set(paper_claims())
     without = [figure for figure, names in named.items() if not names]
     assert without == ["figure_1", "work_precision"]
 

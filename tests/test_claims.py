@@ -1,37 +1,26 @@
-"""The ledger: rows, files, and verdicts that follow the configuration."""
+"""The ledger: claims as they are declared, those of a user's file, rows, files and verdicts."""
 
+import copy
 import csv
 import json
 import re
 
 import pytest
 from conftest import SMOKE
-from made_up_results import (
-    attractor_row,
-    hopf_curve,
-    results,
-    slip_events,
-    spectrum,
-    stability_row,
-)
+from made_up_results import NO, PARTLY, YES, Results, attractor_row, hopf_curve, stability_row
 
-from scripts.claims import ledger
-from scripts.claims.claims_config import checked, files_for, listed
-from scripts.claims.claims_results import (
-    CORRECTED,
-    NOT_REPRODUCED,
-    NOT_TESTABLE,
-    REPRODUCED,
-    VERDICTS,
-    Finding,
-    read_results,
-)
+from scripts.claims import declare, ledger
+from scripts.claims.claims_of_routes import route
+from scripts.claims.claims_results import NOT_TESTABLE, VERDICTS, Finding, read_results
+from scripts.config.check_config import checked
+from scripts.config.read_config import ConfigError
+from scripts.files.marked_words import to_plain
 from scripts.files.tsv import write_table
 
 CLAIMS = {
     "moves": {
         "place": "Figure 4b",
-        "claim": "The block oscillates.",
+        "claim": "The block oscillates at $tau < 3$.",
         "test": {"attractor_class": {"scene": "mine", "expected": "cycle"}},
         "look_at": "figure_4",
     },
@@ -54,11 +43,15 @@ attractors:
   observation: {{ t_observed: 6000.0, t_turning: 3000.0 }}
 """
 """The oscillation as in the full reproduction, at an epsilon."""
+TESTED = {"place": "Figure 2", "claim": "Something is so.", "look_at": "figure_2"}
+UNTESTED = {"place": "section 5", "claim": "Something is so.", "not_testable": "No data."}
+RING = {"mine": {**TESTED, "test": {"attractor_class": {"scene": "torus", "expected": "ring"}}}}
+PLANE, ROUTE = {"plane": "tau_of_epsilon"}, {"routes": ["torus_in_tau"]}
 
 
 def ledger_of(met: str) -> list[dict]:
-    """The rows where the scene ends so."""
-    made = results(
+    """The rows if the scene ends on this class."""
+    made = Results(
         curves={"plane": hopf_curve(gamma=1.0, ordinate="xi")},
         attractors=[attractor_row(met)],
         linear_stability=[stability_row()],
@@ -66,29 +59,23 @@ def ledger_of(met: str) -> list[dict]:
     return ledger.rows_of(CLAIMS, made, "results")
 
 
-def test_a_row_for_every_claim():
-    """In order, with what the list says and what the test finds."""
-    rows = ledger_of("cycle")
+def test_another_result_is_another_verdict():
+    """Of that claim alone; each row has what the claim says and what its test finds."""
+    rows, after = ledger_of("cycle"), ledger_of("fixed point")
     assert [row["id"] for row in rows] == list(CLAIMS)
-    assert [row["verdict"] for row in rows] == [REPRODUCED, REPRODUCED, NOT_TESTABLE]
+    assert [row["verdict"] for row in rows] == [YES, YES, NOT_TESTABLE]
     assert [row["look_at"] for row in rows] == [
         "results/figures/figure_4.png",
         "results/tables/hopf-points.tsv",
         "",
     ]
     assert rows[2]["evidence"] == "No data."
-    for row in rows:
-        assert {key: row[key] for key in ("place", "claim")}.items() <= CLAIMS[row["id"]].items()
+    assert all(row[key] == CLAIMS[row["id"]][key] for row in rows for key in ("place", "claim"))
+    assert after[0]["verdict"] == NO
+    assert rows[1:] == after[1:]
 
 
-def test_another_result_is_another_verdict():
-    """Of that claim alone."""
-    before, after = ledger_of("cycle"), ledger_of("fixed point")
-    assert after[0]["verdict"] == NOT_REPRODUCED
-    assert before[1:] == after[1:]
-
-
-@pytest.mark.parametrize(("verdict", "instead"), [(NOT_REPRODUCED, ""), (REPRODUCED, "It rests.")])
+@pytest.mark.parametrize(("verdict", "instead"), [(NO, ""), (YES, "It rests.")])
 def test_what_is_true_instead_is_said_where_a_claim_fails(verdict, instead):
     """A test of claims that leaves it out, or says it of a claim that holds, is an error."""
     with pytest.raises(ValueError, match=verdict):
@@ -96,52 +83,168 @@ def test_what_is_true_instead_is_said_where_a_claim_fails(verdict, instead):
 
 
 def test_files_are_read_by_name(tmp_path):
-    """Planes by the names of their files, tables by the names of results."""
+    """Data sets by the names of their files, tables one after the other; the rest is empty."""
     hopf_curve().to_netcdf(tmp_path / "a_plane.nc")
-    hopf_curve(k=2).to_netcdf(tmp_path / "friction.nc")
-    spectrum(x1=1.0).to_netcdf(tmp_path / "a_spectrum.nc")
-    slip_events().to_netcdf(tmp_path / "some_events.nc")
-    names = ["hopf_points", "fault_limit", "linear_stability", "stability", "attractors", "atlas"]
-    names += ["routes", "cycle_points", "exponents", "basins"]
-    for name in names:
-        write_table(tmp_path / name, [{"scene": name}])
-    files = {
-        "friction": str(tmp_path / "friction.nc"),
-        "cycles": [],
-        "curves": [str(tmp_path / "a_plane.nc")],
-        "spectra": [str(tmp_path / "a_spectrum.nc")],
-        "slip_events": [str(tmp_path / "some_events.nc")],
-        **{name: str(tmp_path / name) for name in names},
-    }
-    found = read_results(files)
+    for name in "ab":
+        write_table(tmp_path / f"{name}.tsv", [{"route": name}])
+    files = {"curves": str(tmp_path / "a_plane.nc")}
+    found = read_results(files | {"routes": [str(tmp_path / f"{name}.tsv") for name in "ab"]})
     assert list(found.curves) == ["a_plane"]
-    assert list(found.spectra) == ["a_spectrum"]
-    assert list(found.slip_events) == ["some_events"]
-    assert (found.friction.branch == 2).all()
-    for name in names:
-        assert getattr(found, name) == [{"scene": name}]
+    assert found.routes == [{"route": "a"}, {"route": "b"}]
+    assert found.spectra == {}
+    assert found.atlas == []
 
 
-def test_json_is_whole_or_absent(tmp_path):
-    """And holds the rows."""
-    rows = ledger_of("cycle")
-    ledger.write_json(tmp_path / "claims.json", rows)
-    assert json.loads((tmp_path / "claims.json").read_text()) == rows
-    assert [path.name for path in tmp_path.iterdir()] == ["claims.json"]
-
-
-def test_page_has_failing_claims_first(tmp_path):
-    """Each claim with its result, beside how many have its verdict; no tag comes from a claim."""
+def test_ledger_is_written_with_failing_claims_first_on_the_page(tmp_path):
+    """Mathematics is plain in the table and marked in JSON; no tag comes from a claim."""
     rows = ledger_of("fixed point")
     rows[1]["evidence"] = "1 < 2 & 3"
-    ledger.write_page(tmp_path / "claims.html", rows)
-    text = (tmp_path / "claims.html").read_text()
-    headings = re.findall("<h2>(.*)</h2>", text)
-    assert headings == ["Not reproduced", "Reproduced", "Not testable"]
-    assert re.findall("<li>(.*)</li>", text)[1] == "reproduced with a correction: 0"
-    claims = re.findall(r'<tr><th scope="row">.*</th><td>(.*)</td><td>(.*)</td></tr>', text)
-    assert [claim for claim, _ in claims] == [row["claim"] for row in rows]
-    assert claims[1][1] == "1 &lt; 2 &amp; 3"
+    paths = [tmp_path / f"claims.{ending}" for ending in ("tsv", "json", "html")]
+    ledger.write_ledger(rows, *paths)
+    table, data, page = (path.read_text() for path in paths)
+    assert "\tThe block oscillates at tau < 3.\t" in table
+    assert json.loads(data) == rows
+    assert re.findall("<h2>(.*)</h2>", page) == ["Not reproduced", "Reproduced", "Not testable"]
+    assert re.findall("<li>(.*)</li>", page)[1] == "reproduced with a correction: 0"
+    claims = re.findall(r'<tr><th scope="row">.*</th><td>(.*)</td><td>(.*)</td></tr>', page)
+    assert claims[0][0] == "The block oscillates at <var>τ</var> &lt; 3."
+    assert claims[1] == ("The formulas are exact.", "1 &lt; 2 &amp; 3")
+    assert sorted(tmp_path.iterdir()) == sorted(paths)
+
+
+def test_claims_of_the_paper_are_those_of_a_good_file(default_config):
+    """Each says something else; every test is used; all that they name is there."""
+    config, claims = checked(copy.deepcopy(default_config)), ledger.paper_claims()
+    shown = {claim["look_at"] for claim in claims.values() if "look_at" in claim}
+    assert ledger.check_user_claims(copy.deepcopy(claims), config, shown) == claims
+    assert len({claim["claim"] for claim in claims.values()}) == len(claims) == 57
+    assert list(claims)[::28] == ["hopf_by_delay", "figure_2", "omori_utsu"]
+    tested = {name for claim in claims.values() for name in claim.get("test", {})}
+    assert tested == set(declare.TESTS)
+
+
+def test_number_of_a_claim_is_its_own():
+    """Two claims with one number have no order."""
+    with pytest.raises(ValueError, match="claim 1 'mine': name or number taken"):
+        declare.claim(1, "mine", "here", look_at="routes")(declare.says("So.")(route))
+
+
+def test_files_and_names_of_claims():
+    """Those that the tests read and name, once each; of what none reads, no file."""
+    tests = {
+        "single_peak": {"scene": "torus"},
+        "aperiodic_events": {"scene": "chaos", "periodic": "torus"},
+        "equal_events": {"scenes": ["chaos"]},
+        "hopf_depends_on": {"at_fixed_xi": "a", "at_fixed_tau": "b", "limit": 1e-3},
+        "positive_exponent": {"scene": "chaos"},
+    }
+    claims = {name: {"test": {name: given}} for name, given in tests.items()} | {"no": UNTESTED}
+    assert ledger.inputs_for(claims, {"scenes": {"chaos": {}}}) == {
+        "spectra": ["<results>/spectra/torus.nc"],
+        "slip_events": ["<results>/slip_events/chaos.nc", "<results>/slip_events/torus.nc"],
+        "curves": ["<results>/hopf/a.nc", "<results>/hopf/b.nc"],
+        "attractors": ["<results>/tables/attractors.tsv"],
+        # no scene has exponents
+        "exponents": [],
+    }
+    assert ledger.names_in(claims) == {
+        "scenes": ["torus", "chaos", "torus", "chaos", "chaos"],
+        "planes": ["a", "b"],
+        "routes": [],
+    }
+
+
+@pytest.fixture
+def accept(default_config):
+    """Check the claims of a user's file over the default configuration."""
+
+    def accept(claims) -> dict:
+        config = checked({**copy.deepcopy(default_config), "claims": copy.deepcopy(claims)})
+        return ledger.check_user_claims(config["claims"], config, {"figure_2"})
+
+    return accept
+
+
+def test_good_claims_are_accepted(accept):
+    """Limits of equations have a default; a claim without a test has a reason."""
+    (found,) = accept({"mine": {**TESTED, "test": {"equation_10": PLANE}}}).values()
+    assert found["test"] == {"equation_10": {**PLANE, "limit": 1e-10}}
+    assert accept({"mine": UNTESTED}) == {"mine": UNTESTED}
+    assert accept({}) == {}
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"place": ""}, "place = ''; expected where it stands"),
+        ({"verdict": "reproduced"}, "unknown key ['verdict']; allowed: place"),
+        ({}, "neither given; expected either test or not_testable"),
+        ({"not_testable": "x"}, "look_at expected beside test"),
+        ({"test": {}}, "test = {}; expected the name of one test"),
+        ({"test": {"route": {}, "leads_to": {}}}, "expected the name of one test"),
+        ({"test": {"route": None}}, "route = None; expected the parameters of the test"),
+        ({"test": {"magic": {}}}, "unknown key ['magic']; allowed: attractor_class"),
+        ({"test": {"velocity_step": {}}, "not_testable": "x"}, "test and not_testable given"),
+        (
+            {"test": {"velocity_step": {}}, "look_at": "figure_9"},
+            "look_at = 'figure_9'; expected one of: atlas.tsv",
+        ),
+    ],
+)
+def test_bad_claim_is_refused(accept, given, words):
+    """In one line that names the place."""
+    with pytest.raises(ConfigError) as caught:
+        accept({"mine": {**TESTED, **given}})
+    assert words in str(caught.value).splitlines()[1]
+
+
+@pytest.mark.parametrize(
+    ("test", "values", "words"),
+    [
+        ("equation_10", {}, "key ['plane'] is missing"),
+        ("equation_10", {"scene": "x", **PLANE}, "unknown key ['scene']; allowed: plane, limit"),
+        ("velocity_step", PLANE, "unknown key ['plane']"),
+        ("equation_10", {"plane": "x"}, "plane = 'x'; expected name of a plane, one of: tau_of_ep"),
+        ("hopf_curves", {"planes": ["x"]}, "planes: 0 = 'x'; expected name of a plane, one of: ta"),
+        ("hopf_curves", {"planes": []}, "planes = []; expected names of planes, at least one"),
+        ("second_hopf", {"scene": "x"}, "scene = 'x'; expected name of a scene, one of: fixed_poi"),
+        ("equal_events", {"scenes": ["torus"] * 2}, "'torus']; expected names of scenes, at least"),
+        ("chaos_by_a_and_b", {"routes": ["x"]}, "0 = 'x'; expected name of a route, one of: chaos"),
+        ("equation_10", {**PLANE, "limit": 0.0}, "limit = 0.0; expected residual"),
+        ("equation_10", {**PLANE, "limit": 0.1}, "limit = 0.1; expected residual"),
+        ("equation_10", {**PLANE, "limit": "1e-9"}, "write 1e-9 without quotes"),
+        ("roots_decide", {"least_motion": float("nan")}, "nan; expected largest v - 1"),
+        ("same_state_law", {"limit": True}, "limit = True; expected largest difference"),
+        (
+            "route",
+            {**ROUTE, "expected": ["ring"]},
+            "0 = 'ring'; expected one of: fixed point, cycle",
+        ),
+        (
+            "route",
+            {**ROUTE, "expected": []},
+            "expected = []; expected classes of attractors in turn",
+        ),
+        (
+            "delays_in_turn",
+            {"scenes": ["torus", "chaos"], "expected": ["torus"], "route": "torus_in_tau"},
+            "1 classes for 2 scenes; expected one each",
+        ),
+        (
+            "out_of_reach",
+            {"method": "auto", "least": 1e13, "most": 1e12},
+            "least = 10000000000000.0; expected a finite number <= most = 1000000000000.0",
+        ),
+    ],
+)
+def test_bad_parameter_is_refused(accept, test, values, words):
+    """The line names claim, test, key, value and what is allowed."""
+    with pytest.raises(ConfigError) as caught:
+        accept({"mine": {**TESTED, "test": {test: values}}})
+    head, line = str(caught.value).splitlines()
+    assert head == "the list of claims is refused:"
+    assert line.startswith(f"config claims mine test {test}")
+    assert words in line
 
 
 def read_ledger(folder) -> dict[str, dict]:
@@ -153,33 +256,31 @@ def read_ledger(folder) -> dict[str, dict]:
 def test_ledger_of_the_workflow(smoke):
     """Every claim has a verdict with evidence, the same in both files; what it shows is there."""
     rows = read_ledger(smoke.folder)
-    assert list(rows) == list(listed()["claims"])
-    tables = smoke.folder / "results" / "tables"
-    assert json.loads((tables / "claims.json").read_text()) == list(rows.values())
+    assert list(rows) == list(ledger.paper_claims())
+    data = json.loads((smoke.folder / "results" / "tables" / "claims.json").read_text())
+    plain = [{key: to_plain(value) for key, value in row.items()} for row in data]
+    assert plain == list(rows.values())
     for row in rows.values():
         assert row["verdict"] in VERDICTS
         assert row["evidence"].endswith(".")
         assert "nan" not in row["evidence"].split()
-        assert row["instead"].endswith(".") == (row["verdict"] in (CORRECTED, NOT_REPRODUCED))
+        assert "$" not in "".join(row.values())
+        assert row["instead"].endswith(".") == (row["verdict"] in (PARTLY, NO))
         assert row["verdict"] == NOT_TESTABLE or (smoke.folder / row["look_at"]).is_file()
 
 
 def test_a_claim_alone_needs_no_other_files(smoke, smoke_config):
     """Its verdict from the files that its test reads is that of the whole ledger."""
-    rows, said = read_ledger(smoke.folder), listed()
-    shown = {claim["look_at"] for claim in said["claims"].values() if "look_at" in claim}
-    results = str(smoke.folder / "results")
-    for name, claim in checked(said, smoke_config, shown).items():
-        files = json.loads(
-            json.dumps(files_for({name: claim}, smoke_config)).replace("<results>", results)
-        )
-        found = ledger.finding_of(claim, read_results(files))
-        assert vars(found) == {key: rows[name][key] for key in ("verdict", "evidence", "instead")}
+    rows, results = read_ledger(smoke.folder), str(smoke.folder / "results")
+    for name, claim in ledger.paper_claims().items():
+        files = json.dumps(ledger.inputs_for({name: claim}, smoke_config))
+        found = ledger.find(claim, read_results(json.loads(files.replace("<results>", results))))
+        expected = {key: rows[name][key] for key in ("verdict", "evidence", "instead")}
+        assert {key: to_plain(value) for key, value in vars(found).items()} == expected
 
 
 @pytest.mark.parametrize(
-    ("epsilon", "verdict"),
-    [pytest.param(0.35, REPRODUCED, marks=pytest.mark.long), (0.2, NOT_REPRODUCED)],
+    ("epsilon", "verdict"), [pytest.param(0.35, YES, marks=pytest.mark.long), (0.2, NO)]
 )
 def test_scene_below_the_hopf_curve_oscillates_no_more(scratch, epsilon, verdict):
     """From the configuration to the verdict, through the whole workflow."""
@@ -191,12 +292,11 @@ def test_scene_below_the_hopf_curve_oscillates_no_more(scratch, epsilon, verdict
     assert f"epsilon = {epsilon}" in row["evidence"]
 
 
-def test_bad_list_of_claims_is_refused_in_words(scratch):
+def test_bad_claim_stops_the_workflow_in_words(scratch):
     """Before anything runs, without a traceback of Python."""
-    path = scratch.folder / "config" / "claims.yaml"
-    path.write_text(path.read_text().replace("expected: chaos }", "expected: ring }", 1))
+    (scratch.folder / "mine.yaml").write_text(f"claims: {json.dumps(RING)}")
     before = scratch.outputs()
-    run = scratch.snakemake(*SMOKE)
+    run = scratch.snakemake(*SMOKE, "mine.yaml")
     assert run.returncode != 0
     assert "expected = 'ring'; expected class of an attractor, one of: fixed point" in run.stdout
     assert "Traceback" not in run.stdout

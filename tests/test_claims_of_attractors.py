@@ -3,10 +3,9 @@
 import math
 
 import pytest
-from made_up_results import attractor_row, results, stability_row
+from made_up_results import NO, PARTLY, YES, Results, attractor_row, stability_row
 
-from scripts.claims.claims_of_attractors import TESTS
-from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED
+from scripts.claims.claims_of_attractors import attractor_class, positive_exponent
 from scripts.files.tsv import read_table
 
 ATTRACTORS = """\
@@ -17,44 +16,37 @@ mine,1,0,0,1.1,2,fixed point,,fixed point,fixed point,fixed point,,,,,,,,,1,1
 """
 
 
-def of_classes(*classes: str):
-    """Results of a scene whose histories end so, its own first."""
+def of_classes(*classes: str) -> Results:
+    """Results of a scene whose histories end on these classes, its own first."""
     rows = [attractor_row(met, history=i + 1) for i, met in enumerate(classes)]
-    return results(attractors=rows[::-1], linear_stability=[stability_row()])
+    return Results(attractors=rows[::-1], linear_stability=[stability_row()])
 
 
 @pytest.mark.parametrize(
     ("classes", "verdict"),
     [
-        (["cycle"], REPRODUCED),
-        (["cycle", "torus", "chaos"], REPRODUCED),
-        (["fixed point", "cycle"], CORRECTED),
-        (["fixed point", "fixed point"], NOT_REPRODUCED),
-        (["undecided"], NOT_REPRODUCED),
+        (["cycle"], YES),
+        (["cycle", "torus", "chaos"], YES),
+        (["fixed point", "cycle"], PARTLY),
+        (["fixed point", "fixed point"], NO),
+        (["undecided"], NO),
     ],
 )
 def test_attractor_class(classes, verdict):
     """From the scene's own history, only from another, or from none."""
-    found = TESTS["attractor_class"](of_classes(*classes), scene="mine", expected="cycle")
+    found = attractor_class(of_classes(*classes), scene="mine", expected="cycle")
     assert found.verdict == verdict
     assert f"own history: {classes[0]} (exponents -0.01 +- 0.001, " in found.evidence
     assert f"Classes from {len(classes) - 1} other histories: " in found.evidence
-
-
-def test_moved_scene_oscillates_no_more():
-    """The same claim on two tables: above the Hopf curve and below it."""
-    claim = {"scene": "mine", "expected": "cycle"}
-    assert TESTS["attractor_class"](of_classes("cycle"), **claim).verdict == REPRODUCED
-    assert TESTS["attractor_class"](of_classes("fixed point"), **claim).verdict == NOT_REPRODUCED
 
 
 def test_table_as_it_is_written(tmp_path):
     """Empty cells, histories in any order, a period."""
     path = tmp_path / "attractors.tsv"
     path.write_text(ATTRACTORS.replace(",", "\t"))
-    made = results(attractors=read_table(path), linear_stability=[stability_row()])
-    found = TESTS["attractor_class"](made, scene="mine", expected="cycle")
-    assert found.verdict == CORRECTED
+    made = Results(attractors=read_table(path), linear_stability=[stability_row()])
+    found = attractor_class(made, scene="mine", expected="cycle")
+    assert found.verdict == PARTLY
     assert "1 cycle with 2 loops" in found.evidence
     assert "nan" not in found.evidence
 
@@ -62,10 +54,10 @@ def test_table_as_it_is_written(tmp_path):
 @pytest.mark.parametrize(
     ("exponents", "verdict", "beyond"),
     [
-        ([0.02, 0.018], REPRODUCED, 2),
-        ([0.02, 0.002], NOT_REPRODUCED, 1),
-        ([-0.02, -0.01], NOT_REPRODUCED, 0),
-        ([0.02, math.nan], NOT_REPRODUCED, 1),
+        ([0.02, 0.018], YES, 2),
+        ([0.02, 0.002], NO, 1),
+        ([-0.02, -0.01], NO, 0),
+        ([0.02, math.nan], NO, 1),
     ],
 )
 def test_positive_exponent(exponents, verdict, beyond):
@@ -73,7 +65,7 @@ def test_positive_exponent(exponents, verdict, beyond):
     rows = [
         attractor_row("chaos", history=i + 1, exponent_1=value) for i, value in enumerate(exponents)
     ]
-    found = TESTS["positive_exponent"](results(attractors=rows), scene="mine")
+    found = positive_exponent(Results(attractors=rows), scene="mine")
     assert found.verdict == verdict
     assert f"above zero from {beyond} of {len(exponents)} histories" in found.evidence
     assert "nan" not in found.evidence
@@ -82,30 +74,26 @@ def test_positive_exponent(exponents, verdict, beyond):
 def test_exponents_are_those_of_the_long_run():
     """In both claims, at the scene's own tolerance; that along the flow has no error."""
     long = [(0.019, 0.0007), (0.0, 0.0), (-0.0145, 0.001)]
-    rows = [
+    made = of_classes("chaos")
+    made.exponents = [
         {"scene": scene, "exponent": value + off, "error": error, "mean_step": 0.1 + off}
         for scene, off in (("other", 0.2), ("mine", 0.0), ("mine", 0.3))
         for value, error in long
     ]
-    made = of_classes("chaos")
-    made.exponents = rows
-    found = TESTS["attractor_class"](made, scene="mine", expected="chaos")
+    found = attractor_class(made, scene="mine", expected="chaos")
     assert "(exponents 0.019 +- 0.0007, 0 (along the flow), -0.0145 +- 0.001)" in found.evidence
-    found = TESTS["positive_exponent"](made, scene="mine")
-    assert "of scene mine is 0.019 +- 0.0007 v0/L." in found.evidence
+    found = positive_exponent(made, scene="mine")
+    assert "of scene mine is 0.019 +- 0.0007 $v0/L$." in found.evidence
 
 
 def test_no_exponent_is_no_chaos():
     """Nothing is concluded from nothing."""
-    made = results(attractors=[attractor_row("undecided", exponent_1=math.nan)])
-    assert TESTS["positive_exponent"](made, scene="mine").verdict == NOT_REPRODUCED
+    made = Results(attractors=[attractor_row("undecided", exponent_1=math.nan)])
+    assert positive_exponent(made, scene="mine").verdict == NO
 
 
-@pytest.mark.parametrize(
-    ("test", "given"), [("attractor_class", {"expected": "chaos"}), ("positive_exponent", {})]
-)
-def test_scene_without_a_row_is_an_error(test, given):
+def test_scene_without_a_row_is_an_error():
     """It names table and scene."""
-    made = results(attractors=[attractor_row("cycle", "other")])
+    made = Results(attractors=[attractor_row("cycle", "other")])
     with pytest.raises(ValueError, match=r"attractors.tsv: no row of scene 'mine'.*: other"):
-        TESTS[test](made, scene="mine", **given)
+        positive_exponent(made, scene="mine")

@@ -2,21 +2,23 @@
 
 import pytest
 from made_up_results import (
+    NO,
+    PARTLY,
     PLACE,
+    YES,
+    Results,
     attractor_row,
     cycles_to_a_torus,
-    results,
     stability_row,
     torus_point,
 )
 
-from scripts.claims.claims_of_cycles import TESTS
-from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED
+from scripts.claims.claims_of_cycles import second_hopf, torus_of_scene
 
 
 def at_scene(met: str, tau: float, **given):
     """Results of a scene on this line."""
-    return results(
+    return Results(
         **{
             "attractors": [attractor_row(met)],
             "linear_stability": [stability_row(**{**PLACE, "tau": tau})],
@@ -30,40 +32,40 @@ def at_scene(met: str, tau: float, **given):
 @pytest.mark.parametrize(
     ("met", "tau", "verdict"),
     [
-        ("torus", 0.35, REPRODUCED),
-        ("torus", 0.26, REPRODUCED),
-        ("torus", 0.24, CORRECTED),
-        ("cycle", 0.15, NOT_REPRODUCED),
-        ("chaos", 0.35, NOT_REPRODUCED),
+        ("torus", 0.35, YES),
+        ("torus", 0.26, YES),
+        ("torus", 0.24, PARTLY),
+        ("cycle", 0.15, NO),
+        ("chaos", 0.35, NO),
     ],
 )
 def test_torus_of_scene(met, tau, verdict):
     """A run that ends on a torus, where no cycle is stable: the special point parts the orbits."""
-    assert TESTS["torus_of_scene"](at_scene(met, tau), scene="mine").verdict == verdict
+    assert torus_of_scene(at_scene(met, tau), scene="mine").verdict == verdict
 
 
 @pytest.mark.parametrize(
     ("met", "tau", "given", "verdict"),
     [
-        ("torus", 0.35, {}, REPRODUCED),
-        ("torus", 0.15, {}, NOT_REPRODUCED),
-        ("cycle", 0.15, {}, NOT_REPRODUCED),
-        ("chaos", 0.35, {}, NOT_REPRODUCED),
-        ("torus", 0.35, {"cycle_points": []}, NOT_REPRODUCED),
-        ("torus", 0.35, {"cycle_points": [torus_point(kind="fold")]}, NOT_REPRODUCED),
-        ("torus", 0.35, {"cycle_points": [torus_point(unstable_before=2.0)]}, NOT_REPRODUCED),
-        ("torus", 0.35, {"cycle_points": [torus_point(xi=0.5)]}, NOT_REPRODUCED),
-        ("torus", 0.35, {"cycles": {"mine": cycles_to_a_torus(xi=0.5)}}, NOT_REPRODUCED),
+        ("torus", 0.35, {}, YES),
+        ("torus", 0.15, {}, NO),
+        ("cycle", 0.15, {}, NO),
+        ("chaos", 0.35, {}, NO),
+        ("torus", 0.35, {"cycle_points": []}, NO),
+        ("torus", 0.35, {"cycle_points": [torus_point(kind="fold")]}, NO),
+        ("torus", 0.35, {"cycle_points": [torus_point(unstable_before=2.0)]}, NO),
+        ("torus", 0.35, {"cycle_points": [torus_point(xi=0.5)]}, NO),
+        ("torus", 0.35, {"cycles": {"mine": cycles_to_a_torus(xi=0.5)}}, NO),
     ],
 )
 def test_second_hopf(met, tau, given, verdict):
     """At the scene; elsewhere on a line through it is said, but is not there."""
-    found = TESTS["second_hopf"](at_scene(met, tau, **given), scene="mine")
+    found = second_hopf(at_scene(met, tau, **given), scene="mine")
     assert found.verdict == verdict
-    elsewhere = "With all other parameters the same it occurs at tau = 0.25."
+    elsewhere = "With all other parameters the same it occurs at $tau = 0.25$."
     nowhere = "No torus bifurcation of a stable cycle is known on these lines."
     instead = nowhere if given else elsewhere
-    assert found.instead == (instead if verdict == NOT_REPRODUCED else "")
+    assert found.instead == (instead if verdict == NO else "")
 
 
 def test_evidence_of_the_second_hopf():
@@ -73,11 +75,11 @@ def test_evidence_of_the_second_hopf():
     lines["mine"].attrs["epsilon"] = 0.15
     made = at_scene("cycle", 0.15, cycles=lines, linear_stability=[row])
     made.cycle_points[0]["epsilon"] = 0.15
-    assert TESTS["second_hopf"](made, scene="mine").evidence == (
+    assert second_hopf(made, scene="mine").evidence == (
         "A second Hopf bifurcation of a cycle is a torus bifurcation: a pair of multipliers leaves"
         " the unit circle. Class of scene mine by its exponents: cycle. Cycles followed to these"
-        " parameters, and the modulus of their largest Floquet multiplier but 1: stable with v up"
+        " parameters, and the modulus of their largest Floquet multiplier but 1: stable with $v$ up"
         " to 1.15 (modulus 0.7). Torus bifurcations of stable cycles on lines through the scene:"
-        " at tau = 0.25 along tau (epsilon = 0.15, xi = 0.8, gamma = 0.8); none along epsilon"
-        " (tau = 0.15, xi = 0.8, gamma = 0.8)."
+        " at $tau = 0.25$ along $tau$ ($epsilon = 0.15$, $xi = 0.8$, $gamma = 0.8$); none along"
+        " $epsilon$ ($tau = 0.15$, $xi = 0.8$, $gamma = 0.8$)."
     )

@@ -2,103 +2,104 @@
 
 import pytest
 from made_up_results import (
+    NO,
+    PARTLY,
+    YES,
+    Results,
     attractor_row,
     changed,
     hopf_curve,
-    results,
     route_rows,
     stability_row,
     torus_point,
 )
 
-from scripts.claims.claims_of_routes import TESTS
-from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, REPRODUCED
+from scripts.claims.claims_of_routes import (
+    chaos_by_a_and_b,
+    delays_in_turn,
+    leads_to,
+    quasiperiodic_route,
+    route,
+    torus_route,
+    two_supercritical_hopfs,
+)
 from scripts.tables.motion_rows import UNDECIDED
 
-
-def twice(*classes: str) -> list[str]:
-    """Each class at two neighbouring points."""
-    return [name for name in classes for _ in range(2)]
+CYCLE_TORUS = {"routes": ["mine"], "expected": ["cycle", "torus"]}
+BREAKDOWN, STRICT = ["cycle", "torus", "chaos"], ["torus", "3-torus", "chaos"]
 
 
-def of_route(*classes: str):
-    """Results of a route with one run."""
-    return results(routes=route_rows(*classes))
+def twice(*classes: str, **given) -> list[dict]:
+    """Rows of a route with each class at two neighbouring points."""
+    return route_rows(*(name for name in classes for _ in range(2)), **given)
 
 
 @pytest.mark.parametrize(
     ("classes", "verdict"),
     [
-        (twice("fixed point", "cycle", "torus", "chaos"), REPRODUCED),
-        (twice("cycle", UNDECIDED, "torus", UNDECIDED, "chaos", "cycle"), REPRODUCED),
-        (twice("cycle", "chaos", "cycle", "torus", "chaos"), REPRODUCED),
-        (twice("cycle", "torus", "cycle/7", "chaos"), REPRODUCED),
-        (twice("cycle", "torus", "cycle/1", "chaos"), NOT_REPRODUCED),
-        (twice("cycle", "chaos", "torus"), NOT_REPRODUCED),
-        (twice("cycle/1", "cycle/2", "cycle/4", "chaos"), NOT_REPRODUCED),
-        (twice("torus", "chaos"), NOT_REPRODUCED),
-        (twice(UNDECIDED), NOT_REPRODUCED),
+        (["fixed point", "cycle", "torus", "chaos"], YES),
+        (["cycle", UNDECIDED, "torus", UNDECIDED, "chaos", "cycle"], YES),
+        (["cycle", "chaos", "cycle", "torus", "chaos"], YES),
+        (["cycle", "torus", "cycle/7", "chaos"], YES),
+        (["cycle", "torus", "cycle/1", "chaos"], NO),
+        (["cycle", "chaos", "torus"], NO),
+        (["cycle/1", "cycle/2", "cycle/4", "chaos"], NO),
+        (["torus", "chaos"], NO),
+        ([UNDECIDED], NO),
     ],
 )
 def test_route(classes, verdict):
     """Classes follow each other; a cycle of several points behind a torus is locked there."""
-    expected = {"expected": ["cycle", "torus", "chaos"]}
-    assert TESTS["route"](of_route(*classes), routes=["mine"], **expected).verdict == verdict
+    made = Results(routes=twice(*classes))
+    assert route(made, routes=["mine"], expected=BREAKDOWN).verdict == verdict
 
 
 def test_one_point_decides_nothing():
     """Unless another run has the same class there."""
     classes = ["cycle", "cycle", "torus", "chaos", "chaos"]
-    test, rows = TESTS["route"], route_rows(*classes)
-    claim = {"routes": ["mine"], "expected": ["cycle", "torus"]}
-    assert test(results(routes=rows), **claim).verdict == NOT_REPRODUCED
-    found = test(results(routes=rows + route_rows(*classes, run="up")), **claim)
-    assert found.verdict == REPRODUCED
+    rows = route_rows(*classes)
+    assert route(Results(routes=rows), **CYCLE_TORUS).verdict == NO
+    found = route(Results(routes=rows + route_rows(*classes, run="up")), **CYCLE_TORUS)
+    assert found.verdict == YES
     assert "cycle 0.1 to 0.2, torus 0.3; in 2 of 2 runs." in found.evidence
 
 
-def test_evidence_of_a_route():
+@pytest.mark.parametrize(
+    ("second", "words"),
+    [
+        (["cycle", "cycle", "chaos", "chaos"], "torus 0.3 to 0.4; in 1 of 2 runs."),
+        # of two runs that show the sequence, that with the longest stretches
+        (["cycle", "cycle", *["torus"] * 4], "torus 0.3 to 0.6; in 2 of 2 runs."),
+    ],
+)
+def test_evidence_of_a_route(second, words):
     """What varies, the values of the others, where, and in how many runs."""
-    rows = route_rows(*twice("cycle", "torus"), along="xi")
-    rows += route_rows(*twice("cycle", "chaos"), along="xi", run="up")
-    claim = {"routes": ["mine"], "expected": ["cycle", "torus"]}
-    assert TESTS["route"](results(routes=rows), **claim).evidence == (
-        "Along xi (tau = 10, epsilon = 0.5, gamma = 0.8): cycle 0.1 to 0.2, torus 0.3 to 0.4;"
-        " in 1 of 2 runs."
-    )
-
-
-def test_evidence_is_of_the_run_with_the_longest_stretches():
-    """Of two that show the same."""
-    rows = route_rows(*twice("cycle", UNDECIDED, "torus"))
-    rows += route_rows(*twice("cycle"), *["torus"] * 4, run="up")
-    claim = {"routes": ["mine"], "expected": ["cycle", "torus"]}
-    evidence = TESTS["route"](results(routes=rows), **claim).evidence
-    assert evidence.endswith("cycle 0.1 to 0.2, torus 0.3 to 0.6; in 2 of 2 runs.")
+    rows = twice("cycle", "torus", along="xi") + route_rows(*second, along="xi", run="up")
+    along = "Along $xi$ ($tau = 10$, $epsilon = 0.5$, $gamma = 0.8$): cycle 0.1 to 0.2, "
+    assert route(Results(routes=rows), **CYCLE_TORUS).evidence == along + words
 
 
 def test_one_route_of_several_is_enough():
     """For a sequence that the paper reports."""
-    rows = route_rows(*twice("cycle", "torus")) + route_rows(*twice("cycle", "chaos"), name="other")
-    claim = {"routes": ["other", "mine"], "expected": ["cycle", "torus"]}
-    found = TESTS["route"](results(routes=rows), **claim)
-    assert found.verdict == REPRODUCED
-    assert "in none of 1 runs. Along tau" in found.evidence
+    rows = twice("cycle", "torus") + twice("cycle", "chaos", name="other")
+    found = route(Results(routes=rows), **(CYCLE_TORUS | {"routes": ["other", "mine"]}))
+    assert found.verdict == YES
+    assert "in none of 1 runs. Along $tau$" in found.evidence
 
 
 @pytest.mark.parametrize(
     ("first", "second", "verdict"),
     [
-        (("cycle", "chaos"), ("torus", "fixed point", "chaos"), REPRODUCED),
-        (("cycle", "chaos"), ("chaos", "cycle"), CORRECTED),
-        (("chaos",), ("chaos", "cycle"), NOT_REPRODUCED),
+        (("cycle", "chaos"), ("torus", "fixed point", "chaos"), YES),
+        (("cycle", "chaos"), ("chaos", "cycle"), PARTLY),
+        (("chaos",), ("chaos", "cycle"), NO),
     ],
 )
 def test_leads_to(first, second, verdict):
     """Along all routes, along some, along none."""
-    rows = route_rows(*twice(*first)) + route_rows(*twice(*second), name="other", along="xi")
-    claim = {"routes": ["mine", "other"], "before": ["cycle", "fixed point"], "after": "chaos"}
-    found = TESTS["leads_to"](results(routes=rows), **claim)
+    rows = twice(*first) + twice(*second, name="other", along="xi")
+    before = ["cycle", "fixed point"]
+    found = leads_to(Results(routes=rows), routes=["mine", "other"], before=before, after="chaos")
     assert found.verdict == verdict
     assert ("cycle 0.1 to 0.2, chaos 0.3 to 0.4" in found.evidence) == (first == ("cycle", "chaos"))
 
@@ -106,25 +107,25 @@ def test_leads_to(first, second, verdict):
 @pytest.mark.parametrize(
     ("met", "delays", "along", "points", "verdict"),
     [
-        (["cycle", "torus"], [0.1, 7.0], ["chaos"], [], REPRODUCED),
-        (["cycle", "torus"], [7.0, 7.0], ["cycle", "torus"], [torus_point()], CORRECTED),
-        (["cycle", "cycle"], [0.1, 7.0], ["cycle", "torus"], [torus_point()], CORRECTED),
-        (["cycle", "cycle"], [0.1, 7.0], ["cycle", "torus"], [], NOT_REPRODUCED),
-        (["cycle", "cycle"], [0.1, 7.0], ["cycle"], [torus_point()], NOT_REPRODUCED),
+        (["cycle", "torus"], [0.1, 7.0], ["chaos"], [], YES),
+        (["cycle", "torus"], [7.0, 7.0], ["cycle", "torus"], [torus_point()], PARTLY),
+        (["cycle", "cycle"], [0.1, 7.0], ["cycle", "torus"], [torus_point()], PARTLY),
+        (["cycle", "cycle"], [0.1, 7.0], ["cycle", "torus"], [], NO),
+        (["cycle", "cycle"], [0.1, 7.0], ["cycle"], [torus_point()], NO),
     ],
 )
 def test_delays_in_turn(met, delays, along, points, verdict):
     """By the scenes and their delays, or by a route with a torus bifurcation."""
-    made = results(
+    made = Results(
         attractors=[attractor_row(name, scene) for name, scene in zip(met, "ab", strict=True)],
         linear_stability=[
             stability_row(scene, tau=tau) for scene, tau in zip("ab", delays, strict=True)
         ],
-        routes=route_rows(*twice(*along)),
+        routes=twice(*along),
         cycle_points=points,
     )
     claim = {"scenes": ["a", "b"], "expected": ["cycle", "torus"], "route": "mine"}
-    found = TESTS["delays_in_turn"](made, **claim)
+    found = delays_in_turn(made, **claim)
     assert found.verdict == verdict
     assert ("These delays grow" in found.evidence) == (delays[0] < delays[1])
 
@@ -132,43 +133,39 @@ def test_delays_in_turn(met, delays, along, points, verdict):
 @pytest.mark.parametrize(
     ("point", "verdict"),
     [
-        (torus_point(), REPRODUCED),
-        (torus_point(0.2), REPRODUCED),
-        (torus_point(0.15), NOT_REPRODUCED),
-        (torus_point(0.35), NOT_REPRODUCED),
-        (torus_point(xi=0.5), NOT_REPRODUCED),
-        (torus_point(kind="period_doubling"), NOT_REPRODUCED),
-        (torus_point(unstable_before=1.0), NOT_REPRODUCED),
+        (torus_point(), YES),
+        (torus_point(0.2), YES),
+        (torus_point(0.15), NO),
+        (torus_point(0.35), NO),
+        (torus_point(xi=0.5), NO),
+        (torus_point(kind="period_doubling"), NO),
+        (torus_point(unstable_before=1.0), NO),
     ],
 )
 def test_torus_route(point, verdict):
     """Cycle, torus and chaos in turn, and a torus bifurcation between cycle and torus."""
-    made = results(routes=route_rows(*twice("cycle", "torus", "chaos")), cycle_points=[point])
-    claim = {"routes": ["mine"], "expected": ["cycle", "torus", "chaos"]}
-    found = TESTS["torus_route"](made, **claim)
+    made = Results(routes=twice(*BREAKDOWN), cycle_points=[point])
+    found = torus_route(made, routes=["mine"], expected=BREAKDOWN)
     assert found.verdict == verdict
-    known = "A pair of multipliers of a stable cycle leaves the unit circle at tau = "
+    known = f"multipliers of a stable cycle leaves the unit circle at $tau = {point['tau']}$."
     there = point["kind"] == "torus" and point["xi"] == 0.8 and not point["unstable_before"]
-    assert (f"{known}{point['tau']}." in found.evidence) == there
-
-
-BREAKDOWN, STRICT = ["cycle", "torus", "chaos"], ["torus", "3-torus", "chaos"]
+    assert (known in found.evidence) == there
 
 
 @pytest.mark.parametrize(
     ("first", "second", "verdict", "words"),
     [
-        (BREAKDOWN, STRICT, REPRODUCED, ""),
-        (BREAKDOWN, ["torus", "chaos"], CORRECTED, "chaos), but not the third frequency"),
-        (["cycle", *STRICT], ["chaos"], CORRECTED, "Newhouse, but not torus breakdown"),
-        (["cycle", "chaos"], ["torus", "3-torus"], NOT_REPRODUCED, "show neither torus"),
+        (BREAKDOWN, STRICT, YES, ""),
+        (BREAKDOWN, ["torus", "chaos"], PARTLY, "chaos), but not the third frequency"),
+        (["cycle", *STRICT], ["chaos"], PARTLY, "Newhouse, but not torus breakdown"),
+        (["cycle", "chaos"], ["torus", "3-torus"], NO, "show neither torus"),
     ],
 )
 def test_quasiperiodic_route(first, second, verdict, words):
     """Torus breakdown and a third frequency, one of them, or neither."""
-    rows = route_rows(*twice(*first)) + route_rows(*twice(*second), name="other")
-    made = results(routes=rows, cycle_points=[torus_point()])
-    found = TESTS["quasiperiodic_route"](made, routes=["mine", "other"])
+    rows = twice(*first) + twice(*second, name="other")
+    made = Results(routes=rows, cycle_points=[torus_point()])
+    found = quasiperiodic_route(made, routes=["mine", "other"])
     assert found.verdict == verdict
     assert words in found.instead
     assert found.evidence.endswith("The atlas has no torus of three frequencies.")
@@ -187,56 +184,49 @@ def test_three_tori_of_the_atlas():
         for i, met in enumerate(classes)
     ]
     rows.append(attractor_row("chaos", epsilon=0.4, tau=11.5, xi=0.5))
-    made = results(routes=route_rows(*twice("cycle")), atlas=rows)
-    evidence = TESTS["quasiperiodic_route"](made, routes=["mine"]).evidence
-    assert evidence.endswith(
-        "The atlas has 3 tori of three frequencies: 3 at xi = 0.8, gamma = 0.8, for tau from 11 to"
-        " 13. The next class is chaos beyond 1 of them with a longer delay, and beyond 2 with a"
-        " larger epsilon."
+    made = Results(routes=twice("cycle"), atlas=rows)
+    assert quasiperiodic_route(made, routes=["mine"]).evidence.endswith(
+        "The atlas has 3 tori of three frequencies: 3 at $xi = 0.8$, $gamma = 0.8$, for $tau$ from"
+        " 11 to 13. The next class is chaos beyond 1 of them with a longer delay, and beyond 2 with"
+        " a larger $epsilon$."
     )
 
 
 @pytest.mark.parametrize(
     ("l1", "points", "verdict"),
     [
-        (-0.1, [torus_point()], REPRODUCED),
-        (0.1, [torus_point()], NOT_REPRODUCED),
-        (-0.1, [torus_point(criticality="subcritical")], NOT_REPRODUCED),
-        (-0.1, [], NOT_REPRODUCED),
-        (-0.1, [torus_point(), torus_point(epsilon=0.4)], REPRODUCED),
+        (-0.1, [torus_point()], YES),
+        (0.1, [torus_point()], NO),
+        (-0.1, [torus_point(criticality="subcritical")], NO),
+        (-0.1, [], NO),
+        (-0.1, [torus_point(), torus_point(epsilon=0.4)], YES),
     ],
 )
 def test_two_supercritical_hopfs(l1, points, verdict):
     """That of steady sliding and all torus bifurcations of stable cycles on the line."""
-    curves = changed(hopf_curve(xi=0.8), l1=l1)
-    made = results(
-        curves={"a": hopf_curve(), "b": curves},
-        routes=route_rows(*twice("cycle", "torus")),
-        cycle_points=points,
-    )
-    found = TESTS["two_supercritical_hopfs"](made, routes=["mine"], planes=["a", "b"])
+    curves = {"a": hopf_curve(), "b": changed(hopf_curve(xi=0.8), l1=l1)}
+    made = Results(curves=curves, routes=twice("cycle", "torus"), cycle_points=points)
+    found = two_supercritical_hopfs(made, routes=["mine"], planes=["a", "b"])
     assert found.verdict == verdict
 
 
 @pytest.mark.parametrize(
     ("in_epsilon", "in_xi", "verdict"),
     [
-        (["cycle", "chaos"], ["chaos", "cycle"], REPRODUCED),
-        (["cycle", "chaos"], ["cycle", "chaos"], CORRECTED),
-        (["chaos", "cycle"], ["chaos", "cycle"], CORRECTED),
-        (["chaos"], ["cycle", "chaos"], NOT_REPRODUCED),
+        (["cycle", "chaos"], ["chaos", "cycle"], YES),
+        (["cycle", "chaos"], ["cycle", "chaos"], PARTLY),
+        (["chaos", "cycle"], ["chaos", "cycle"], PARTLY),
+        (["chaos"], ["cycle", "chaos"], NO),
     ],
 )
 def test_chaos_by_a_and_b(in_epsilon, in_xi, verdict):
     """B alone raises epsilon, A and B in proportion lower xi."""
-    rows = route_rows(*twice(*in_epsilon), name="one", along="epsilon")
-    rows += route_rows(*twice(*in_xi), name="two", along="xi")
-    found = TESTS["chaos_by_a_and_b"](results(routes=rows), routes=["one", "two"])
-    assert found.verdict == verdict
+    rows = twice(*in_epsilon, name="one", along="epsilon") + twice(*in_xi, name="two", along="xi")
+    assert chaos_by_a_and_b(Results(routes=rows), routes=["one", "two"]).verdict == verdict
 
 
 def test_route_without_rows_is_an_error():
     """It names table and route."""
-    made = of_route("cycle", "cycle")
+    made = Results(routes=twice("cycle"))
     with pytest.raises(ValueError, match=r"routes/other.tsv: no row of route 'other'.*: mine"):
-        TESTS["route"](made, routes=["other"], expected=["cycle"])
+        route(made, routes=["other"], expected=["cycle"])

@@ -300,7 +300,8 @@ def test_all_problems_are_listed_at_once(config):
         (
             ("scenes", "torus", "t_transient"),
             8000.0,
-            "scene 'torus': t_transient = 8000.0; expected a finite number >= 0 and < t_end = 8000.0",
+            "scene 'torus': t_transient = 8000.0; expected a finite number >= 0 and <"
+            " t_end = 8000.0",
         ),
         (
             ("scenes", "torus", "sample_interval"),

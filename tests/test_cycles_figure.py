@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 from scripts.drawing.special_points import STYLES
 from scripts.drawing.style import STYLE
 from scripts.figures import cycles
-from scripts.workflow import result_files
+from scripts.results import paths
 
 STABLE, ONE, TWO, MANY = (style["color"] for style in cycles.LINES)
 
@@ -177,7 +177,7 @@ def test_sweeps_are_those_of_routes_on_the_same_line(config):
         "across": {"along": "epsilon", "tau": 7.0, "xi": 0.5, "gamma": 0.8},
     }
     folder = "<results>/attractors/routes"
-    assert result_files.sweeps_on_lines(config) == {
+    assert paths.sweeps_on_lines(config) == {
         "mine": [f"{folder}/chaos_in_tau/up.nc", f"{folder}/chaos_in_tau/down.nc"],
         "beside": [],
         "across": [f"{folder}/chaos_in_epsilon/up.nc", f"{folder}/chaos_in_epsilon/down.nc"],
@@ -193,4 +193,4 @@ def test_atlas_needs_cycles_of_its_planes(config):
         "beside": {**at, "xi": 0.6},
         "across": {"along": "xi", "tau": 7.0, "epsilon": 0.7, "gamma": 0.8},
     }
-    assert result_files.cycles_in_atlas(config) == ["<results>/cycles/mine.nc"]
+    assert paths.cycles_in_atlas(config) == ["<results>/cycles/mine.nc"]

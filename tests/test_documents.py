@@ -13,7 +13,7 @@ import pytest
 from conftest import ROOT, project_files
 from snakemake.utils import update_config
 
-from scripts.claims.claims_config import checked as checked_claims
+from scripts.claims.ledger import check_user_claims
 from scripts.config.check_config import checked
 from scripts.config.read_config import parse, read
 from scripts.figures.entries import ENTRIES
@@ -201,18 +201,16 @@ def test_commands_that_are_named_exist(document):
 
 @each
 def test_examples_of_config_are_accepted(document, default_config):
-    """Merged over the config, as Snakemake does it; claims over the claims."""
+    """Merged over the config, as Snakemake does it."""
     for block in blocks_of(document, "yaml"):
         mine = parse(block)
         config = copy.deepcopy(default_config)
         # examples build on the scene that the first one adds
         scene = parse(blocks_of("config/README.md", "yaml")[0])
         update_config(config, scene)
-        if "claims" in mine:
-            checked_claims(mine, checked(config), {c["look_at"] for c in mine["claims"].values()})
-        else:
-            update_config(config, mine)
-            checked(config)
+        update_config(config, mine)
+        config = checked(config)
+        check_user_claims(config["claims"], config, set())
 
 
 def test_keys_of_a_scene_are_those_of_the_schema():

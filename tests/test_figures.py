@@ -15,7 +15,7 @@ from matplotlib.text import Text
 
 from scripts.drawing import style
 from scripts.files.tsv import read_table
-from scripts.workflow.result_files import places_in_plane
+from scripts.results.paths import places_in_plane
 
 NUMBERS = range(1, 9)
 PLANES = {2: "tau_of_epsilon", 3: "xi_of_epsilon"}

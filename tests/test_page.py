@@ -17,8 +17,8 @@ from docutils.utils import SystemMessage
 from jinja2 import UndefinedError
 from made_up_page import attractor, claim, content, figure, run
 
-from scripts.claims.claims_config import listed
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, NOT_TESTABLE, VERDICTS
+from scripts.claims.ledger import paper_claims
 from scripts.figures.entries import FIGURES
 from scripts.page import captions, findings, page_content, page_provenance, page_views, write_page
 from scripts.page.mathematics import in_signs, of_words
@@ -112,7 +112,7 @@ def test_claims_that_fail_stand_first(tmp_path):
 
 def test_equations_mark_what_differs_from_the_print():
     """A corrected part is boxed and the print stands below; the claims beside them exist."""
-    claims = [claim(name) for name in listed()["claims"]]
+    claims = [claim(name) for name in paper_claims()]
     shown = page_content.set_equations(made_up_page.EQUATIONS, claims)
     equations = shown["model"] + shown["hopf"]
     assert [one["number"] for one in equations] == ["(4)", "(5)", "(6)", "(7), (8)", "(9)", "(10)"]
@@ -156,14 +156,14 @@ def test_findings_follow_the_tables():
     limit, torus, faults = findings.list_findings([claim("figure_5a")], tables_of_findings())
     assert torus["title"] == "The paper's torus is a limit cycle."
     assert torus["words"] == (
-        "At tau = 10 it has one zero Lyapunov exponent and the fundamental frequency f1 = 0.1. At"
-        " tau = 12.5, with all else the same, the motion is a torus: it has two zero Lyapunov"
-        " exponents and the fundamental frequencies f1 = 0.1 and f2 = 0.3."
+        "At $tau = 10$ it has one zero Lyapunov exponent and the fundamental frequency $f1 = 0.1$."
+        " At $tau = 12.5$, with all else the same, the motion is a torus: it has two zero Lyapunov"
+        " exponents and the fundamental frequencies $f1 = 0.1$ and $f2 = 0.3$."
     )
     assert [given["id"] for given in torus["claims"]] == ["figure_5a"]
-    assert "at epsilon = 0.25 for xi = 0.5 and gamma = 0.8." in limit["words"]
+    assert "at $epsilon = 0.25$ for $xi = 0.5$ and $gamma = 0.8$." in limit["words"]
     assert (
-        "by 0.048 there, but by 9e-18 only at gamma = 1e+04. Along the Hopf curves of 2 planes"
+        "by 0.048 there, but by 9e-18 only at $gamma = 1e+04$. Along the Hopf curves of 2 planes"
         in (limit["words"])
     )
     assert limit["words"].endswith(" at 1 point.")
@@ -179,7 +179,7 @@ def test_titles_of_findings_follow_the_tables():
     tables |= {"stability": tables["stability"][1:]}
     assert [found["title"] for found in findings.list_findings([], tables)][1:] == [
         "The paper's torus is a torus.",
-        "The paper's range of gamma is not accessible.",
+        "The paper's range of $gamma$ is not accessible.",
     ]
 
 

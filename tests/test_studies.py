@@ -9,13 +9,9 @@ from matplotlib import pyplot as plt
 from scripts.drawing.style import STYLE
 from scripts.figures import stability, work_precision
 from scripts.files.tsv import as_digits, read_table, write_table
-from scripts.namelists.study_cases import (
-    cases_of_family,
-    columns,
-    measured_study,
-    work_precision_groups,
-)
-from scripts.namelists.write_measured_scene import horizon_of
+from scripts.namelists.result_values import work_precision_groups
+from scripts.namelists.study_cases import cases_of_family, columns
+from scripts.namelists.write_namelist import end_at_horizons
 from scripts.tables import stability_table
 from scripts.tables.accuracy import (
     Reference,
@@ -139,9 +135,8 @@ def test_row_of_a_horizon(reference):
 def test_measured_runs_end_at_the_horizon(smoke_config):
     """As the table says for the scene."""
     rows = [{"scene": "torus", "horizon": 17.0}, {"scene": "chaos", "horizon": 8.0}]
-    groups = work_precision_groups(measured_study(smoke_config), "chaos", 8.0)
-    assert horizon_of(rows, "chaos") == 8.0
-    assert groups["measurement"]["cases_list"]["t_end"] == [8.0]
+    groups = end_at_horizons(work_precision_groups(smoke_config, "chaos"), rows)
+    assert groups["cases_list"]["t_end"] == [8.0]
 
 
 def test_proportionality_is_the_slope_of_useful_errors():

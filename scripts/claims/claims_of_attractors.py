@@ -3,16 +3,9 @@
 import math
 from collections import Counter
 
-from scripts.claims.claims_results import (
-    CORRECTED,
-    NOT_REPRODUCED,
-    REPRODUCED,
-    Finding,
-    Results,
-    decided,
-    listed,
-    short,
-)
+from scripts.claims.claims_results import Finding, Results, decided, equations, listed, short
+from scripts.claims.declare import Class, Scene, claim, reads, says, tested_with
+from scripts.namelists.study_cases import PARAMETERS
 
 MOTIONS = {
     "fixed point": "rest",
@@ -25,42 +18,53 @@ ERRORS = 3
 """Standard errors beyond which an exponent is not zero."""
 
 
-def attractor_class(results: Results, *, scene: str, expected: str) -> Finding:
+@claim(35, "figure_4a", "Figure 4a", look_at="figure_4")
+@says("At $tau = 0$, $epsilon = 0.3$, $xi = gamma = 0.8$ the block comes to a fixed point.")
+@tested_with(scene="fixed_point", expected="fixed point")
+@claim(36, "figure_4b", "Figure 4b", look_at="figure_4")
+@says("At $tau = 10$, $epsilon = 0.35$, $xi = gamma = 0.8$ the block oscillates.")
+@tested_with(scene="oscillation", expected="cycle")
+@claim(38, "figure_5b", "Figure 5b", look_at="figure_5")
+@says("At $tau = 7$, $epsilon = 0.7$, $xi = 0.5$, $gamma = 0.8$ the block moves chaotically.")
+@tested_with(scene="chaos", expected="chaos")
+@reads("attractors", "exponents", "linear_stability")
+def attractor_class(results: Results, *, scene: Scene, expected: Class) -> Finding:
     """Whether the scene's run ends on an attractor of this class, from whichever history."""
     own, *others = results.attractors_of(scene)
     met = Counter(in_words(row) for row in others)
-    known = results.stability_of(scene)
+    where = equations(results.stability_of(scene), PARAMETERS)
     exponents = exponents_of(own, results.exponents_of(scene))
-    where = ", ".join(f"{key} = {short(known[key])}" for key in ("tau", "epsilon", "xi", "gamma"))
     evidence = (
         f"Scene {scene} ({where}). Class from its own history: {in_words(own)}{exponents}."
         f" Class by the section: {own['by_section']}. Class by the spectrum: {own['by_spectrum']}."
         f" Classes from {len(others)} other histories:"
         f" {listed([f'{count} {name}' for name, count in sorted(met.items())])}."
     )
-    if own["class"] == expected:
-        return Finding(REPRODUCED, evidence)
     elsewhere = any(row["class"] == expected for row in others)
     motion = MOTIONS.get(own["class"], own["class"])
     if in_words(own) != own["class"]:
         motion = f"a {in_words(own)}"
     instead = f"The motion is {motion}{exponents}."
-    return Finding(CORRECTED if elsewhere else NOT_REPRODUCED, evidence, instead)
+    return decided(own["class"] == expected, evidence, instead, partly=elsewhere)
 
 
-def positive_exponent(results: Results, *, scene: str) -> Finding:
+@claim(6, "single_block_is_chaotic", "abstract; section 4", look_at="attractors.tsv")
+@says("A single block with a delay can be chaotic.")
+@tested_with(scene="chaos")
+@reads("attractors", "exponents")
+def positive_exponent(results: Results, *, scene: Scene) -> Finding:
     """Whether the largest exponent is positive beyond its error, from every history."""
     rows = results.attractors_of(scene)
     measured = [row for row in rows if not math.isnan(row["exponent_1"])]
     if not measured:
-        evidence = f"No exponent of scene {scene} is measured."
-        return Finding(NOT_REPRODUCED, evidence, "No exponent is measured.")
+        instead = "No exponent is measured."
+        return decided(False, f"No exponent of scene {scene} is measured.", instead)
     first = measured[0]
     own = results.exponents_of(scene) or [(first["exponent_1"], first["error_1"])]
     beyond = sum(row["exponent_1"] > ERRORS * row["error_1"] for row in measured)
     return decided(
         beyond == len(rows),
-        f"The largest Lyapunov exponent of scene {scene} is {with_error(*own[0])} v0/L."
+        f"The largest Lyapunov exponent of scene {scene} is {with_error(*own[0])} $v0/L$."
         f" It is more than {ERRORS} standard errors above zero from {beyond} of {len(rows)}"
         " histories.",
         f"The largest exponent is positive beyond its error from {beyond} of {len(rows)}"
@@ -91,9 +95,3 @@ def with_error(exponent: float, error: float) -> str:
     if error > 0:
         return f"{short(exponent, 3)} +- {short(error, 2)}"
     return short(exponent, 3) if exponent else "0 (along the flow)"
-
-
-TESTS = {
-    "attractor_class": attractor_class,
-    "positive_exponent": positive_exponent,
-}

@@ -9,15 +9,21 @@ from scripts.claims.claims_results import (
     Finding,
     Results,
     decided,
+    equations,
     listed,
     short,
 )
+from scripts.claims.declare import Scene, claim, reads, says, tested_with
 from scripts.namelists.study_cases import PARAMETERS
 from scripts.tables.attractor_tables import SAME_MAXIMUM
 from scripts.tables.cycle_branches import CycleThere, cycles_there
 
 
-def torus_of_scene(results: Results, *, scene: str) -> Finding:
+@claim(37, "figure_5a", "Figure 5a", look_at="figure_5")
+@says("At $tau = 10$, $epsilon = 0.5$, $xi = gamma = 0.8$ the block moves on a torus.")
+@tested_with(scene="torus")
+@reads("attractors", "exponents", "linear_stability", "cycles")
+def torus_of_scene(results: Results, *, scene: Scene) -> Finding:
     """Whether a scene's run ends on a torus, and no stable cycle exists at its parameters."""
     by_runs = attractor_class(results, scene=scene, expected="torus")
     found = cycles_at(results, scene)
@@ -27,7 +33,11 @@ def torus_of_scene(results: Results, *, scene: str) -> Finding:
     return Finding(by_runs.verdict, evidence, by_runs.instead)
 
 
-def second_hopf(results: Results, *, scene: str) -> Finding:
+@claim(42, "second_hopf", "section 3, below Figures 2 and 5; Figure 6b", look_at="cycles")
+@says("A second Hopf bifurcation has occurred at the parameters of the torus.")
+@tested_with(scene="torus")
+@reads("attractors", "linear_stability", "cycles", "cycle_points")
+def second_hopf(results: Results, *, scene: Scene) -> Finding:
     """Whether the cycle at a scene has undergone a torus bifurcation; if not, where one does.
 
     It has if the scene's run has two zero exponents, no stable cycle exists at its parameters, and
@@ -39,10 +49,9 @@ def second_hopf(results: Results, *, scene: str) -> Finding:
     for cycles in lines_through(results, scene).values():
         along = cycles.attrs["along"]
         fixed = {key: cycles.attrs[key] for key in PARAMETERS if key != along}
-        places = [short(point[along]) for point in torus_points(results, fixed)]
-        where = ", ".join(f"{key} = {short(value)}" for key, value in fixed.items())
-        at = f"at {along} = {' and '.join(places)}"
-        parts.append(f"{at if places else 'none'} along {along} ({where})")
+        places = [point[along] for point in torus_points(results, fixed)]
+        at = f"at {places_along(along, places)}" if places else "none"
+        parts.append(f"{at} along ${along}$ ({equations(fixed, fixed)})")
         elsewhere += [at] * bool(places)
     evidence = (
         "A second Hopf bifurcation of a cycle is a torus bifurcation: a pair of multipliers leaves"
@@ -90,7 +99,7 @@ def cycles_in_words(found: list[CycleThere]) -> str:
     if not found:
         return "No cycle was followed to these parameters."
     parts = [
-        f"{'stable' if cycle.unstable == 0 else 'unstable'} with v up to {short(cycle.most, 3)}"
+        f"{'stable' if cycle.unstable == 0 else 'unstable'} with $v$ up to {short(cycle.most, 3)}"
         f" (modulus {short(cycle.modulus, 2)})"
         for cycle in found
     ]
@@ -98,6 +107,12 @@ def cycles_in_words(found: list[CycleThere]) -> str:
         "Cycles followed to these parameters, and the modulus of their largest Floquet multiplier"
         f" but 1: {listed(parts)}."
     )
+
+
+def places_along(along: str, places: list[float]) -> str:
+    """Values of the parameter along a line in words."""
+    first, *others = map(short, places)
+    return " and ".join([f"${along} = {first}$", *others])
 
 
 def torus_points(results: Results, fixed: dict[str, float]) -> list[dict]:
@@ -110,9 +125,3 @@ def torus_points(results: Results, fixed: dict[str, float]) -> list[dict]:
         and all(point[key] == value for key, value in fixed.items())
     }
     return [found[place] for place in sorted(found)]
-
-
-TESTS = {
-    "torus_of_scene": torus_of_scene,
-    "second_hopf": second_hopf,
-}

@@ -1,5 +1,7 @@
 """Claims about slip events, the times in which the block is faster than the plate."""
 
+from typing import Annotated
+
 import numpy as np
 
 from scripts.claims.claims_results import (
@@ -7,8 +9,10 @@ from scripts.claims.claims_results import (
     Finding,
     Results,
     decided,
+    equations,
     short,
 )
+from scripts.claims.declare import Scene, Scenes, claim, number, reads, says, tested_with
 from scripts.namelists.study_cases import HISTORY
 
 FEWEST = 100
@@ -20,8 +24,22 @@ PERIODIC = 1e-3
 NOTHING = 1e-5
 """Shares below this are not given as numbers: they are errors of the solver."""
 
+Ratio = Annotated[float, number("largest velocity over least, a finite number > 1", above=1)]
+Share = Annotated[
+    float,
+    number(
+        "least share of the time in which the block is slower than the plate,"
+        " a finite number in (0, 1)",
+        exclusiveMaximum=1,
+    ),
+]
 
-def aperiodic_events(results: Results, *, scene: str, periodic: str) -> Finding:
+
+@claim(8, "aperiodic_events", "section 4", look_at="events")
+@says("Slip events on the strange attractor are aperiodic.")
+@tested_with(scene="chaos", periodic="oscillation")
+@reads("slip_events")
+def aperiodic_events(results: Results, *, scene: Scene, periodic: Scene) -> Finding:
     """Whether recurrence times of events vary without repeating, unlike those of another scene."""
     parts, repeats = [], {}
     for name in (scene, periodic):
@@ -32,8 +50,8 @@ def aperiodic_events(results: Results, *, scene: str, periodic: str) -> Finding:
         after, repeats[name] = best_repeat(times)
         parts.append(
             f"Scene {name} has {times.size} events. The mean recurrence time is"
-            f" {short(times.mean())} L/v0, with a coefficient of variation of"
-            f" {percent(variation(times))}. The mean slip is {short(slip.mean())} L, with a"
+            f" {short(times.mean())} $L/v0$, with a coefficient of variation of"
+            f" {percent(variation(times))}. The mean slip is {short(slip.mean())} $L$, with a"
             f" coefficient of variation of {percent(variation(slip))}. The sequence of recurrence"
             f" times repeats best after {after} event{'' if after == 1 else 's'}, with differences"
             f" of {percent(repeats[name])} of the mean."
@@ -46,7 +64,18 @@ def aperiodic_events(results: Results, *, scene: str, periodic: str) -> Finding:
     )
 
 
-def equal_events(results: Results, *, scenes: list[str]) -> Finding:
+@claim(
+    7,
+    "chaos_by_delay_alone",
+    "abstract; section 1 (Erickson, Birnir and Lavallee 2008)",
+    look_at="linear-stability.tsv",
+)
+@says("It is the delay that makes a single block chaotic.")
+@tested_with(
+    scenes=["no_delay", "no_delay_stuck", "no_delay_fast", "no_delay_less", "no_delay_more"]
+)
+@reads("slip_events")
+def equal_events(results: Results, *, scenes: Scenes) -> Finding:
     """Whether all events of each scene come after the same time: a cycle of one event, no chaos."""
     parts, holds = [], True
     for scene in scenes:
@@ -56,23 +85,30 @@ def equal_events(results: Results, *, scenes: list[str]) -> Finding:
             return few(scene, times.size, "to show whether they repeat")
         spread = float(np.ptp(times) / times.mean())
         holds = holds and spread <= PERIODIC
-        history = ", ".join(f"{key} = {short(place[f'history_{key}'])}" for key in HISTORY)
+        history = equations({key: place[f"history_{key}"] for key in HISTORY}, HISTORY)
         parts.append(
-            f"At tau = {short(place['tau'])}, epsilon = {short(place['epsilon'])}, from {history},"
-            f" {times.size} events come after {short(times.mean(), 6)} L/v0 each, with v up to"
-            f" {short(events.peak_velocity.values.max())}. The longest is longer than"
-            f" the shortest by {percent(spread)}."
+            f"At {equations(place, ['tau', 'epsilon'])}, from {history}, {times.size} events come"
+            f" after {short(times.mean(), 6)} $L/v0$ each, with $v$ up to"
+            f" {short(events.peak_velocity.values.max())}. The longest is longer than the shortest"
+            f" by {percent(spread)}."
         )
     return decided(
         holds,
         f"{' '.join(parts)} Erickson, Birnir and Lavallee (2008) report a cascade of period"
-        " doublings to chaos without delay, near epsilon = 11."
+        " doublings to chaos without delay, near $epsilon = 11$."
         f"{' It is not found here.' if holds else ''}",
         "Without delay events do not repeat, either.",
     )
 
 
-def relaxation(results: Results, *, scenes: list[str], ratio: float, stick: float) -> Finding:
+@claim(12, "block_sticks_and_slips", "section 1, Figure 1", look_at="events")
+@says("The block moves along the rough surface in a stick-slip fashion.")
+@tested_with(scenes=["oscillation", "chaos"], ratio=1e3, stick=0.9)
+@claim(54, "relaxation_oscillator", "sections 1 and 5", look_at="events")
+@says("Under some conditions the block sticks and slips like a relaxation oscillator.")
+@tested_with(scenes=["oscillation", "chaos", "stick_slip", "no_delay_less"], ratio=1e3, stick=0.9)
+@reads("slip_events")
+def relaxation(results: Results, *, scenes: Scenes, ratio: Ratio, stick: Share) -> Finding:
     """Whether in some scene v spans this ratio in every event, and the block mostly sticks."""
     parts, holds = [], False
     for scene in scenes:
@@ -84,10 +120,9 @@ def relaxation(results: Results, *, scenes: list[str], ratio: float, stick: floa
         slower = 1 - float(events.duration.sum() / events.recurrence_time.sum())
         holds = holds or bool(spans.min() >= ratio and slower >= stick)
         parts.append(
-            f"Scene {scene} (tau = {short(events.attrs['tau'])}, gamma ="
-            f" {short(events.attrs['gamma'])}) has {spans.size} events. In each of them v spans a"
-            f" factor of at least {short(spans.min(), 2)}. The block is slower than the plate for"
-            f" {percent(slower)} of the time."
+            f"Scene {scene} ({equations(events.attrs, ['tau', 'gamma'])}) has {spans.size} events."
+            f" In each of them $v$ spans a factor of at least {short(spans.min(), 2)}. The block"
+            f" is slower than the plate for {percent(slower)} of the time."
         )
     return decided(
         holds,
@@ -122,10 +157,3 @@ def few(scene: str, events: int, why: str) -> Finding:
     """The scene has too few events to show something."""
     evidence = f"Scene {scene} has {events} complete events. The test needs {FEWEST}."
     return Finding(NOT_REPRODUCED, evidence, f"Scene {scene} has too few events {why}.")
-
-
-TESTS = {
-    "aperiodic_events": aperiodic_events,
-    "equal_events": equal_events,
-    "relaxation": relaxation,
-}

@@ -9,15 +9,19 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from scripts.claims.claims_of_attractors import in_words
-from scripts.claims.claims_of_cycles import torus_points
-from scripts.claims.claims_results import (
-    CORRECTED,
-    NOT_REPRODUCED,
-    REPRODUCED,
-    Finding,
-    Results,
-    decided,
-    short,
+from scripts.claims.claims_of_cycles import places_along, torus_points
+from scripts.claims.claims_results import REPRODUCED, Finding, Results, decided, equations, short
+from scripts.claims.declare import (
+    Class,
+    Classes,
+    Planes,
+    Route,
+    Routes,
+    Scenes,
+    claim,
+    reads,
+    says,
+    tested_with,
 )
 from scripts.namelists.study_cases import PARAMETERS
 from scripts.tables.motion_rows import UNDECIDED, parameter_of
@@ -43,7 +47,14 @@ Turns = dict[str, list[list[Stretch]]]
 """Stretches that belong together, by run."""
 
 
-def route(results: Results, *, routes: list[str], expected: list[str]) -> Finding:
+@claim(48, "fixed_point_to_cycle", "section 5", look_at="routes")
+@says("A limit cycle bifurcates from the fixed point.")
+@tested_with(routes=["chaos_in_tau", "torus_in_tau"], expected=["fixed point", "cycle"])
+@claim(50, "torus_to_chaos", "section 5", look_at="routes")
+@says("As the parameters grow, the torus breaks up into a chaotic set.")
+@tested_with(routes=["chaos_in_tau", "torus_in_tau"], expected=["torus", "chaos"])
+@reads("routes")
+def route(results: Results, *, routes: Routes, expected: Classes) -> Finding:
     """Whether these classes follow each other along at least one of the routes."""
     lines = [results.route(name) for name in routes]
     found = [sequences(rows, expected) for rows in lines]
@@ -52,7 +63,11 @@ def route(results: Results, *, routes: list[str], expected: list[str]) -> Findin
     return decided(any(any(met.values()) for met in found), " ".join(told), instead)
 
 
-def torus_route(results: Results, *, routes: list[str], expected: list[str]) -> Finding:
+@claim(49, "cycle_to_torus", "section 5", look_at="routes")
+@says("Quasiperiodic motion bifurcates from the limit cycle.")
+@tested_with(routes=["chaos_in_tau", "torus_in_tau"], expected=["cycle", "torus"])
+@reads("routes", "cycle_points")
+def torus_route(results: Results, *, routes: Routes, expected: Classes) -> Finding:
     """Whether these classes follow each other, a cycle and a torus at a torus bifurcation."""
     lines = [results.route(name) for name in routes]
     found = [at_bifurcations(rows, sequences(rows, expected), results) for rows in lines]
@@ -66,7 +81,11 @@ def torus_route(results: Results, *, routes: list[str], expected: list[str]) -> 
     return decided(any(any(met.values()) for met in found), " ".join(told), instead)
 
 
-def quasiperiodic_route(results: Results, *, routes: list[str]) -> Finding:
+@claim(5, "quasiperiodic_route", "abstract; section 3, below Figure 2", look_at="routes")
+@says("The route to chaos is quasiperiodic, that of Ruelle, Takens and Newhouse.")
+@tested_with(routes=["chaos_in_tau", "torus_in_tau"])
+@reads("routes", "cycle_points", "atlas")
+def quasiperiodic_route(results: Results, *, routes: Routes) -> Finding:
     """Whether chaos follows a torus of two frequencies, and one of three, along the routes.
 
     The first is torus breakdown, the second the route of Ruelle, Takens and Newhouse. Where both
@@ -84,11 +103,10 @@ def quasiperiodic_route(results: Results, *, routes: list[str]) -> Finding:
         f"Torus breakdown: {breakdown.evidence} A torus of three frequencies between torus and"
         f" chaos: {strict.evidence} {three_tori_in_atlas(results.atlas)}"
     )
-    if not fails:
-        return Finding(REPRODUCED, evidence)
-    if not holds:
-        return Finding(NOT_REPRODUCED, evidence, f"The routes show neither {' nor '.join(fails)}.")
-    return Finding(CORRECTED, evidence, f"The routes show {holds[0]}, but not {fails[0]}.")
+    instead = f"The routes show neither {' nor '.join(fails)}."
+    if holds and fails:
+        instead = f"The routes show {holds[0]}, but not {fails[0]}."
+    return decided(not fails, evidence, instead, partly=bool(holds))
 
 
 def three_tori_in_atlas(atlas: list[dict]) -> str:
@@ -108,17 +126,23 @@ def three_tori_in_atlas(atlas: list[dict]) -> str:
             ]
             following = min(beyond, key=lambda row: row[along], default={"class": ""})
             next_to[along] += following["class"] == "chaos"
-    places = Counter(f"xi = {short(row['xi'])}, gamma = {short(row['gamma'])}" for row in tori)
+    places = Counter(equations(row, ["xi", "gamma"]) for row in tori)
     counts = [f"{count} at {place}" for place, count in places.items()]
     ends = [f"{short(end(row['tau'] for row in tori))}" for end in (min, max)]
     return (
-        f"The atlas has {len(tori)} tori of three frequencies: {'; '.join(counts)}, for tau from"
+        f"The atlas has {len(tori)} tori of three frequencies: {'; '.join(counts)}, for $tau$ from"
         f" {ends[0]} to {ends[1]}. The next class is chaos beyond {next_to['tau']} of them with a"
-        f" longer delay, and beyond {next_to['epsilon']} with a larger epsilon."
+        f" longer delay, and beyond {next_to['epsilon']} with a larger $epsilon$."
     )
 
 
-def two_supercritical_hopfs(results: Results, *, routes: list[str], planes: list[str]) -> Finding:
+@claim(31, "two_supercritical_hopfs", "section 3, below Figure 2", look_at="cycles")
+@says("Two supercritical Hopf bifurcations lead from regular motion to the strange attractor.")
+@tested_with(
+    routes=["chaos_in_tau", "torus_in_tau"], planes=["tau_of_epsilon", "tau_of_epsilon_xi_08"]
+)
+@reads("curves", "routes", "cycle_points")
+def two_supercritical_hopfs(results: Results, *, routes: Routes, planes: Planes) -> Finding:
     """Whether the Hopf bifurcation of steady sliding and that of the cycle are supercritical.
 
     The second is a torus bifurcation of a stable cycle. The first is where a pair of roots becomes
@@ -140,21 +164,22 @@ def two_supercritical_hopfs(results: Results, *, routes: list[str], planes: list
             *((point[along], point["criticality"]) for point in torus_points(results, fixed)),
         ]
         kinds.append([kind for _, kind in found])
-        of_sliding, *of_cycles = (f"{kind} near {along} = {short(at)}" for at, kind in found)
-        where = ", ".join(f"{key} = {short(value)}" for key, value in fixed.items())
+        of_sliding, *of_cycles = (f"{kind} near ${along} = {short(at)}$" for at, kind in found)
         parts.append(
-            f"With {where} the Hopf bifurcation of steady sliding is {of_sliding}. Torus"
-            f" bifurcations of stable cycles: {', '.join(of_cycles) or 'none'}."
+            f"With {equations(fixed, fixed)} the Hopf bifurcation of steady sliding is"
+            f" {of_sliding}. Torus bifurcations of stable cycles:"
+            f" {', '.join(of_cycles) or 'none'}."
         )
     holds = [len(each) > 1 and set(each) == {"supercritical"} for each in kinds]
-    evidence = " ".join(parts)
-    if all(holds):
-        return Finding(REPRODUCED, evidence)
     instead = f"All are supercritical on {sum(holds)} of {len(holds)} lines."
-    return Finding(CORRECTED if any(holds) else NOT_REPRODUCED, evidence, instead)
+    return decided(all(holds), " ".join(parts), instead, partly=any(holds))
 
 
-def chaos_by_a_and_b(results: Results, *, routes: list[str]) -> Finding:
+@claim(28, "chaos_by_a_and_b", "section 4", look_at="routes")
+@says("Larger values of $A$ and $B$ lead to chaos.")
+@tested_with(routes=["chaos_in_epsilon", "chaos_in_xi"])
+@reads("routes")
+def chaos_by_a_and_b(results: Results, *, routes: Routes) -> Finding:
     """Whether chaos follows from a larger B alone, and from a larger A with B in proportion.
 
     B alone raises epsilon = (B - A)/A. A and B in proportion lower xi = k L/A. A alone lowers both.
@@ -167,41 +192,58 @@ def chaos_by_a_and_b(results: Results, *, routes: list[str]) -> Finding:
             chaotic = [pair[before] != "chaos" == pair[behind] for pair in ends]
             leads[parameter_of(rows), direction] = sum(chaotic), len(ends)
     parts = [
-        f"A {direction} {along} leads to chaos in {count} of {runs} runs."
+        f"A {direction} ${along}$ leads to chaos in {count} of {runs} runs."
         for (along, direction), (count, runs) in leads.items()
     ]
     by_b, by_both = leads["epsilon", "larger"][0] > 0, leads["xi", "smaller"][0] > 0
     evidence = (
-        "A larger B raises epsilon = (B - A)/A. A larger A lowers epsilon and xi = k L/A; with B in"
-        f" proportion it lowers xi alone. {' '.join(parts)}"
+        "A larger $B$ raises $epsilon = (B - A)/A$. A larger $A$ lowers $epsilon$ and"
+        f" $xi = k L/A$; with $B$ in proportion it lowers $xi$ alone. {' '.join(parts)}"
     )
-    if by_b and by_both:
-        return Finding(REPRODUCED, evidence)
-    if not (by_b or by_both):
-        return Finding(NOT_REPRODUCED, evidence, "Neither B alone nor A and B in proportion do.")
-    alone = "A larger B alone does; A and B in proportion do not."
-    both = "A and B in proportion do; a larger B alone does not."
-    return Finding(CORRECTED, evidence, alone if by_b else both)
+    instead = "Neither $B$ alone nor $A$ and $B$ in proportion do."
+    if by_b:
+        instead = "A larger $B$ alone does; $A$ and $B$ in proportion do not."
+    elif by_both:
+        instead = "$A$ and $B$ in proportion do; a larger $B$ alone does not."
+    return decided(by_b and by_both, evidence, instead, partly=by_b or by_both)
 
 
-def leads_to(results: Results, *, routes: list[str], before: list[str], after: str) -> Finding:
+@claim(4, "delay_alone_makes_chaos", "abstract; section 3, below Figure 2", look_at="routes")
+@says("A longer delay makes the motion chaotic, with all other parameters the same.")
+@tested_with(routes=["chaos_in_tau", "torus_in_tau"], before=["fixed point"], after="chaos")
+@claim(27, "chaos_by_epsilon_and_xi", "section 3, below (10); section 4", look_at="routes")
+@says("Larger values of $epsilon$ and of $xi$ lead to chaos.")
+@tested_with(
+    routes=["chaos_in_epsilon", "chaos_in_xi"],
+    before=["fixed point", "cycle", "torus"],
+    after="chaos",
+)
+@reads("routes")
+def leads_to(results: Results, *, routes: Routes, before: Classes, after: Class) -> Finding:
     """Whether a class is met beyond others along all of the routes, or along some of them."""
     lines = [results.route(name) for name in routes]
     found = [changes(rows, before, after) for rows in lines]
     evidence = " ".join(in_a_sentence(rows, met) for rows, met in zip(lines, found, strict=True))
     holds = [any(met.values()) for met in found]
-    if all(holds):
-        return Finding(REPRODUCED, evidence)
-    if any(holds):
-        return Finding(CORRECTED, evidence, f"It does along {sum(holds)} of {len(holds)} lines.")
-    parameters = " or ".join(dict.fromkeys(parameter_of(rows) for rows in lines))
+    parameters = " or ".join(dict.fromkeys(f"${parameter_of(rows)}$" for rows in lines))
     instead = f"No run along {parameters} shows {after} beyond {' or '.join(before)}."
-    return Finding(NOT_REPRODUCED, evidence, instead)
+    if any(holds):
+        instead = f"It does along {sum(holds)} of {len(holds)} lines."
+    return decided(all(holds), evidence, instead, partly=any(holds))
 
 
-def delays_in_turn(
-    results: Results, *, scenes: list[str], expected: list[str], route: str
-) -> Finding:
+@claim(39, "longer_delays_in_turn", "section 3, below Figure 5", look_at="routes")
+@says(
+    "With growing delay and slight changes of the other parameters, the fixed point gives way "
+    "to oscillations, torus and chaos in this order."
+)
+@tested_with(
+    scenes=["fixed_point", "oscillation", "torus", "chaos"],
+    expected=["fixed point", "cycle", "torus", "chaos"],
+    route="torus_in_tau",
+)
+@reads("attractors", "linear_stability", "routes", "cycle_points")
+def delays_in_turn(results: Results, *, scenes: Scenes, expected: Classes, route: Route) -> Finding:
     """Whether scenes with longer and longer delays are of these classes in turn, or a route is.
 
     On the route a cycle and a torus meet at a torus bifurcation.
@@ -218,12 +260,12 @@ def delays_in_turn(
         f" These delays {'grow' if grow else 'do not grow'} from one to the next. Only"
         f" the delay changes on the route {route}. {shown}"
     )
-    if grow and [row["class"] for row in own] == expected:
-        return Finding(REPRODUCED, evidence)
-    if any(found.values()):
-        instead = "At fixed parameters a longer delay gives this order."
-        return Finding(CORRECTED, evidence, instead)
-    return Finding(NOT_REPRODUCED, evidence, f"Nor does the route {route} show this order.")
+    shows = any(found.values())
+    instead = "At fixed parameters a longer delay gives this order."
+    if not shows:
+        instead = f"Nor does the route {route} show this order."
+    holds = grow and [row["class"] for row in own] == expected
+    return decided(holds, evidence, instead, partly=shows)
 
 
 def at_bifurcations(rows: list[dict], found: Turns, results: Results) -> Turns:
@@ -255,14 +297,13 @@ def bifurcations_in_words(rows: list[dict], results: Results) -> str:
     places = torus_bifurcations(rows, results)
     if not places:
         return "No torus bifurcation of a stable cycle is known on this line."
-    listed_places = " and ".join(short(place) for place in places)
     return (
         "A pair of multipliers of a stable cycle leaves the unit circle at"
-        f" {parameter_of(rows)} = {listed_places}."
+        f" {places_along(parameter_of(rows), places)}."
     )
 
 
-def sequences(rows: list[dict], expected: list[str]) -> Turns:
+def sequences(rows: list[dict], expected: Classes) -> Turns:
     """Where these classes follow each other."""
     size = len(expected)
     return {
@@ -275,7 +316,7 @@ def sequences(rows: list[dict], expected: list[str]) -> Turns:
     }
 
 
-def changes(rows: list[dict], before: list[str], after: str) -> Turns:
+def changes(rows: list[dict], before: Classes, after: Class) -> Turns:
     """Stretches of some classes, and the first of another class beyond them."""
     found: Turns = {}
     for run, stretches in stretches_of(rows).items():
@@ -314,23 +355,12 @@ def stretches_of(rows: list[dict]) -> dict[str, list[Stretch]]:
 def in_a_sentence(rows: list[dict], found: Turns) -> str:
     """The stretches of the run in which they are longest, and how many runs show such."""
     along = parameter_of(rows)
-    fixed = ", ".join(f"{key} = {short(rows[0][key])}" for key in PARAMETERS if key != along)
+    fixed = equations(rows[0], [key for key in PARAMETERS if key != along])
     shown = [turns for turns in found.values() if turns]
     if not shown:
-        return f"Along {along} ({fixed}): in none of {len(found)} runs."
+        return f"Along ${along}$ ({fixed}): in none of {len(found)} runs."
     longest = max(
         shown, key=lambda turns: sum(one.last - one.first for turn in turns for one in turn)
     )
     turns = "; ".join(", ".join(map(str, turn)) for turn in longest)
-    return f"Along {along} ({fixed}): {turns}; in {len(shown)} of {len(found)} runs."
-
-
-TESTS = {
-    "route": route,
-    "leads_to": leads_to,
-    "torus_route": torus_route,
-    "quasiperiodic_route": quasiperiodic_route,
-    "two_supercritical_hopfs": two_supercritical_hopfs,
-    "chaos_by_a_and_b": chaos_by_a_and_b,
-    "delays_in_turn": delays_in_turn,
-}
+    return f"Along ${along}$ ({fixed}): {turns}; in {len(shown)} of {len(found)} runs."

@@ -1,16 +1,18 @@
 """Claims about stiffness and the stationary state, by runs of stability.tsv."""
 
+from typing import Annotated
+
 import numpy as np
 
-from scripts.claims.claims_results import (
-    CORRECTED,
-    NOT_REPRODUCED,
-    REPRODUCED,
-    Finding,
-    Results,
-    decided,
-    short,
-)
+from scripts.claims.claims_results import Finding, Results, decided, short
+from scripts.claims.declare import Gamma, among, claim, number, reads, says, tested_with
+
+METHODS = ["auto", "explicit", "taylor", "radau5", "radau9", "radau13"]
+Method = Annotated[str, among("method of a run, ", METHODS)]
+Distance = Annotated[
+    float,
+    number("distance from (0, 0, 1) up to which a run has settled there, a finite number > 0"),
+]
 
 SMALL = 1e-3
 """An error that a figure does not show."""
@@ -18,19 +20,29 @@ WITHIN_EXPECTED = 100.0
 """Largest error that is expected, over tolerance times amplification."""
 
 
-def out_of_reach(results: Results, *, method: str, least: float, most: float) -> Finding:
+@claim(24, "very_stiff_at_real_gamma", "section 3, below (10)", look_at="stability")
+@says("The equations are very stiff at $gamma = 1e4$ to 1e12, the values of real faults.")
+@tested_with(method="explicit", least=1e4, most=1e12)
+@reads("stability")
+def out_of_reach(results: Results, *, method: Method, least: Gamma, most: Gamma) -> Finding:
     """Whether no run of this method with gamma in this range is completed."""
     runs = runs_between(results, method, least, most)
     done = sum(row["status"] == "ok" for row in runs)
     return decided(
         bool(runs) and not done,
-        f"{done} of {len(runs)} runs by the method {method} with gamma from {least:g} to {most:g}"
+        f"{done} of {len(runs)} runs by the method {method} with $gamma$ from {least:g} to {most:g}"
         " are completed.",
         f"{done} of {len(runs)} such runs are completed.",
     )
 
 
-def stiffness_forbids(results: Results, *, method: str, least: float, most: float) -> Finding:
+@claim(25, "real_gamma_left_out", "section 3, below (10)", look_at="stability")
+@says(
+    "$gamma = 0.8$ is taken in the place of 1e4 to 1e12 because the equations are very stiff there."
+)
+@tested_with(method="auto", least=1e4, most=1e12)
+@reads("stability")
+def stiffness_forbids(results: Results, *, method: Method, least: Gamma, most: Gamma) -> Finding:
     """Whether stiffness is a reason to leave these gammas out: for all runs, for some, or for none.
 
     A run is solved if it reaches its end with an error within what its tolerance lets expect.
@@ -42,19 +54,15 @@ def stiffness_forbids(results: Results, *, method: str, least: float, most: floa
     small = sum(row["error"] <= SMALL for row in compared)
     most_steps = max((row["steps"] for row in done), default=0)
     evidence = (
-        f"{len(done)} of {len(runs)} runs by the method {method} with gamma from {least:g} to"
+        f"{len(done)} of {len(runs)} runs by the method {method} with $gamma$ from {least:g} to"
         f" {most:g} reach their end. They take at most {most_steps:.0f} steps each. {solved} have"
         f" an error within what is expected: {WITHIN_EXPECTED:g} times tolerance times"
         f" amplification. {small} have an error of at most {SMALL:g}. References are in quadruple"
         " precision."
     )
-    if runs and solved == len(runs):
-        return Finding(NOT_REPRODUCED, evidence, "Stiffness does not prevent a solution.")
-    return (
-        Finding(CORRECTED, evidence, "Some are solved.")
-        if solved
-        else Finding(REPRODUCED, evidence)
-    )
+    all_solved = bool(runs) and solved == len(runs)
+    instead = "Stiffness does not prevent a solution." if all_solved else "Some are solved."
+    return decided(not solved, evidence, instead, partly=not all_solved)
 
 
 def runs_between(results: Results, method: str, least: float, most: float) -> list[dict]:
@@ -66,22 +74,19 @@ def runs_between(results: Results, method: str, least: float, most: float) -> li
     ]
 
 
-def stationary_state(results: Results, *, within: float) -> Finding:
+@claim(16, "stationary_state", "section 2, below (3)", look_at="stability.tsv")
+@says("Steady sliding, $(theta, u, v) = (0, 0, 1)$, is the only stationary state.")
+@tested_with(within=1e-06)
+@reads("stability")
+def stationary_state(results: Results, *, within: Distance) -> Finding:
     """Whether runs over long times that decay end at (0, 0, 1), and nothing else is stationary."""
     runs = [row for row in results.stability if str(row["reference"]).startswith("exact")]
     ends = [row["error"] for row in runs if row["status"] == "ok"]
     there = sum(end <= within for end in ends)
     return decided(
         there == len(runs) > 0,
-        "du/dt = 0 gives v = 1. Then d theta/dt = 0 gives theta = 0, and dv/dt = 0 gives u = 0."
-        f" {len(ends)} of {len(runs)} long runs that decay are completed. They end at most"
+        "$du/dt = 0$ gives $v = 1$. Then $d theta/dt = 0$ gives $theta = 0$, and $dv/dt = 0$ gives"
+        f" $u = 0$. {len(ends)} of {len(runs)} long runs that decay are completed. They end at most"
         f" {short(max(ends, default=np.nan))} from this state.",
         f"{there} of {len(runs)} long runs end within {short(within)} of it.",
     )
-
-
-TESTS = {
-    "out_of_reach": out_of_reach,
-    "stiffness_forbids": stiffness_forbids,
-    "stationary_state": stationary_state,
-}

@@ -1,33 +1,41 @@
 """Claims about spectra of v, by the files that figures 6 and 7 show."""
 
+from typing import Annotated
+
 import xarray as xr
 
-from scripts.claims.claims_results import (
-    CORRECTED,
-    NOT_REPRODUCED,
-    REPRODUCED,
-    Finding,
-    Results,
-    decided,
-    short,
-)
+from scripts.claims.claims_results import Finding, Results, decided, short
+from scripts.claims.declare import Scene, among, claim, reads, says, tested_with
+
+KINDS = ["periodic", "quasiperiodic", "continuum"]
+Kind = Annotated[str, among("kind of a spectrum, ", KINDS)]
 
 SMALL = 0.02
 """A harmonic below this share of the highest peak is not seen in a figure with a linear axis."""
 
 
-def single_peak(results: Results, *, scene: str) -> Finding:
+@claim(40, "figure_6a", "Figure 6a", look_at="figure_6")
+@says("The spectrum of the oscillations has a single peak, that of periodic motion.")
+@tested_with(scene="oscillation")
+@reads("spectra")
+def single_peak(results: Results, *, scene: Scene) -> Finding:
     """Whether the spectrum has one fundamental frequency and only small harmonics."""
     spectrum = results.spectrum_of(scene)
     periodic = spectrum.attrs["spectrum_kind"] == "periodic"
     power = spectrum.peak_power.values
     alone = bool((power > SMALL * power.max(initial=0)).sum() == 1)
-    verdict = (REPRODUCED if alone else CORRECTED) if periodic else NOT_REPRODUCED
-    instead = second_peak(scene, spectrum) if not (periodic and alone) else ""
-    return Finding(verdict, in_words(scene, spectrum), instead)
+    evidence, instead = in_words(scene, spectrum), second_peak(scene, spectrum)
+    return decided(periodic and alone, evidence, instead, partly=periodic)
 
 
-def spectrum_class(results: Results, *, scene: str, expected: str) -> Finding:
+@claim(41, "figure_6b", "Figure 6b", look_at="figure_6")
+@says("A second peak in the spectrum shows a torus.")
+@tested_with(scene="torus", expected="quasiperiodic")
+@claim(43, "figure_7", "abstract; Figure 7", look_at="figure_7")
+@says("The spectrum of the chaotic motion is broadband noise.")
+@tested_with(scene="chaos", expected="continuum")
+@reads("spectra")
+def spectrum_class(results: Results, *, scene: Scene, expected: Kind) -> Finding:
     """Whether the spectrum is of this kind."""
     spectrum = results.spectrum_of(scene)
     return decided(
@@ -46,7 +54,7 @@ def second_peak(scene: str, spectrum: xr.Dataset) -> str:
     share = 100 * float(spectrum.peak_power[second] / spectrum.peak_power[first])
     multiple = int(spectrum.peak_multiple[second])
     return (
-        f"The second peak is a harmonic of periodic motion, at {multiple} f1, with"
+        f"The second peak is a harmonic of periodic motion, at {multiple} $f1$, with"
         f" {short(share, 2)} % of the height of the first."
     )
 
@@ -62,13 +70,10 @@ def in_words(scene: str, spectrum: xr.Dataset) -> str:
     if peaks.sizes["peak"] > 0:
         words += f" The highest peak is at the frequency {short(peaks.peak_frequency[0])}."
     if peaks.sizes["peak"] > 1:
-        multiple = f" (= {int(peaks.peak_multiple[1])} f1)" if kind == "periodic" else ""
+        multiple = f" ($= {int(peaks.peak_multiple[1])} f1$)" if kind == "periodic" else ""
         ratio = float(peaks.peak_power[1] / peaks.peak_power[0])
         words += (
             f" The second highest is at {short(peaks.peak_frequency[1])}{multiple}. It has"
             f" {short(100 * ratio, 2)} % of the height of the first."
         )
     return words
-
-
-TESTS = {"single_peak": single_peak, "spectrum_class": spectrum_class}

@@ -1,6 +1,7 @@
 """What verdicts rest on: files in results/, and how a finding is put in words."""
 
 import re
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,6 +14,23 @@ CORRECTED = "reproduced with a correction"
 NOT_REPRODUCED = "not reproduced"
 NOT_TESTABLE = "not testable"
 VERDICTS = [REPRODUCED, CORRECTED, NOT_REPRODUCED, NOT_TESTABLE]
+
+FILES = {
+    "friction": "<results>/friction/velocity_step.nc",
+    "curves": "<results>/hopf/{plane}.nc",
+    "cycles": "<results>/cycles/{line}.nc",
+    "spectra": "<results>/spectra/{scene}.nc",
+    "slip_events": "<results>/slip_events/{scene}.nc",
+    "routes": "<results>/tables/routes/{route}.tsv",
+    **{
+        name.replace("-", "_"): f"<results>/tables/{name}.tsv"
+        for name in (
+            *("hopf-points", "fault-limit", "linear-stability", "stability", "attractors"),
+            *("exponents", "atlas", "basins", "cycle-points"),
+        )
+    },
+}
+"""Files of the data that tests read, one or one for each entry of a kind."""
 
 
 @dataclass
@@ -29,42 +47,41 @@ class Finding:
             raise ValueError(f"verdict '{self.verdict}' with this on what is true: {self.instead}")
 
 
-@dataclass
-class Results:
-    """Contents of the files that verdicts rest on: rows of tables and data sets."""
+def decided(holds: bool, evidence: str, instead: str, partly: bool = False) -> Finding:
+    """A claim that holds as printed, or in part or after a correction, or not at all."""
+    if holds:
+        return Finding(REPRODUCED, evidence)
+    return Finding(CORRECTED if partly else NOT_REPRODUCED, evidence, instead)
 
-    curves: dict[str, xr.Dataset]
-    friction: xr.Dataset | None
-    hopf_points: list[dict]
-    fault_limit: list[dict]
-    linear_stability: list[dict]
-    stability: list[dict]
-    attractors: list[dict]
-    exponents: list[dict]
-    atlas: list[dict]
-    basins: list[dict]
-    routes: list[dict]
-    cycle_points: list[dict]
-    cycles: dict[str, xr.Dataset]
-    spectra: dict[str, xr.Dataset]
-    slip_events: dict[str, xr.Dataset]
+
+def decided_after_correction(
+    printed: bool, corrected: bool, evidence: str, instead: str
+) -> Finding:
+    """A claim that may hold as printed, or only as corrected, or not at all."""
+    neither = "It does not hold after the known correction either."
+    return decided(printed, evidence, instead if corrected else neither, partly=corrected)
+
+
+class Results:
+    """Contents of `FILES`: rows of tables, data sets by the names of their files.
+
+    Data that are not given are empty.
+    """
+
+    def __init__(self, **given) -> None:
+        for name, path in FILES.items():
+            setattr(self, name, given.pop(name, {} if path.endswith(".nc") else []))
+        if given:
+            raise ValueError(f"results: {', '.join(given)}; expected some of: {', '.join(FILES)}")
 
     def stability_of(self, scene: str) -> dict:
         """The scene's row of linear stability."""
-        (row,) = rows_about(self.linear_stability, "linear-stability.tsv", scene)
+        (row,) = _rows_about(self.linear_stability, "linear-stability.tsv", "scene", scene)
         return row
-
-    def spectrum_of(self, scene: str) -> xr.Dataset:
-        """The spectrum of the scene's v."""
-        return data_about(self.spectra, "results/spectra", scene)
-
-    def events_of(self, scene: str) -> xr.Dataset:
-        """The scene's slip events."""
-        return data_about(self.slip_events, "results/slip_events", scene)
 
     def attractors_of(self, scene: str) -> list[dict]:
         """The scene's attractors, that of its own history first."""
-        rows = rows_about(self.attractors, "attractors.tsv", scene)
+        rows = _rows_about(self.attractors, "attractors.tsv", "scene", scene)
         return sorted(rows, key=lambda row: row["history"])
 
     def exponents_of(self, scene: str) -> list[tuple[float, float]]:
@@ -74,37 +91,32 @@ class Results:
         own = [row for row in rows if row["mean_step"] == rows[0]["mean_step"]]
         return [(row["exponent"], row["error"]) for row in own]
 
+    def spectrum_of(self, scene: str) -> xr.Dataset:
+        """The spectrum of the scene's v; to have none is an error."""
+        return _data_about(self.spectra, "results/spectra", scene)
+
+    def events_of(self, scene: str) -> xr.Dataset:
+        """The scene's slip events; to have none is an error."""
+        return _data_about(self.slip_events, "results/slip_events", scene)
+
     def route(self, name: str) -> list[dict]:
         """Points of a route, of all runs; to have none is an error."""
-        return rows_about(self.routes, f"routes/{name}.tsv", name, "route")
+        return _rows_about(self.routes, f"routes/{name}.tsv", "route", name)
 
 
-DATA_SETS = ("curves", "cycles", "spectra", "slip_events")
-"""Data sets, one for each plane or scene."""
+def read_results(files: Mapping[str, str | list[str]]) -> Results:
+    """Read the files, one or several of each kind, by the names of `FILES`."""
+    given = {}
+    for name, listed in files.items():
+        paths = [listed] if isinstance(listed, str) else listed
+        if FILES[name].endswith(".tsv"):
+            given[name] = [row for path in paths for row in read_table(path)]
+        else:
+            given[name] = {Path(path).stem: xr.load_dataset(path) for path in paths}
+    return Results(**given)
 
 
-def read_results(files: dict[str, str | list[str]]) -> Results:
-    """Read the files, one or several of each kind, by the names of `Results`."""
-    data = {name: paths for name, paths in files.items() if name in DATA_SETS}
-    tables = {name: paths for name, paths in files.items() if name not in (*DATA_SETS, "friction")}
-    return Results(
-        friction=xr.load_dataset(files["friction"]) if files["friction"] else None,
-        **{
-            name: {Path(path).stem: xr.load_dataset(path) for path in paths}
-            for name, paths in data.items()
-        },
-        **{name: rows_in(paths) for name, paths in tables.items()},
-    )
-
-
-def rows_in(paths: str | list[str]) -> list[dict]:
-    """Rows of one table, or of several one after the other."""
-    if isinstance(paths, str):
-        return read_table(paths)
-    return [row for path in paths for row in read_table(path)]
-
-
-def rows_about(rows: list[dict], table: str, name: str, kind: str = "scene") -> list[dict]:
+def _rows_about(rows: list[dict], table: str, kind: str, name: str) -> list[dict]:
     """Rows of a scene or a route; to have none is an error."""
     found = [row for row in rows if row[kind] == name]
     if not found:
@@ -113,7 +125,7 @@ def rows_about(rows: list[dict], table: str, name: str, kind: str = "scene") -> 
     return found
 
 
-def data_about(data: dict[str, xr.Dataset], folder: str, scene: str) -> xr.Dataset:
+def _data_about(data: dict[str, xr.Dataset], folder: str, scene: str) -> xr.Dataset:
     """The file of a scene; to have none is an error."""
     if scene not in data:
         raise ValueError(f"{folder}: no file of scene '{scene}'; there are: {', '.join(data)}")
@@ -131,22 +143,11 @@ def short(value: float, digits: int = 4) -> str:
     return f"{value:.{digits}g}"
 
 
+def equations(values: Mapping[str, float], names: Iterable[str]) -> str:
+    """Values of variables in a sentence."""
+    return ", ".join(f"${name} = {short(values[name])}$" for name in names)
+
+
 def listed(words: list[str]) -> str:
     """Words joined by commas, or that there are none."""
     return ", ".join(words) if words else "none"
-
-
-def decided(holds: bool, evidence: str, instead: str) -> Finding:
-    """A claim that holds or does not."""
-    return Finding(REPRODUCED, evidence) if holds else Finding(NOT_REPRODUCED, evidence, instead)
-
-
-def decided_after_correction(
-    printed: bool, corrected: bool, evidence: str, instead: str
-) -> Finding:
-    """A claim that may hold as printed, or only as corrected, or not at all."""
-    if printed:
-        return Finding(REPRODUCED, evidence)
-    if corrected:
-        return Finding(CORRECTED, evidence, instead)
-    return Finding(NOT_REPRODUCED, evidence, "It does not hold after the known correction either.")

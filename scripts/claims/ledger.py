@@ -5,7 +5,7 @@ from pathlib import Path
 
 from jinja2 import Environment, StrictUndefined
 
-from scripts.claims import (
+from scripts.claims import (  # noqa: F401  (they declare the claims)
     claims_of_attractors,
     claims_of_bifurcations,
     claims_of_cycles,
@@ -15,10 +15,11 @@ from scripts.claims import (
     claims_of_routes,
     claims_of_runs,
     claims_of_spectra,
+    claims_without_test,
 )
-from scripts.claims.claims_config import FILES, FILES_OF, named_test
 from scripts.claims.claims_results import (
     CORRECTED,
+    FILES,
     NOT_REPRODUCED,
     NOT_TESTABLE,
     REPRODUCED,
@@ -26,84 +27,194 @@ from scripts.claims.claims_results import (
     Results,
     read_results,
 )
+from scripts.claims.declare import TESTS, Names, Test, declared_claims
+from scripts.config.check_config import in_words, validator_for
+from scripts.config.read_config import ConfigError
+from scripts.files import marked_words
 from scripts.files.outputs import logged, written
 from scripts.files.tsv import write_table
-from scripts.page import mathematics
-from scripts.page.page_assets import PROJECT
+from scripts.results.paths import cycles_of_lines, exponents_of_scenes, runs_of_basins
 
-TESTS = {
-    **claims_of_formulas.TESTS,
-    **claims_of_bifurcations.TESTS,
-    **claims_of_attractors.TESTS,
-    **claims_of_routes.TESTS,
-    **claims_of_cycles.TESTS,
-    **claims_of_spectra.TESTS,
-    **claims_of_events.TESTS,
-    **claims_of_runs.TESTS,
-    **claims_of_friction.TESTS,
-}
-"""Each test by its name in config/claims.yaml."""
-TEMPLATE = PROJECT / "page" / "verdicts.html.jinja"
+TEMPLATE = Path(__file__).parents[2] / "page" / "verdicts.html.jinja"
 SHOWN = [NOT_REPRODUCED, CORRECTED, REPRODUCED, NOT_TESTABLE]
 """Verdicts in the order of the page: failing claims first."""
+TABLES = [Path(path).name for path in FILES.values() if path.endswith(".tsv") and "{" not in path]
+"""Tables that a claim may tell the reader to look at."""
+KINDS = ("scene", "plane", "route")
+"""What parameters of tests name."""
+
+
+def paper_claims() -> dict[str, dict]:
+    """The claims of the paper in the form of a user's file, by name, in the paper's order."""
+    return declared_claims()
+
+
+def check_user_claims(said: dict, config: dict, shown: set[str]) -> dict:
+    """Return the claims with the defaults of their tests; raise ConfigError otherwise.
+
+    `said` are the claims of a checked configuration, `config` is that whose scenes, planes and
+    routes they name. A reader may look at the figures `shown` and at the tables that tests read.
+    """
+    shown = {*shown, *TABLES}
+    document = {"claims": said}
+    problems = [in_words(error) for error in validator_for(_rules(config)).iter_errors(document)]
+    if not problems:
+        for name, claim in said.items():
+            problems += [f"config claims {name}{line}" for line in _contradictions(claim, shown)]
+    if problems:
+        raise ConfigError("\n".join(["the list of claims is refused:", *sorted(set(problems))]))
+    return said
+
+
+def _rules(config: dict) -> dict:
+    """JSON schema of the tests of claims, with the names that the configuration has."""
+    known = {
+        "scene": list(config["scenes"]),
+        "plane": list(config["hopf_curves"]),
+        "route": list(config["routes"]["lines"]),
+    }
+    tests = _of_keys({name: _rules_of(test, known) for name, test in TESTS.items()})
+    claim = {"properties": {"test": tests}}
+    return {"properties": {"claims": {"additionalProperties": claim}}}
+
+
+def _rules_of(test: Test, known: dict[str, list[str]]) -> dict:
+    """JSON schema of the parameters of a test."""
+    properties = {
+        name: kind.schema(known[kind.kind]) if isinstance(kind, Names) else dict(kind)
+        for name, kind in test.types.items()
+    }
+    for name, value in test.defaults.items():
+        properties[name]["default"] = value
+    required = [name for name in properties if name not in test.defaults]
+    words = f"parameters of the test: {', '.join(properties)}" if properties else "no parameters"
+    return {**_of_keys(properties), "required": required, "description": words}
+
+
+def _of_keys(properties: dict[str, dict]) -> dict:
+    """JSON schema of a mapping with these keys alone."""
+    return {"type": "object", "additionalProperties": False, "properties": properties}
+
+
+def _contradictions(claim: dict, shown: set[str]):
+    """Problems of one claim that involve more than one key."""
+    given = [key for key in ("test", "not_testable") if key in claim]
+    if len(given) != 1:
+        yield f": {' and '.join(given) or 'neither'} given; expected either test or not_testable"
+    elif ("look_at" in claim) != ("test" in claim):
+        yield ": look_at expected beside test, and only there"
+    elif "test" in claim:
+        if claim["look_at"] not in shown:
+            yield f": look_at = {claim['look_at']!r}; expected one of: {', '.join(sorted(shown))}"
+        ((test, given),) = claim["test"].items()
+        scenes, expected = given.get("scenes"), given.get("expected")
+        if scenes and expected and len(scenes) != len(expected):
+            yield (
+                f" test {test}: {len(expected)} classes for {len(scenes)} scenes; expected one each"
+            )
+        if "least" in given and given["least"] > given["most"]:
+            yield (
+                f" test {test}: least = {given['least']}; expected a finite number <= most ="
+                f" {given['most']}"
+            )
+
+
+def inputs_for(claims: dict, config: dict) -> dict[str, list[str]]:
+    """Files that the tests of the claims read, by the names of `Results`.
+
+    Cycles are those that the configuration lists. Tables of exponents and basins are read if it
+    lists some.
+    """
+    files: dict[str, list[str]] = {}
+    for test, parameters in _tests_of(claims):
+        for data in test.reads:
+            paths = files.setdefault(data, [])
+            paths += [path for path in _paths(data, test, parameters, config) if path not in paths]
+    return files
+
+
+def _paths(data: str, test: Test, parameters: dict, config: dict) -> list[str]:
+    """Files of these data that a test reads."""
+    optional = {"exponents": exponents_of_scenes, "basins": runs_of_basins}
+    if data == "cycles":
+        return cycles_of_lines(config)
+    if data in optional and not optional[data](config):
+        return []
+    for kind in KINDS:
+        if f"{{{kind}}}" in FILES[data]:
+            return [FILES[data].format(**{kind: name}) for name in test.names_in(kind, parameters)]
+    return [FILES[data]]
+
+
+def names_in(claims: dict) -> dict[str, list[str]]:
+    """Scenes, planes and routes that the tests of the claims name."""
+    return {
+        f"{kind}s": [
+            name
+            for test, parameters in _tests_of(claims)
+            for name in test.names_in(kind, parameters)
+        ]
+        for kind in KINDS
+    }
+
+
+def _tests_of(claims: dict) -> list[tuple[Test, dict]]:
+    """Tests of the claims that have one, with their parameters."""
+    return [
+        (TESTS[name], parameters)
+        for claim in claims.values()
+        for name, parameters in claim.get("test", {}).items()
+    ]
+
+
+def find(claim: dict, results: Results) -> Finding:
+    """What the claim's test finds; the reason where there is none."""
+    if "not_testable" in claim:
+        return Finding(NOT_TESTABLE, claim["not_testable"])
+    ((name, parameters),) = claim["test"].items()
+    return TESTS[name].find(results, **parameters)
 
 
 def rows_of(claims: dict[str, dict], results: Results, folder: str) -> list[dict]:
     """One row a claim, in the order of the list; the results are in the folder."""
-    return [row_of(name, claim, results, folder) for name, claim in claims.items()]
-
-
-def row_of(name: str, claim: dict, results: Results, folder: str) -> dict:
-    """Verdict and evidence of one claim."""
-    finding = finding_of(claim, results)
-    return {
-        "id": name,
-        "place": claim["place"],
-        "claim": claim["claim"],
-        "verdict": finding.verdict,
-        "evidence": finding.evidence,
-        "instead": finding.instead,
-        "look_at": path_of(claim.get("look_at", ""), folder),
-    }
-
-
-def finding_of(claim: dict, results: Results) -> Finding:
-    """What the claim's test finds; the reason where there is none."""
-    if "not_testable" in claim:
-        return Finding(NOT_TESTABLE, claim["not_testable"])
-    test, parameters = named_test(claim)
-    return TESTS[test](results, **parameters)
+    return [
+        {
+            "id": name,
+            "place": claim["place"],
+            "claim": claim["claim"],
+            **vars(find(claim, results)),
+            "look_at": path_of(claim.get("look_at", ""), folder),
+        }
+        for name, claim in claims.items()
+    ]
 
 
 def path_of(shown: str, folder: str) -> str:
-    """Where the figure or table is."""
+    """Path of the figure or table of this name, if there is a name."""
     if not shown:
         return ""
     is_table = shown.endswith(".tsv")
     return f"{folder}/tables/{shown}" if is_table else f"{folder}/figures/{shown}.png"
 
 
-def write_json(path: str | Path, rows: list[dict]) -> None:
-    """The rows as JSON; the file is whole or absent."""
-    with written(path) as unfinished:
+def write_ledger(rows: list[dict], tsv: str | Path, data: str | Path, page: str | Path) -> None:
+    """Write the rows in plain words to a table, and with marked mathematics to JSON and HTML."""
+    plain = [{key: marked_words.to_plain(value) for key, value in row.items()} for row in rows]
+    write_table(tsv, plain)
+    with written(data) as unfinished:
         unfinished.write_text(json.dumps(rows, indent=2) + "\n")
-
-
-def write_page(path: str | Path, rows: list[dict]) -> None:
-    """The rows by verdict, as a page of the report; the file is whole or absent."""
     by_verdict = {verdict: [row for row in rows if row["verdict"] == verdict] for verdict in SHOWN}
     environment = Environment(autoescape=True, trim_blocks=True, undefined=StrictUndefined)
-    environment.filters["mathematics"] = mathematics.of_words
-    page = environment.from_string(TEMPLATE.read_text())
-    with written(path) as unfinished:
-        unfinished.write_text(page.render(verdicts=by_verdict) + "\n")
+    environment.filters["mathematics"] = marked_words.to_html
+    template = environment.from_string(TEMPLATE.read_text())
+    with written(page) as unfinished:
+        unfinished.write_text(template.render(verdicts=by_verdict) + "\n")
 
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        files = {name: snakemake.input[name] for name in (*FILES, *FILES_OF, "cycles")}
-        folder = str(Path(snakemake.output.tsv).parents[1])
-        table = rows_of(snakemake.params.claims, read_results(files), folder)
-        write_table(snakemake.output.tsv, table)
-        write_json(snakemake.output.json, table)
-        write_page(snakemake.output.page, table)
+        output = snakemake.output
+        results = read_results(dict(snakemake.input.items()))
+        folder = str(Path(output.tsv).parents[1])
+        table = rows_of(snakemake.params.claims, results, folder)
+        write_ledger(table, output.tsv, output.json, output.page)

@@ -38,6 +38,11 @@ def checked(config: dict) -> dict:
 
 @cache
 def validator_of(schema: Path):
+    """The validator of a file with a schema."""
+    return validator_for(rules_of(schema))
+
+
+def validator_for(rules: dict):
     """A validator for which NaN and infinity are no numbers and which sets missing keys."""
     base = jsonschema.Draft202012Validator
 
@@ -60,7 +65,7 @@ def validator_of(schema: Path):
     extended = jsonschema.validators.extend(
         base, {"properties": fill_then_check}, type_checker=types
     )
-    return extended(rules_of(schema))
+    return extended(rules)
 
 
 def _is_finite_number(value) -> bool:

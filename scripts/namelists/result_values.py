@@ -93,6 +93,4 @@ def _study_groups(config: dict, study: str, case: str) -> dict:
 
 def work_precision_groups(config: dict, case: str) -> dict:
     """Measured runs of a case in full length."""
-    study = study_cases.measured_study(config)
-    groups = study_cases.work_precision_groups(study, case, study["cases"][case]["t_end"])
-    return groups["measurement"]
+    return study_cases.work_precision_groups(study_cases.measured_study(config), case)

@@ -83,11 +83,11 @@ def trust_groups(study: dict, name: str) -> dict:
     }
 
 
-def work_precision_groups(study: dict, name: str, t_end: float) -> dict:
-    """Namelist of a case's measured runs up to `t_end`."""
-    cases = columns([case_of(name, {**study["cases"][name], "t_end": t_end})])
+def work_precision_groups(study: dict, name: str) -> dict:
+    """Namelist of a case's measured runs in full length."""
+    cases = columns([case_of(name, study["cases"][name])])
     keys = ["methods", "tolerances", "steps", "most_steps", "repeats", "least_seconds"]
-    return {"measurement": {"cases_list": cases, "measure": {key: study[key] for key in keys}}}
+    return {"cases_list": cases, "measure": {key: study[key] for key in keys}}
 
 
 def reference_group(study: dict) -> dict:

@@ -28,8 +28,9 @@ def describe_torus(tables: dict[str, list[dict]]) -> dict:
     paper, longer = (first_motion(tables["attractors"], name) for name in (TORUS, TRUE_TORUS))
     return {
         "title": f"The paper's torus is a {name_class(paper)}.",
-        "words": f"At tau = {short(paper['tau'])} it has {describe_motion(paper)}. At tau ="
-        f" {short(longer['tau'])}, with all else the same, the motion is a {name_class(longer)}:"
+        "words": f"At $tau = {short(paper['tau'])}$ it has {describe_motion(paper)}. At"
+        f" $tau = {short(longer['tau'])}$, with all else the same, the motion is a"
+        f" {name_class(longer)}:"
         f" it has {describe_motion(longer)}.",
     }
 
@@ -42,13 +43,14 @@ def describe_fault_limit(tables: dict[str, list[dict]]) -> dict:
     turns = sum(kind == "generalised_hopf" for _, kind in kinds)
     planes = len({of for of, kind in kinds if not kind.startswith("amplitude_death")})
     return {
-        "title": "At the gamma of real faults no delay makes stable sliding unstable.",
-        "words": f"Steady sliding becomes unstable without delay, at epsilon ="
-        f" {short(paper['without_delay'])} for xi = {short(paper['xi'])} and gamma ="
-        f" {short(paper['gamma'])}. Delays lower this least epsilon by {short(paper['depth'], 2)}"
-        f" there, but by {short(fault['depth'], 1)} only at gamma = {fault['gamma']:.0e}."
-        f" Along the Hopf curves of {planes} planes the bifurcation changes between"
-        f" supercritical and subcritical at {turns} point{'' if turns == 1 else 's'}.",
+        "title": "At the $gamma$ of real faults no delay makes stable sliding unstable.",
+        "words": f"Steady sliding becomes unstable without delay, at"
+        f" $epsilon = {short(paper['without_delay'])}$ for $xi = {short(paper['xi'])}$ and"
+        f" $gamma = {short(paper['gamma'])}$. Delays lower this least $epsilon$ by"
+        f" {short(paper['depth'], 2)} there, but by {short(fault['depth'], 1)} only at"
+        f" $gamma = {fault['gamma']:.0e}$. Along the Hopf curves of {planes} planes the bifurcation"
+        " changes between supercritical and subcritical at"
+        f" {turns} point{'' if turns == 1 else 's'}.",
     }
 
 
@@ -64,10 +66,10 @@ def describe_real_faults(tables: dict[str, list[dict]]) -> dict:
     steps = max((row["steps"] for row in done["auto"]), default=0)
     share = "All" if len(done["auto"]) == count else f"{len(done['auto'])} of"
     return {
-        "title": "The paper's range of gamma is accessible."
+        "title": "The paper's range of $gamma$ is accessible."
         if done["auto"]
-        else "The paper's range of gamma is not accessible.",
-        "words": f"The paper leaves out gamma = {least:.0e} to {most:.0e}. {share} {count} runs"
+        else "The paper's range of $gamma$ is not accessible.",
+        "words": f"The paper leaves out $gamma = {least:.0e}$ to {most:.0e}. {share} {count} runs"
         f" there reach their end, each in at most {steps:.0f} steps. With explicit steps alone"
         f" {len(done['explicit']) or 'none'} do.",
     }
@@ -87,7 +89,7 @@ def describe_motion(row: dict) -> str:
     """How many exponents are zero, and the fundamental frequencies."""
     pairs = [(row[f"exponent_{i}"], row[f"error_{i}"]) for i in (1, 2, 3)]
     zeros = sum(abs(value) <= ZERO * error for value, error in pairs)
-    bases = [f"f{i} = {short(row[f'f{i}'])}" for i in (1, 2) if row[f"f{i}"] > 0]
+    bases = [f"$f{i} = {short(row[f'f{i}'])}$" for i in (1, 2) if row[f"f{i}"] > 0]
     frequency = "fundamental frequency" if len(bases) == 1 else "fundamental frequencies"
     exponents = "Lyapunov exponent" if zeros == 1 else "Lyapunov exponents"
     found = f"{COUNTS[zeros]} zero {exponents}"

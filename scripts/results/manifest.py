@@ -46,7 +46,7 @@ def begin_run(folder: str | Path) -> None:
 
 
 def remove_damaged(folder: str | Path) -> list[str]:
-    """Remove the results that have changed while no run was at work, so that a run makes them again.
+    """Remove results that have changed while no run was at work, so that a run makes them again.
 
     Results that a killed run has made are good: Snakemake knows which of its jobs did not end.
     """
@@ -77,7 +77,7 @@ def record_run(folder: str | Path) -> None:
 
 
 def _of_run(folder: str | Path, path: str) -> bool:
-    """Whether a result is younger than the beginning of the run at work, or of one that was killed."""
+    """Whether a result is younger than the beginning of the run at work, or of a killed one."""
     stamp = Path(folder, STAMP)
     return stamp.exists() and Path(path).stat().st_mtime_ns >= stamp.stat().st_mtime_ns
 
@@ -93,4 +93,5 @@ def _digest_of(path: str) -> str:
 
 if __name__ == "__main__":
     for path in remove_damaged(sys.argv[1]):
-        print(f"{path}: was changed or damaged since a run made it; it is made again", file=sys.stderr)
+        words = "was changed or damaged since a run made it; it is made again"
+        print(f"{path}: {words}", file=sys.stderr)

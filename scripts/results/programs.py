@@ -9,15 +9,16 @@ from pathlib import PurePath
 
 from scripts.namelists import result_values as values
 
-# Priorities: the paper's figures can be looked at while long runs go on. Long runs start before short
-# ones, the longest first, so that no core is idle at the end. Snakemake adds the priorities of jobs
-# that fit at the same time: a build, which takes two cores, must have more than two jobs of the paper.
+# Priorities: the paper's figures can be looked at while long runs go on. Long runs start before
+# short ones, the longest first, so that no core is idle at the end. Snakemake adds the priorities
+# of jobs that fit at the same time: a build, which takes two cores, must have more than two jobs of
+# the paper.
 BUILD, PAPER, LONGEST, LONG = 10, 3, 2, 1
 
 
 @dataclass(frozen=True, kw_only=True)
 class Run:
-    """One kind of run: a program, its namelist and its output; paths are in the folder of results."""
+    """One kind of run: a program, its namelist and its output (paths in the results)."""
 
     rule: str
     program: str

@@ -7,7 +7,7 @@ from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
-from scripts.claims import claims_config
+from scripts.claims.ledger import check_user_claims, names_in, paper_claims
 from scripts.config.check_config import checked
 from scripts.config.read_config import ConfigError, merge, read
 from scripts.figures import entries
@@ -32,8 +32,8 @@ SECTIONS = {
     "measured_scenes": ("work_precision", "scenes"),
     "measured_cases": ("work_precision", "cases"),
 }
-"""Where the configuration has entries with names that a user chooses; the atlas before the planes of
-Hopf curves that it draws."""
+"""Where the configuration has entries with names that a user chooses; the atlas before the planes
+of Hopf curves that it draws."""
 
 
 @dataclass(frozen=True)
@@ -115,7 +115,7 @@ def read_plan(overlay: dict) -> Plan:
     if user_file is None:
         return plan_of_paper(checked(whole), whole["pathvars"]["results"])
     if "pathvars" in overlay:
-        raise ConfigError("pathvars and user_file exclude each other: a user's file has its own folder")
+        raise ConfigError("pathvars: expected none with user_file, which names the folder")
     said = read(user_file)
     return plan_of_user(merge(whole, said), added(said, whole), f"{RESULTS}/{name_of(user_file)}")
 
@@ -123,25 +123,23 @@ def read_plan(overlay: dict) -> Plan:
 def plan_of_paper(config: dict, folder: str) -> Plan:
     """All of the paper."""
     used = {scene: entries.variables_used(config, scene) for scene in config["scenes"]}
-    config = set_variables(config, used, [])
-    claims = claims_config.checked(claims_config.listed(), config, set(entries.FIGURES) | TSV)
-    return Plan(config, folder, False, {}, entries.FIGURES, claims)
+    config = set_variables(config, used, least=[])
+    return Plan(config, folder, False, {}, entries.FIGURES, paper_claims())
 
 
 def plan_of_user(whole: dict, names: dict[str, list[str]], folder: str) -> Plan:
     """What a user's file adds or changes, by the names of its entries."""
-    config = set_variables(checked(whole), dict.fromkeys(whole["scenes"], {"u", "v"}), VARIABLES)
+    config = checked(whole)
+    drawn = {scene: {"u", "v"} for scene in config["scenes"]}
+    config = set_variables(config, drawn, least=VARIABLES)
     figures = entries.own_figures(config, names)
-    claims = {}
-    if config["claims"]:
-        shown = {*entries.FIGURES, *figures} | TSV
-        claims = claims_config.checked({"claims": config["claims"]}, config, shown)
+    claims = check_user_claims(config["claims"], config, {*entries.FIGURES, *figures})
     if not figures and not claims and not any(names.values()):
         raise ConfigError(
-            f"{folder}: the file adds no scene, plane, route, atlas, cycles, basins, family or claim"
+            f"{folder}: the file adds no scene, plane, route, atlas, cycles, family or claim"
         )
     return Plan(
-        restrict(config, names, claims_config.names_in(claims)),
+        restrict(config, names, names_in(claims)),
         folder,
         True,
         names,
@@ -150,7 +148,7 @@ def plan_of_user(whole: dict, names: dict[str, list[str]], folder: str) -> Plan:
     )
 
 
-def set_variables(config: dict, used: dict[str, set[str]], least: list[str]) -> dict:
+def set_variables(config: dict, used: dict[str, set[str]], *, least: list[str]) -> dict:
     """The configuration in which each scene names the variables that it stores.
 
     By default those that figures use and those of `least`, or all of a scene that is in no figure.
@@ -166,8 +164,6 @@ def set_variables(config: dict, used: dict[str, set[str]], least: list[str]) -> 
 
 
 VARIABLES = ["theta", "u", "v"]
-TSV = {Path(path).name for path in claims_config.FILES.values() if path.endswith(".tsv")}
-"""Tables that a claim may tell the reader to look at."""
 
 
 def name_of(user_file: str) -> str:
