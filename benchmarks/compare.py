@@ -1,95 +1,47 @@
 """Error and time of this project's solver and of others on the same scenes (benchmarks/run)."""
 
-import argparse
-import csv
-import datetime
+import dataclasses
 import math
 import platform
 import statistics
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterable
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
-from long_runs import COLUMNS as LONG_RUN_COLUMNS
-from long_runs import rows_of_long_runs
-from ratios import ratio_rows
-from scenes import (
+from measuring import ROOT, describe_machine, first_line, options_of, write_table
+from solvers import (
     HORIZONS,
-    ROOT,
+    SOLVERS,
     Scene,
+    SolverError,
+    TimeLimitError,
+    Worker,
     error_max,
     read_horizons,
+    read_reference,
     read_study,
-    reference_of,
     reference_path,
     scene_of,
 )
-from workers import SOLVERS, SolverError, TimeLimitError, Worker
 
 from scripts.tables.accuracy import Reference
 
 OURS = "ours"
 TOLERANCES = tuple(float(f"1e-{k}") for k in range(3, 14))
+LEVELS = tuple(10.0**-k for k in range(4, 13))
+"""Errors at which times are compared."""
 BATCH_SECONDS = 0.1
 """A measurement repeats short integrations for about this time."""
 LONG_SECONDS = 5.0
 """An integration longer than this is measured once."""
-LONG_RUN_SCENE = "torus"
-COLUMNS = (
-    "scene",
-    "solver",
-    "version",
-    "tolerance",
-    "t_end",
-    "status",
-    "error_max",
-    "seconds",
-)
-
-
-def names_of(known: tuple[str, ...]):
-    """A reader of names with commas between, each known."""
-
-    def read(text: str) -> list[str]:
-        names = text.split(",")
-        for name in names:
-            if name not in known:
-                raise argparse.ArgumentTypeError(f"{name!r}; expected some of {', '.join(known)}")
-        return [name for name in known if name in names]
-
-    return read
-
-
-def positive(text: str) -> float:
-    """A finite number > 0."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not (value > 0 and math.isfinite(value)):
-        raise argparse.ArgumentTypeError(f"{text!r}; expected a finite number > 0")
-    return value
-
-
-def whole(text: str) -> int:
-    """A whole number >= 1."""
-    if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"{text!r}; expected a whole number >= 1")
-    return int(text)
-
-
-def arguments(given: list[str], known_scenes: tuple[str, ...]) -> argparse.Namespace:
-    """The options of benchmarks/run."""
-    known_solvers = tuple(SOLVERS)
-    parser = argparse.ArgumentParser(prog="benchmarks/run", allow_abbrev=False)
-    parser.add_argument("--scenes", type=names_of(known_scenes), default=list(known_scenes))
-    parser.add_argument("--solvers", type=names_of(known_solvers), default=list(known_solvers))
-    parser.add_argument("--time-limit", type=positive, default=60.0)
-    parser.add_argument("--repeats", type=whole, default=5)
-    parser.add_argument("--output", type=Path, default=ROOT / "results" / "tables")
-    return parser.parse_args(given)
+LONG_RUN_SCENE, LONG_RUN_TOLERANCE = "torus", 1e-8
+LONG_RUN_LIMIT = 600.0
+LAST_TIMES = (1e3, 1e4, 1e5, 1e6)
+"""Ends of the long runs, each in a process of its own."""
 
 
 def error_of(worker: Worker, tolerance: float, reference: Reference, limit: float) -> float:
@@ -103,14 +55,15 @@ def error_of(worker: Worker, tolerance: float, reference: Reference, limit: floa
     return error
 
 
-def errors(worker: Worker, reference: Reference, limit: float) -> list[dict]:
+def measure_errors(worker: Worker, reference: Reference, limit: float) -> list[dict]:
     """A row for each tolerance, with its error or why there is none.
 
     After a run that took too long no tighter tolerance is tried.
     """
     rows, too_long = [], None
     for tolerance in TOLERANCES:
-        row = {"tolerance": tolerance, "status": "ok", "error_max": None}
+        row = {"tolerance": tolerance, "t_end": worker.scene.t_end, "status": "ok"}
+        row |= {"error_max": None, "seconds": None}
         if too_long:
             row["status"] = f"not tried: {too_long:g} took too long"
         else:
@@ -118,149 +71,161 @@ def errors(worker: Worker, reference: Reference, limit: float) -> list[dict]:
                 row["error_max"] = error_of(worker, tolerance, reference, limit)
             except SolverError as failure:
                 row["status"] = str(failure)
-                if isinstance(failure, TimeLimitError):
-                    too_long = tolerance
+                too_long = tolerance if isinstance(failure, TimeLimitError) else None
         rows.append(row)
     return rows
 
 
-def measure(rows: list[dict], workers: dict[str, Worker], repeats: int, limit: float) -> None:
-    """Add the seconds to the rows of one scene: solvers take turns, the median counts."""
-    measured = {index: [] for index, row in enumerate(rows) if row["status"] == "ok"}
-    runs = {}
+def measure_seconds(
+    rows: list[dict], workers: dict[str, Worker], repeats: int, limit: float
+) -> None:
+    """Add the seconds to the rows of one scene: solvers take turns, the median counts.
+
+    The first turn shows how many integrations make one measurement, and counts if it was long.
+    """
+    waiting = [row for row in rows if row["status"] == "ok"]
+    measured = {id(row): [] for row in waiting}
+    runs = {id(row): 1 for row in waiting}
     for repeat in range(repeats + 1):
-        for index, seconds in measured.items():
-            row = rows[index]
-            if row["status"] != "ok" or runs.get(index) == 0:
-                continue
+        for row in list(waiting):
+            worker = workers[row["solver"]]
             try:
-                found = workers[row["solver"]].seconds(
-                    row["tolerance"], runs.get(index, 1), limit + BATCH_SECONDS
-                )
+                found = worker.seconds(row["tolerance"], runs[id(row)], limit + BATCH_SECONDS)
             except SolverError as failure:
-                row["status"], row["error_max"] = str(failure), None
+                row |= {"status": str(failure), "error_max": None}
+                waiting.remove(row)
                 continue
             if repeat == 0:
-                runs[index] = runs_of(found)
-            if repeat > 0 or runs[index] == 0:
-                seconds.append(found)
-    for index, seconds in measured.items():
-        if rows[index]["status"] == "ok":
-            rows[index]["seconds"] = statistics.median(seconds)
+                runs[id(row)] = runs_of(found)
+            if repeat > 0 or found > LONG_SECONDS:
+                measured[id(row)].append(found)
+            if found > LONG_SECONDS:
+                waiting.remove(row)
+    for row in rows:
+        if row["status"] == "ok":
+            row["seconds"] = statistics.median(measured[id(row)])
 
 
 def runs_of(seconds: float) -> int:
-    """How many integrations make one measurement; none where the first one is enough."""
-    if seconds > LONG_SECONDS:
-        return 0
+    """Number of integrations in one measurement."""
     return max(1, math.ceil(BATCH_SECONDS / max(seconds, 1e-3)))
 
 
-def rows_of_scene(scene: Scene, options: argparse.Namespace) -> list[dict]:
+def rows_of_scene(scene: Scene, solvers: list[str], repeats: int, limit: float) -> list[dict]:
     """All solvers and tolerances on one scene."""
-    reference = reference_of(scene)
-    workers = {name: Worker(SOLVERS[name], scene) for name in options.solvers}
+    reference = read_reference(scene.name)
+    workers = {name: Worker(SOLVERS[name], scene) for name in solvers}
     rows = []
     try:
         for name, worker in workers.items():
             print(f"benchmarks: {scene.name}: errors of {name}", file=sys.stderr)
-            for row in errors(worker, reference, options.time_limit):
-                rows.append({"scene": scene.name, "solver": name, **row})
+            found = measure_errors(worker, reference, limit)
+            first = {"scene": scene.name, "solver": name, "version": worker.version}
+            rows += [{**first, **row} for row in found]
         print(f"benchmarks: {scene.name}: times", file=sys.stderr)
-        rows.sort(key=lambda row: -row["tolerance"])
-        measure(rows, workers, options.repeats, options.time_limit)
-        for row in rows:
-            row["version"] = workers[row["solver"]].version
-            row["t_end"] = scene.t_end
+        in_turn = sorted(rows, key=lambda row: -row["tolerance"])
+        measure_seconds(in_turn, workers, repeats, limit)
     finally:
         for worker in workers.values():
             worker.stop()
-    return sorted(rows, key=lambda row: list(SOLVERS).index(row["solver"]))
+    return rows
 
 
-def text_of(value) -> str:
-    """A cell: numbers with four digits, nothing for nothing."""
-    if value is None:
-        return ""
-    return f"{value:.4g}" if isinstance(value, float) else " ".join(str(value).split())
+def seconds_at(level: float, points: Iterable[tuple[float, float]]) -> float | None:
+    """Least time for an error of at most `level`; None where no point reaches it.
+
+    `points` are errors and seconds in the order of their tolerances; between neighbours the
+    logarithm of time is linear in the logarithm of the error.
+    """
+    points = [(error, seconds) for error, seconds in points if error > 0 and seconds > 0]
+    costs = [seconds for error, seconds in points if error <= level]
+    for (error_a, seconds_a), (error_b, seconds_b) in pairwise(points):
+        if min(error_a, error_b) < level < max(error_a, error_b):
+            share = math.log(level / error_a) / math.log(error_b / error_a)
+            costs.append(seconds_a * (seconds_b / seconds_a) ** share)
+    return min(costs, default=None)
 
 
-def write_table(path: Path, columns: list[str], rows: list[dict], header: list[str]) -> None:
-    """Tab-separated, below lines of header that begin with #."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with path.open("w", newline="") as file:
-        file.writelines(f"# {line}\n" for line in header)
-        writer = csv.writer(file, delimiter="\t", lineterminator="\n")
-        writer.writerow(columns)
-        writer.writerows([text_of(row.get(column)) for column in columns] for row in rows)
+def divide(cost: float | None, ours: float | None) -> float | None:
+    """A ratio of times; None where one of them is not known."""
+    return cost / ours if cost and ours else None
 
 
-def machine() -> list[str]:
-    """What the measurements were made on and with."""
-    cpu = "unknown"
-    for line in Path("/proc/cpuinfo").read_text().splitlines():
-        if line.startswith("model name"):
-            cpu = line.partition(":")[2].strip()
-            break
-    return [
-        f"date: {datetime.date.today()}",
-        f"machine: {cpu}, {platform.system()} {platform.release()}",
-        f"compilers: {first_line('gfortran', '--version')}; {first_line('gcc', '--version')}",
-        f"{first_line('R', '--version')}; Python {platform.python_version()}",
-        "seconds: CPU time of the solver alone, median of repeats in one process",
-        "error_max: largest error of theta, u, ln v over the samples, relative where above 1",
-    ]
+def ratio_rows(rows: list[dict], solvers: list[str]) -> list[dict]:
+    """For each scene and level: our seconds, and each solver's time over ours."""
+    found = []
+    for scene in dict.fromkeys(row["scene"] for row in rows):
+        points = {
+            solver: [
+                (row["error_max"], row["seconds"])
+                for row in rows
+                if (row["scene"], row["solver"], row["status"]) == (scene, solver, "ok")
+            ]
+            for solver in (OURS, *solvers)
+        }
+        for level in LEVELS:
+            ours = seconds_at(level, points[OURS])
+            ratios = {name: divide(seconds_at(level, points[name]), ours) for name in solvers}
+            found.append({"scene": scene, "error": level, "our_seconds": ours, **ratios})
+    return found
 
 
-def first_line(*command: str) -> str:
-    """The first line that a command says."""
-    return subprocess.run(command, capture_output=True, text=True, check=True).stdout.split("\n")[0]
+def long_run(scene: Scene, t_end: float) -> dict:
+    """Seconds and memory of one run of this project's solver without samples."""
+    with Worker(SOLVERS[OURS], dataclasses.replace(scene, t_end=t_end)) as worker:
+        seconds = worker.seconds(LONG_RUN_TOLERANCE, 1, LONG_RUN_LIMIT)
+        return {
+            "scene": scene.name,
+            "t_end": f"{t_end:.0f}",
+            "tolerance": LONG_RUN_TOLERANCE,
+            "seconds": seconds,
+            "seconds_per_time": seconds / t_end,
+            "peak_memory_mb": worker.peak_memory(),
+        }
 
 
-def printed(rows: list[dict], solvers: list[str]) -> str:
-    """The table of ratios for people."""
-    lines = [f"{'scene':<12} {'error':>7} {'our ms':>8}" + "".join(f" {s:>19}" for s in solvers)]
-    for row in rows:
-        ours = "" if row["our_seconds"] is None else f"{1000 * row['our_seconds']:.3g}"
-        line = f"{row['scene']:<12} {row['error']:>7.0e} {ours:>8}"
-        for solver in solvers:
-            line += " " + ("" if row[solver] is None else f"{row[solver]:.3g}").rjust(19)
-        lines.append(line)
-    return "\n".join(lines)
-
-
-def compute_references(names: tuple[str, ...]) -> None:
+def compute_references(names: list[str]) -> None:
     """Let the project's workflow make the references of the scenes and the table of horizons."""
     files = [path.relative_to(ROOT) for path in (HORIZONS, *map(reference_path, names))]
     subprocess.run([ROOT / "reproduce", *files, "--quiet", "all"], stdout=sys.stderr, check=True)
 
 
-def main(given: list[str]) -> None:
-    """Measure, write the tables, print the ratios."""
+def main() -> None:
+    """Measure and write the tables."""
     study = read_study()
-    names = tuple(study["cases"])
-    options = arguments(given, names)
+    names, solvers = list(study["cases"]), list(SOLVERS)
+    parser = options_of("")
+    parser.add_argument("--scenes", nargs="+", choices=names, default=names)
+    parser.add_argument("--solvers", nargs="+", choices=solvers, default=solvers)
+    parser.add_argument("--time-limit", type=float, default=60.0)
+    parser.add_argument("--repeats", type=int, default=5)
+    options = parser.parse_args()
     try:
         compute_references(names)
-        horizons = read_horizons()
+        scenes = {name: scene_of(study, read_horizons(), name) for name in names}
         rows = [
             row
             for name in options.scenes
-            for row in rows_of_scene(scene_of(study, horizons, name), options)
+            for row in rows_of_scene(
+                scenes[name], options.solvers, options.repeats, options.time_limit
+            )
         ]
-        long_runs = rows_of_long_runs(scene_of(study, horizons, LONG_RUN_SCENE))
+        long_runs = [long_run(scenes[LONG_RUN_SCENE], t_end) for t_end in LAST_TIMES]
     except (subprocess.CalledProcessError, SolverError) as failure:
         raise SystemExit(f"benchmarks: {failure}") from None
-    header = machine()
-    write_table(options.output / "benchmarks.tsv", list(COLUMNS), rows, header)
+    header = [
+        *describe_machine(),
+        f"{first_line('R', '--version')}; Python {platform.python_version()}",
+        "seconds: CPU time of the solver alone, median of repeats in one process",
+        "error_max: largest error of theta, u, ln v over the samples, relative where above 1",
+    ]
+    write_table(options.output / "benchmarks.tsv", rows, header)
     others = [name for name in options.solvers if name != OURS]
-    ratios = ratio_rows(rows, OURS, others)
     meaning = "columns of solvers: their time over ours, at equal error; empty where not reached"
-    columns = ["scene", "error", "our_seconds", *others]
-    write_table(options.output / "benchmark-ratios.tsv", columns, ratios, [*header, meaning])
-    write_table(options.output / "long-runs.tsv", list(LONG_RUN_COLUMNS), long_runs, header[:3])
-    print(printed(ratios, others))
+    ratios = ratio_rows(rows, others)
+    write_table(options.output / "benchmark-ratios.tsv", ratios, [*header, meaning])
+    write_table(options.output / "long-runs.tsv", long_runs, header[:3])
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()

@@ -1,10 +1,15 @@
-"""One scene in JiTCDDE: compiled once, then run as often as standard input asks (compare.py)."""
+"""One block in JiTCDDE: a scene, compiled once and run on request (compare.py).
+
+With the argument `exponents`: growth of its tangent vectors, a request in JSON (exponents.py).
+"""
 
 import contextlib
+import json
 import os
 import sys
 import time
 import warnings
+from typing import TextIO
 
 import jitcdde
 import numpy as np
@@ -36,7 +41,7 @@ def prepare(solver: jitcdde.jitcdde, past: list[float], tolerance: float) -> Non
     """A fresh start from the constant past."""
     solver.purge_past()
     solver.constant_past(past)
-    # its own least step of 1e-10 would end it at the tightest tolerances
+    # the default least step of 1e-10 would end it at the tightest tolerances
     solver.set_integration_parameters(rtol=tolerance, atol=tolerance, min_step=1e-15)
 
 
@@ -67,21 +72,51 @@ def answer(solver, past, times: np.ndarray, tolerance: float, runs: int, path: s
     return f"{seconds / max(runs, 1)} ok"
 
 
-def main() -> None:
-    """The scene on the first line of standard input, then a request a line."""
-    warnings.simplefilter("ignore")
-    # what JiTCDDE says while it works must not be taken for an answer
-    with os.fdopen(os.dup(1), "w") as out, contextlib.redirect_stdout(sys.stderr):
-        os.dup2(2, 1)
-        *parameters, t_end, interval = map(float, sys.stdin.readline().split())
-        times = interval * np.arange(round(t_end / interval) + 1)
-        solver, past = compiled(*parameters[:4]), parameters[4:]
-        print(f"answer: {jitcdde.__version__}", file=out, flush=True)
-        for line in sys.stdin:
-            tolerance, runs, path = line.rstrip("\n").split(" ", 2)
-            reply = answer(solver, past, times, float(tolerance), int(runs), path)
-            print(f"answer: {reply}", file=out, flush=True)
+def serve_scene(out: TextIO) -> None:
+    """Answer requests, a line each, about the scene on the first line of standard input."""
+    *parameters, t_end, interval = map(float, sys.stdin.readline().split())
+    times = interval * np.arange(round(t_end / interval) + 1)
+    solver, past = compiled(*parameters[:4]), parameters[4:]
+    print(f"answer: {jitcdde.__version__}", file=out, flush=True)
+    for line in sys.stdin:
+        tolerance, runs, path = line.rstrip("\n").split(" ", 2)
+        reply = answer(solver, past, times, float(tolerance), int(runs), path)
+        print(f"answer: {reply}", file=out, flush=True)
+
+
+def measure_growth(request: dict) -> dict:
+    """CPU seconds after the transient, and growth of the vectors and length of each interval."""
+    equations, helpers = equations_of(*(request[key] for key in ("tau", "epsilon", "xi", "gamma")))
+    solver = jitcdde.jitcdde_lyap(
+        equations,
+        helpers=helpers,
+        n_lyap=request["vectors"],
+        max_delay=request["tau"],
+        verbose=False,
+    )
+    solver.compile_C()
+    prepare(solver, request["past"], request["tolerance"])
+    solver.step_on_discontinuities()
+    interval = request["interval"]
+    begins = solver.t
+    while solver.t < begins + request["t_transient"]:
+        solver.integrate(solver.t + interval)
+    growth, length = [], []
+    end = solver.t + request["t_measured"]
+    start = time.process_time()
+    while solver.t < end:
+        _, exponents, passed = solver.integrate(solver.t + interval)
+        growth.append([float(value * passed) for value in exponents])
+        length.append(float(passed))
+    return {"seconds": time.process_time() - start, "growth": growth, "length": length}
 
 
 if __name__ == "__main__":
-    main()
+    warnings.simplefilter("ignore")
+    # other output of JiTCDDE must not be taken for an answer
+    with os.fdopen(os.dup(1), "w") as answers, contextlib.redirect_stdout(sys.stderr):
+        os.dup2(2, 1)
+        if sys.argv[1:] == ["exponents"]:
+            json.dump(measure_growth(json.load(sys.stdin)), answers)
+        else:
+            serve_scene(answers)

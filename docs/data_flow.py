@@ -1,13 +1,14 @@
-"""The picture of the data flow, made from the workflow's own rules.
+"""The picture of the data flow, made from the rules of the workflow.
 
-    snakemake --filegraph all | docs/data_flow.py | dot -Tsvg
+    snakemake --filegraph all | docs/data_flow.py >docs/data-flow.svg
 
-Reads the graph of rules and their files and writes one graph for Graphviz: a column for each
-stage, a node for each rule with the first file it writes. `docs/draw` calls it.
+Reads the graph of rules and their files and draws it by Graphviz: a column for each stage, a box
+for each rule with the first file it writes. `docs/draw` calls it.
 """
 
 import html
 import re
+import subprocess
 import sys
 from dataclasses import dataclass
 
@@ -54,10 +55,8 @@ def read_filegraph(text: str) -> tuple[list[Rule], set[tuple[str, str]]]:
         written = label.partition("output &rarr;")[2]
         files = re.findall(r'<font face="monospace">(.*?)</font>', written)
         # without the patterns that wildcards must match
-        plain = [re.sub(r"\{(\w+),[^{}]*\}", r"{\1}", html.unescape(file)) for file in files]
-        # the folder of the paper's results stands for that of any user's file
-        named = [file.replace("{results}/", "results/") for file in plain]
-        rules[number] = Rule(name, tuple(named))
+        plain = (re.sub(r"\{(\w+),[^{}]*\}", r"{\1}", html.unescape(file)) for file in files)
+        rules[number] = Rule(name, tuple(plain))
     kept = {number: rule.name for number, rule in rules.items() if rule.name != TARGET}
     edges = re.findall(r"^\s*(\d+) -> (\d+)$", text, re.MULTILINE)
     pairs = {(kept[a], kept[b]) for a, b in edges if a in kept and b in kept}
@@ -79,21 +78,37 @@ def graph(rules: list[Rule], pairs: set[tuple[str, str]]) -> str:
     for stage, (title, _) in stages.items():
         lines.append(f'title_{stage} [label="{title}", shape=plain, style="", fontsize=15];')
     lines.append(" -> ".join(f"title_{stage}" for stage in stages) + " [style=invis];")
-    lines.append(f'config [label="config/config.yaml", fillcolor="{STAGES["config"][1]}"];')
+    lines.append(
+        f'config [id="config", label="config/config.yaml", fillcolor="{STAGES["config"][1]}"];'
+    )
     for rule in rules:
         label = f"<b>{rule.name}</b><br/>" + (
             f'<font point-size="9">{html.escape(rule.outputs[0])}</font>'
         )
         colour = STAGES[rule.stage][1]
-        lines.append(f'{rule.name} [label=<{label}>, fillcolor="{colour}", fontsize=11];')
+        look = f'fillcolor="{colour}", fontsize=11'
+        lines.append(f'{rule.name} [id="{rule.name}", label=<{label}>, {look}];')
     for stage in stages:
         column = [f"title_{stage}", *(rule.name for rule in rules if rule.stage == stage)]
         column += ["config"] if stage == "config" else []
         lines.append(f"{{rank=same; {'; '.join(column)};}}")
     lines += [f"config -> {rule.name};" for rule in rules if rule.stage == "namelist"]
-    lines += [f"{source} -> {target};" for source, target in sorted(pairs)]
+    lines += [f'{a} -> {b} [id="{a}.{b}"];' for a, b in sorted(pairs)]
     return "\n".join([*lines, "}"]) + "\n"
 
 
+def compact(svg: str) -> str:
+    """A drawing by Graphviz without comments and titles, a line for each box and arrow."""
+    bare = re.sub(r"<!-- .*? -->\n|<title>.*?</title>\n", "", svg, flags=re.DOTALL)
+    return re.sub(r'<g id="[^"]+" class="(?:node|edge)">.*?</g>', join_lines, bare, flags=re.DOTALL)
+
+
+def join_lines(found: re.Match) -> str:
+    """The lines that were found, as one."""
+    return found[0].replace("\n", "")
+
+
 if __name__ == "__main__":
-    sys.stdout.write(graph(*read_filegraph(sys.stdin.read())))
+    dot = graph(*read_filegraph(sys.stdin.read()))
+    run = subprocess.run(["dot", "-Tsvg"], input=dot, stdout=subprocess.PIPE, text=True, check=True)
+    sys.stdout.write(compact(run.stdout))

@@ -3,8 +3,8 @@ from scripts.page import page_assets
 from scripts.workflow.git_commit import commit_of
 
 
-def shown_on_page():
-    """What the page shows of each figure beside its files."""
+def figures_on_page():
+    """What the page shows of each figure."""
     return [
         {
             "name": name,
@@ -12,11 +12,13 @@ def shown_on_page():
             "caption": f"{plan.results}/figures/{name}.rst",
             "drawing": f"{plan.results}/figures/{name}.svg",
             "shows_classes": registry.entry_of(name).shows_classes,
-            "data": [
-                path.replace("<results>", plan.results)
-                for path in registry.files_of(name, config)
-                if path.startswith("<results>/")
-            ],
+            "data": fill_in(
+                [
+                    path
+                    for path in registry.files_of(name, config)
+                    if path.startswith("<results>/")
+                ]
+            ),
         }
         for name in plan.figures
     ]
@@ -27,9 +29,7 @@ rule play_data:
     input:
         runs=paths.parts_of_atlas(config),
         tables=(
-            expand(
-                "<results>/tables/atlas/{plane}.tsv", plane=config["atlas"]["planes"]
-            )
+            expand("<results>/tables/atlas/{plane}.tsv", plane=config["atlas"]["planes"])
             if plan.is_users
             else ["<results>/tables/atlas.tsv"]
         ),
@@ -46,42 +46,31 @@ rule play_data:
 
 
 rule page:
-    """The page with figures, claims and verdicts: results/index.html."""
+    """The page with figures, claims and verdicts: index.html in the folder of results."""
     input:
-        **(
-            {"tables": plan.tables()}
-            if plan.is_users
-            else {
-                "fault_limit": "<results>/tables/fault-limit.tsv",
-                "hopf_points": "<results>/tables/hopf-points.tsv",
-                "stability": "<results>/tables/stability.tsv",
-            }
-        ),
         figures=expand("<results>/figures/{figure}.svg", figure=plan.figures),
+        captions=expand("<results>/figures/{figure}.rst", figure=plan.figures),
         claims="<results>/tables/claims.json" if plan.claims else [],
         attractors="<results>/tables/attractors.tsv" if config["scenes"] else [],
+        fault_limit=[] if plan.is_users else "<results>/tables/fault-limit.tsv",
+        hopf_points=[] if plan.is_users else "<results>/tables/hopf-points.tsv",
+        stability=[] if plan.is_users else "<results>/tables/stability.tsv",
+        tables=plan.tables() if plan.is_users else [],
         trajectories=plan.trajectories(),
         play="<results>/page/play-data.js" if config["atlas"]["planes"] else [],
-        captions=expand("<results>/figures/{figure}.rst", figure=plan.figures),
-        library=page_assets.library(),
+        library=[path for path in page_assets.ASSETS.values() if path.startswith("/")],
     output:
         page="<results>/index.html",
-        times=[] if plan.is_users else "<results>/times.html",
+        times="<results>/times.html",
         assets=expand("<results>/page/{asset}", asset=page_assets.ASSETS),
     log:
         "<results>/logs/page.log",
     localrule: True
     params:
-        figures=shown_on_page(),
-        benchmarks={
-            run.rule: f"{plan.results}/benchmarks/{run.stem}.tsv" for run in RUNS
-        },
-        commit=commit_of(Path.cwd()),
+        figures=figures_on_page(),
+        is_users=plan.is_users,
         history=config["atlas"]["history"],
-        code=code_of(
-            "page/own_page.py" if plan.is_users else "page/write_page.py",
-            *page_assets.files(),
-        ),
-        script="own_page" if plan.is_users else "write_page",
+        commit=commit_of(Path.cwd()),
+        code=code_of("page/write_page.py", *page_assets.list_files()),
     script:
-        "../scripts/page/{params.script}.py"
+        "../scripts/page/write_page.py"

@@ -13,20 +13,25 @@ from scripts.tables.motion_rows import COLOURS
 
 EQUATIONS = ROOT / "page" / "equations.yaml"
 PICTURE = (
-    '<svg xmlns="http://www.w3.org/2000/svg" width="60" height="40"><path d="M0 0h9v9"/></svg>'
+    '<svg xmlns="http://www.w3.org/2000/svg" width="60pt" height="40pt" viewBox="0 0 60 40">'
+    '<path d="M0 0h9v9"/></svg>'
 )
 
 
-def claim(name: str, verdict: str = VERDICTS[0], **given) -> dict:
-    """A row of the ledger."""
+def claim(name: str, verdict: str = VERDICTS[0], **values) -> dict:
+    """A claim as the page shows it."""
     row = {"id": name, "place": "section 1", "claim": f"It is {name}.", "verdict": verdict}
-    return {**row, "evidence": "0 < 1 & so on", "instead": "", "look_at": "", **given}
+    row |= {"evidence": "0 < 1 & so on", "instead": "", "look_at": "", "table": ""}
+    return {**row, **values}
 
 
-def figure(name: str, category: str = "Figures", *data: str) -> dict:
-    """A figure as the rule describes it."""
-    caption = str(ROOT / "scripts" / "figures" / "figure_1.rst")
-    return {"name": name, "category": category, "caption": caption, "data": list(data)}
+def figure(folder: Path, name: str, category: str = "Figures", *data: str) -> dict:
+    """A figure as the rule describes it; its drawing is in the folder."""
+    drawing = folder / "drawing.svg"
+    drawing.write_text(PICTURE)
+    caption = ROOT / "scripts" / "figures" / "figure_1.rst"
+    files = {"caption": str(caption), "drawing": str(drawing), "data": list(data)}
+    return {"name": name, "category": category, "shows_classes": False, **files}
 
 
 def attractor(epsilon: float, tau: float, **given) -> dict:
@@ -85,48 +90,59 @@ def play() -> str:
     rows[7] |= {"computed": "no", **none}
     paths[7] = None
     scenes = {"my_scene": {"xi": 0.8, "gamma": 0.8, "epsilon": 0.21, "tau": 4.0}}
-    return play_data.script(rows, [atlas_run(*paths[:3]), atlas_run(*paths[3:])], scenes)
+    return play_data.write_script(rows, [atlas_run(*paths[:3]), atlas_run(*paths[3:])], scenes)
 
 
-def content(**given) -> dict:
-    """What the template needs, some of it given."""
-    figures = [figure("figure_1"), figure("atlas", "Atlas", "results/tables/a.tsv")]
+def content(folder: Path, **values) -> dict:
+    """What the template needs for the page of the paper, some of it given."""
     claims = [claim(f"claim {i}", verdict) for i, verdict in enumerate(VERDICTS)]
-    claims.append(claim("beside", look_at="results/figures/figure_1.png"))
-    claims.append(claim("folded", VERDICTS[2], look_at="results/figures/atlas.png"))
-    claims.append(claim("equation_8", VERDICTS[1], instead="It is $gamma^2$."))
-    equations = page_content.equations(EQUATIONS, claims)
-    others = page_content.beside_figures(claims, equations)
-    own = [
+    beside = [
+        claim("beside", look_at="results/figures/figure_1.png"),
+        claim("folded", VERDICTS[2], look_at="results/figures/atlas.png"),
+    ]
+    about_equations = [claim("equation_8", VERDICTS[1], instead="It is $gamma^2$.")]
+    names = ("figure_1", "Figures"), ("atlas", "Atlas", "results/tables/a.tsv"), ("hero", "Atlas")
+    given = [figure(folder, *name) for name in names]
+    first, atlas, hero = page_content.describe_figures(given, beside, Path("results"))
+    motions = [
         {**attractor(0.5, 10.0), "scene": scene, "history": 1.0}
         for scene in ("my_scene", "without_u")
     ]
     runs = [run(), run().drop_vars("u").assign_attrs(scene="without_u", tau=11.0)]
-    return {
+    all_claims = claims + beside + about_equations
+    paper = {
         "opening": "What it is about.",
         "main_claims": [],
         "findings": [{"title": "Found.", "words": "At $tau = 2$.", "claims": claims[:1]}],
         "block": None,
-        "hero": page_content.sections([figure("hero")], [])["Figures"][0],
-        "equations": equations,
-        "figures": page_content.sections(figures, others),
-        "unplaced": page_content.claims_by_figure(figures, others)[""],
-        "verdicts": page_content.tally(claims),
-        "trajectories": [page_views.trajectory(one, own) for one in runs],
+        "hero": hero,
+        "cited": {"licence": "MIT", "works": ["One (2020). A work."]},
+        **page_content.set_equations(EQUATIONS, all_claims),
+    }
+    return {
+        "name": "mine",
+        "paper": paper,
+        "sections": {"The paper in its order": [first]},
+        "appendices": {"Atlas": [atlas]},
+        "claims": all_claims,
+        "verdicts": page_content.tally(all_claims),
+        "unplaced": claims,
+        "tables": [],
+        "trajectories": [page_views.describe_run(one, motions) for one in runs],
+        "atlas": "atlas",
         "history": {"theta": 0.0, "u": 0.0, "v": 1.5},
         "colours": COLOURS,
         "commit": "unknown",
         "programs": [{"version": "1.0", "compiler": "a compiler", "files": 2}],
         "packages": {"Python": "3.11"},
-        "cited": {"licence": "MIT", "works": ["One (2020). A work."]},
-        **given,
+        **values,
     }
 
 
 def written_to(folder: Path, assets: Path) -> Path:
     """The page in a folder, with the files it links to and those beside a real page."""
     index = folder / "index.html"
-    index.write_text(write_page.rendered("index.html.jinja", **content()))
+    index.write_text(write_page.render("index.html.jinja", **content(folder)))
     shutil.copytree(assets, folder / "page")
     (folder / "page" / "play-data.js").write_text(play())
     (folder / "times.html").write_text("")

@@ -105,6 +105,6 @@ def test_points_not_computed_reach_table_figure_and_page(programs, tiny):
     exponents = figure.axes[1].collections[0].get_array().filled(np.nan).ravel()
     assert np.isfinite(exponents[known]).all()
     plt.close(figure)
-    (plane,) = play_data.planes(rows, [None] * len(rows), [0.0] * len(rows))
+    (plane,) = play_data.list_planes(rows, [None] * len(rows), [0.0] * len(rows))
     in_order = sorted(rows, key=lambda row: (row["tau"], row["epsilon"]))
     assert list(plane["words"]) == [i for i, row in enumerate(in_order) if row not in taken]

@@ -15,9 +15,8 @@ from snakemake.utils import update_config
 
 from scripts.claims.ledger import check_user_claims
 from scripts.config.check_config import checked
-from scripts.config.read_config import parsed, read
-from scripts.figures.entries import ENTRIES, OF_ONES_OWN
-from scripts.workflow import manifest
+from scripts.config.read_config import parse, read
+from scripts.figures.entries import ENTRIES
 
 RESULTS = "results/README.md"
 """Stands beside what it names, and no other document links to it."""
@@ -34,6 +33,8 @@ WITH_VALUE = {"--cores", "--configfile", "--report", "--profile", "--workflow-pr
 """Options of Snakemake that the documents use with a value behind them."""
 OF_THE_READER = {"mine.yaml", "mine.f90", "CMakeLists.txt"}
 """Files that the documents ask the reader to write."""
+USERS_FIGURES = {"scenes", "exponents", "planes", "routes", "cycles", "atlas"}
+"""Folders of the figures of a user's file."""
 MOST_LINES = 150
 """Of the README: three minutes."""
 
@@ -88,36 +89,20 @@ def rules() -> set[str]:
     return {*re.findall(r"^rule (\w+)", workflow, re.MULTILINE), *ENTRIES}
 
 
-@cache
-def made() -> list[str]:
-    """Patterns of the files that are made, by the workflow, the benchmarks or Snakemake itself."""
-    texts = [path.read_text() for path in sorted(ROOT.glob("rules/*.smk"))]
-    texts += [path.read_text() for path in sorted(ROOT.glob("benchmarks/*.py"))]
-    texts.append((ROOT / "scripts" / "workflow" / "result_files.py").read_text())
-    code = re.sub(r"<(results|build)>/|\{(results)\}/", r"\1\2/", "\n".join(texts))
-    found = re.findall(r'"((?:results|build)/[^"\s]+|[\w-]+\.tsv)"', code)
-    return [re.sub(r"\{[^{}]*\}", "*", path) for path in found] + ["results/report.zip"]
-
-
 def is_made(path: str) -> bool:
-    """Whether something makes it; a bare name counts, and a folder in which something is made."""
-    # a file of the reader's own makes what the paper has
-    wanted = re.sub(r"^results/mine(-other)?(/|$)", r"results/", path).rstrip("/")
-    if wanted in {f"results/{name}" for name in (manifest.LIST, manifest.MEASURED_LIST)}:
-        return True
-    program = re.fullmatch(r"build/release/bin/(\w+)", wanted)
-    if program:
+    """Whether something makes a file: the workflow, the benchmarks, CMake or the set-up.
+
+    A file of results stands in a folder of results/README.md; the code names each table.
+    """
+    wanted = re.sub(r"^results/mine(/|$)", r"results/", path).rstrip("/")
+    if program := re.fullmatch(r"build/release/bin/(\w+)", wanted):
         return (ROOT / "fortran" / "app" / f"{program[1]}.f90").is_file()
     if wanted.endswith("/.venv"):
         return (ROOT / wanted).with_name("requirements.lock").is_file()
-    return any(
-        fnmatch(wanted, pattern)
-        or fnmatch(pattern, wanted)
-        or pattern.startswith(f"{wanted}/")
-        or wanted.startswith(f"{pattern}/")
-        or ("/" not in wanted and PurePath(pattern).name == wanted)
-        for pattern in made()
-    )
+    folder = "/".join(wanted.split("/")[:2])
+    if wanted.startswith("results/") and f"`{folder}/`" in text_of(RESULTS):
+        return not wanted.endswith(".tsv") or PurePath(wanted).name in code()
+    return PurePath(wanted).name in code()
 
 
 @cache
@@ -178,7 +163,7 @@ def test_files_that_are_named_exist(document):
     """In the project, or something makes them."""
     paths = {token for token in ticked(document) if is_path(token) and "NAME" not in token}
     paths -= OF_THE_READER
-    paths = {path for path in paths if path.partition("/")[0] not in OF_ONES_OWN}
+    paths = {path for path in paths if path.partition("/")[0] not in USERS_FIGURES}
     missing = [path for path in paths if not (exists(path, document) or is_made(path))]
     assert missing == []
 
@@ -198,7 +183,7 @@ def test_targets_that_are_named_exist(document):
     # TARGET, SCENE and such stand for any
     targets = [word for word in targets if not word.isupper()]
     known = [*rules(), "new", *OF_THE_READER]
-    known += [word for word in targets if word.partition("/")[0] in OF_ONES_OWN]
+    known += [word for word in targets if word.partition("/")[0] in USERS_FIGURES]
     assert [target for target in targets if target not in known and not is_made(target)] == []
 
 
@@ -218,10 +203,10 @@ def test_commands_that_are_named_exist(document):
 def test_examples_of_config_are_accepted(document, default_config):
     """Merged over the config, as Snakemake does it."""
     for block in blocks_of(document, "yaml"):
-        mine = parsed(block)
+        mine = parse(block)
         config = copy.deepcopy(default_config)
         # examples build on the scene that the first one adds
-        scene = parsed(blocks_of("config/README.md", "yaml")[0])
+        scene = parse(blocks_of("config/README.md", "yaml")[0])
         update_config(config, scene)
         update_config(config, mine)
         config = checked(config)
@@ -277,18 +262,6 @@ def test_every_picture_is_shown_and_has_its_command():
         assert name in drawing
 
 
-def test_catalog_file_is_what_the_catalog_reads():
-    """The keys that the Snakemake workflow catalog knows; Snakemake itself is told nothing more."""
-    usage = read(ROOT / ".snakemake-workflow-catalog.yml")["usage"]
-    assert set(usage) == {"mandatory-flags", "software-stack-deployment"}
-    assert usage["mandatory-flags"]["flags"] == []
-    stack = usage["software-stack-deployment"]
-    uses_conda = any("conda:" in path.read_text() for path in ROOT.glob("rules/*.smk"))
-    assert stack == {
-        "conda": uses_conda, "apptainer": False, "apptainer+conda": False, "report": True
-    }  # fmt: skip
-
-
 def cffconvert(*arguments: str) -> str:
     """What it says about CITATION.cff."""
     program = ROOT / "tests" / "formats" / ".venv" / "bin" / "cffconvert"
@@ -316,23 +289,15 @@ def test_citation_is_complete():
     assert not [name for name in names if "." in name]
 
 
-@pytest.mark.parametrize(
-    "token",
-    ["fortran/src/nowhere.f90", "scripts/removed.py", "results/tables/no-such.tsv", "no_such_*.py"],
-)
-def test_missing_file_is_caught(token):
+def test_missing_files_and_targets_are_caught():
     """The checker itself."""
-    assert is_path(token)
-    assert not exists(token, "README.md")
-    assert not is_made(token)
-
-
-def test_unknown_target_is_caught():
-    """The reader of commands itself."""
+    for token in ("fortran/src/nowhere.f90", "scripts/removed.py", "results/tables/no-such.tsv"):
+        assert is_path(token)
+        assert not exists(token, "README.md")
+        assert not is_made(token)
     found = commands_in("snakemake --cores 2 no_such --configfile=x.yaml\n./reproduce figure_5 -n")
     assert found == [["no_such"], ["figure_5"]]
     assert "no_such" not in rules()
-    assert not is_made("no_such")
 
 
 def test_friction_law_quotes_its_example():

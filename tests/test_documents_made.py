@@ -1,7 +1,6 @@
 """What is made for the documents: the picture of the data flow, the pages about the code, and the
 programs of the solver's manual, built and run as they are printed."""
 
-import html
 import math
 import os
 import re
@@ -51,11 +50,8 @@ SOURCES = sorted(
 def drawn() -> tuple[set[str], set[tuple[str, str]]]:
     """Rules and pairs of rules in the committed picture."""
     svg = (ROOT / "docs" / "data-flow.svg").read_text()
-    found = re.findall(r'class="(node|edge)">\s*<title>(.*?)</title>', svg)
-    names = [(kind, html.unescape(title)) for kind, title in found if "title_" not in title]
-    nodes = {name for kind, name in names if kind == "node"}
-    edges = {tuple(name.split("->")) for kind, name in names if kind == "edge"}
-    return nodes - {"config"}, {pair for pair in edges if pair[0] != "config"}
+    names = set(re.findall(r'id="(\w+)" class="node"><path', svg)) - {"config"}
+    return names, set(re.findall(r'id="(\w+)\.(\w+)" class="edge"', svg))
 
 
 def test_picture_of_the_data_flow_is_up_to_date(project):
@@ -65,14 +61,16 @@ def test_picture_of_the_data_flow_is_up_to_date(project):
     assert drawn() == ({rule.name for rule in rules}, pairs)
 
 
-def test_filegraph_is_read():
-    """Rules by name with their files, patterns of wildcards dropped, without the target."""
+def test_filegraph_is_read_and_drawn():
+    """Rules by name with their files and without the target; one line a box and an arrow."""
     rules, pairs = data_flow.read_filegraph(FILEGRAPH)
     assert rules == [
         data_flow.Rule("earlier", ("results/data/{scene}.nc",)),
         data_flow.Rule("later", ("results/tables/a.tsv",)),
     ]
     assert pairs == {("earlier", "later")}
+    svg = '<g id="a" class="node">\n<title>a</title>\n<path d="M0"/>\n</g>\n<!-- b -->\n</svg>'
+    assert data_flow.compact(svg) == '<g id="a" class="node"><path d="M0"/></g>\n</svg>'
 
 
 @pytest.mark.parametrize(
@@ -103,23 +101,21 @@ def with_stand_ins(folder: Path, ford: str) -> None:
 
 
 def test_pages_about_the_code_are_made(project):
-    """By FORD, with the settings of docs/ford.md."""
+    """By FORD with the settings of docs/ford.md; its pages are then made to fetch nothing."""
     settings = (project.folder / "docs" / "ford.md").read_text()
     assert re.search(r"^output_dir: \.\./results/docs$", settings, re.MULTILINE)
     make = "mkdir -p results/docs && echo $* > results/docs/index.html"
     with_stand_ins(project.folder, make)
     run = project.snakemake("docs")
     assert run.returncode == 0, run.stdout
-    called = (project.folder / "results" / "docs" / "index.html").read_text()
-    assert called == "--quiet docs/ford.md\n"
-    called = (project.folder / "results" / "docs" / "called").read_text()
-    assert called == "docs/offline_pages.py results/docs\n"
+    pages = project.folder / "results" / "docs"
+    assert (pages / "index.html").read_text() == "--quiet docs/ford.md\n"
+    assert (pages / "called").read_text() == "docs/offline_pages.py results/docs\n"
 
 
 def test_warning_of_ford_is_a_failure(project):
-    """It is shown, and no pages are left."""
-    warn = "mkdir -p results/docs && echo 'Warning: a comment lost'"
-    with_stand_ins(project.folder, warn)
+    """The warning is shown, and no pages are left."""
+    with_stand_ins(project.folder, "mkdir -p results/docs && echo 'Warning: a comment lost'")
     run = project.snakemake("docs")
     assert run.returncode != 0
     assert "Warning: a comment lost" in run.stdout
@@ -149,37 +145,33 @@ def test_unknown_fetch_is_refused():
         offline_pages.offline('<script src="https://cdn.example/new.js"></script>', ".")
 
 
-def without_bindings(lines: list[str]) -> list[str]:
-    """The lines without interfaces of other libraries, whose own pages explain them."""
-    text = "\n".join(lines)
-    return re.sub(r"^ +interface$.*?^ +end interface$", "", text, flags=re.DOTALL | re.M).split(
-        "\n"
-    )
+def lines_of(path: Path) -> list[str]:
+    """Lines of a source without interfaces of other libraries, whose own pages explain them."""
+    bound = r"^ +interface$.*?^ +end interface$"
+    return re.sub(bound, "", path.read_text(), flags=re.DOTALL | re.M).splitlines()
 
 
 def test_everything_has_a_comment():
-    """Modules, programs, types, procedures and their arguments: `!>` stands above each."""
+    """`!>` stands above modules, programs, types, procedures and their arguments.
+
+    FORD drops a first line such as `Name: text`.
+    """
     procedure = r"(?!end\b)(?:[\w(), =*:]+ )?(?:subroutine|function) \w+"
     thing = re.compile(
         rf"\s*(?:module (?!procedure)\w+$|program \w+$|type(?:, [\w(), ]+)? :: \w+|{procedure})"
         r"|\s*[\w(), =*:+-]+,\s*intent\("
     )
-    checked, bare = 0, []
+    checked, bare, dropped = 0, [], []
     for path in SOURCES:
-        for before, line in pairwise(["", *without_bindings(path.read_text().splitlines())]):
+        for before, line in pairwise(["", *lines_of(path)]):
+            explained = before.strip().startswith("!>")
             if thing.match(line) and not line.lstrip().startswith(("end ", "!")):
                 checked += 1
-                bare += [] if before.strip().startswith("!>") else [f"{path.name}: {line.strip()}"]
+                bare += [] if explained else [f"{path.name}: {line.strip()}"]
+            elif not explained and re.match(r"\s*!> [\w-]+:(\s|$)", line):
+                dropped.append(f"{path.name}: {line.strip()}")
     assert checked > 1500
-    assert bare == []
-
-
-def test_no_comment_begins_like_metadata():
-    """FORD drops a first line such as `Name: text`."""
-    for path in SOURCES:
-        for before, line in pairwise(["", *path.read_text().splitlines()]):
-            first = not before.strip().startswith("!>")
-            assert not (first and re.match(r"\s*!> [\w-]+:(\s|$)", line)), f"{path}: {line}"
+    assert (bare, dropped) == ([], [])
 
 
 MANUAL = "fortran/dde/README.md"

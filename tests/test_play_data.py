@@ -25,7 +25,7 @@ def read(text: str) -> dict:
 
 
 def unpacked(text: str, time: float) -> dict[int, np.ndarray]:
-    """Paths by the number of their point, as `packed` describes its bytes."""
+    """Paths by the number of their point, as `pack_path` describes its bytes."""
     data = base64.b64decode(text)
     found, at = {}, 0
     while at < len(data):
@@ -66,7 +66,7 @@ def test_paths_are_those_of_their_points(made_up):
 def test_path_with_a_long_gap_has_points_between():
     """A gap of 40 of 60 units of time, where a byte holds 15; the line is the same."""
     path = np.array([[0.0, 1.2, 41.4, 60.0], [0.0, 2.0, -6.0, 4.0], [0.0, 1.0, -3.0, 2.0]])
-    packed = base64.b64encode(play_data.packed(7, path, 60.0)).decode()
+    packed = base64.b64encode(play_data.pack_path(7, path, 60.0)).decode()
     ((number, found),) = unpacked(packed, 60.0).items()
     assert number == 7
     assert found.shape[1] > 4
@@ -79,7 +79,7 @@ def test_path_with_a_long_gap_has_points_between():
 def test_point_without_extent_is_packed():
     """A path of which u does not change."""
     path = np.array([[0.0, 30.0, 60.0], [1.5] * 3, [0.0, 1.0, 0.0]])
-    packed = base64.b64encode(play_data.packed(0, path, 60.0)).decode()
+    packed = base64.b64encode(play_data.pack_path(0, path, 60.0)).decode()
     (found,) = unpacked(packed, 60.0).values()
     assert set(found[1]) == {1.5}
 
@@ -116,23 +116,23 @@ def test_cycle_that_was_not_computed_shows_one_of_its_period():
         for i, period in enumerate((4.0, 2.0, 4.0))
     ]
     rows[2]["computed"] = "no"
-    (plane,) = read(play_data.script(rows, [atlas_run(None, None, None)], {}))["planes"]
+    (plane,) = read(play_data.write_script(rows, [atlas_run(None, None, None)], {}))["planes"]
     assert plane["shown"] == [0, 1, 0]
 
 
 def test_torus_and_failed_run_in_words():
     """All fundamental frequencies; why there is no class."""
     torus = attractor(0.1, 0.0, f1=0.1, f2=0.0437, **{"class": "torus"})
-    assert play_data.in_words(torus)[2] == "fundamental frequencies 0.1 and 0.0437 (units of v₀/L)"
+    assert play_data.words_of(torus)[2] == "fundamental frequencies 0.1 and 0.0437 (units of v₀/L)"
     torus |= {"class": "3-torus", "f3": 0.25, "exponent_4": -0.3, "error_4": 0.01}
-    assert play_data.in_words(torus)[1].endswith(", −0.3 ± 0.01")
+    assert play_data.words_of(torus)[1].endswith(", −0.3 ± 0.01")
     assert (
-        play_data.in_words(torus)[2]
+        play_data.words_of(torus)[2]
         == "fundamental frequencies 0.1, 0.0437 and 0.25 (units of v₀/L)"
     )
     failed = attractor(0.1, 0.0, f1=np.nan, f2=np.nan, problem="too stiff")
     failed |= {"class": "undecided", **{f"exponent_{i}": np.nan for i in (1, 2, 3)}}
-    assert play_data.in_words(failed) == ["no result: too stiff", "", ""]
+    assert play_data.words_of(failed) == ["no result: too stiff", "", ""]
 
 
 def test_scenes_lie_on_their_planes(made_up):
@@ -140,7 +140,7 @@ def test_scenes_lie_on_their_planes(made_up):
     assert made_up["scenes"] == [{"name": "my scene", "plane": 1, "epsilon": 0.21, "tau": 4.0}]
     elsewhere = {"one": {"xi": 0.7, "gamma": 0.8, "epsilon": 0.1, "tau": 0.0}}
     rows = [attractor(0.1, 0.0, f1=np.nan, f2=np.nan)]
-    assert read(play_data.script(rows, [atlas_run(None)], elsewhere))["scenes"] == []
+    assert read(play_data.write_script(rows, [atlas_run(None)], elsewhere))["scenes"] == []
 
 
 def test_smoke_run_has_each_point_of_its_atlas(smoke):

@@ -8,14 +8,14 @@ from scripts.tables.fault_limit_table import FAULTS, PAPER
 TORUS, TRUE_TORUS = "torus", "true_torus"
 """The scene that the paper calls a torus, and one that has a longer delay."""
 MAIN_CLAIMS = ("delay_alone_makes_chaos", "quasiperiodic_route")
-"""Claims of the abstract whose cards stand below the findings."""
+"""Claims of the abstract that stand below the findings."""
 COUNTS = {0: "no", 1: "one", 2: "two", 3: "three"}
 ZERO = 3
 """Standard errors within which an exponent is zero."""
 
 
-def findings(claims: list[dict], tables: dict[str, list[dict]]) -> list[dict]:
-    """Each with its title, a sentence or two, and the claims that it is about."""
+def list_findings(claims: list[dict], tables: dict[str, list[dict]]) -> list[dict]:
+    """Findings, each with its title, a sentence or two, and the claims that it is about."""
     by_id = {claim["id"]: claim for claim in claims}
     return [
         {**find(tables), "claims": [by_id[name] for name in names if name in by_id]}
@@ -23,18 +23,19 @@ def findings(claims: list[dict], tables: dict[str, list[dict]]) -> list[dict]:
     ]
 
 
-def of_the_torus(tables: dict[str, list[dict]]) -> dict:
-    """What the paper's torus is, and whether a longer delay gives one."""
+def describe_torus(tables: dict[str, list[dict]]) -> dict:
+    """The motion at the paper's torus, and at a longer delay."""
     paper, longer = (first_motion(tables["attractors"], name) for name in (TORUS, TRUE_TORUS))
     return {
-        "title": f"The paper's torus is a {named(paper)}.",
-        "words": f"At $tau = {short(paper['tau'])}$ it has {described(paper)}. At"
-        f" $tau = {short(longer['tau'])}$, with all else the same, the motion is a {named(longer)}:"
-        f" it has {described(longer)}.",
+        "title": f"The paper's torus is a {name_class(paper)}.",
+        "words": f"At $tau = {short(paper['tau'])}$ it has {describe_motion(paper)}. At"
+        f" $tau = {short(longer['tau'])}$, with all else the same, the motion is a"
+        f" {name_class(longer)}:"
+        f" it has {describe_motion(longer)}.",
     }
 
 
-def of_the_fault_limit(tables: dict[str, list[dict]]) -> dict:
+def describe_fault_limit(tables: dict[str, list[dict]]) -> dict:
     """Where steady sliding becomes unstable without delay, and how much a delay changes that."""
     limit = {row["gamma"]: row for row in tables["fault_limit"]}
     paper, fault = limit[PAPER], limit[FAULTS[0]]
@@ -53,7 +54,7 @@ def of_the_fault_limit(tables: dict[str, list[dict]]) -> dict:
     }
 
 
-def of_real_faults(tables: dict[str, list[dict]]) -> dict:
+def describe_real_faults(tables: dict[str, list[dict]]) -> dict:
     """Whether the equations can be solved at the gamma of real faults."""
     least, most = FAULTS
     runs = [row for row in tables["stability"] if least <= row["gamma"] <= most]
@@ -75,16 +76,16 @@ def of_real_faults(tables: dict[str, list[dict]]) -> dict:
 
 
 def first_motion(rows: list[dict], scene: str) -> dict:
-    """Where a scene's own history leads."""
+    """The attractor that a scene's history reaches."""
     return next(row for row in rows if row["scene"] == scene and row["history"] == 1)
 
 
-def named(row: dict) -> str:
+def name_class(row: dict) -> str:
     """The class in the words of the page."""
     return "limit cycle" if row["class"] == "cycle" else row["class"]
 
 
-def described(row: dict) -> str:
+def describe_motion(row: dict) -> str:
     """How many exponents are zero, and the fundamental frequencies."""
     pairs = [(row[f"exponent_{i}"], row[f"error_{i}"]) for i in (1, 2, 3)]
     zeros = sum(abs(value) <= ZERO * error for value, error in pairs)
@@ -96,11 +97,11 @@ def described(row: dict) -> str:
 
 
 FINDINGS: dict[Callable, list[str]] = {
-    of_the_fault_limit: [
+    describe_fault_limit: [
         *("hopf_by_delay_at_faults", "hopf_only_by_delay"),
         *("hopf_is_supercritical", "both_kinds_of_hopf"),
     ],
-    of_the_torus: ["figure_5a", "figure_6b", "second_hopf"],
-    of_real_faults: ["real_gamma_left_out", "very_stiff_at_real_gamma"],
+    describe_torus: ["figure_5a", "figure_6b", "second_hopf"],
+    describe_real_faults: ["real_gamma_left_out", "very_stiff_at_real_gamma"],
 }
-"""What finds each, and its claims."""
+"""Functions that describe the findings, each with its claims."""

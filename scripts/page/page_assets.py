@@ -21,26 +21,10 @@ ASSETS = {
     "dygraph.min.css": f"{LIBRARY}/dygraph.min.css",
     "dygraph-licence.txt": "/usr/share/doc/libjs-dygraphs/copyright",
 }
-"""Each file by its name in results/page/."""
+"""Source of each file, by its name in the folder `page` of the results."""
 
 
-class AssetError(ValueError):
-    """Files that the page needs and that are not there."""
-
-
-def files() -> list[str]:
-    """All files of the project and of Debian that a page is made of."""
-    own = [path.relative_to(PROJECT) for path in PROJECT.glob("page/**/*") if path.is_file()]
-    return sorted({*map(str, own), *ASSETS.values()})
-
-
-def library() -> list[str]:
-    """Debian's files; raise AssetError where one is missing."""
-    debian = [path for path in ASSETS.values() if Path(path).is_absolute()]
-    missing = [path for path in debian if not Path(path).exists()]
-    if missing:
-        raise AssetError(
-            f"the page needs {', '.join(missing)} (Debian's libjs-dygraphs); run ./reproduce, which"
-            " sets up what is missing"
-        )
-    return debian
+def list_files() -> list[str]:
+    """Paths of all files of the project and of Debian that a page is made of."""
+    templates = [path.relative_to(PROJECT) for path in PROJECT.glob("page/**/*") if path.is_file()]
+    return sorted({*map(str, templates), *ASSETS.values()})

@@ -1,8 +1,8 @@
 """What the page says: figures, equations and claims, each claim in one place."""
 
+import json
 import os
 import re
-from collections.abc import Iterable
 from pathlib import Path
 
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, VERDICTS
@@ -10,81 +10,20 @@ from scripts.config.read_config import read as read_yaml
 from scripts.page import captions, mathematics
 from scripts.results.manifest import is_measured
 
-BLOCK, HERO = "figure_1", "true_torus"
-"""The figures of the model and of the findings, at the top of the page."""
 FIRST = [NOT_REPRODUCED, CORRECTED]
 """Verdicts of claims that stand first in their group."""
 PIXELS = 1.3
 """Pixels of the page for a point of a figure: 7 points are 9 pixels."""
 PHONE = 346
 """Pixels of a figure that is seen as a whole on a phone."""
-LAST = "Solver"
-"""The category of figures that stands at the end: it is not about the paper."""
+MAIN, LAST = "Figures", "Solver"
+"""Categories of the paper's figures, and of those that stand last: they are not about the paper."""
 
 
-def relative(path: str) -> str:
-    """A file in results/ as the page links to it."""
-    return path.removeprefix("results/")
-
-
-def title_of(figure: str) -> str:
-    """The name of a figure in words."""
-    return figure.replace("_", " ").capitalize()
-
-
-def sections(figures: list[dict], claims: list[dict]) -> dict[str, list[dict]]:
-    """Figures by category, in order but for the last, each with all that stands beside it.
-
-    A figure is given by its `name`, `category`, `caption` (a file) and `data` (files), by its
-    `drawing` (a file) where its size is to be known, and by `shows_classes` where it does.
-    """
-    grouped = {}
-    placed = claims_by_figure(figures, claims)
-    for figure in figures:
-        section = {
-            **described(figure, title_of(figure["name"]), "results"),
-            "claims": placed[figure["name"]],
-        }
-        grouped.setdefault(figure["category"], []).append(section)
-    return dict(sorted(grouped.items(), key=lambda item: item[0] == LAST))
-
-
-def described(figure: dict, title: str, folder: str) -> dict:
-    """A figure with its caption and files; links begin in the folder of the page."""
-    caption = captions.as_html(figure["caption"])
-    first, end, more = caption.partition("</p>")
-    measured = is_measured(f"figures/{figure['name']}")
-    size = size_of(figure.get("drawing", ""))
-    return {
-        "name": figure["name"],
-        "title": title,
-        "caption": first + end,
-        "more": more,
-        "measured": measured,
-        "alternative": captions.first_sentence(caption),
-        "data": [os.path.relpath(path, folder) for path in figure["data"]],
-        "size": size,
-        "fits": bool(size) and size[0] <= PHONE,
-        "shows_classes": figure.get("shows_classes", False),
-    }
-
-
-def taken_out(sections: dict[str, list[dict]], name: str) -> dict | None:
-    """The figure of this name, which is no longer in its category."""
-    for shown in sections.values():
-        for figure in shown:
-            if figure["name"] == name and not figure["claims"]:
-                shown.remove(figure)
-                return figure
-    return None
-
-
-def claims_by_figure(figures: list[dict], claims: list[dict]) -> dict[str, list[dict]]:
-    """Each claim beside one figure; those that no figure shows under the empty name."""
-    placed = {figure["name"]: [] for figure in figures} | {"": []}
-    for claim in failing_first(claims):
-        placed[figure_of(claim, figures)].append(as_shown(claim))
-    return placed
+def read_claims(path: str | Path, folder: Path) -> list[dict]:
+    """Claims with their verdicts and links to their tables; links begin in the folder."""
+    claims = json.loads(Path(path).read_text())
+    return [with_table(claim, folder) for claim in failing_first(claims)]
 
 
 def failing_first(claims: list[dict]) -> list[dict]:
@@ -92,63 +31,95 @@ def failing_first(claims: list[dict]) -> list[dict]:
     return sorted(claims, key=lambda claim: (*FIRST, claim["verdict"]).index(claim["verdict"]))
 
 
-def size_of(drawing: str | Path) -> tuple[int, int] | None:
-    """Width and height of an SVG file on the page, in pixels."""
-    if not drawing:
-        return None
-    found = re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', Path(drawing).read_text())
-    return tuple(round(PIXELS * float(points)) for points in found.groups())
+def with_table(claim: dict, folder: Path) -> dict:
+    """The claim with a link to the table it rests on, if it rests on one."""
+    table = claim["look_at"] if claim["look_at"].endswith(".tsv") else ""
+    return {**claim, "table": os.path.relpath(table, folder) if table else ""}
 
 
-def equations(path: str | Path, claims: list[dict]) -> dict:
-    """Groups of equations as MathML, and under `NAME_claims` the claims about them."""
-    found = {}
-    for group, listed in read_yaml(path).items():
-        about = [name for equation in listed for name in equation.get("claims", [])]
-        found[f"{group}_claims"] = [
-            as_shown(claim) for claim in failing_first(claims) if claim["id"] in about
-        ]
-        found[group] = [
-            {
-                "number": equation["number"],
-                "correct": mathematics.of_latex(equation["correct"], block=True),
-                "printed": mathematics.of_latex(equation["printed"], block=True)
-                if "printed" in equation
-                else "",
-            }
-            for equation in listed
-        ]
-    return found
+def describe_figures(figures: list[dict], claims: list[dict], folder: Path) -> list[dict]:
+    """Figures with captions, sizes and the claims beside them; links begin in the folder.
+
+    A figure is given by its `name`, `category`, `caption`, `drawing` and `data` (files), and by
+    `shows_classes`.
+    """
+    return [
+        {
+            **describe_figure(figure, folder),
+            "claims": [claim for claim in claims if figure_of(claim, figures) == figure["name"]],
+        }
+        for figure in figures
+    ]
 
 
-def beside_figures(claims: list[dict], shown: dict) -> list[dict]:
-    """The claims that stand neither beside an equation nor below the findings."""
-    placed = {
-        claim["id"] for name, ones in shown.items() if name.endswith("_claims") for claim in ones
+def describe_figure(figure: dict, folder: Path) -> dict:
+    """A figure with its caption, size and files; links begin in the folder."""
+    caption = captions.as_html(figure["caption"])
+    first, end, more = caption.partition("</p>")
+    size = size_of(figure["drawing"])
+    return {
+        **figure,
+        "title": figure["name"].rpartition("/")[2].replace("_", " ").capitalize(),
+        "caption": first + end,
+        "more": more,
+        "alternative": captions.first_sentence(caption),
+        "data": [os.path.relpath(path, folder) for path in figure["data"]],
+        "size": size,
+        "fits": size[0] <= PHONE,
+        "measured": is_measured(f"figures/{figure['name']}"),
     }
-    return [claim for claim in claims if claim["id"] not in placed]
+
+
+def group_figures(figures: list[dict]) -> dict[str, list[dict]]:
+    """Figures by category, in order, but for the last category."""
+    categories = dict.fromkeys(figure["category"] for figure in figures)
+    return {
+        category: [figure for figure in figures if figure["category"] == category]
+        for category in sorted(categories, key=lambda category: category == LAST)
+    }
 
 
 def figure_of(claim: dict, figures: list[dict]) -> str:
-    """The figure to look at, or that of the table to look at, by its name; else the paper's own."""
+    """Name of the figure beside which a claim stands, empty if there is none.
+
+    It is the figure to look at, or that of the table to look at, or the one that the paper names.
+    """
     names = {figure["name"] for figure in figures}
-    own = re.search(r"Figure (\d+)", claim["place"])
+    shown = claim["look_at"].partition("/figures/")[2].removesuffix(".png")
+    printed = re.search(r"Figure (\d+)", claim["place"])
     candidates = [
-        Path(claim["look_at"]).stem.replace("-", "_"),
-        f"figure_{own[1]}" if own else "",
+        shown or Path(claim["look_at"]).stem.replace("-", "_"),
+        f"figure_{printed[1]}" if printed else "",
     ]
     return next((name for name in candidates if name in names), "")
 
 
-def as_shown(claim: dict) -> dict:
-    """The claim with a link to what it rests on, where that is a table."""
-    table = claim["look_at"] if claim["look_at"].endswith(".tsv") else ""
-    return {**claim, "table": relative(table)}
+def size_of(drawing: str | Path) -> tuple[int, int]:
+    """Width and height of an SVG file on the page, in pixels."""
+    found = re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', Path(drawing).read_text())
+    return tuple(round(PIXELS * float(points)) for points in found.groups())
 
 
-def tally(claims: Iterable[dict]) -> dict[str, list[dict]]:
-    """Claims by verdict, every verdict in its order."""
-    return {v: [claim for claim in claims if claim["verdict"] == v] for v in VERDICTS}
+def set_equations(path: str | Path, claims: list[dict]) -> dict[str, list[dict]]:
+    """Groups of equations as MathML, and under `NAME_claims` the claims about them."""
+    found = {}
+    for group, equations in read_yaml(path).items():
+        about = [name for equation in equations for name in equation.get("claims", [])]
+        found[f"{group}_claims"] = [claim for claim in claims if claim["id"] in about]
+        found[group] = [
+            {
+                key: mathematics.of_latex(equation[key], block=True) if key in equation else ""
+                for key in ("correct", "printed")
+            }
+            | {"number": equation["number"]}
+            for equation in equations
+        ]
+    return found
+
+
+def tally(claims: list[dict]) -> dict[str, int]:
+    """Number of claims by verdict, every verdict in its order."""
+    return {v: sum(claim["verdict"] == v for claim in claims) for v in VERDICTS}
 
 
 def opening(readme: str) -> str:

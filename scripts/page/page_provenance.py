@@ -1,15 +1,11 @@
-"""Where results come from: programs, compiler, packages, and seconds of each rule."""
+"""Where results come from: programs, compiler, works to cite, and seconds of each kind."""
 
 import csv
-import platform
 from collections import Counter
 from pathlib import Path
 
-from snakemake.io import glob_wildcards
-
 from scripts.config.read_config import read as read_yaml
 from scripts.files.inputs import read
-from scripts.page import packages
 
 
 def programs(files: list[str]) -> list[dict]:
@@ -52,44 +48,23 @@ def author(given: dict) -> str:
     return f"{given['family-names']}, {given['given-names']}"
 
 
-def python_packages() -> dict[str, str]:
-    """Versions of Python and of its packages."""
-    return {"Python": platform.python_version()} | packages.versions()
-
-
-def seconds(patterns: dict[str, str]) -> list[dict]:
-    """Jobs, seconds and memory of each rule, by the files that match its benchmark's pattern.
-
-    What was not run here has no file and no row.
-    """
-    runs_of = {
-        rule: [run for path in measured(pattern) for run in read_benchmark(path)]
-        for rule, pattern in patterns.items()
-    }
+def seconds(folder: Path) -> list[dict]:
+    """Jobs, seconds and memory of each kind of results, by the benchmark files in a folder."""
+    runs_of = {}
+    for path in sorted(folder.rglob("*.tsv")):
+        kind = path.relative_to(folder).parts[0]
+        with path.open(newline="") as file:
+            runs_of.setdefault(kind, []).extend(csv.DictReader(file, delimiter="\t"))
     return [
         {
-            "rule": rule,
+            "kind": kind,
             "jobs": len(runs),
             "seconds": sum(float(run["s"]) for run in runs),
             "longest": max(float(run["s"]) for run in runs),
             "memory": max((float(run["max_rss"]) for run in runs if known(run)), default=None),
         }
-        for rule, runs in runs_of.items()
-        if runs
+        for kind, runs in runs_of.items()
     ]
-
-
-def measured(pattern: str) -> list[Path]:
-    """Files of a pattern with wildcards."""
-    found = glob_wildcards(pattern)._asdict()
-    values = zip(*found.values(), strict=True)
-    return sorted(Path(pattern.format(**dict(zip(found, some, strict=True)))) for some in values)
-
-
-def read_benchmark(path: Path) -> list[dict]:
-    """Runs in a benchmark file."""
-    with open(path, newline="") as file:
-        return list(csv.DictReader(file, delimiter="\t"))
 
 
 def known(run: dict) -> bool:

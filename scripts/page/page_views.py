@@ -1,4 +1,4 @@
-"""Data for what can be looked at closer on the page: trajectories."""
+"""Trajectories that can be zoomed into on the page, and motions in words."""
 
 import base64
 import math
@@ -21,21 +21,21 @@ SIGNS = {"epsilon": "ε", "tau": "τ", "xi": "ξ", "gamma": "γ"}
 """Parameters by their names in files."""
 
 
-def parameters(values: dict) -> str:
+def describe_parameters(values: dict) -> str:
     """Parameters as a line of text."""
     return ", ".join(
         f"{sign} = {in_signs(as_text(float(values[key])))}" for key, sign in SIGNS.items()
     )
 
 
-def verdict(row: dict) -> str:
-    """Class and exponents of a row of a table of attractors; why there are none."""
+def describe_attractor(row: dict) -> str:
+    """Class and exponents of a row of a table of attractors, or why there are none."""
     known = "" if has_problem(row) else f"; exponents {exponents(row) or 'not known'}"
     return motion(row) + known
 
 
 def motion(row: dict) -> str:
-    """The class of a row of a table of attractors; why there is none."""
+    """The class of a row of a table of attractors, or why there is none."""
     if has_problem(row):
         return f"no result: {row['problem']}"
     met = kind_of(row)
@@ -62,7 +62,7 @@ def can_be_drawn(run: xr.Dataset) -> bool:
     return any(name in run for name in DRAWN)
 
 
-def trajectory(run: xr.Dataset, attractors: list[dict]) -> dict:
+def describe_run(run: xr.Dataset, attractors: list[dict]) -> dict:
     """The last part of a run, thinned, with what is known of it."""
     scene = run.attrs["scene"]
     end = float(run.t[-1])
@@ -70,11 +70,11 @@ def trajectory(run: xr.Dataset, attractors: list[dict]) -> dict:
     uneven = (run.sizes["t"] - 1.5) * run.attrs["sample_interval"] > end
     every = 1 if uneven else math.ceil(shown.sizes["t"] / MOST_POINTS)
     shown = shown.isel(t=slice(-MOST_POINTS, None) if uneven else slice(None, None, every))
-    own = [row for row in attractors if row["scene"] == scene and row["history"] == 1]
-    known = verdict(own[0]) if own else "its attractor was not computed"
+    reached = [row for row in attractors if row["scene"] == scene and row["history"] == 1]
+    known = describe_attractor(reached[0]) if reached else "its attractor was not computed"
     return {
         "name": scene.replace("_", " "),
-        "words": f"{parameters(run.attrs)}: {known}",
+        "words": f"{describe_parameters(run.attrs)}: {known}",
         "every": every,
         "start": float(shown.t[0]),
         "step": every * run.attrs["sample_interval"],

@@ -27,7 +27,7 @@ LONGEST_GAP = 255
 """Most steps of time between two points, in one byte."""
 
 
-def planes(
+def list_planes(
     rows: list[dict], paths: Sequence[np.ndarray | None], times: Sequence[float]
 ) -> list[dict]:
     """Planes of the atlas in the order of the rows, each with the motions of its points.
@@ -37,12 +37,12 @@ def planes(
     points = list(zip(rows, paths, times, strict=True))
     places = dict.fromkeys((row["xi"], row["gamma"]) for row in rows)
     return [
-        plane([point for point in points if (point[0]["xi"], point[0]["gamma"]) == place])
+        describe_plane([point for point in points if (point[0]["xi"], point[0]["gamma"]) == place])
         for place in places
     ]
 
 
-def plane(points: list[tuple[dict, np.ndarray | None, float]]) -> dict:
+def describe_plane(points: list[tuple[dict, np.ndarray | None, float]]) -> dict:
     """Axes, kinds and paths of a plane: points along epsilon, from the least tau upwards."""
     points = sorted(points, key=lambda point: (point[0]["tau"], point[0]["epsilon"]))
     rows = [row for row, _, _ in points]
@@ -60,10 +60,10 @@ def plane(points: list[tuple[dict, np.ndarray | None, float]]) -> dict:
         "time": float(max(time for _, _, time in points)),
         "kinds": "".join(map(str, kinds)),
         "shown": (across * len(columns) + along).ravel().tolist(),
-        "words": {i: in_words(row) for i, row in enumerate(rows) if is_computed(row)},
+        "words": {i: words_of(row) for i, row in enumerate(rows) if is_computed(row)},
         "paths": base64.b64encode(
             b"".join(
-                packed(i, path, time)
+                pack_path(i, path, time)
                 for i, (_, path, time) in enumerate(points)
                 if path is not None
             )
@@ -76,7 +76,7 @@ def period_of(row: dict) -> int:
     return int(row["period"]) if row["class"] == "cycle" and row["period"] > 0 else 0
 
 
-def in_words(row: dict) -> list[str]:
+def words_of(row: dict) -> list[str]:
     """Class, exponents, and period or fundamental frequencies."""
     return [motion(row), exponents(row), frequencies(row)]
 
@@ -104,7 +104,7 @@ def paths_of(run: xr.Dataset) -> list[np.ndarray | None]:
     ]
 
 
-def packed(number: int, path: np.ndarray, time: float) -> bytes:
+def pack_path(number: int, path: np.ndarray, time: float) -> bytes:
     """A path as bytes, the lowest first, for a path of this length in time.
 
     - number of the point and of points along the path, 4 bytes each;
@@ -125,11 +125,11 @@ def packed(number: int, path: np.ndarray, time: float) -> bytes:
     return head + ranges + columns.T.tobytes()
 
 
-def script(rows: list[dict], runs: list[xr.Dataset], scenes: dict[str, dict]) -> str:
+def write_script(rows: list[dict], runs: list[xr.Dataset], scenes: dict[str, dict]) -> str:
     """The whole file: planes of the atlas, and the scenes on them by name."""
     of_runs = [(path, run.attrs.get("t_path", 0.0)) for run in runs for path in paths_of(run)]
     paths, times = zip(*of_runs, strict=True)
-    found = planes(rows, paths, times)
+    found = list_planes(rows, paths, times)
     places = {(one["xi"], one["gamma"]): i for i, one in enumerate(found)}
     on_planes = [
         {
@@ -147,7 +147,7 @@ def script(rows: list[dict], runs: list[xr.Dataset], scenes: dict[str, dict]) ->
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        text = script(
+        text = write_script(
             [row for path in snakemake.input.tables for row in read_table(path)],
             [read(path) for path in snakemake.input.runs],
             snakemake.params.scenes,

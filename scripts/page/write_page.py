@@ -1,6 +1,6 @@
-"""The page that re-tells the paper: index.html and what it needs beside it, all in results/."""
+"""The page of a run: index.html, times.html and the files beside them, in its folder of results."""
 
-import json
+import platform
 import shutil
 from pathlib import Path
 
@@ -9,14 +9,23 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from scripts.files.inputs import read
 from scripts.files.outputs import logged, written
 from scripts.files.tsv import read_table
-from scripts.page import findings, mathematics, page_content, page_provenance, page_views
+from scripts.page import (
+    findings,
+    mathematics,
+    packages,
+    page_content,
+    page_provenance,
+    page_views,
+)
 from scripts.page.page_assets import ASSETS, PROJECT
 from scripts.tables.motion_rows import COLOURS
 
 TEMPLATES = PROJECT / "page"
+BLOCK, HERO = "figure_1", "true_torus"
+"""The paper's figures of the model and of the findings, at the top of the page."""
 
 
-def rendered(template: str, **values) -> str:
+def render(template: str, **values) -> str:
     """The template of this name with the values; a value that is missing is an error."""
     environment = Environment(
         loader=FileSystemLoader(TEMPLATES),
@@ -30,46 +39,62 @@ def rendered(template: str, **values) -> str:
     return environment.get_template(template).render(**values)
 
 
-def content(given, params) -> dict:
-    """All that the page says, from the files that the rule gives."""
-    claims = json.loads(Path(given.claims).read_text())
-    equations = page_content.equations(TEMPLATES / "equations.yaml", claims)
-    main = [page_content.as_shown(c) for c in claims if c["id"] in findings.MAIN_CLAIMS]
-    others = page_content.beside_figures(claims, {**equations, "main_claims": main})
-    figures = page_content.sections(params.figures, others)
-    names = ("attractors", "fault_limit", "hopf_points", "stability")
-    tables = {name: read_table(given[name]) for name in names}
-    attractors = tables["attractors"]
-    runs = [read(path) for path in given.trajectories]
-    data = sorted({path for figure in params.figures for path in figure["data"]})
+def content(given, params, folder: Path) -> dict:
+    """All that the page says, from the files that the rule gives; links begin in the folder."""
+    claims = page_content.read_claims(given.claims, folder) if given.claims else []
+    paper = {} if params.is_users else content_of_paper(given, claims)
+    placed = {claim["id"] for key in paper if key.endswith("_claims") for claim in paper[key]}
+    others = [claim for claim in claims if claim["id"] not in placed]
+    figures = page_content.describe_figures(params.figures, others, folder)
+    top = {figure["name"]: figure for figure in figures if paper and not figure["claims"]}
+    if paper:
+        paper |= {"block": top.get(BLOCK), "hero": top.get(HERO)}
+    at_top = [paper.get("block"), paper.get("hero")]
+    groups = page_content.group_figures([one for one in figures if one not in at_top])
+    sections = {"The paper in its order": groups.pop(page_content.MAIN, [])} if paper else groups
+    data = {path for figure in params.figures for path in figure["data"] if path.endswith(".nc")}
     return {
-        "opening": page_content.opening((PROJECT / "README.md").read_text()),
-        "findings": findings.findings(claims, tables),
-        "main_claims": main,
-        "block": page_content.taken_out(figures, page_content.BLOCK),
-        "hero": page_content.taken_out(figures, page_content.HERO),
-        "equations": equations,
-        "figures": figures,
-        "unplaced": page_content.claims_by_figure(params.figures, others)[""],
+        "name": folder.name.replace("_", " "),
+        "paper": paper,
+        "sections": sections,
+        "appendices": groups if paper else {},
+        "claims": claims,
         "verdicts": page_content.tally(claims),
-        "trajectories": [
-            page_views.trajectory(run, attractors) for run in runs if page_views.can_be_drawn(run)
-        ],
+        "unplaced": [one for one in others if not page_content.figure_of(one, figures)],
+        "tables": [str(Path(path).relative_to(folder)) for path in given.tables],
+        "trajectories": trajectories(given),
+        "atlas": groups["Atlas"][0]["name"] if given.play else "",
         "history": params.history,
         "colours": COLOURS,
         "commit": params.commit,
-        "programs": page_provenance.programs([p for p in data if p.endswith(".nc")]),
-        "packages": page_provenance.python_packages(),
+        "programs": page_provenance.programs(sorted(data)),
+        "packages": {"Python": platform.python_version(), **packages.versions()},
+        "measured": [figure for figure in figures if figure["measured"]],
+    }
+
+
+def content_of_paper(given, claims: list[dict]) -> dict:
+    """What only the page of the paper has: opening, equations, findings and how to cite."""
+    names = ("attractors", "fault_limit", "hopf_points", "stability")
+    by_id = {claim["id"]: claim for claim in claims}
+    return {
+        **page_content.set_equations(TEMPLATES / "equations.yaml", claims),
+        "opening": page_content.opening((PROJECT / "README.md").read_text()),
+        "findings": findings.list_findings(
+            claims, {name: read_table(given[name]) for name in names}
+        ),
+        "main_claims": [by_id[name] for name in findings.MAIN_CLAIMS if name in by_id],
         "cited": page_provenance.citation(PROJECT / "CITATION.cff"),
     }
 
 
-def times(params) -> dict:
-    """What was measured on this machine: it has a page of its own, so that two runs give the same
-    index.html."""
-    figures = page_content.sections(params.figures, [])
-    shown = [figure for listed in figures.values() for figure in listed if figure["measured"]]
-    return {"figures": shown, "seconds": page_provenance.seconds(params.benchmarks)}
+def trajectories(given) -> list[dict]:
+    """Trajectories to zoom into."""
+    attractors = read_table(given.attractors) if given.attractors else []
+    runs = [read(path) for path in given.trajectories]
+    return [
+        page_views.describe_run(run, attractors) for run in runs if page_views.can_be_drawn(run)
+    ]
 
 
 def write_files(texts: dict[str, str], assets: list[str]) -> None:
@@ -84,7 +109,13 @@ def write_files(texts: dict[str, str], assets: list[str]) -> None:
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        given, params, output = snakemake.input, snakemake.params, snakemake.output
-        page = rendered("index.html.jinja", **content(given, params))
-        measured = rendered("times.html.jinja", **times(params))
-        write_files({output.page: page, output.times: measured}, output.assets)
+        params, output = snakemake.params, snakemake.output
+        folder = Path(output.page).parent
+        shown = content(snakemake.input, params, folder)
+        # what is measured on this machine has a page of its own: two runs give the same index.html
+        seconds = page_provenance.seconds(folder / "benchmarks")
+        pages = {
+            output.page: render("index.html.jinja", **shown),
+            output.times: render("times.html.jinja", figures=shown["measured"], seconds=seconds),
+        }
+        write_files(pages, output.assets)

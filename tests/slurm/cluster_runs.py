@@ -1,13 +1,10 @@
-"""The atlas on a real Slurm of one node: killed jobs, the same bytes, and what it costs.
+"""The atlas on a real Slurm of one node: killed jobs, and the same bytes.
 
 Run by ./test slurm; not collected with the other tests.
 """
 
 import contextlib
-import csv
-import os
 import re
-import resource
 import signal
 import subprocess
 import sys
@@ -18,19 +15,13 @@ from pathlib import Path
 
 import psutil
 import pytest
-from conftest import ROOT, Project, copy_of_project, rules_in
-from job_watch import GONE, MemoryWatch, Program, running_program
-from scaling import Run, report
+from conftest import Project, copy_of_project, rules_in
+from job_watch import GONE, Program, running_program
 from slurm_cluster import Cluster, until
 
-from scripts.config.read_config import read
-
 SHORT_PARTS = ("--configfile", "config/smoke.yaml", "tests/slurm/short_parts.yaml")
-SAMPLE = ("--configfile", "tests/slurm/sample.yaml")
 ATLAS = "results/tables/atlas.tsv"
 PARTS = [f"results/attractors/atlas/xi_05/{part:04}.nc" for part in range(1, 5)]
-POINTS = 24
-"""Points of the sample in those parts."""
 PART = r"results/attractors/atlas/\w+/000[1-4].nc"
 PATIENCE = 300.0
 
@@ -107,12 +98,6 @@ def counted(log: str, rule: str) -> int:
     return len(re.findall(rf"^(?:local)?rule {rule}:", log, flags=re.MULTILINE))
 
 
-def limits() -> dict:
-    """What the profile asks Slurm for, for a part of the atlas."""
-    profile = read(ROOT / "profiles" / "slurm" / "config.yaml")
-    return profile["set-resources"]["attractors_runs"]
-
-
 def result_of(namelist: str) -> str:
     """What a program makes of a namelist."""
     return namelist.replace("namelists/", "", 1).replace(".nml", ".nc")
@@ -183,55 +168,3 @@ def test_nothing_is_left_of_a_cluster_that_fails():
         failure_amid_a_job(cluster)
     assert users_of(cluster) == []
     assert not cluster.folder.exists()
-
-
-def seconds_of_program(project: Project) -> tuple[float, dict[str, bytes]]:
-    """CPU seconds that the program takes for the sample, run by hand, and what it writes."""
-    namelists = {
-        part: part.replace("attractors", "namelists/attractors", 1).replace(".nc", ".nml")
-        for part in PARTS
-    }
-    assert project.snakemake(*SAMPLE, "--", *namelists.values()).returncode == 0
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    written = {}
-    for part, namelist in namelists.items():
-        subprocess.run(
-            ["build/release/bin/attractors", namelist, "by_hand.nc"],
-            cwd=project.folder,
-            env={**os.environ, "OMP_NUM_THREADS": "1"},
-            stderr=subprocess.DEVNULL,
-            check=True,
-        )
-        written[part] = (project.folder / "by_hand.nc").read_bytes()
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, written
-
-
-def seconds_in_jobs(project: Project) -> float:
-    """Seconds that the programs of all parts ran, by the clock."""
-    seconds = 0.0
-    for part in PARTS:
-        table = project.folder / part.replace("results", "results/benchmarks", 1)
-        with open(table.with_suffix(".tsv")) as rows:
-            seconds += float(next(csv.DictReader(rows, delimiter="\t"))["s"])
-    return seconds
-
-
-def test_scaling_and_cost(cluster, built, tmp_path, capsys):
-    """Points per second with one and two workers, a point's cost, and the memory of a job."""
-    cpu, by_hand = seconds_of_program(built.copy_to(tmp_path / "by hand"))
-    runs, memory = [], 0.0
-    for workers in (1, 2):
-        project = built.copy_to(tmp_path / f"{workers} workers")
-        cluster.limit_cores(workers)
-        with MemoryWatch(project.folder) as watch:
-            status, log = run_on(cluster, project, *SAMPLE, "--", *PARTS)
-        assert status == 0, log
-        seconds = cluster.seconds_of_jobs(project.folder)
-        assert {part: (project.folder / part).read_bytes() for part in PARTS} == by_hand
-        assert len(watch.most) == len(PARTS)
-        runs.append(Run(workers, POINTS, len(PARTS), seconds, seconds_in_jobs(project)))
-        memory = max(memory, *watch.most.values())
-    with capsys.disabled():
-        print("", *report(runs, cpu / POINTS, memory), sep="\n")
-    assert memory < limits()["mem_mb"]

@@ -1,8 +1,6 @@
-"""What the jobs of a cluster run and how much memory they take."""
+"""The programs that work in the jobs of a cluster."""
 
 import contextlib
-import threading
-from collections import Counter
 from pathlib import Path
 from typing import NamedTuple
 
@@ -37,30 +35,3 @@ def running_program(folder: Path, besides: str = "") -> Program | None:
             if words and words[0].startswith("build/release/bin/") and words[1] != besides:
                 return Program(process, job, words[1])
     return None
-
-
-class MemoryWatch(threading.Thread):
-    """Looks once a second at the memory of the jobs that work in a folder; a context."""
-
-    def __init__(self, folder: Path) -> None:
-        super().__init__(daemon=True)
-        self.folder = folder
-        self.ended = threading.Event()
-        self.most: Counter[str] = Counter()
-        """Most resident megabytes of each job's processes together."""
-
-    def run(self) -> None:
-        while not self.ended.wait(1.0):
-            now: Counter[str] = Counter()
-            for process, job in processes_in(self.folder).items():
-                with contextlib.suppress(*GONE):
-                    now[job] += process.memory_info().rss / 1e6
-            self.most |= now
-
-    def __enter__(self) -> "MemoryWatch":
-        self.start()
-        return self
-
-    def __exit__(self, *_) -> None:
-        self.ended.set()
-        self.join()

@@ -10,7 +10,6 @@ import string
 import subprocess
 import tempfile
 import time
-from datetime import datetime
 from pathlib import Path
 
 import psutil
@@ -86,19 +85,6 @@ class Cluster:
         """What a command of Slurm says; empty where it fails."""
         run = subprocess.run(words, env=self.environment, capture_output=True, text=True)
         return run.stdout
-
-    def limit_cores(self, cores: int) -> None:
-        """Let jobs have no more than a number of cores together."""
-        self.command("scontrol", "update", "PartitionName=test", f"MaxCPUsPerNode={cores}")
-
-    def seconds_of_jobs(self, folder: Path) -> float:
-        """From the start of the first to the end of the last of the jobs that ran in a folder."""
-        listed = self.command("squeue", "-h", "--states=all", "-o", "%S|%e|%Z").splitlines()
-        rows = [line.split("|") for line in listed]
-        times = [row[:2] for row in rows if row[2] == str(folder)]
-        begins, ends = zip(*times, strict=True)
-        span = datetime.fromisoformat(max(ends)) - datetime.fromisoformat(min(begins))
-        return span.total_seconds()
 
     def _answers(self) -> bool:
         return len(self.daemons) == len(DAEMONS) and self.command("scontrol", "ping").find("UP") > 0
