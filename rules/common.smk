@@ -217,23 +217,22 @@ def everything_added(wildcards):
 
 def tables_read(figures):
     """Tables of the project that figures read beside results."""
-    files = [path for figure in figures for path in entries.files_of(figure, DRAWN)]
+    files = [path for figure in figures for path in registry.files_of(figure, DRAWN)]
     return [path for path in files if not path.startswith("<results>/")]
 
 
 def caption_file(figure):
     """The caption of a figure."""
-    return placed(entries.caption_of(figure))
+    return placed(f"<results>/figures/{figure}.rst")
 
 
 def to_caption():
     """What the caption of each figure is filled from."""
     return [
         {
-            "name": entries.name_of_caption(name),
-            "template": of_project(entries.template_of(name)),
-            "inputs": placed(entries.inputs_of(name, DRAWN)),
-            "params": placed(entries.params_of(name, DRAWN)),
+            "name": name,
+            "inputs": placed(registry.inputs_of(name, DRAWN)),
+            "params": placed(registry.params_of(name, DRAWN)),
         }
         for name in SHOWN
     ]
@@ -244,13 +243,13 @@ def on_page():
     return [
         {
             "name": name,
-            "category": entries.entry_of(name).category,
+            "category": registry.category_of(name),
             "caption": caption_file(name),
             "drawing": f"{RESULTS}/figures/{name}.svg",
-            "shows_classes": entries.entry_of(name).shows_classes,
+            "shows_classes": registry.shows_classes(name),
             "data": [
                 placed(path)
-                for path in entries.files_of(name, DRAWN)
+                for path in registry.files_of(name, DRAWN)
                 if path.startswith("<results>/")
             ],
         }
@@ -260,7 +259,7 @@ def on_page():
 
 def trajectories_on_page():
     """Trajectory files that can be zoomed into: those that figures draw."""
-    drawn = [path for name in SHOWN for path in entries.files_of(name, DRAWN)]
+    drawn = [path for name in SHOWN for path in registry.files_of(name, DRAWN)]
     kept = [path for path in drawn if path.startswith("<results>/trajectories/")]
     return placed(list(dict.fromkeys(kept)))
 

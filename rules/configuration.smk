@@ -26,8 +26,8 @@ except packages.PackageError as problem:
 
 from scripts.claims import claims_config
 from scripts.config import check_config, read_config
-from scripts.figures import entries
-from scripts.figures.entries import FIGURES
+from scripts.figures import registry
+from scripts.figures.registry import FIGURES
 from scripts.workflow import before_run, own_file
 
 try:
@@ -81,13 +81,13 @@ try:
         for path in claims_config.FILES.values()
         if path.endswith(".tsv")
     ]
-    shown = {*FIGURES, *entries.own_figures(config, NAMES), *tables}
+    shown = {*FIGURES, *registry.user_figures(config, NAMES), *tables}
     CLAIMS = claims_config.checked(said, config, shown) if said["claims"] else {}
 except read_config.ConfigError as problems:
     raise WorkflowError(problems) from None
 
 if OWN:
-    SHOWN = entries.own_figures(config, NAMES)
+    SHOWN = registry.user_figures(config, NAMES)
     LISTED = own_file.listed(config, NAMES, claims_config.names_in(CLAIMS))
 else:
     SHOWN, LISTED = FIGURES, config

@@ -1,4 +1,4 @@
-# The figures, a rule of its name for each entry of scripts/figures/entries.py.
+# The figures, a rule of its name for each figure of scripts/figures/registry.py.
 
 
 for figure in dict.fromkeys([*FIGURES, *SHOWN]):
@@ -7,27 +7,27 @@ for figure in dict.fromkeys([*FIGURES, *SHOWN]):
         name:
             figure
         input:
-            **placed(entries.inputs_of(figure, DRAWN)),
+            **placed(registry.inputs_of(figure, DRAWN)),
         output:
             pdf=f"<results>/figures/{figure}.pdf",
             png=report(
                 f"<results>/figures/{figure}.png",
                 caption=Path.cwd() / caption_file(figure),
-                category=entries.entry_of(figure).category,
-                labels={"figure": entries.title_of(figure).rstrip(".")},
+                category=registry.category_of(figure),
+                labels={"figure": registry.title_of(figure).rstrip(".")},
             ),
             svg=f"<results>/figures/{figure}.svg",
         log:
             f"<results>/logs/figures/{figure}.log",
-        priority: OF_PAPER if entries.entry_of(figure).category == "Figures" else 0
+        priority: OF_PAPER if registry.category_of(figure) == "Figures" else 0
         params:
-            **placed(entries.params_of(figure, DRAWN)),
-            script=entries.script_of(figure),
+            **placed(registry.params_of(figure, DRAWN)),
+            script=registry.script_of(figure),
             code=code_of(
-                f"figures/{entries.script_of(figure)}.py", *tables_read([figure])
+                registry.script_of(figure), *tables_read([figure])
             ),
         script:
-            "../scripts/figures/{params.script}.py"
+            "../scripts/{params.script}"
 
 
 rule captions:
@@ -36,7 +36,7 @@ rule captions:
         data=[
             path
             for figure in SHOWN
-            for path in placed(entries.files_of(figure, DRAWN))
+            for path in placed(registry.files_of(figure, DRAWN))
         ],
         claims=[] if OWN else "<results>/tables/claims.json",
     output:
@@ -46,14 +46,14 @@ rule captions:
     params:
         figures=to_caption(),
         code=code_of(
-            "captions/write_captions.py",
-            *map(entries.template_of, SHOWN),
+            "figures/write_captions.py",
+            *map(registry.template_of, SHOWN),
             *tables_read(SHOWN),
         ),
     script:
-        "../scripts/captions/write_captions.py"
+        "../scripts/figures/write_captions.py"
 
 
 snakemake_internals.describe(
-    workflow, {figure: entries.title_of(figure) for figure in [*FIGURES, *SHOWN]}
+    workflow, {figure: registry.title_of(figure) for figure in [*FIGURES, *SHOWN]}
 )

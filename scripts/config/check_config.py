@@ -12,7 +12,7 @@ import jsonschema
 from scripts.config import check_attractors
 from scripts.config.ranges import SCHEMA, range_of, rules_of
 from scripts.config.read_config import ConfigError, parsed
-from scripts.figures.entries import OWN_VARIABLES, variables_used
+from scripts.figures.registry import variables_used
 from scripts.namelists.study_cases import cases_of_family, number_of_cases
 
 EQUATIONS = 3
@@ -177,7 +177,9 @@ def _contradictions(config: dict, own: Collection[str]):
                 f" > 0 and <= t_end = {scene['t_end']}"
             )
         yield from _contradictions_of_exponents(place, scene)
-        used = variables_used(config, name) | set(OWN_VARIABLES if name in own else ())
+        used = variables_used(config, name)
+        if name in own:
+            used |= variables_used(config, name, [f"scenes/{name}"])
         lacking = used - set(scene["variables"])
         if lacking:
             yield (

@@ -1,10 +1,21 @@
 """Figure 3: Hopf curves xi(epsilon) at fixed tau and gamma."""
 
-from scripts.drawing.hopf_plane import draw
-from scripts.drawing.style import logged, save
-from scripts.files.inputs import read
+from scripts.figures import plane
+from scripts.figures.make_figure import make_figure
+from scripts.workflow.result_files import places_in_plane
+
+draw, numbers = plane.draw, plane.numbers
+
+
+def inputs(_config: dict) -> dict:
+    """Hopf curves of the plane."""
+    return {"curves": "<results>/hopf/xi_of_epsilon.nc"}
+
+
+def params(config: dict) -> dict:
+    """Scenes that lie in the plane."""
+    return {"scenes": places_in_plane(config, "xi_of_epsilon")}
+
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
-        figure = draw(read(snakemake.input.curves), snakemake.params.scenes)
-        save(figure, snakemake.output)
+    make_figure(draw, snakemake)

@@ -6,8 +6,14 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from scripts.drawing.style import FAINT, INK, logged, save
-from scripts.files.inputs import read
+from scripts.drawing.style import FAINT, INK
+from scripts.figures.make_figure import make_figure
+from scripts.figures.wording import short
+
+
+def inputs(_config: dict) -> dict:
+    """Friction over slip."""
+    return {"response": "<results>/friction/velocity_step.nc"}
 
 
 def draw(response: xr.Dataset) -> Figure:
@@ -97,7 +103,18 @@ def mark_dc(axes: Axes, slip: np.ndarray, mu: np.ndarray, steps: np.ndarray) -> 
     )
 
 
+def numbers(response: xr.Dataset) -> dict:
+    """Sizes of both effects, friction before the step, and velocities in micrometres a second."""
+    attributes = response.attrs
+    return {
+        "direct": short(attributes["direct_effect"]),
+        "evolution": short(attributes["evolution_effect"]),
+        "before": short(response.mu[0], 4),
+        "mu0": short(attributes["mu0"]),
+        "least": short(1e6 * attributes["v0"]),
+        "most": short(1e6 * (attributes["v0"] + attributes["delta_v"])),
+    }
+
+
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
-        figure = draw(read(snakemake.input.response))
-        save(figure, snakemake.output)
+    make_figure(draw, snakemake)
