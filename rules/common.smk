@@ -223,7 +223,7 @@ def tables_read(figures):
 
 def caption_file(figure):
     """The caption of a figure."""
-    return placed(f"<results>/figures/{figure}.rst")
+    return placed(registry.caption_of(figure))
 
 
 def to_caption():

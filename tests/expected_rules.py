@@ -3,7 +3,7 @@
 from conftest import ROOT
 
 from scripts.config.read_config import read
-from scripts.figures.entries import files_of
+from scripts.figures.registry import files_of
 
 
 def settings(*path: str) -> dict:

@@ -8,7 +8,8 @@ from conftest import ROOT
 
 from scripts.config.check_config import checked
 from scripts.config.read_config import read
-from scripts.figures.entries import ENTRIES, FIGURES, Entry, variables_used
+from scripts.figures import figure_1
+from scripts.figures.registry import FIGURES, params_of, variables_used
 
 
 def places(config: dict, path: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
@@ -88,16 +89,23 @@ def test_scene_with_a_spectrum_only_stores_v(config):
 
 
 def test_scenes_store_what_a_new_figure_draws(config, monkeypatch):
-    """Its entry names the trajectory and the variables."""
-    path = "<results>/trajectories/chaos.nc"
-    entry = Entry(category="Figures", inputs={"trajectory": path}, variables=("theta",))
-    monkeypatch.setitem(ENTRIES, "figure_9", entry)
+    """Its module names the trajectory and the variables."""
+    inputs = {"trajectory": "<results>/trajectories/chaos.nc"}
+    monkeypatch.setattr(figure_1, "inputs", lambda _: inputs, raising=False)
+    monkeypatch.setattr(figure_1, "VARIABLES", ("theta",), raising=False)
     assert checked(config)["scenes"]["chaos"]["variables"] == ["theta", "u", "v"]
 
 
-def test_figures_with_rows_are_those_of_the_schema(config):
-    """An entry with rows has its settings in the configuration."""
-    assert {name for name, entry in ENTRIES.items() if entry.rows} == set(config["figures"])
+def test_figures_with_settings_are_those_of_the_schema(config):
+    """Those that cannot do without the section."""
+    settings = config.pop("figures")
+    having = set()
+    for name in FIGURES:
+        try:
+            params_of(name, config)
+        except KeyError:
+            having.add(name)
+    assert having == set(settings)
 
 
 def test_figures_of_the_paper_come_first():

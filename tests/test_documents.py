@@ -16,7 +16,7 @@ from snakemake.utils import update_config
 from scripts.claims.claims_config import checked as checked_claims
 from scripts.config.check_config import checked
 from scripts.config.read_config import parsed, read
-from scripts.figures.entries import ENTRIES, OF_ONES_OWN
+from scripts.figures.registry import FIGURES, OF_USERS
 from scripts.workflow import manifest
 
 RESULTS = "results/README.md"
@@ -85,7 +85,7 @@ def words() -> set[str]:
 def rules() -> set[str]:
     """Names of the rules of the workflow."""
     workflow = "".join(path.read_text() for path in [ROOT / "Snakefile", *ROOT.glob("rules/*.smk")])
-    return {*re.findall(r"^rule (\w+)", workflow, re.MULTILINE), *ENTRIES}
+    return {*re.findall(r"^rule (\w+)", workflow, re.MULTILINE), *FIGURES}
 
 
 @cache
@@ -178,7 +178,7 @@ def test_files_that_are_named_exist(document):
     """In the project, or something makes them."""
     paths = {token for token in ticked(document) if is_path(token) and "NAME" not in token}
     paths -= OF_THE_READER
-    paths = {path for path in paths if path.partition("/")[0] not in OF_ONES_OWN}
+    paths = {path for path in paths if path.partition("/")[0] not in OF_USERS}
     missing = [path for path in paths if not (exists(path, document) or is_made(path))]
     assert missing == []
 
@@ -198,7 +198,7 @@ def test_targets_that_are_named_exist(document):
     # TARGET, SCENE and such stand for any
     targets = [word for word in targets if not word.isupper()]
     known = [*rules(), "new", *OF_THE_READER]
-    known += [word for word in targets if word.partition("/")[0] in OF_ONES_OWN]
+    known += [word for word in targets if word.partition("/")[0] in OF_USERS]
     assert [target for target in targets if target not in known and not is_made(target)] == []
 
 

@@ -17,7 +17,7 @@ from made_up_page import attractor, claim, content, figure, run
 
 from scripts.claims.claims_config import listed
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, NOT_TESTABLE, VERDICTS
-from scripts.figures.entries import FIGURES, caption_of
+from scripts.figures.registry import FIGURES, caption_of
 from scripts.page import (
     captions,
     findings,

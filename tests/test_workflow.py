@@ -19,7 +19,7 @@ from expected_rules import (
     expected_rules_of,
 )
 
-from scripts.figures.entries import FIGURES
+from scripts.figures.registry import FIGURES
 from scripts.namelists.study_cases import measured_study
 
 

@@ -10,7 +10,7 @@ from conftest import BUILT, ROOT, SMOKE, Project, rules_in
 from dry_runs import data_of_jobs, jobs_in
 from snakemake_records import records_of
 
-from scripts.figures.entries import FIGURES
+from scripts.figures.registry import FIGURES
 from scripts.workflow.script_imports import modules_of
 
 COMPUTE = {

@@ -167,6 +167,11 @@ def template_of(figure: str) -> str:
     return f"scripts/figures/{name_of(module_of(figure))}.rst"
 
 
+def caption_of(figure: str) -> str:
+    """The caption as a run fills it."""
+    return f"<results>/figures/{figure}.rst"
+
+
 def variables_used(config: dict, scene: str, figures: Sequence[str] = tuple(FIGURES)) -> set[str]:
     """Variables of a scene's trajectory that figures draw, and that its spectrum is computed of."""
     used = set()
