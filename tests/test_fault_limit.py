@@ -6,12 +6,8 @@ import numpy as np
 import pytest
 import xarray as xr
 from expected_rules import settings
-from figure_contents import assert_on_page, hyphens_before_numbers
-from matplotlib import pyplot as plt
 
 from scripts.claims.roots_of_5 import unstable_pairs
-from scripts.drawing.style import STYLE
-from scripts.figures import fault_limit
 from scripts.tables import dimensions_table, fault_limit_table
 
 PRESETS = settings("dimensions")
@@ -95,15 +91,6 @@ def test_no_delay_destabilises_at_large_gamma(smoke):
         stable = curves.map_unstable_pairs[:, curves.map_epsilon.values < row["without_delay"]]
         assert stable.sizes["map_epsilon"] > 5
         assert bool((stable > 0).any()) is unstable
-
-
-def test_figure_of_the_fault_limit():
-    """It fits a page, and its band closes."""
-    with plt.style.context(STYLE):
-        figure = fault_limit.draw([fault_limit_table.row_of(0.5, g) for g in (0.1, 0.8, 10, 1e6)])
-        assert_on_page(figure)
-    assert hyphens_before_numbers(figure) == []
-    plt.close(figure)
 
 
 @pytest.mark.parametrize("preset", PRESETS)
