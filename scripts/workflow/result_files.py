@@ -104,8 +104,8 @@ def parts_of_atlas(config: dict) -> list[str]:
 
 def table_of_atlas(config: dict) -> str:
     """The table of all planes of the atlas; that of a plane if it is the only one."""
-    plane, *others = config["atlas"]["planes"]
-    return "<results>/tables/atlas.tsv" if others else f"<results>/tables/atlas/{plane}.tsv"
+    planes = list(config["atlas"]["planes"])
+    return f"<results>/tables/atlas{'/' + planes[0] if len(planes) == 1 else ''}.tsv"
 
 
 def curves_of_atlas(config: dict) -> list[str]:
