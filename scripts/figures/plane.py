@@ -1,7 +1,5 @@
 """Hopf curves in a plane of epsilon and another parameter."""
 
-from collections import Counter
-
 import numpy as np
 import xarray as xr
 from matplotlib import pyplot as plt
@@ -15,7 +13,7 @@ from scripts.drawing.parameters import axis_of, in_words, symbol_of
 from scripts.drawing.special_points import words_of
 from scripts.drawing.style import INK
 from scripts.figures.make_figure import make_figure
-from scripts.figures.wording import count, place_in_words, short, shortened
+from scripts.figures.wording import counted_at, place_in_words, short
 from scripts.workflow.result_files import curves_of_planes, places_in_plane
 
 DARKEST = 0.3
@@ -128,10 +126,13 @@ def numbers(curves: xr.Dataset, scenes: dict[str, dict]) -> dict:
     ordinate = curves.attrs["ordinate"]
     boundary = curves.isel(point=curves.unstable_pairs.values == 0)
     kinds = words_of(curves.special_kind)
-    counts = Counter(kinds)
     epsilons = curves.special_epsilon.values.tolist()
     ordinates = curves[f"special_{ordinate}"].values.tolist()
     points = sorted(zip(kinds, epsilons, ordinates, strict=True))
+    places = {
+        kind: [f"({short(x)}, {short(y)})" for its_kind, x, y in points if its_kind == kind]
+        for kind in MARKERS
+    }
     return {
         "place": place_in_words(curves.attrs, "epsilon", ordinate),
         "ordinate": f":math:`{symbol_of(ordinate)}`",
@@ -143,16 +144,9 @@ def numbers(curves: xr.Dataset, scenes: dict[str, dict]) -> dict:
         "boundary": ends_of(boundary.epsilon),
         "ordinates": ends_of(boundary[ordinate]),
         "without_delay": [x for kind, x, _ in points if kind == "hopf_without_delay"],
-        "generalised": counts["generalised_hopf"],
-        "double": counts["double_hopf"],
-        "special": [
-            f"{count(counts[kind], name)} at "
-            + shortened(
-                [f"({short(x)}, {short(y)})" for its_kind, x, y in points if its_kind == kind]
-            )
-            for kind, (_, name) in MARKERS.items()
-            if counts[kind]
-        ],
+        "generalised": len(places["generalised_hopf"]),
+        "double": len(places["double_hopf"]),
+        "special": [counted_at(MARKERS[kind][1], at) for kind, at in places.items() if at],
         "inside": [name.replace("_", " ") for name in scenes],
     }
 
