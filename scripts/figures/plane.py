@@ -14,7 +14,7 @@ from scripts.drawing.special_points import words_of
 from scripts.drawing.style import INK
 from scripts.figures.make_figure import make_figure
 from scripts.figures.wording import counted_at, place_in_words, short
-from scripts.workflow.result_files import curves_of_planes, places_in_plane
+from scripts.workflow.result_files import places_in_plane
 
 DARKEST = 0.3
 """How much darker than white the most unstable pairs are."""
@@ -25,15 +25,15 @@ MARKERS = {
 }
 
 
-def inputs(config: dict) -> dict:
-    """Hopf curves of the plane that the configuration lists."""
-    (curves,) = curves_of_planes(config)
-    return {"curves": curves}
+def inputs(config: dict, plane: str = "") -> dict:
+    """Hopf curves of a plane, or of the only one that the configuration lists."""
+    (plane,) = [plane] if plane else config["hopf_curves"]
+    return {"curves": f"<results>/hopf/{plane}.nc"}
 
 
-def params(config: dict) -> dict:
+def params(config: dict, plane: str = "") -> dict:
     """Scenes that lie in the plane."""
-    (plane,) = config["hopf_curves"]
+    (plane,) = [plane] if plane else config["hopf_curves"]
     return {"scenes": places_in_plane(config, plane)}
 
 
