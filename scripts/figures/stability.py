@@ -16,7 +16,7 @@ GRID = "grid_"
 LEVELS = np.arange(-14, 1, 2)
 """Powers of ten between the colours of errors."""
 FACTOR = 100
-"""An error up to this multiple of what is expected is within it, as the ledger has it."""
+"""Errors up to this multiple of the expected error count as expected, in the ledger too."""
 
 
 def inputs(_config: dict) -> dict:
