@@ -1,4 +1,4 @@
-"""Figures of the atlas, of routes, of cycles and of the true torus, from small made-up results."""
+"""Figures of the atlas, of routes and of cycles, from small made-up results."""
 
 import math
 
@@ -17,9 +17,8 @@ from matplotlib.lines import Line2D
 
 from scripts.drawing import class_map
 from scripts.drawing.special_points import STYLES
-from scripts.drawing.spectra import BASE, COMBINATION, HARMONIC, SECOND_BASE
 from scripts.drawing.style import STYLE
-from scripts.figures import atlas, cycles, routes, true_torus
+from scripts.figures import atlas, cycles, routes
 from scripts.tables.motion_rows import COLOURS
 from scripts.workflow import result_files
 
@@ -425,74 +424,6 @@ def test_sweeps_and_planes_of_lines_are_found_by_their_parameters(config):
     }
     expected = [f"<results>/cycles/{line}.nc" for line in ("mine", "across")]
     assert result_files.cycles_in_atlas(config) == expected
-
-
-def a_scene(name: str, met: str) -> tuple[dict, xr.Dataset, xr.Dataset, xr.Dataset]:
-    """Row of the table, trajectory, attractors and spectrum of a made-up cycle or torus."""
-    two = met == "torus"
-    angle = 2 * np.pi * 0.6180339887 * np.arange(50)
-    time = np.arange(0.0, 200.0, 0.1)
-    place = {"tau": 10.0, "epsilon": 0.5, "xi": 0.8, "gamma": 0.8}
-    trajectory = xr.Dataset({"v": ("t", 1 + 0.5 * np.cos(time))}, {"t": time}, place)
-    attractors = xr.Dataset(
-        {
-            "maximum": (("point", "kept"), [3 + two * np.cos(angle), angle]),
-            "sign_bound": (("point", "exponent"), np.full((2, 6), 0.003)),
-        },
-    )
-    frequency = np.linspace(0, 1, 401)
-    spectrum = xr.Dataset(
-        {
-            "power": ("frequency", 1e-9 + np.exp(-(((frequency - 0.1) / 0.01) ** 2))),
-            "peak_frequency": ("peak", [0.1, 0.26, 0.36]),
-            "peak_power": ("peak", [1.0, 0.1, 0.01]),
-            "peak_kind": ("peak", [BASE, SECOND_BASE if two else HARMONIC, COMBINATION]),
-            "peak_multiple": ("peak", [1, 0 if two else 2, 1]),
-            "peak_second_multiple": ("peak", [0, 1 if two else 0, 1]),
-            "base_frequency": ("base", [0.1, 0.26] if two else [0.1]),
-        },
-        {"frequency": frequency},
-        {"spectrum_kind": "quasiperiodic" if two else "periodic"},
-    )
-    errors = {"exponent_1": 1e-6, "error_1": 0.0, "exponent_2": 2e-3 if two else -0.04}
-    return attractor_row(met, name, **errors), trajectory, attractors, spectrum
-
-
-def test_true_torus_is_drawn_beside_the_papers():
-    """Titles from the table; one section for both, so that a point looks like a point."""
-    data = zip(a_scene("torus", "cycle"), a_scene("true_torus", "torus"), strict=True)
-    rows = {"a": {"scene": "torus"}, "b": {"scene": "true_torus"}}
-    settings = {"end_shown": 50.0, "frequency_shown": 0.5, "rows": rows}
-    figure = true_torus.draw(*map(list, data), settings)
-    assert_on_page(figure)
-    of_a, _, of_b, _, section = figure.axes
-    assert "scene torus: cycle, one zero exponent\n" in title_of(of_a)
-    assert "scene true torus: torus, two zero exponents\n" in title_of(of_b)
-    words = words_in(figure)
-    assert "periodic, $f_1$ = 0.1000 and its harmonics" in words
-    assert "quasiperiodic, $f_1$ = 0.1000 and $f_2$ = 0.2600" in words
-    assert all(label in words for label in ("$f_1$", "$f_2$", "$f_1 + f_2$"))
-    assert of_b.get_xlim() == pytest.approx((149.9, 199.9))
-    point, curve = section.lines
-    assert (np.ptp(point.get_xdata()), np.ptp(curve.get_xdata()) > 1.9) == (0, True)
-    assert curve.get_xdata()[1:].tolist() == curve.get_ydata()[:-1].tolist()
-    assert point.get_markersize() > curve.get_markersize()
-    assert [text.get_text() for text in section.get_legend().get_texts()] == ["scene a", "scene b"]
-
-
-@pytest.mark.parametrize(
-    ("value", "error", "words"),
-    [
-        (-0.014042, 3e-5, r"(−1.404 ± 0.003)$\times 10^{-2}$"),
-        (1.2e-5, 2.1e-5, r"(1.2 ± 2.1)$\times 10^{-5}$"),
-        (-1e-9, 6.5e-7, r"(0.0 ± 6.5)$\times 10^{-7}$"),
-        (-1.77753, 0.0, "−1.78 ± 0.00"),
-        (0.0, 0.0, "0"),
-    ],
-)
-def test_numbers_have_the_digits_that_their_error_lets_count(value, error, words):
-    """Of the same power of ten."""
-    assert true_torus.in_power_of_ten(value, error) == words
 
 
 def test_scene_of_the_true_torus_needs_attractors(config):

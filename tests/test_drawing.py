@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 import xarray as xr
 from conftest import ROOT
-from figure_contents import points_in, title_of, words_in
+from figure_contents import assert_on_page, points_in, title_of, words_in
+from made_up_results import attractor_row
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -19,7 +20,7 @@ from scripts.config.read_config import merged
 from scripts.drawing import spectra, trajectories
 from scripts.drawing.parameters import number
 from scripts.drawing.style import METADATA, STYLE, logged, save
-from scripts.figures import figure_4, figure_6, plane
+from scripts.figures import figure_4, figure_6, plane, true_torus
 
 
 @pytest.fixture(autouse=True)
@@ -250,6 +251,57 @@ def test_spectrum_without_peaks_is_drawn():
 def test_what_a_spectrum_shows_is_said(kind, peaks, attributes, words):
     """Frequencies by their values, a continuum by its power off all lines, reasons for neither."""
     assert spectra.lines_in_words(a_spectrum(kind, *peaks, **attributes)) == words
+
+
+def test_true_torus_is_drawn_beside_the_papers():
+    """Titles from the table; one section for both, so that a point looks like a point."""
+    turns, t = 2 * np.pi * 0.6180339887 * np.arange(50), 0.1 * np.arange(1001)
+    combination = (0.45, 1.0, 3, 1, 1)
+    table, attractors = [], []
+    for name, met, second, size in (("torus", "cycle", -0.04, 0), ("true", "torus", 2e-3, 1)):
+        leading = {"exponent_1": 1e-6, "error_1": 0.0, "exponent_2": second}
+        table.append(attractor_row(met, name, **leading))
+        maxima = ("point", "kept"), [3 + size * np.cos(turns)]
+        bounds = ("point", "exponent"), [[0.003] * 6]
+        attractors.append(xr.Dataset({"maximum": maxima, "sign_bound": bounds}))
+    spectra = [
+        a_spectrum("periodic", BASE, HARMONIC),
+        a_spectrum("quasiperiodic", BASE, SECOND, combination),
+    ]
+    rows = {"a": {"scene": "torus"}, "b": {"scene": "true"}}
+    settings = {"rows": rows, "end_shown": 50.0, "frequency_shown": 0.5}
+    run = a_trajectory(1 + 0.5 * np.cos(t), 0.5 * np.sin(t))
+    with plt.style.context(STYLE):
+        figure = true_torus.draw(table, [run, run], attractors, spectra, settings)
+        assert_on_page(figure)
+    of_a, _, of_b, _, section = figure.axes
+    assert "scene torus: cycle, one zero exponent\n" in title_of(of_a)
+    assert "scene true: torus, two zero exponents\n" in title_of(of_b)
+    words = words_in(figure)
+    assert "periodic, $f_1$ = 0.1000 and its harmonics" in words
+    assert "quasiperiodic, $f_1$ = 0.1000 and $f_2$ = 0.3500" in words
+    assert all(label in words for label in ("$f_1$", "$f_2$", "$f_1 + f_2$"))
+    assert of_b.get_xlim() == (50, 100)
+    point, curve = section.lines
+    assert (np.ptp(point.get_xdata()), np.ptp(curve.get_xdata()) > 1.9) == (0, True)
+    assert curve.get_xdata()[1:].tolist() == curve.get_ydata()[:-1].tolist()
+    assert point.get_markersize() > curve.get_markersize()
+    assert [text.get_text() for text in section.get_legend().get_texts()] == ["scene a", "scene b"]
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "words"),
+    [
+        (-0.014042, 3e-5, r"(−1.404 ± 0.003)$\times 10^{-2}$"),
+        (1.2e-5, 2.1e-5, r"(1.2 ± 2.1)$\times 10^{-5}$"),
+        (-1e-9, 6.5e-7, r"(0.0 ± 6.5)$\times 10^{-7}$"),
+        (-1.77753, 0.0, "−1.78 ± 0.00"),
+        (0.0, 0.0, "0"),
+    ],
+)
+def test_numbers_have_the_digits_that_their_error_lets_count(value, error, words):
+    """Of the same power of ten."""
+    assert true_torus.in_power_of_ten(value, error) == words
 
 
 def a_plane(ordinate: str, fixed: str) -> xr.Dataset:

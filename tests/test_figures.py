@@ -82,18 +82,12 @@ def test_no_formula_is_left_as_source(figure):
 
 
 @these("figure_1")
-def test_figure_1_labels_its_parts(figure):
-    """A drawing: no axes, every part named."""
+def test_figure_1_pulls_the_block(figure):
+    """The spring is in front of it, where plate and block move to; every part is named."""
     (axes,) = figure.axes
     assert not axes.axison
     for part in ("block", "spring", "loader plate", "rough surface", "v_0", "friction"):
         assert part in words_in(figure)
-
-
-@these("figure_1")
-def test_figure_1_pulls_the_block(figure):
-    """The spring is in front of it, in the direction in which plate and block move."""
-    (axes,) = figure.axes
     block, _ = (part for part in axes.patches if isinstance(part, Rectangle))
     _, arm, spring = axes.lines
     front = block.get_x() + block.get_width()
