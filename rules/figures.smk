@@ -23,9 +23,7 @@ for figure in dict.fromkeys([*FIGURES, *SHOWN]):
         params:
             **placed(registry.params_of(figure, DRAWN)),
             script=registry.script_of(figure),
-            code=code_of(
-                registry.script_of(figure), *tables_read([figure])
-            ),
+            code=code_of(registry.script_of(figure), *tables_read([figure])),
         script:
             "../scripts/{params.script}"
 
