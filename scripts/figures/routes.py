@@ -163,7 +163,7 @@ def first_appearances(rows: list[dict], along: str) -> str:
     for row in sorted(rows, key=lambda row: row[along]):
         if row["class"] != UNDECIDED:
             first.setdefault(row["class"], row[along])
-    return joined([f"{kind} {place:g}" for kind, place in first.items()])
+    return joined([f"{kind} {place:g}" for kind, place in first.items()]) or "none is decided"
 
 
 def coexist(rows: list[dict]) -> bool:
