@@ -138,7 +138,7 @@ def test_captions_of_ones_own_have_numbers(made):
     assert [name for name, text in texts.items() if re.search(r"[{}]{2}|\bnan\b", text)] == []
     place = r":math:`\tau = 3`, :math:`\varepsilon = 0.1`, :math:`\xi = 0.5`, :math:`\gamma = 0.8`"
     assert texts["routes/my_start"].startswith(
-        f"Route along :math:`v` at {place}: 4 points.\nIn runs near and slip each class first appears"
+        f"Route along :math:`v` at {place}: 4 points.\nIn runs near and slip each class"
     )
 
 
