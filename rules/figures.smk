@@ -1,14 +1,11 @@
 # The figures, a rule of its name for each, and their captions.
-from scripts.figures import entries as registry
+from scripts.figures import registry
 
 
 def tables_read(figure):
     """Tables of the project that a figure reads beside results."""
-    return [
-        path
-        for path in registry.files_of(figure, config)
-        if not path.startswith("<results>/")
-    ]
+    files = registry.files_of(figure, config)
+    return [path for path in files if not path.startswith("<results>/")]
 
 
 for figure in plan.figures:
@@ -22,23 +19,21 @@ for figure in plan.figures:
             pdf=f"<results>/figures/{figure}.pdf",
             png=report(
                 f"<results>/figures/{figure}.png",
-                caption=Path.cwd() / plan.results / "figures" / f"{figure}.rst",
-                category=registry.entry_of(figure).category,
+                caption=Path.cwd() / fill_in(registry.caption_of(figure)),
+                category=registry.category_of(figure),
                 labels={"figure": registry.title_of(figure).rstrip(".")},
             ),
             svg=f"<results>/figures/{figure}.svg",
         log:
             f"<results>/logs/figures/{figure}.log",
-        priority: PAPER if registry.entry_of(figure).category == "Figures" else 0
         localrule: True
+        priority: PAPER if registry.category_of(figure) == "Figures" else 0
         params:
             **fill_in(registry.params_of(figure, config)),
             script=registry.script_of(figure),
-            code=code_of(
-                f"figures/{registry.script_of(figure)}.py", *tables_read(figure)
-            ),
+            code=code_of(registry.script_of(figure), *tables_read(figure)),
         script:
-            "../scripts/figures/{params.script}.py"
+            "../scripts/{params.script}"
 
 
 rule captions:
@@ -51,7 +46,7 @@ rule captions:
         ],
         claims=[] if plan.is_users else "<results>/tables/claims.json",
     output:
-        expand("<results>/figures/{figure}.rst", figure=plan.figures),
+        [registry.caption_of(figure) for figure in plan.figures],
     log:
         "<results>/logs/figures/captions.log",
     localrule: True
@@ -59,8 +54,7 @@ rule captions:
         figures=fill_in(
             [
                 {
-                    "name": registry.name_of_caption(name),
-                    "template": registry.template_of(name),
+                    "name": name,
                     "inputs": registry.inputs_of(name, config),
                     "params": registry.params_of(name, config),
                 }
@@ -68,9 +62,9 @@ rule captions:
             ]
         ),
         code=code_of(
-            "captions/write_captions.py",
+            "figures/write_captions.py",
             *map(registry.template_of, plan.figures),
             *(path for figure in plan.figures for path in tables_read(figure)),
         ),
     script:
-        "../scripts/captions/write_captions.py"
+        "../scripts/figures/write_captions.py"

@@ -8,10 +8,10 @@ def figures_on_page():
     return [
         {
             "name": name,
-            "category": registry.entry_of(name).category,
+            "category": registry.category_of(name),
             "caption": f"{plan.results}/figures/{name}.rst",
             "drawing": f"{plan.results}/figures/{name}.svg",
-            "shows_classes": registry.entry_of(name).shows_classes,
+            "shows_classes": registry.shows_classes(name),
             "data": fill_in(
                 [
                     path

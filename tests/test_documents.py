@@ -16,7 +16,8 @@ from snakemake.utils import update_config
 from scripts.claims.ledger import check_user_claims
 from scripts.config.check_config import checked
 from scripts.config.read_config import parse, read
-from scripts.figures.entries import ENTRIES
+from scripts.figures.registry import FIGURES
+from scripts.results.programs import RUNS
 
 RESULTS = "results/README.md"
 """Stands beside what it names, and no other document links to it."""
@@ -86,7 +87,11 @@ def words() -> set[str]:
 def rules() -> set[str]:
     """Names of the rules of the workflow."""
     workflow = "".join(path.read_text() for path in [ROOT / "Snakefile", *ROOT.glob("rules/*.smk")])
-    return {*re.findall(r"^rule (\w+)", workflow, re.MULTILINE), *ENTRIES}
+    return {
+        *re.findall(r"^rule (\w+)", workflow, re.MULTILINE),
+        *FIGURES,
+        *(run.rule for run in RUNS),
+    }
 
 
 def is_made(path: str) -> bool:

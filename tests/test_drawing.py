@@ -8,16 +8,19 @@ import numpy as np
 import pytest
 import xarray as xr
 from conftest import ROOT
-from figure_contents import points_in, title_of, words_in
+from figure_contents import assert_on_page, points_in, title_of, words_in
+from made_up_results import attractor_row
 from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from test_page_contrast import luminance
 
 from scripts.config.check_config import checked
 from scripts.config.read_config import merged
-from scripts.drawing import hopf_plane, spectrum_rows, trajectory_rows
-from scripts.drawing.parameters import number, true_minus
+from scripts.drawing import spectra, trajectories
+from scripts.drawing.parameters import number
 from scripts.drawing.style import METADATA, STYLE, logged, save
+from scripts.figures import figure_4, figure_6, plane, true_torus
 
 
 @pytest.fixture(autouse=True)
@@ -39,13 +42,16 @@ def spiral_and_circle() -> Figure:
     """Rows of a point and of a cycle."""
     t = 0.1 * np.arange(1001)
     size = np.exp(-t / 4)
+    runs = [
+        a_trajectory(1 + size * np.cos(t), size * np.sin(t)),
+        a_trajectory(1 + 0.5 * np.cos(t), 0.5 * np.sin(t)),
+    ]
     rows = {
-        "a": a_trajectory(1 + size * np.cos(t), size * np.sin(t)),
-        "b": a_trajectory(1 + 0.5 * np.cos(t), 0.5 * np.sin(t)),
+        label: {"scene": label, "paper": "", "time_shown": time_shown}
+        for label, time_shown in (("a", 40.0), ("b", 1e9))
     }
-    shown = {"rows": {"a": {"time_shown": 40.0}, "b": {"time_shown": 1e9}}}
-    shown |= {"end_shown": 20.0, "attractor_shown": 10.0}
-    return trajectory_rows.draw(rows, {"a": "first", "b": "second"}, shown)
+    settings = {"rows": rows, "end_shown": 20.0, "attractor_shown": 10.0}
+    return figure_4.draw(runs, [], settings)
 
 
 def test_velocity_is_shown_over_the_asked_times(spiral_and_circle):
@@ -66,13 +72,13 @@ def test_dense_oscillations_are_drawn_as_their_envelope():
     size = 1 + t / t[-1]
     run = a_trajectory(1 + size * np.cos(t), 0 * t)
     _, axes = plt.subplots()
-    assert trajectory_rows.draw_velocity(axes, run, 0.0, 4000.0)
+    assert trajectories.draw_velocity(axes, run, 0.0, 4000.0)
     least, most = axes.lines
     at = most.get_xdata()
     np.testing.assert_allclose(most.get_ydata(), 2 + at / t[-1], atol=0.02)
     np.testing.assert_allclose(least.get_ydata(), -at / t[-1], atol=0.02)
-    assert len(at) <= trajectory_rows.MOST_TURNS
-    assert not trajectory_rows.draw_velocity(axes, run, 0.0, 400.0)
+    assert len(at) <= trajectories.MOST_TURNS
+    assert not trajectories.draw_velocity(axes, run, 0.0, 400.0)
     np.testing.assert_allclose(axes.lines[-1].get_ydata(), run.v[:4001])
 
 
@@ -80,8 +86,8 @@ def test_ripples_below_the_resolution_are_not_counted():
     """A decay with rounding errors is a line; a constant has no turns."""
     t = np.linspace(0, 50, 5001)
     noise = 1e-9 * np.random.default_rng(1).standard_normal(t.size)
-    assert len(trajectory_rows.turns(np.exp(-t) + noise)) <= 2
-    assert len(trajectory_rows.turns(np.ones(9))) == 0
+    assert len(trajectories.turns(np.exp(-t) + noise)) <= 2
+    assert len(trajectories.turns(np.ones(9))) == 0
 
 
 def test_some_loops_of_a_long_transient_are_drawn():
@@ -89,31 +95,31 @@ def test_some_loops_of_a_long_transient_are_drawn():
     t = 0.1 * np.arange(6000)
     size = np.exp(-t / 4000)
     run = a_trajectory(1 + size * np.cos(t), size * np.sin(t))
-    thinned = trajectory_rows.some_loops(run)
+    thinned = trajectories.some_loops(run)
     there = np.isfinite(thinned.v.values)
     loops = np.count_nonzero(np.diff(there.astype(int)) == 1) + there[0]
-    assert 0.3 * trajectory_rows.MOST_LOOPS < loops <= trajectory_rows.MOST_LOOPS
+    assert 0.3 * trajectories.MOST_LOOPS < loops <= trajectories.MOST_LOOPS
     assert np.count_nonzero(there) == pytest.approx(loops * 20 * np.pi, rel=0.1)
     np.testing.assert_array_equal(thinned.v[there], run.v[there])
-    assert trajectory_rows.some_loops(run.isel(t=slice(3000))).equals(run.isel(t=slice(3000)))
+    assert trajectories.some_loops(run.isel(t=slice(3000))).equals(run.isel(t=slice(3000)))
 
 
 def test_missed_part_of_a_maximum():
     """Exact for a parabola, at uneven times; 1 - cos(h/2) at most for a cosine of step h."""
     t = np.array([0.0, 1.0, 1.2, 1.9, 2.5])
     top = xr.Dataset({"v": ("t", 3 - (t - 1.4) ** 2)}, {"t": t})
-    assert trajectory_rows.share_missed(top) == pytest.approx(3 / 2.96 - 1)
+    assert trajectories.share_missed(top) == pytest.approx(3 / 2.96 - 1)
     for step in (0.02, 0.2, 0.6):
         t = np.arange(0.0, 1000.0, step)
         wave = xr.Dataset({"v": ("t", 2 + np.cos(t))}, {"t": t})
         most = 3 / (2 + np.cos(step / 2)) - 1
-        assert trajectory_rows.share_missed(wave) == pytest.approx(most, rel=0.1)
+        assert trajectories.share_missed(wave) == pytest.approx(most, rel=0.1)
     steady = xr.Dataset({"v": ("t", np.ones(9))}, {"t": np.arange(9.0)})
-    assert trajectory_rows.share_missed(steady) == 0
+    assert trajectories.share_missed(steady) == 0
 
 
 def test_portrait_parts_transient_and_attractor(spiral_and_circle):
-    """The transient up to t_transient, the attractor over the last time shown."""
+    """The transient up to t_transient, the attractor over the last time shown, a point as a dot."""
     transient, attractor, steady = spiral_and_circle.axes[5].lines
     t = 0.1 * np.arange(1001)
     np.testing.assert_allclose(transient.get_xdata(), 0.5 * np.sin(t[:501]))
@@ -121,19 +127,7 @@ def test_portrait_parts_transient_and_attractor(spiral_and_circle):
     np.testing.assert_allclose(attractor.get_ydata(), 1 + 0.5 * np.cos(t[900:]))
     assert (list(steady.get_xdata()), list(steady.get_ydata())) == ([0], [1])
     assert transient.get_color() != attractor.get_color()
-
-
-def test_attractor_that_is_a_point_gets_a_dot(spiral_and_circle):
-    """A spiral does, a cycle does not."""
-    assert len(points_in(spiral_and_circle.axes[2])) == 1
-    assert len(points_in(spiral_and_circle.axes[5])) == 0
-
-
-def test_titles_hold_parameters_and_words(spiral_and_circle):
-    """As given."""
-    title = title_of(spiral_and_circle.axes[3])
-    assert r"$\tau = 3$, $\varepsilon = 0.25$, $\xi = 0.5$, $\gamma = 0.75$" in title
-    assert ": second\n" in title
+    assert [len(points_in(spiral_and_circle.axes[i])) for i in (2, 5)] == [1, 0]
 
 
 def a_spectrum(kind: str, *peaks: tuple[float, float, int, int, int], **attributes) -> xr.Dataset:
@@ -163,21 +157,23 @@ BASE, HARMONIC, OTHER = (0.1, 9.0, 0, 1, 0), (0.2, 5.0, 1, 2, 0), (0.27, 1.0, 4,
 SECOND = (0.35, 4.0, 2, 0, 1)
 
 
+def draw_spectrum(kind: str, *peaks: tuple) -> Axes:
+    """The logarithmic panel of a made-up spectrum up to a frequency of 0.5."""
+    settings = {"rows": {"a": {"paper": "word"}}, "frequency_shown": 0.5}
+    return figure_6.draw([a_spectrum(kind, *peaks)], settings).axes[0]
+
+
 def test_peaks_are_named_by_kind():
     """Base, harmonic with its multiple, other in another colour, each with its frequency."""
     peaks = [BASE, HARMONIC, SECOND, OTHER]
-    figure = spectrum_rows.draw({"a": a_spectrum("undecided", *peaks)}, {"a": "word"}, 0.5)
-    labels = {text.get_text(): text.get_color() for text in figure.axes[0].texts}
-    assert list(labels) == [
-        "$f_1$\n0.1000",
-        "$2f_1$\n0.2000",
-        "$f_2$\n0.3500",
-        "other\n0.2700",
-    ]
+    axes = draw_spectrum("undecided", *peaks)
+    labels = {text.get_text(): text.get_color() for text in axes.texts}
+    names = ["$f_1$\n0.1000", "$2f_1$\n0.2000", "$f_2$\n0.3500", "other\n0.2700"]
+    assert list(labels) == names
     *explained, other = labels.values()
     assert len(set(explained)) == 1
     assert other not in explained
-    assert {(x, y) for x, y, _ in points_in(figure.axes[0])} == {p[:2] for p in peaks}
+    assert {(x, y) for x, y, _ in points_in(axes)} == {p[:2] for p in peaks}
 
 
 @pytest.mark.parametrize(
@@ -192,13 +188,12 @@ def test_peaks_are_named_by_kind():
 def test_combinations_are_named(m, n, name):
     """By their terms, a positive one first."""
     peak = a_spectrum("quasiperiodic", (0.1, 1.0, 3, m, n)).isel(peak=0)
-    assert spectrum_rows.name_of(peak) == name
+    assert spectra.name_of(peak) == name
 
 
 def test_peaks_of_a_continuum_have_no_names():
     """They are no lines; their frequencies are told."""
-    figure = spectrum_rows.draw({"a": a_spectrum("continuum", BASE, OTHER)}, {"a": "word"}, 0.5)
-    texts = figure.axes[0].texts
+    texts = draw_spectrum("continuum", BASE, OTHER).texts
     assert [text.get_text() for text in texts] == ["0.1000", "0.2700"]
     assert len({text.get_color() for text in texts}) == 1
 
@@ -207,19 +202,18 @@ def test_peaks_beside_a_higher_one_get_a_dot_only():
     """Labels would lie on each other or on a dot; peaks beyond the axis get nothing."""
     beside, beyond = (0.13, 2.0, 3, -3, 2), (0.6, 3.0, 1, 6, 0)
     beside_a_dot = (0.155, 1.0, 3, -2, 2)
-    rows = {"a": a_spectrum("undecided", BASE, beside, beside_a_dot, beyond)}
-    figure = spectrum_rows.draw(rows, {"a": "word"}, 0.5)
-    assert [text.get_text() for text in figure.axes[0].texts] == ["$f_1$\n0.1000"]
-    assert {x for x, *_ in points_in(figure.axes[0])} == {0.1, 0.13, 0.155}
+    axes = draw_spectrum("undecided", BASE, beside, beside_a_dot, beyond)
+    assert [text.get_text() for text in axes.texts] == ["$f_1$\n0.1000"]
+    assert {x for x, *_ in points_in(axes)} == {0.1, 0.13, 0.155}
 
 
 def test_labels_of_peaks_do_not_touch():
     """Long and short names, heights in no order."""
     order = np.random.default_rng(2).permutation(25)
     peaks = [(0.02 * i, 0.05 * 0.9 ** order[i], 3, 10 + i, -12 * (i % 2)) for i in range(1, 25)]
-    figure = spectrum_rows.draw({"a": a_spectrum("quasiperiodic", *peaks)}, {"a": "word"}, 0.5)
-    figure.draw_without_rendering()
-    boxes = [text.get_window_extent() for text in figure.axes[0].texts]
+    axes = draw_spectrum("quasiperiodic", *peaks)
+    axes.figure.draw_without_rendering()
+    boxes = [text.get_window_extent() for text in axes.texts]
     assert len(boxes) > 3
     assert all(box.width > 10 for box in boxes)
     boxes.sort(key=lambda box: box.x0)
@@ -227,34 +221,87 @@ def test_labels_of_peaks_do_not_touch():
 
 
 def test_spectrum_without_peaks_is_drawn():
-    """Nothing to name, nothing to fall over."""
-    figure = spectrum_rows.draw({"a": a_spectrum("none")}, {"a": "word"}, 0.5)
-    assert len(figure.axes[0].texts) == 0
-    assert "no power" in title_of(figure.axes[0])
-    assert "word" in title_of(figure.axes[0])
+    """Its title says so beside the paper's words."""
+    axes = draw_spectrum("none")
+    assert len(axes.texts) == 0
+    assert "the paper: “word”; here: no power" in title_of(axes)
 
 
-def test_what_a_spectrum_shows_is_said_beside_the_paper():
-    """One or two frequencies by their values, a continuum by the power off all lines."""
-    cycle = spectrum_rows.seen(a_spectrum("periodic", BASE, HARMONIC), "two peaks")
-    assert cycle.endswith("“two peaks”; here: periodic, $f_1$ = 0.1000 and its harmonics")
-    torus = spectrum_rows.seen(a_spectrum("quasiperiodic", BASE, SECOND), "torus")
-    assert torus.endswith("here: quasiperiodic, $f_1$ = 0.1000 and $f_2$ = 0.3500")
-    chaos = spectrum_rows.seen(a_spectrum("continuum", BASE, SECOND, OTHER), "noise")
-    assert chaos.endswith("“noise”; here: a continuum, 20 % of the power is broadband")
+@pytest.mark.parametrize(
+    ("kind", "peaks", "attributes", "words"),
+    [
+        ("periodic", [BASE, HARMONIC], {}, "periodic, $f_1$ = 0.1000 and its harmonics"),
+        ("quasiperiodic", [BASE, SECOND], {}, "quasiperiodic, $f_1$ = 0.1000 and $f_2$ = 0.3500"),
+        ("continuum", [BASE, OTHER], {}, "a continuum, 20 % of the power is broadband"),
+        (
+            "undecided",
+            [BASE, SECOND],
+            {"bases_told_apart": "yes", "ratio_of_bases": "7/2"},
+            "undecided: 25 % of the power is outside the explained lines",
+        ),
+        (
+            "undecided",
+            [OTHER],
+            {"bases_told_apart": "no", "ratio_of_bases": "7/2"},
+            "undecided: 25 % of the power is outside the explained lines, 1 other peak,"
+            " $f_2/f_1$ not distinguished from 7/2",
+        ),
+    ],
+)
+def test_what_a_spectrum_shows_is_said(kind, peaks, attributes, words):
+    """Frequencies by their values, a continuum by its power off all lines, reasons for neither."""
+    assert spectra.lines_in_words(a_spectrum(kind, *peaks, **attributes)) == words
 
 
-def test_why_a_spectrum_is_undecided_is_said():
-    """Power off the lines, peaks not explained, and a ratio that may be chance."""
-    spectrum = a_spectrum("undecided", BASE, SECOND, bases_told_apart="yes", ratio_of_bases="7/2")
-    words = spectrum_rows.seen(spectrum, "a torus")
-    assert words == (
-        "scene made up; the paper: “a torus”; here: undecided: 25 % of the power is outside the"
-        " explained lines"
-    )
-    spectrum = a_spectrum("undecided", OTHER, bases_told_apart="no", ratio_of_bases="7/2")
-    words = spectrum_rows.seen(spectrum, "")
-    assert "explained lines, 1 other peak, $f_2/f_1$ not distinguished from 7/2" in words
+def test_true_torus_is_drawn_beside_the_papers():
+    """Titles from the table; one section for both, so that a point looks like a point."""
+    turns, t = 2 * np.pi * 0.6180339887 * np.arange(50), 0.1 * np.arange(1001)
+    combination = (0.45, 1.0, 3, 1, 1)
+    table, attractors = [], []
+    for name, met, second, size in (("torus", "cycle", -0.04, 0), ("true", "torus", 2e-3, 1)):
+        leading = {"exponent_1": 1e-6, "error_1": 0.0, "exponent_2": second}
+        table.append(attractor_row(met, name, **leading))
+        maxima = ("point", "kept"), [3 + size * np.cos(turns)]
+        bounds = ("point", "exponent"), [[0.003] * 6]
+        attractors.append(xr.Dataset({"maximum": maxima, "sign_bound": bounds}))
+    spectra = [
+        a_spectrum("periodic", BASE, HARMONIC),
+        a_spectrum("quasiperiodic", BASE, SECOND, combination),
+    ]
+    rows = {"a": {"scene": "torus"}, "b": {"scene": "true"}}
+    settings = {"rows": rows, "end_shown": 50.0, "frequency_shown": 0.5}
+    run = a_trajectory(1 + 0.5 * np.cos(t), 0.5 * np.sin(t))
+    with plt.style.context(STYLE):
+        figure = true_torus.draw(table, [run, run], attractors, spectra, settings)
+        assert_on_page(figure)
+    of_a, _, of_b, _, section = figure.axes
+    assert "scene torus: cycle, one zero exponent\n" in title_of(of_a)
+    assert "scene true: torus, two zero exponents\n" in title_of(of_b)
+    words = words_in(figure)
+    assert "periodic, $f_1$ = 0.1000 and its harmonics" in words
+    assert "quasiperiodic, $f_1$ = 0.1000 and $f_2$ = 0.3500" in words
+    assert all(label in words for label in ("$f_1$", "$f_2$", "$f_1 + f_2$"))
+    assert of_b.get_xlim() == (50, 100)
+    point, curve = section.lines
+    assert (np.ptp(point.get_xdata()), np.ptp(curve.get_xdata()) > 1.9) == (0, True)
+    assert curve.get_xdata()[1:].tolist() == curve.get_ydata()[:-1].tolist()
+    assert point.get_markersize() > curve.get_markersize()
+    assert [text.get_text() for text in section.get_legend().get_texts()] == ["scene a", "scene b"]
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "words"),
+    [
+        (-0.014042, 3e-5, r"(−1.404 ± 0.003)$\times 10^{-2}$"),
+        (1.2e-5, 2.1e-5, r"(1.2 ± 2.1)$\times 10^{-5}$"),
+        (-1e-9, 6.5e-7, r"(0.0 ± 6.5)$\times 10^{-7}$"),
+        (-1.77753, 0.0, "−1.78 ± 0.00"),
+        (0.0, 0.0, "0"),
+    ],
+)
+def test_numbers_have_the_digits_that_their_error_lets_count(value, error, words):
+    """Of the same power of ten."""
+    assert true_torus.in_power_of_ten(value, error) == words
 
 
 def a_plane(ordinate: str, fixed: str) -> xr.Dataset:
@@ -281,7 +328,7 @@ def a_plane(ordinate: str, fixed: str) -> xr.Dataset:
 @pytest.mark.parametrize(("ordinate", "fixed"), [("tau", "xi"), ("xi", "tau")])
 def test_curves_are_dashed_where_subcritical(ordinate, fixed):
     """Solid and dashed parts of one colour meet; another branch has another colour."""
-    figure = hopf_plane.draw(a_plane(ordinate, fixed), {})
+    figure = plane.draw(a_plane(ordinate, fixed), {})
     solid, dashed, other, double = figure.axes[0].lines
     assert double.get_xydata().tolist() == [[0.35, 2.5]]
     assert "double Hopf point" in words_in(figure)
@@ -299,7 +346,7 @@ def test_shades_end_at_the_curves():
     new = checked(merged([ROOT / "config" / name for name in ("config.yaml", "new.yaml")], []))
     cells = new["hopf_curves"]["my_plane"]["cells"]
     with plt.style.context(STYLE):
-        figure = hopf_plane.draw(a_plane("tau", "xi"), {})
+        figure = plane.draw(a_plane("tau", "xi"), {})
     figure.canvas.draw()
     box = figure.axes[0].get_window_extent()
     width = figure.axes[0].lines[0].get_linewidth()
@@ -307,23 +354,16 @@ def test_shades_end_at_the_curves():
 
 
 def test_scenes_of_a_plane_are_marked_and_named():
-    """At their places; the legend says what the mark is, where there is one."""
-    places = {"my_scene": {"tau": 2.0, "epsilon": 0.4, "xi": 0.5, "gamma": 0.8}}
-    figure = hopf_plane.draw(a_plane("tau", "xi"), places)
+    """At their places, two of them with one label; the legend says what the mark is."""
+    place = {"tau": 2.0, "epsilon": 0.4, "xi": 0.5, "gamma": 0.8}
+    figure = plane.draw(a_plane("tau", "xi"), {"my_scene": place, "other": place})
     assert [(x, y) for x, y, _ in points_in(figure.axes[0])] == [(0.4, 2.0)]
-    assert "my scene" in words_in(figure)
+    assert "my scene, other" in words_in(figure)
     named = [
         [text.get_text() for text in drawn.legends[0].get_texts()]
-        for drawn in (figure, hopf_plane.draw(a_plane("tau", "xi"), {}))
+        for drawn in (figure, plane.draw(a_plane("tau", "xi"), {}))
     ]
     assert ["scene" in names for names in named] == [True, False]
-
-
-def test_scenes_at_one_place_share_a_label():
-    """Two names, one after the other."""
-    place = {"tau": 2.0, "epsilon": 0.4, "xi": 0.5, "gamma": 0.8}
-    figure = hopf_plane.draw(a_plane("tau", "xi"), {"one": place, "two": place})
-    assert "one, two" in words_in(figure)
 
 
 @pytest.mark.parametrize(
@@ -341,11 +381,6 @@ def test_scenes_at_one_place_share_a_label():
 def test_numbers_of_formulas(value, words):
     """Large and small ones with a power of ten."""
     assert number(value) == words
-
-
-def test_minus_signs_are_no_hyphens():
-    """U+2212."""
-    assert true_minus("-0.1") == "\u22120.1"
 
 
 def test_colours_are_seen_on_white():

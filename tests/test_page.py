@@ -19,7 +19,7 @@ from made_up_page import attractor, claim, content, figure, run
 
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, NOT_TESTABLE, VERDICTS
 from scripts.claims.ledger import paper_claims
-from scripts.figures.entries import FIGURES
+from scripts.figures.registry import FIGURES
 from scripts.page import captions, findings, page_content, page_provenance, page_views, write_page
 from scripts.page.mathematics import in_signs, of_words
 

@@ -7,7 +7,7 @@ import zipfile
 import pytest
 from conftest import SMOKE
 
-from scripts.figures.entries import FIGURES, title_of
+from scripts.figures.registry import FIGURES, title_of
 
 
 @pytest.mark.parametrize("ending", ["zip", pytest.param("html", marks=pytest.mark.long)])

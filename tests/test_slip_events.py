@@ -95,7 +95,7 @@ def test_figure_shows_each_scene():
             "chaos", slip=np.linspace(0.2, 30.0, 500), recurrence_time=np.arange(1.0, 501.0)
         ),
     }
-    figure = events.draw(rows)
+    figure = events.draw(list(rows.values()), list(rows))
     grid = np.reshape(figure.axes, (2, 3))
     assert "scene oscillation" in title_of(grid[0, 0])
     assert "500 events" in title_of(grid[1, 0])
@@ -113,7 +113,7 @@ def test_figure_shows_each_scene():
 
 def test_share_of_larger_events_is_drawn():
     """All events have at least the smallest slip, one in four at least the largest of four."""
-    figure = events.draw({"a": named("chaos", slip=np.array([4.0, 1.0, 2.0, 8.0]))})
+    figure = events.draw([named("chaos", slip=np.array([4.0, 1.0, 2.0, 8.0]))], ["a"])
     (line,) = figure.axes[2].lines
     drawn = dict(zip(line.get_xdata()[1:], line.get_ydata()[1:], strict=True))
     assert drawn == {1.0: 1.0, 2.0: 0.75, 4.0: 0.5, 8.0: 0.25}
@@ -121,6 +121,6 @@ def test_share_of_larger_events_is_drawn():
 
 def test_scene_without_events_is_said():
     """A row with its title and no data."""
-    figure = events.draw({"a": named("fixed_point", slip=np.array([]))})
+    figure = events.draw([named("fixed_point", slip=np.array([]))], ["a"])
     assert "0 events" in title_of(figure.axes[0])
     assert not any(axes.lines for axes in figure.axes)

@@ -40,7 +40,12 @@ def in_words(place: dict, *left_out: str) -> str:
     )
 
 
+def symbol_of(parameter: str) -> str:
+    """The symbol of a parameter, or of a value before the start, in a formula."""
+    return (SYMBOLS | OF_HISTORY)[parameter]
+
+
 def axis_of(parameter: str) -> str:
     """Name and symbol of a parameter, the delay with its unit."""
     unit = " (units of $L/v_0$)" if parameter == "tau" else ""
-    return f"{NAMES[parameter]} ${(SYMBOLS | OF_HISTORY)[parameter]}${unit}"
+    return f"{NAMES[parameter]} ${symbol_of(parameter)}${unit}"

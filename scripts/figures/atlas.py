@@ -1,5 +1,7 @@
 """Figure of the atlas: classes of motion and the largest exponent over epsilon and tau."""
 
+import math
+from collections import Counter
 from string import ascii_lowercase
 
 import numpy as np
@@ -22,9 +24,15 @@ from scripts.drawing.class_map import (
 )
 from scripts.drawing.hopf_plane import SCENE, SUBCRITICAL, draw_piece, mark_scenes
 from scripts.drawing.special_points import STYLES, in_words, words_of
-from scripts.drawing.style import INK, logged, save
-from scripts.files.inputs import read
-from scripts.files.tsv import read_table
+from scripts.drawing.style import INK
+from scripts.figures.make_figure import make_figure
+from scripts.figures.wording import place_in_words, short, with_error
+from scripts.results.paths import (
+    curves_of_atlas,
+    cycles_in_atlas,
+    places_in_atlas,
+    table_of_atlas,
+)
 from scripts.tables.motion_rows import (
     count_in_words,
     is_computed,
@@ -39,10 +47,25 @@ CURVES = {kind: {"color": style.colour, "lw": 0.9} for kind, style in STYLES.ite
 """Of special points of cycles, by their kind."""
 EDGE = [withStroke(linewidth=1.7, foreground="white")]
 """Around curves of cycles, so that they are seen over dark cells."""
+SHOWS_CLASSES = True
+
+
+def inputs(config: dict) -> dict:
+    """Classes of motion, and the Hopf curves and curves of cycles in the same planes."""
+    return {
+        "table": table_of_atlas(config),
+        "curves": curves_of_atlas(config),
+        "cycles": cycles_in_atlas(config),
+    }
+
+
+def params(config: dict) -> dict:
+    """Scenes with known attractors."""
+    return {"scenes": places_in_atlas(config)}
 
 
 def draw(
-    rows: list[dict],
+    table: list[dict],
     curves: list[xr.Dataset],
     cycles: list[xr.Dataset],
     scenes: dict[str, dict],
@@ -51,7 +74,7 @@ def draw(
 
     Curves of folds, period doublings and torus bifurcations of cycles are over the classes.
     """
-    planes = planes_of(rows)
+    planes = planes_of(table)
     figure, panels = plt.subplots(
         len(planes),
         2,
@@ -94,7 +117,7 @@ def draw(
         format=lambda value, _: parameters.true_minus(f"{value:g}"),
     )
     handles = [
-        *legend_of(rows),
+        *legend_of(table),
         Line2D([], [], color=INK, label="Hopf curve, supercritical"),
         Line2D([], [], color=INK, ls=SUBCRITICAL, label="Hopf curve, subcritical"),
         *(
@@ -109,20 +132,18 @@ def draw(
 
 
 def draw_exponents(axes: Axes, rows: list[dict]):
-    """The largest exponent of each row, white at zero; see `filled` for those not computed."""
+    """The largest exponent of each row, white at zero.
+
+    A point that was not computed has that of the nearest computed one of its class.
+    """
     x, y, values = table_of(rows, "tau", lambda row: row["exponent_1"])
     _, _, kinds = table_of(rows, "tau", lambda row: KINDS.index(kind_of(row)))
     _, _, computed = table_of(rows, "tau", is_computed)
-    values = filled(values, kinds, computed == 1)
+    values = values[tuple(nearest_alike(kinds, computed == 1))]
     norm = SymLogNorm(LINEAR, vmin=-LARGEST, vmax=LARGEST)
     mesh = axes.pcolormesh(x, y, values, cmap="PuOr_r", norm=norm, **CELLS)
     mark_failures(axes, rows, "tau")
     return mesh
-
-
-def filled(values: np.ndarray, kinds: np.ndarray, computed: np.ndarray) -> np.ndarray:
-    """Values on a grid, where not computed that of the nearest computed point of the same kind."""
-    return values[tuple(nearest_alike(kinds, computed))]
 
 
 def draw_curves(axes: Axes, curves: xr.Dataset) -> None:
@@ -146,12 +167,25 @@ def draw_curves_of_cycles(axes: Axes, cycles: xr.Dataset) -> set[str]:
     return drawn
 
 
-if __name__ == "__main__":
-    with logged(snakemake.log[0]):
-        figure = draw(
-            read_table(snakemake.input.table),
-            [read(path) for path in snakemake.input.curves],
-            [read(path) for path in snakemake.input.cycles],
-            snakemake.params.scenes,
+def numbers(table: list[dict]) -> dict:
+    """Shares of the classes and the largest exponent in each plane."""
+    planes = []
+    for number, ((gamma, xi), rows) in enumerate(planes_of(table).items()):
+        counts = Counter(row["class"] for row in rows).most_common()
+        shares = [(kind, 100 * count / len(rows)) for kind, count in counts]
+        computed = [row for row in rows if not math.isnan(row["exponent_1"])]
+        most = max(computed, key=lambda row: row["exponent_1"], default=None)
+        planes.append(
+            {
+                "panels": ", ".join(ascii_lowercase[2 * number : 2 * number + 2]),
+                "place": f":math:`\\xi` = {short(xi)} and :math:`\\gamma` = {short(gamma)}",
+                "shares": ", ".join(f"{kind} {short(share, 2)} %" for kind, share in shares),
+                "largest": with_error(most["exponent_1"], most["error_1"]) if most else "",
+                "at": place_in_words(most, "xi", "gamma") if most else "",
+            }
         )
-        save(figure, snakemake.output)
+    return {"planes": planes}
+
+
+if __name__ == "__main__":
+    make_figure(draw, snakemake)

@@ -1,6 +1,8 @@
 """Figure of the cycles followed: their greatest v along a parameter, stable or not."""
 
+from itertools import groupby
 from pathlib import Path
+from string import ascii_lowercase
 
 import numpy as np
 import xarray as xr
@@ -12,8 +14,15 @@ from matplotlib.figure import Figure
 from scripts.drawing import parameters
 from scripts.drawing.along_parameter import mark_scenes, maxima_of
 from scripts.drawing.special_points import STYLES, in_words, words_of
-from scripts.drawing.style import FAINT, INK, logged, save
-from scripts.files.inputs import read
+from scripts.drawing.style import FAINT, INK
+from scripts.figures.make_figure import make_figure
+from scripts.figures.wording import count, counted_at, place_in_words, short
+from scripts.results.paths import (
+    cycles_of_lines,
+    places_in_atlas,
+    sweeps_beside_cycles,
+    sweeps_on_lines,
+)
 from scripts.tables.cycle_branches import branch_of
 
 HEIGHT = 1.7
@@ -35,23 +44,40 @@ on top: both show where they agree."""
 SMALL = 0.015
 """Share of the panel's width below which a branch is smaller than the marks of its points."""
 SLIDING = {"color": FAINT, "lw": 0.8, "label": "steady sliding", "zorder": 0}
-Sweeps = dict[str, list[tuple[str, xr.Dataset]]]
 
 
-def draw(lines: dict[str, xr.Dataset], sweeps: Sweeps, scenes: dict[str, dict]) -> Figure:
-    """One line below the other; `sweeps` are the files by line, with their directions."""
+def inputs(config: dict) -> dict:
+    """Cycles of each line, and the sweeps of routes on the same lines."""
+    return {"cycles": cycles_of_lines(config), "sweeps": sweeps_beside_cycles(config)}
+
+
+def params(config: dict) -> dict:
+    """Directions of the sweeps on each line, and scenes with known attractors."""
+    sweeps = sweeps_on_lines(config).values()
+    directions = [[Path(path).stem for path in on_line] for on_line in sweeps]
+    return {"directions": directions, "scenes": places_in_atlas(config)}
+
+
+def draw(
+    cycles: list[xr.Dataset],
+    sweeps: list[xr.Dataset],
+    directions: list[list[str]],
+    scenes: dict[str, dict],
+) -> Figure:
+    """One line below the other; `directions` of the sweeps by line, in the order of `sweeps`."""
     figure, panels = plt.subplots(
-        len(lines), 1, figsize=(6.7, HEIGHT * len(lines) + 0.6), squeeze=False
+        len(cycles), 1, figsize=(6.7, HEIGHT * len(cycles) + 0.6), squeeze=False
     )
     drawn: dict[str, Artist] = {}
-    for i, (axes, (name, cycles)) in enumerate(zip(panels[:, 0], lines.items(), strict=True)):
-        along = cycles.attrs["along"]
+    following = iter(sweeps)
+    for i, (axes, line, on_line) in enumerate(zip(panels[:, 0], cycles, directions, strict=True)):
+        along = line.attrs["along"]
         axes.axhline(1, **SLIDING)
-        for run, swept in sweeps[name]:
-            draw_sweep(axes, run, swept, along)
-        draw_branches(axes, cycles, along)
-        draw_points(axes, cycles, along)
-        drawn |= {str(line.get_label()): line for line in axes.lines}
+        for direction in on_line:
+            draw_sweep(axes, direction, next(following), along)
+        draw_branches(axes, line, along)
+        draw_points(axes, line, along)
+        drawn |= {str(artist.get_label()): artist for artist in axes.lines}
         axes.set(
             xlabel=parameters.axis_of(along),
             ylabel="maxima of $v$ (units of $v_0$)",
@@ -59,8 +85,8 @@ def draw(lines: dict[str, xr.Dataset], sweeps: Sweeps, scenes: dict[str, dict]) 
         # the names of scenes stand above the dots
         axes.margins(x=0.01, y=0.18)
         axes.set_ylim(bottom=0)
-        mark_scenes(axes, scenes, cycles.attrs, along)
-        words = f"{parameters.in_words(cycles.attrs, along)}: {count_in_words(cycles)}"
+        mark_scenes(axes, scenes, line.attrs, along)
+        words = f"{parameters.in_words(line.attrs, along)}: {count_in_words(line)}"
         axes.set_title(f"$\\bf{{{'abcdefgh'[i % 8]}}}$  {words}")
     figure.legend(handles=legend_of(drawn), loc="outside lower center", ncols=3)
     return figure
@@ -68,17 +94,17 @@ def draw(lines: dict[str, xr.Dataset], sweeps: Sweeps, scenes: dict[str, dict]) 
 
 def count_in_words(cycles: xr.Dataset) -> str:
     """How many branches and special points there are."""
-    counts = {"branch": cycles.sizes["branches"], "special point": cycles.sizes["special"]}
-    plurals = {"branch": "branches", "special point": "special points"}
-    return ", ".join(
-        f"{count} {name if count == 1 else plurals[name]}" for name, count in counts.items()
+    branches, points = cycles.sizes["branches"], cycles.sizes["special"]
+    return (
+        f"{branches} {'branch' if branches == 1 else 'branches'},"
+        f" {points} special point{'s' * (points != 1)}"
     )
 
 
-def draw_sweep(axes: Axes, run: str, swept: xr.Dataset, along: str) -> None:
+def draw_sweep(axes: Axes, direction: str, swept: xr.Dataset, along: str) -> None:
     """A dot for each maximum kept."""
-    style = {"ls": "", "marker": ".", "mew": 0, "rasterized": True, "label": f"sweep {run}"}
-    axes.plot(*maxima_of(swept, along), **style, **SWEEPS[run])
+    style = {"ls": "", "marker": ".", "mew": 0, "rasterized": True, "label": f"sweep {direction}"}
+    axes.plot(*maxima_of(swept, along), **style, **SWEEPS[direction])
 
 
 def draw_branches(axes: Axes, cycles: xr.Dataset, along: str) -> None:
@@ -135,17 +161,45 @@ def legend_of(drawn: dict[str, Artist]) -> list[Artist]:
     return [drawn[name] for name in names if name in drawn]
 
 
-if __name__ == "__main__":
-    with logged(snakemake.log[0]):
-        swept = {path: read(path) for path in snakemake.input.sweeps}
-        save(
-            draw(
-                {Path(path).stem: read(path) for path in snakemake.input.cycles},
-                {
-                    line: [(Path(path).stem, swept[path]) for path in paths]
-                    for line, paths in snakemake.params.sweeps.items()
-                },
-                snakemake.params.scenes,
-            ),
-            snakemake.output,
+def numbers(cycles: list[xr.Dataset]) -> dict:
+    """Branches, special points and Hopf points of each line, and where stable cycles are."""
+    lines = []
+    for letter, line in zip(ascii_lowercase, cycles, strict=False):
+        along = line.attrs["along"]
+        kinds = words_of(line.special_kind)
+        points = sorted(zip(line[f"special_{along}"].values.tolist(), kinds, strict=True))
+        at = {
+            in_words(kind): [short(x, 4) for x, its_kind in points if its_kind == kind]
+            for kind in dict.fromkeys(kinds)
+        }
+        lines.append(
+            {
+                "letter": letter,
+                "symbol": parameters.symbol_of(along),
+                "place": place_in_words(line.attrs, along),
+                "branches": line.sizes["branches"],
+                "points": [count(len(places), name) for name, places in at.items()],
+                "points_at": [counted_at(name, places) for name, places in at.items()],
+                "hopf": [short(x, 4) for x in np.sort(line[f"hopf_{along}"].values)],
+                "stable": stable_stretches(line, along),
+            }
         )
+    return {"lines": lines}
+
+
+def stable_stretches(cycles: xr.Dataset, along: str) -> list[str]:
+    """Intervals of the parameter with stable cycles, branch by branch."""
+    found = set()
+    for number in range(1, cycles.sizes["branches"] + 1):
+        x, _, unstable = branch_of(cycles, number, along)
+        for multipliers, parts in groupby(range(unstable.size), key=unstable.__getitem__):
+            pieces = list(parts)
+            if multipliers == 0:
+                values = x[pieces[0] : pieces[-1] + 2]
+                found.add((float(values.min()), float(values.max())))
+    words = [(short(first), short(last)) for first, last in sorted(found)]
+    return [first if first == last else f"{first} to {last}" for first, last in words]
+
+
+if __name__ == "__main__":
+    make_figure(draw, snakemake)

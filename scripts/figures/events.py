@@ -7,8 +7,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from scripts.drawing import parameters
-from scripts.drawing.style import logged, save
-from scripts.files.inputs import read
+from scripts.figures.make_figure import make_figure
+from scripts.figures.wording import short
+from scripts.results.paths import paths_of_scenes, scenes_of
 
 EVENTS_SHOWN = 120
 """Events at the start whose recurrence times are shown in turn; the other panels show all."""
@@ -16,21 +17,35 @@ BINS = 30
 TIME = "time (units of $L/v_0$)"
 
 
-def draw(rows: dict[str, xr.Dataset]) -> Figure:
+def inputs(config: dict) -> dict:
+    """Slip events of the rows."""
+    return {"slip_events": paths_of_scenes("slip_events", scenes_of(config, "events"))}
+
+
+def params(config: dict) -> dict:
+    """Labels of the rows."""
+    return {"labels": list(config["figures"]["events"]["rows"])}
+
+
+def draw(slip_events: list[xr.Dataset], labels: list[str]) -> Figure:
     """Rows a, b, ...: recurrence times over the number of the event, their distribution, slips."""
     figure, grid = plt.subplots(
-        len(rows), 3, figsize=(6.7, 0.4 + 1.9 * len(rows)), width_ratios=[1.5, 1, 1], squeeze=False
+        len(labels),
+        3,
+        figsize=(6.7, 0.4 + 1.9 * len(labels)),
+        width_ratios=[1.5, 1, 1],
+        squeeze=False,
     )
-    slips = np.concatenate([events.slip.values for events in rows.values()])
+    slips = np.concatenate([events.slip.values for events in slip_events])
     ends = (0.5 * slips.min(initial=1.0), 2 * slips.max(initial=1.0))
-    for (label, events), panels in zip(rows.items(), grid, strict=True):
+    for label, events, panels in zip(labels, slip_events, grid, strict=True):
         scene = events.attrs["scene"].replace("_", " ")
         title = (
             f"scene {scene} ({parameters.in_words(events.attrs)}): {events.sizes['event']} events"
         )
         panels[0].set_title(f"$\\bf{{{label}}}$  {title}")
         if events.sizes["event"] > 0:
-            draw_turns(panels[0], events)
+            draw_recurrence(panels[0], events)
             draw_distribution(panels[1], events.recurrence_time.values)
             draw_sizes(panels[2], np.sort(events.slip.values), ends)
     for axes, words in zip(
@@ -48,7 +63,7 @@ def draw(rows: dict[str, xr.Dataset]) -> Figure:
     return figure
 
 
-def draw_turns(axes: Axes, events: xr.Dataset) -> None:
+def draw_recurrence(axes: Axes, events: xr.Dataset) -> None:
     """The recurrence times of the first events."""
     shown = events.recurrence_time.values[:EVENTS_SHOWN]
     axes.plot(1 + np.arange(shown.size), shown, ls="", marker="o", ms=2, mew=0)
@@ -70,8 +85,25 @@ def draw_sizes(axes: Axes, slip: np.ndarray, ends: tuple[float, float]) -> None:
     axes.set(xlim=ends, ylim=(3e-4, 2))
 
 
+def numbers(slip_events: list[xr.Dataset], labels: list[str]) -> dict:
+    """Counts of events, their recurrence times and how much these differ."""
+    rows = {}
+    for label, events in zip(labels, slip_events, strict=True):
+        times = events.recurrence_time
+        rows[label] = {
+            "scene": events.attrs["scene"].replace("_", " "),
+            "number": events.sizes["event"],
+            "mean": short(times.mean()) if times.size else "none",
+            "spread": spread_in_words(times) if times.size else "none",
+        }
+    return {"rows": rows, "shown": EVENTS_SHOWN}
+
+
+def spread_in_words(times: xr.DataArray) -> str:
+    """The coefficient of variation in percent, if it differs from zero."""
+    percent = 100 * float(times.std() / times.mean())
+    return f"{short(percent, 2)} %" if percent >= 0.01 else "less than 0.01 %"
+
+
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
-        shown = snakemake.params.settings["rows"]
-        files = [read(path) for path in snakemake.input.slip_events]
-        save(draw(dict(zip(shown, files, strict=True))), snakemake.output)
+    make_figure(draw, snakemake)

@@ -8,12 +8,18 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
-from scripts.drawing.style import FAINT, logged, save
-from scripts.files.inputs import read
-from scripts.files.tsv import read_table
+from scripts.drawing.style import FAINT
+from scripts.figures.make_figure import make_figure
+from scripts.figures.wording import with_error
+from scripts.results.paths import exponents_of_scenes
 
 LEAST_SCALE = 1e-3
 """Exponents closer to zero than this are drawn on a linear scale."""
+
+
+def inputs(config: dict) -> dict:
+    """Exponents of all scenes that ask for them."""
+    return {"runs": exponents_of_scenes(config), "table": "<results>/tables/exponents.tsv"}
 
 
 def draw(runs: list[xr.Dataset], table: list[dict]) -> Figure:
@@ -31,8 +37,8 @@ def draw(runs: list[xr.Dataset], table: list[dict]) -> Figure:
         draw_tolerances(middle, run.isel(run=np.isnan(run.longest_step)))
         draw_resolutions(right, run.isel(run=run.tolerance == run.tolerance[0]))
         scene = run.attrs["scene"]
-        rows = [row for row in table if row["scene"] == scene]
-        left.set_title(f"$\\bf{{{letter}}}$  scene {scene.replace('_', ' ')}: {words(rows)}")
+        words = count_in_words(rows_at_own_step(table, scene))
+        left.set_title(f"$\\bf{{{letter}}}$  scene {scene.replace('_', ' ')}: {words}")
     handles = legend_of(max(run.sizes["exponent"] for run in runs))
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
     grid[-1, 0].set_xlabel("time averaged over")
@@ -49,14 +55,18 @@ def legend_of(exponents: int) -> list[Line2D]:
     ]
 
 
-def words(rows: list[dict]) -> str:
-    """How many exponents are positive and zero, and the dimension, at the scene's tolerance."""
-    own = [row for row in rows if row["mean_step"] == rows[0]["mean_step"]]
-    signs = [row["sign"] for row in own]
-    dimension = f"{own[0]['dimension']:.2f} ± {own[0]['dimension_error']:.2f}"
-    if own[0]["dimension_error"] == 0:
-        dimension = f"{own[0]['dimension']:g}"
-    if np.isnan(own[0]["dimension"]):
+def rows_at_own_step(table: list[dict], scene: str) -> list[dict]:
+    """Exponents of a scene at its own tolerance and steps, the largest first."""
+    rows = [row for row in table if row["scene"] == scene]
+    return [row for row in rows if row["mean_step"] == rows[0]["mean_step"]]
+
+
+def count_in_words(rows: list[dict]) -> str:
+    """How many exponents are positive and zero, and the dimension."""
+    signs = [row["sign"] for row in rows]
+    value, error = rows[0]["dimension"], rows[0]["dimension_error"]
+    dimension = f"{value:.2f} ± {error:.2f}" if error != 0 else f"{value:g}"
+    if np.isnan(value):
         dimension = "not reached by these exponents"
     return (
         f"{signs.count('positive')} positive, {signs.count('zero')} zero;"
@@ -116,8 +126,25 @@ def scale(axes: Axes) -> None:
     axes.set_yscale("symlog", linthresh=LEAST_SCALE)
 
 
+def numbers(runs: list[xr.Dataset], table: list[dict]) -> dict:
+    """How many exponents of each scene are positive and zero, their values, the dimension."""
+    scenes = []
+    for scene in (run.attrs["scene"] for run in runs):
+        rows = rows_at_own_step(table, scene)
+        signs = [row["sign"] for row in rows]
+        values = [with_error(row["exponent"], row["error"]) for row in rows]
+        scenes.append(
+            {
+                "name": scene.replace("_", " "),
+                "positive": signs.count("positive"),
+                "zero": signs.count("zero"),
+                "largest": values[0],
+                "all": values,
+                "dimension": with_error(rows[0]["dimension"], rows[0]["dimension_error"]),
+            }
+        )
+    return {"scenes": scenes}
+
+
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
-        runs = [read(path) for path in snakemake.input.runs]
-        figure = draw(runs, read_table(snakemake.input.table))
-        save(figure, snakemake.output)
+    make_figure(draw, snakemake)

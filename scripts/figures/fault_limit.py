@@ -5,17 +5,22 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from scripts.drawing import parameters
-from scripts.drawing.style import FAINT, INK, logged, save
-from scripts.files.tsv import read_table
+from scripts.drawing.style import FAINT, INK
+from scripts.figures.make_figure import make_figure
 from scripts.tables.fault_limit_table import FAULTS, PAPER
 
 MOST = 1e6
 """End of the axis; beyond it nothing changes."""
 
 
-def draw(rows: list[dict]) -> Figure:
+def inputs(_config: dict) -> dict:
+    """The least epsilon of all Hopf curves over gamma."""
+    return {"table": "<results>/tables/fault-limit.tsv"}
+
+
+def draw(table: list[dict]) -> Figure:
     """The least epsilon of the Hopf curves on the left, its distance from no delay on the right."""
-    rows = [row for row in rows if row["gamma"] <= 1.001 * MOST]
+    rows = [row for row in table if row["gamma"] <= 1.001 * MOST]
     gamma, without, least, depth, formula = (
         [row[key] for row in rows]
         for key in ("gamma", "without_delay", "least", "depth", "leading_order")
@@ -63,6 +68,11 @@ def mark(axes: Axes) -> None:
     axes.set(xscale="log", xlim=(0.1, MOST), xlabel=parameters.axis_of("gamma"))
 
 
+def numbers(table: list[dict]) -> dict:
+    """Rows at the paper's gamma and at the least one of real faults."""
+    rows = {row["gamma"]: row for row in table}
+    return {"at_paper": rows[PAPER], "at_faults": rows[FAULTS[0]]}
+
+
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
-        save(draw(read_table(snakemake.input.table)), snakemake.output)
+    make_figure(draw, snakemake)

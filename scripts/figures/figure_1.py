@@ -6,7 +6,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch, Polygon, Rectangle
 
-from scripts.drawing.style import FAINT, INK, logged, save
+from scripts.drawing.style import FAINT, INK
+from scripts.figures.make_figure import make_figure
 
 BLOCK = (2.6, 0.9, 2.2, 1.2)
 """Left, bottom, width and height of the block."""
@@ -91,5 +92,4 @@ def draw() -> Figure:
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
-        save(draw(), snakemake.output)
+    make_figure(draw, snakemake)

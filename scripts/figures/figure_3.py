@@ -1,10 +1,13 @@
 """Figure 3: Hopf curves xi(epsilon) at fixed tau and gamma."""
 
-from scripts.drawing.hopf_plane import draw
-from scripts.drawing.style import logged, save
-from scripts.files.inputs import read
+from functools import partial
+
+from scripts.figures import plane
+from scripts.figures.make_figure import make_figure
+
+draw, numbers = plane.draw, plane.numbers
+inputs = partial(plane.inputs, plane="xi_of_epsilon")
+params = partial(plane.params, plane="xi_of_epsilon")
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
-        figure = draw(read(snakemake.input.curves), snakemake.params.scenes)
-        save(figure, snakemake.output)
+    make_figure(draw, snakemake)

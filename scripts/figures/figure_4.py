@@ -1,14 +1,94 @@
 """Figure 4: velocity and phase portrait, rows a (fixed point) and b (oscillations)."""
 
-from scripts.drawing.style import logged, save
-from scripts.drawing.trajectory_rows import draw, titles_of
-from scripts.files.inputs import read
-from scripts.files.tsv import read_table
+import math
+
+import xarray as xr
+from matplotlib import pyplot as plt
+from matplotlib.figure import Figure
+
+from scripts.drawing import parameters
+from scripts.drawing.trajectories import draw_portrait, draw_velocity, title_columns
+from scripts.figures.make_figure import make_figure
+from scripts.figures.wording import short
+from scripts.results.paths import paths_of_scenes, scenes_of
+from scripts.tables.motion_rows import class_in_words, own_rows
+
+COLUMNS = ("from the start", "at the end", "phase portrait")
+VARIABLES = ("u", "v")
+
+
+def inputs(config: dict, figure: str = "figure_4") -> dict:
+    """Trajectories of the rows, and classes of motion."""
+    return {
+        "table": "<results>/tables/attractors.tsv",
+        "trajectories": paths_of_scenes("trajectories", scenes_of(config, figure)),
+    }
+
+
+def params(config: dict, figure: str = "figure_4") -> dict:
+    """Rows with the paper's words, and the times shown."""
+    return {"settings": config["figures"][figure]}
+
+
+def draw(trajectories: list[xr.Dataset], table: list[dict], settings: dict) -> Figure:
+    """Rows a, b, ...: v(t) with its transient, v(t) on the attractor, and the plane (u, v)."""
+    figure, grid = plt.subplots(
+        len(trajectories),
+        3,
+        figsize=(6.7, 2.2 * len(trajectories)),
+        width_ratios=[1.5, 1, 1],
+        squeeze=False,
+    )
+    titles = titles_of(settings["rows"], table)
+    for (label, row), trajectory, panels in zip(
+        settings["rows"].items(), trajectories, grid, strict=True
+    ):
+        left, middle, right = panels
+        last = float(trajectory.t[-1])
+        envelope = draw_velocity(left, trajectory, 0.0, min(row["time_shown"], last))
+        draw_velocity(middle, trajectory, max(0.0, last - settings["end_shown"]), last)
+        draw_portrait(right, trajectory, settings["attractor_shown"])
+        middle.sharey(left)
+        middle.set(ylabel="")
+        words = f"{parameters.in_words(trajectory.attrs)}: {titles[label]}"
+        columns = (COLUMNS[0] + " (envelope)" * envelope, *COLUMNS[1:])
+        title_columns(panels, columns, f"$\\bf{{{label}}}$  {words}")
+    figure.legend(*right.get_legend_handles_labels(), loc="outside lower right", ncols=3)
+    return figure
+
+
+def titles_of(rows: dict[str, dict], table: list[dict]) -> dict[str, str]:
+    """For each row the paper's words and the class of its motion, where attractors are known."""
+    known = own_rows(table)
+    titles = {label: f"the paper: “{row['paper']}”" for label, row in rows.items()}
+    for label, row in rows.items():
+        if row["scene"] in known:
+            titles[label] += f"; here: {class_in_words(known[row['scene']])}"
+    return titles
+
+
+def numbers(trajectories: list[xr.Dataset], table: list[dict], settings: dict) -> dict:
+    """What v does at the end, and the class of the motion."""
+    known = own_rows(table)
+    rows = {}
+    for (label, row), trajectory in zip(settings["rows"].items(), trajectories, strict=True):
+        start = float(trajectory.t[-1]) - settings["end_shown"]
+        v = trajectory.v.sel(t=slice(max(0.0, start), None))
+        motion = known.get(row["scene"], {"class": "unknown"})
+        rows[label] = {"motion": class_in_words(motion), "end": end_in_words(v, motion)}
+    return {"rows": rows}
+
+
+def end_in_words(v: xr.DataArray, motion: dict) -> str:
+    """Values between which v stays, and the period of a cycle; `motion` is a row of attractors."""
+    if motion["class"] == "fixed point":
+        return f"{short(abs(v - 1).max(), 2)} or less from steady sliding, :math:`v = 1`"
+    words = f"between {short(v.min())} and {short(v.max())}"
+    frequency = motion.get("f1", math.nan)
+    if motion["class"] == "cycle" and not math.isnan(frequency):
+        words += f" with a period of {short(1 / frequency)}"
+    return words
+
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
-        settings = snakemake.params.settings
-        trajectories = map(read, snakemake.input.trajectories)
-        rows = dict(zip(settings["rows"], trajectories, strict=True))
-        titles = titles_of(settings, read_table(snakemake.input.table))
-        save(draw(rows, titles, settings), snakemake.output)
+    make_figure(draw, snakemake)

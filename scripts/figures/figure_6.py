@@ -1,14 +1,103 @@
 """Figure 6: power spectra, rows a (oscillations) and b (the paper's torus)."""
 
-from scripts.drawing.spectrum_rows import draw
-from scripts.drawing.style import logged, save
-from scripts.files.inputs import read
+import xarray as xr
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from scripts.drawing.spectra import label_peaks, lines_in_words
+from scripts.drawing.trajectories import title_columns
+from scripts.figures.make_figure import make_figure
+from scripts.figures.wording import short
+from scripts.results.paths import paths_of_scenes, scenes_of
+
+WIDTH_OF_A_CHARACTER = 0.0162
+"""Of a label, as a share of the wider axis."""
+LEAST_SHOWN = 1e-10
+"""Power below this share of the highest peak is not shown."""
+COLUMNS = ("logarithmic scale", "the same on a linear scale")
+
+
+def inputs(config: dict, figure: str = "figure_6") -> dict:
+    """Spectra of the rows."""
+    return {"spectra": paths_of_scenes("spectra", scenes_of(config, figure))}
+
+
+def params(config: dict, figure: str = "figure_6") -> dict:
+    """Rows with the paper's words, and the frequencies shown."""
+    return {"settings": config["figures"][figure]}
+
+
+def draw(spectra: list[xr.Dataset], settings: dict) -> Figure:
+    """Rows a, b, ...: power spectral density of v over frequency, and the same on a linear scale.
+
+    All rows have the same frequencies and, on the logarithmic scale, the same powers.
+    """
+    figure, grid = plt.subplots(
+        len(spectra),
+        2,
+        figsize=(6.7, 0.4 + 2.2 * len(spectra)),
+        width_ratios=[2.4, 1],
+        sharex="col",
+        squeeze=False,
+    )
+    end = settings["frequency_shown"]
+    shown = [
+        spectrum.sel(frequency=slice(spectrum.frequency[1], end)).power for spectrum in spectra
+    ]
+    highest = max(float(power.max()) for power in shown)
+    least = min(float(power.min()) for power in shown)
+    for (label, row), spectrum, power, (left, right) in zip(
+        settings["rows"].items(), spectra, shown, grid, strict=True
+    ):
+        draw_power(left, power, end)
+        left.set(yscale="log", ylim=(max(0.3 * least, LEAST_SHOWN * highest), 100 * highest))
+        label_peaks(left, spectrum, end, WIDTH_OF_A_CHARACTER)
+        draw_power(right, power, end)
+        right.set(ylim=(0, None))
+        right.xaxis.set_major_locator(MaxNLocator(4))
+        letter = f"$\\bf{{{label}}}$  " if len(spectra) > 1 else ""
+        title_columns((left, right), COLUMNS, f"{letter}{title_of(spectrum, row['paper'])}")
+    grid[-1, 0].set_xlabel("frequency (cycles per unit of time)")
+    grid[-1, 1].set_xlabel("frequency")
+    return figure
+
+
+def draw_power(axes: Axes, power: xr.DataArray, frequency_shown: float) -> None:
+    """Power spectral density over frequency."""
+    axes.plot(power.frequency, power, color="C0", lw=0.7)
+    axes.set(ylabel="power spectral density of $v$", xlim=(0, frequency_shown))
+
+
+def title_of(spectrum: xr.Dataset, paper: str) -> str:
+    """What the paper says, and what the spectrum shows."""
+    scene = spectrum.attrs["scene"].replace("_", " ")
+    return f"scene {scene}; the paper: “{paper}”; here: {lines_in_words(spectrum)}"
+
+
+def numbers(spectra: list[xr.Dataset], settings: dict) -> dict:
+    """Frequencies and heights of the highest peaks, the share of broadband power."""
+    return {"rows": dict(zip(settings["rows"], map(peaks_in_words, spectra), strict=True))}
+
+
+def peaks_in_words(spectrum: xr.Dataset) -> dict:
+    """The two highest peaks, the fundamental frequencies, and the share of broadband power."""
+    peaks = spectrum.isel(peak=(-spectrum.peak_power.values).argsort())
+    frequencies = [short(value, 4) for value in peaks.peak_frequency.values]
+    second = "there is one peak."
+    if len(frequencies) > 1:
+        ratio = short(100 * peaks.peak_power[1] / peaks.peak_power[0], 2)
+        periodic = spectrum.attrs["spectrum_kind"] == "periodic"
+        place = f", which is {int(peaks.peak_multiple[1])} :math:`f_1`," if periodic else ""
+        second = f"the second peak at {frequencies[1]}{place} has {ratio} % of its height."
+    return {
+        "highest": frequencies[0] if frequencies else "no frequency",
+        "second_peak": second,
+        "bases": [short(value, 4) for value in spectrum.base_frequency.values],
+        "off_lines": short(100 * spectrum.attrs["continuum_share"], 2),
+    }
+
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
-        settings = snakemake.params.settings
-        spectra = map(read, snakemake.input.spectra)
-        rows = dict(zip(settings["rows"], spectra, strict=True))
-        paper = {label: row["paper"] for label, row in settings["rows"].items()}
-        figure = draw(rows, paper, settings["frequency_shown"])
-        save(figure, snakemake.output)
+    make_figure(draw, snakemake)

@@ -1,14 +1,13 @@
 """Figure 7: power spectrum of the chaotic scene."""
 
-from scripts.drawing.spectrum_rows import draw
-from scripts.drawing.style import logged, save
-from scripts.files.inputs import read
+from functools import partial
+
+from scripts.figures import figure_6
+from scripts.figures.make_figure import make_figure
+
+draw, numbers = figure_6.draw, figure_6.numbers
+inputs = partial(figure_6.inputs, figure="figure_7")
+params = partial(figure_6.params, figure="figure_7")
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
-        settings = snakemake.params.settings
-        spectra = map(read, snakemake.input.spectra)
-        rows = dict(zip(settings["rows"], spectra, strict=True))
-        paper = {label: row["paper"] for label, row in settings["rows"].items()}
-        figure = draw(rows, paper, settings["frequency_shown"])
-        save(figure, snakemake.output)
+    make_figure(draw, snakemake)

@@ -6,8 +6,16 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from scripts.drawing.style import FAINT, INK, logged, save
-from scripts.files.inputs import read
+from scripts.drawing.style import FAINT, INK
+from scripts.figures.make_figure import make_figure
+from scripts.figures.wording import short
+
+ARROW = {"arrowstyle": "<->", "shrinkA": 0, "shrinkB": 0}
+
+
+def inputs(_config: dict) -> dict:
+    """Friction over slip."""
+    return {"response": "<results>/friction/velocity_step.nc"}
 
 
 def draw(response: xr.Dataset) -> Figure:
@@ -34,59 +42,31 @@ def draw(response: xr.Dataset) -> Figure:
 
 def mark_effects(axes: Axes, slip: np.ndarray, mu: np.ndarray, steps: np.ndarray) -> None:
     """The jump (direct effect) and the slow return (evolution effect) of each step, as arrows."""
-    arrow = {"arrowstyle": "<->", "color": INK, "lw": 0.7, "shrinkA": 0, "shrinkB": 0}
+    dots = {"color": FAINT, "lw": 0.6, "ls": ":"}
     ends = [*steps[1:], mu.size]
     for step, end in zip(steps, ends, strict=True):
         before, peak, after = mu[step - 1], mu[step], mu[end - 1]
-        x = slip[step]
-        axes.plot([x - 1.2, x], [before, before], color=FAINT, lw=0.6, ls=":")
-        axes.annotate("", (x - 0.35, before), (x - 0.35, peak), arrowprops=arrow)
-        axes.plot([x - 0.6, x], [peak, peak], color=FAINT, lw=0.6, ls=":")
-        axes.text(
-            x - 0.5,
-            (before + peak) / 2,
-            "direct\neffect",
-            ha="right",
-            va="center",
-            fontsize=7,
-        )
-        x = slip[end - 1] - 2.2
-        axes.plot([slip[step], x + 0.3], [peak, peak], color=FAINT, lw=0.6, ls=":")
-        axes.annotate("", (x, peak), (x, after), arrowprops=arrow)
-        axes.text(
-            x - 0.15,
-            (peak + after) / 2,
-            "evolution\neffect",
-            ha="right",
-            va="center",
-            fontsize=7,
-        )
+        jump, fall = slip[step], slip[end - 1] - 2.2
+        axes.plot([jump - 1.2, jump], [before, before], **dots)
+        axes.plot([jump - 0.6, jump], [peak, peak], **dots)
+        axes.plot([jump, fall + 0.3], [peak, peak], **dots)
+        for name, x, start, stop in (
+            ("direct", jump - 0.35, before, peak),
+            ("evolution", fall, peak, after),
+        ):
+            axes.annotate("", (x, start), (x, stop), arrowprops={**ARROW, "color": INK, "lw": 0.7})
+            middle = (x - 0.15, (start + stop) / 2)
+            axes.text(*middle, f"{name}\neffect", ha="right", va="center", fontsize=7)
 
 
 def mark_dc(axes: Axes, slip: np.ndarray, mu: np.ndarray, steps: np.ndarray) -> None:
     """Slip of one Dc after the up-step."""
     start = slip[steps[0]]
     y = mu.min() + 0.04 * (mu.max() - mu.min())
-    axes.annotate(
-        "",
-        (start, y),
-        (start + 1, y),
-        arrowprops={
-            "arrowstyle": "<->",
-            "color": "C0",
-            "lw": 0.9,
-            "shrinkA": 0,
-            "shrinkB": 0,
-        },
-    )
-    axes.plot(
-        [start + 1, start + 1],
-        [y, np.interp(start + 1, slip, mu)],
-        color="C0",
-        lw=0.5,
-        ls=":",
-    )
-    axes.plot([start, start], [y, mu[steps[0] - 1]], color="C0", lw=0.5, ls=":")
+    arrow = {**ARROW, "color": "C0", "lw": 0.9}
+    axes.annotate("", (start, y), (start + 1, y), arrowprops=arrow)
+    for x, top in ((start + 1, np.interp(start + 1, slip, mu)), (start, mu[steps[0] - 1])):
+        axes.plot([x, x], [y, top], color="C0", lw=0.5, ls=":")
     axes.annotate(
         "$D_c$",
         (start + 0.5, y),
@@ -97,7 +77,18 @@ def mark_dc(axes: Axes, slip: np.ndarray, mu: np.ndarray, steps: np.ndarray) -> 
     )
 
 
+def numbers(response: xr.Dataset) -> dict:
+    """Sizes of both effects, friction before the step, and velocities in micrometres a second."""
+    attributes = response.attrs
+    return {
+        "direct": short(attributes["direct_effect"]),
+        "evolution": short(attributes["evolution_effect"]),
+        "before": short(response.mu[0], 4),
+        "mu0": short(attributes["mu0"]),
+        "least": short(1e6 * attributes["v0"]),
+        "most": short(1e6 * (attributes["v0"] + attributes["delta_v"])),
+    }
+
+
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
-        figure = draw(read(snakemake.input.response))
-        save(figure, snakemake.output)
+    make_figure(draw, snakemake)

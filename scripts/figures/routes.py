@@ -1,6 +1,6 @@
 """Figure of the routes: maxima of v, classes, and the largest exponent along a parameter."""
 
-from itertools import groupby
+from string import ascii_lowercase
 
 import numpy as np
 import xarray as xr
@@ -12,10 +12,12 @@ from matplotlib.lines import Line2D
 from scripts.drawing import parameters
 from scripts.drawing.along_parameter import mark_scenes, maxima_of
 from scripts.drawing.class_map import draw_strips, legend_of
-from scripts.drawing.style import FAINT, logged, save
-from scripts.files.inputs import read
-from scripts.files.tsv import read_table
-from scripts.tables.motion_rows import count_in_words, parameter_of
+from scripts.drawing.style import FAINT
+from scripts.figures.make_figure import make_figure
+from scripts.figures.wording import joined, place_in_words, short
+from scripts.results.paths import places_in_atlas, runs_of_routes, tables_of_routes
+from scripts.tables.attractor_tables import same_attractor
+from scripts.tables.motion_rows import UNDECIDED, count_in_words, has_problem, parameter_of
 
 HEIGHT, OF_RUN = 2.1, 0.15
 """Of a route without its strips, and of each strip, in inches."""
@@ -28,47 +30,60 @@ ROOM = 0.25
 """Free part of the axis of maxima above the largest of them, where the names of scenes stand."""
 LOGARITHMIC = 100
 """The axis of maxima is logarithmic where their ratio is larger."""
+SHOWS_CLASSES = True
 
 
-def draw(
-    rows: list[dict], runs: dict[tuple[str, str], xr.Dataset], scenes: dict[str, dict]
-) -> Figure:
-    """One route below the other; `runs` are the files by route and run."""
-    routes = {name: list(of_route) for name, of_route in groupby(rows, lambda row: row["route"])}
-    strips = [len(names_of(of_route)) for of_route in routes.values()]
+def inputs(config: dict) -> dict:
+    """Classes along each route, and its runs."""
+    return {"tables": tables_of_routes(config), "runs": runs_of_routes(config)}
+
+
+def params(config: dict) -> dict:
+    """Scenes with known attractors."""
+    return {"scenes": places_in_atlas(config)}
+
+
+def draw(tables: list[list[dict]], runs: list[xr.Dataset], scenes: dict[str, dict]) -> Figure:
+    """One route below the other; `runs` are in the order of the tables."""
+    routes = [rows_by_run(rows) for rows in tables]
+    strips = [len(by_run) for by_run in routes]
+    following = iter(runs)
     figure, grid = plt.subplots(
-        3 * len(routes),
+        3 * len(tables),
         1,
-        figsize=(6.7, HEIGHT * len(routes) + OF_RUN * sum(strips) + 0.5),
+        figsize=(6.7, HEIGHT * len(tables) + OF_RUN * sum(strips) + 0.5),
         height_ratios=[ratio for runs_there in strips for ratio in (6, runs_there, 3.4)],
     )
     colours: dict[str, str] = {}
-    for i, (name, of_route) in enumerate(routes.items()):
-        along = parameter_of(of_route)
-        by_run = {run: [r for r in of_route if r["run"] == run] for run in names_of(of_route)}
+    for i, (rows, by_run) in enumerate(zip(tables, routes, strict=True)):
+        along = parameter_of(rows)
         above, middle, below = grid[3 * i : 3 * i + 3]
         for number, (run, of_run) in enumerate(by_run.items()):
             colour = colours.setdefault(run, COLOURS[len(colours) % len(COLOURS)])
             style = {"color": colour, "ms": DOTS[min(number, len(DOTS) - 1)], "mew": 0}
-            draw_maxima(above, runs[name, run], of_run, along, style)
+            draw_maxima(above, next(following), of_run, along, style)
             draw_exponent(below, of_run, along, style)
         draw_strips(middle, by_run, along)
         label(above, middle, below, along)
-        mark_scenes(above, scenes, of_route[0], along)
-        words = f"{parameters.in_words(of_route[0], along)}: {count_in_words(of_route)}"
-        letter = f"$\\bf{{{'abcdefgh'[i % 8]}}}$  " if len(routes) > 1 else ""
+        mark_scenes(above, scenes, rows[0], along)
+        words = f"{parameters.in_words(rows[0], along)}: {count_in_words(rows)}"
+        letter = f"$\\bf{{{'abcdefgh'[i % 8]}}}$  " if len(tables) > 1 else ""
         above.set_title(f"{letter}{words}")
     dots = [
         Line2D([], [], ls="", marker="o", ms=3, color=colour, label=run)
         for run, colour in colours.items()
     ]
-    figure.legend(handles=dots + legend_of(rows), loc="outside lower center", ncols=5)
+    all_rows = [row for rows in tables for row in rows]
+    figure.legend(handles=dots + legend_of(all_rows), loc="outside lower center", ncols=5)
     return figure
 
 
-def names_of(rows: list[dict]) -> list[str]:
-    """Names of the runs, in order."""
-    return list(dict.fromkeys(row["run"] for row in rows))
+def rows_by_run(rows: list[dict]) -> dict[str, list[dict]]:
+    """Rows of a route by run, in the order of the runs."""
+    runs: dict[str, list[dict]] = {}
+    for row in rows:
+        runs.setdefault(row["run"], []).append(row)
+    return runs
 
 
 def label(above: Axes, strips: Axes, below: Axes, along: str) -> None:
@@ -113,8 +128,49 @@ def draw_exponent(axes: Axes, rows: list[dict], along: str, style: dict) -> None
     axes.errorbar(*([row[key] for row in rows] for key in keys), fmt="o", lw=0.5, **style)
 
 
+def numbers(tables: list[list[dict]]) -> dict:
+    """Where each class first appears along each route, run by run, and where motions coexist."""
+    routes = []
+    for letter, rows in zip(ascii_lowercase, tables, strict=False):
+        along = parameter_of(rows)
+        runs: dict[str, list[str]] = {}
+        for run, of_run in rows_by_run(rows).items():
+            runs.setdefault(first_appearances(of_run, along), []).append(run)
+        places: dict[float, list[dict]] = {}
+        for row in rows:
+            places.setdefault(row[along], []).append(row)
+        routes.append(
+            {
+                "letter": letter,
+                "symbol": parameters.symbol_of(along),
+                "place": place_in_words(rows[0], along),
+                "runs": [
+                    {"names": f"run{'s' * (len(names) > 1)} {joined(names)}", "first": first}
+                    for first, names in runs.items()
+                ],
+                "places": len(places),
+                "several": [
+                    short(place) for place, there in sorted(places.items()) if coexist(there)
+                ],
+            }
+        )
+    return {"routes": routes, "points": sum(map(len, tables))}
+
+
+def first_appearances(rows: list[dict], along: str) -> str:
+    """Classes of a run with the least value of the parameter at which each appears."""
+    first: dict[str, float] = {}
+    for row in sorted(rows, key=lambda row: row[along]):
+        if row["class"] != UNDECIDED:
+            first.setdefault(row["class"], row[along])
+    return joined([f"{kind} {place:g}" for kind, place in first.items()]) or "none is decided"
+
+
+def coexist(rows: list[dict]) -> bool:
+    """Whether runs at the same parameters reached different motions."""
+    decided = [row for row in rows if row["class"] != UNDECIDED and not has_problem(row)]
+    return any(not same_attractor(decided[0], row) for row in decided[1:])
+
+
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
-        tables = [row for path in snakemake.input.tables for row in read_table(path)]
-        files = {tuple(path[:-3].split("/")[-2:]): read(path) for path in snakemake.input.runs}
-        save(draw(tables, files, snakemake.params.scenes), snakemake.output)
+    make_figure(draw, snakemake)

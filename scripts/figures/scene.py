@@ -9,17 +9,19 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from scripts.drawing import parameters
-from scripts.drawing.spectrum_rows import label_peaks, lines_in_words
-from scripts.drawing.style import FAINT, logged, save
-from scripts.drawing.trajectory_rows import (
+from scripts.drawing.spectra import label_peaks, lines_in_words
+from scripts.drawing.style import FAINT
+from scripts.drawing.trajectories import (
     MOST_MISSED,
     draw_portrait,
     draw_velocity,
     share_missed,
 )
-from scripts.files.inputs import read
+from scripts.figures.figure_4 import end_in_words
+from scripts.figures.make_figure import make_figure
+from scripts.figures.wording import as_formulas, place_in_words, short, with_error
 from scripts.tables.attractor_tables import rows_of
-from scripts.tables.motion_rows import UNDECIDED, kind_of
+from scripts.tables.motion_rows import UNDECIDED, class_in_words, has_problem, kind_of
 
 PERIODS = 12
 """Periods of the first fundamental frequency that v(t) shows at the end."""
@@ -38,6 +40,18 @@ LEAST_SPREAD = 0.05
 LETTER = 0.0135
 """How wide a letter is, as a share of the widest axis."""
 DOTS = {"ls": "", "marker": "o", "color": "C1", "ms": 2.5, "mew": 0}
+VARIABLES = ("u", "v")
+
+
+def inputs(config: dict) -> dict:
+    """Trajectory, spectrum, attractors and roots of the scene that the configuration lists."""
+    (scene,) = config["scenes"]
+    return {
+        "trajectory": f"<results>/trajectories/{scene}.nc",
+        "spectrum": f"<results>/spectra/{scene}.nc",
+        "attractors": f"<results>/attractors/scenes/{scene}.nc",
+        "roots": f"<results>/linear_stability/{scene}.nc",
+    }
 
 
 def draw(
@@ -75,7 +89,7 @@ def draw(
         axes.set_title(f"$\\bf{{{letter}}}$  {title}")
     name = trajectory.attrs["scene"].replace("_", " ")
     above.suptitle(
-        f"scene {name} ({parameters.in_words(trajectory.attrs)}): {class_in_words(attractors)}\n"
+        f"scene {name} ({parameters.in_words(trajectory.attrs)}): {class_and_signs(attractors)}\n"
         f"steady sliding: {roots_in_words(roots)}",
         fontsize=8,
     )
@@ -147,7 +161,7 @@ def draw_spectrum(axes: Axes, spectrum: xr.Dataset) -> None:
         label_peaks(axes, spectrum, end, LETTER)
 
 
-def class_in_words(attractors: xr.Dataset) -> str:
+def class_and_signs(attractors: xr.Dataset) -> str:
     """Class of the motion from the scene's own history, and the signs of its exponents."""
     row = rows_of(attractors)[0]
     if row["problem"]:
@@ -178,7 +192,38 @@ def roots_in_words(roots: xr.Dataset) -> str:
     return rf"{words}, rightmost $\lambda = {value}$)"
 
 
+def numbers(
+    trajectory: xr.Dataset, spectrum: xr.Dataset, attractors: xr.Dataset, roots: xr.Dataset
+) -> dict:
+    """Class, end of v, exponents, spectrum and the roots of steady sliding."""
+    row = rows_of(attractors)[0]
+    last = float(trajectory.t[-1])
+    v = trajectory.v.sel(t=slice(max(0.0, last - end_shown(spectrum, last)), None))
+    order = range(1, attractors.sizes["exponent"] + 1)
+    exponents = [with_error(row[f"exponent_{i}"], row[f"error_{i}"]) for i in order]
+    missed = share_missed(trajectory)
+    return {
+        "place": place_in_words(trajectory.attrs),
+        "motion": motion_in_words(row),
+        "end": end_in_words(v, row),
+        "missed": short(100 * missed, 2) if missed > MOST_MISSED else "",
+        "exponents": [value for value in exponents if value != "not measured"],
+        "lines": as_formulas(lines_in_words(spectrum)),
+        "roots": as_formulas(roots_in_words(roots)),
+    }
+
+
+def motion_in_words(row: dict) -> str:
+    """The class of a motion, or why it has none."""
+    if has_problem(row):
+        return f"without a class ({row['problem']})"
+    if row["class"] == UNDECIDED:
+        return f"of no class that can be decided ({row['reason']})"
+    if row["class"] == "chaos":
+        return "chaotic"
+    several = f" with {row['period']:g} points in its section"
+    return f"a {class_in_words(row)}" + several * (kind_of(row) != row["class"])
+
+
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
-        names = ("trajectory", "spectrum", "attractors", "roots")
-        save(draw(*(read(snakemake.input[name]) for name in names)), snakemake.output)
+    make_figure(draw, snakemake)

@@ -7,31 +7,39 @@ from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
 
 from scripts.drawing.parameters import number
-from scripts.drawing.style import FAINT, INK, logged, save
-from scripts.files.tsv import read_table
+from scripts.drawing.style import FAINT, INK
+from scripts.figures.make_figure import make_figure
+from scripts.figures.wording import short
 
 GRID = "grid_"
 """How names of the grid's families begin."""
 LEVELS = np.arange(-14, 1, 2)
 """Powers of ten between the colours of errors."""
+FACTOR = 100
+"""Errors up to this multiple of the expected error count as expected, in the ledger too."""
 
 
-def draw(rows: list[dict]) -> Figure:
+def inputs(_config: dict) -> dict:
+    """Measured runs of all families of cases."""
+    return {"table": "<results>/tables/stability.tsv"}
+
+
+def draw(table: list[dict]) -> Figure:
     """Two maps above, errors against what is expected below."""
     figure, axes = plt.subplot_mosaic(
         [["a", "b"], ["c", "c"]], figsize=(6.7, 5.2), height_ratios=[1, 1.15]
     )
-    methods = list(dict.fromkeys(row["method"] for row in rows))
+    methods = list(dict.fromkeys(row["method"] for row in table))
     for label, method in zip("ab", methods, strict=False):
-        shown = [row for row in rows if row["method"] == method and row["family"].startswith(GRID)]
+        shown = [row for row in table if row["method"] == method and row["family"].startswith(GRID)]
         mesh = draw_map(axes[label], shown)
         axes[label].set_title(f"$\\bf{{{label}}}$  {method}, {tolerances(shown)}")
     axes["b"].set_ylabel("")
     bar = figure.colorbar(mesh, ax=[axes["a"], axes["b"]], pad=0.02)
     bar.set_label("largest error")
     bar.set_ticks(10.0**LEVELS, labels=[f"$10^{{{level}}}$" for level in LEVELS])
-    draw_errors(axes["c"], rows, methods)
-    axes["c"].set_title(rf"$\bf{{c}}$  all cases with a reference, {tolerances(rows)}")
+    draw_errors(axes["c"], table, methods)
+    axes["c"].set_title(rf"$\bf{{c}}$  all cases with a reference, {tolerances(table)}")
     return figure
 
 
@@ -110,6 +118,25 @@ def draw_errors(axes: Axes, rows: list[dict], methods: list[str]) -> None:
     axes.legend(loc="lower right", ncols=2)
 
 
+def numbers(table: list[dict]) -> dict:
+    """Runs that are completed by each method, and errors that are within what is expected."""
+    methods = []
+    for method in dict.fromkeys(row["method"] for row in table):
+        rows = [row for row in table if row["method"] == method]
+        ended = [row for row in rows if row["status"] == "ok"]
+        measured = [row for row in ended if row["error"] >= 0 and row["error_expected"] > 0]
+        methods.append(
+            {
+                "name": method,
+                "runs": len(rows),
+                "completed": len(ended),
+                "measured": len(measured),
+                "within": sum(row["error"] <= FACTOR * row["error_expected"] for row in measured),
+            }
+        )
+    values = sorted({row["tolerance"] for row in table})
+    return {"methods": methods, "tolerance": ", ".join(map(short, values))}
+
+
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
-        save(draw(read_table(snakemake.input.table)), snakemake.output)
+    make_figure(draw, snakemake)

@@ -1,7 +1,6 @@
 """Figure of the true torus beside the paper's: in time, spectrum and section."""
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
@@ -10,12 +9,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from scripts.drawing import parameters
-from scripts.drawing.spectrum_rows import label_peaks, lines_in_words
-from scripts.drawing.style import logged, save
-from scripts.drawing.trajectory_rows import draw_velocity
-from scripts.files.inputs import read
-from scripts.files.tsv import read_table
+from scripts.drawing.spectra import label_peaks, lines_in_words
+from scripts.drawing.trajectories import draw_velocity
+from scripts.figures.figure_6 import peaks_in_words
+from scripts.figures.make_figure import make_figure
+from scripts.figures.wording import short, with_error
+from scripts.results.paths import paths_of_scenes, scenes_of
 from scripts.tables.exponents_table import sign
+from scripts.tables.motion_rows import class_in_words, own_rows
 
 EXPONENTS = (1, 2, 3)
 LETTER = 0.0215
@@ -25,38 +26,56 @@ POINT = 1e-3
 STYLES = {"point": {"color": "C0", "ms": 5}, "curve": {"color": "C1", "ms": 2}}
 """Of points of the section."""
 NUMBERS = {0: "no", 1: "one", 2: "two", 3: "three"}
+VARIABLES = ("v",)
 
 
-@dataclass(kw_only=True)
-class Scene:
-    """What is shown of a scene."""
+def inputs(config: dict) -> dict:
+    """Trajectories, attractors and spectra of the rows, and classes of motion."""
+    scenes = scenes_of(config, "true_torus")
+    return {
+        "table": "<results>/tables/attractors.tsv",
+        "trajectories": paths_of_scenes("trajectories", scenes),
+        "attractors": paths_of_scenes("attractors/scenes", scenes),
+        "spectra": paths_of_scenes("spectra", scenes),
+    }
 
-    trajectory: xr.Dataset
-    attractors: xr.Dataset
-    spectrum: xr.Dataset
-    row: dict
-    """Of the table of attractors, from the scene's own history."""
+
+def params(config: dict) -> dict:
+    """Rows, and the times and frequencies shown."""
+    return {"settings": config["figures"]["true_torus"]}
 
 
-def draw(scenes: dict[str, Scene], end_shown: float, frequency_shown: float) -> Figure:
-    """Scenes a, b, ...: v(t) and its spectrum; at the end the section of all.
+def draw(
+    table: list[dict],
+    trajectories: list[xr.Dataset],
+    attractors: list[xr.Dataset],
+    spectra: list[xr.Dataset],
+    settings: dict,
+) -> Figure:
+    """Rows a, b, ...: v(t) and its spectrum; at the end the section of all.
 
     One panel a row, so that the figure is as narrow as a telephone.
     """
+    count = len(trajectories)
     figure, panels = plt.subplots(
-        2 * len(scenes) + 1,
+        2 * count + 1,
         1,
-        figsize=(3.6, 3.1 * len(scenes) + 2.0),
-        height_ratios=[1, 1] * len(scenes) + [1.7],
+        figsize=(3.6, 3.1 * count + 2.0),
+        height_ratios=[1, 1] * count + [1.7],
     )
+    known = own_rows(table)
     section = panels[-1]
-    for i, (label, scene) in enumerate(scenes.items()):
+    for i, ((label, shown), trajectory, attractor, powers) in enumerate(
+        zip(settings["rows"].items(), trajectories, attractors, spectra, strict=True)
+    ):
         velocity, spectrum = panels[2 * i : 2 * i + 2]
-        last = float(scene.trajectory.t[-1])
-        draw_velocity(velocity, scene.trajectory, max(0.0, last - end_shown), last)
-        velocity.set_title(f"$\\bf{{{label}}}$  {words(scene)}")
-        draw_spectrum(spectrum, scene.spectrum, frequency_shown)
-        draw_section(section, scene.attractors, label)
+        last = float(trajectory.t[-1])
+        draw_velocity(velocity, trajectory, max(0.0, last - settings["end_shown"]), last)
+        row, bounds = known[shown["scene"]], attractor.sign_bound.values[0]
+        place = parameters.in_words(trajectory.attrs)
+        velocity.set_title(f"$\\bf{{{label}}}$  {title_of(row, bounds, place)}")
+        draw_spectrum(spectrum, powers, settings["frequency_shown"])
+        draw_section(section, attractor, label)
         for panel, first in ((velocity, panels[0]), (spectrum, panels[1])):
             if i > 0:
                 panel.sharey(first)
@@ -66,23 +85,23 @@ def draw(scenes: dict[str, Scene], end_shown: float, frequency_shown: float) -> 
     return figure
 
 
-def words(scene: Scene) -> str:
-    """Scene, parameters, class, and the leading exponents with their standard errors."""
-    row = scene.row
-    bounds = scene.attractors.sign_bound.values[0]
-    there = [i for i in EXPONENTS if not math.isnan(row[f"exponent_{i}"])]
-    pairs = [(row[f"exponent_{i}"], row[f"error_{i}"]) for i in there]
-    zeros = sum(sign(row[f"exponent_{i}"], bounds[i - 1]) == "zero" for i in there)
-    each = [f"$\\lambda_{i}$ = {with_error(*pair)}" for i, pair in zip(there, pairs, strict=True)]
+def title_of(row: dict, bounds: np.ndarray, place: str) -> str:
+    """Scene, class, parameters, and the leading exponents with their standard errors.
+
+    An exponent with an absolute value up to its bound is zero.
+    """
+    pairs = {i: (row[f"exponent_{i}"], row[f"error_{i}"]) for i in EXPONENTS}
+    there = {i: pair for i, pair in pairs.items() if not math.isnan(pair[0])}
+    zeros = sum(sign(value, bounds[i - 1]) == "zero" for i, (value, _) in there.items())
+    each = [f"$\\lambda_{i}$ = {in_power_of_ten(*pair)}" for i, pair in there.items()]
     name = row["scene"].replace("_", " ")
     return (
         f"scene {name}: {row['class']}, {NUMBERS[zeros]} zero exponent{'' if zeros == 1 else 's'}"
-        f"\n{parameters.in_words(scene.trajectory.attrs)}\n{', '.join(each[:2])}"
-        f"\n{', '.join(each[2:])}"
+        f"\n{place}\n{', '.join(each[:2])}\n{', '.join(each[2:])}"
     )
 
 
-def with_error(value: float, error: float) -> str:
+def in_power_of_ten(value: float, error: float) -> str:
     """A number with its error, in the same power of ten, to the first digits of the error.
 
     The zero exponent of a flow has no error.
@@ -116,25 +135,20 @@ def draw_section(axes: Axes, attractors: xr.Dataset, label: str) -> None:
     axes.plot(maxima[:-1], maxima[1:], ls="", marker="o", mew=0, label=f"scene {label}", **style)
 
 
-if __name__ == "__main__":
-    with logged(snakemake.log[0]):
-        given = snakemake.input
-        own = {row["scene"]: row for row in read_table(given.table) if row["history"] == 1}
-        shown = snakemake.params.settings
-        scenes = {
-            label: Scene(
-                trajectory=read(trajectory),
-                attractors=read(attractors),
-                spectrum=read(spectrum),
-                row=own[row["scene"]],
-            )
-            for (label, row), trajectory, attractors, spectrum in zip(
-                shown["rows"].items(),
-                given.trajectories,
-                given.attractors,
-                given.spectra,
-                strict=True,
-            )
+def numbers(table: list[dict], spectra: list[xr.Dataset], settings: dict) -> dict:
+    """Delay, class, second exponent and fundamental frequencies of each scene."""
+    known = own_rows(table)
+    rows = {}
+    for (label, shown), spectrum in zip(settings["rows"].items(), spectra, strict=True):
+        row = known[shown["scene"]]
+        rows[label] = {
+            "tau": short(row["tau"]),
+            "motion": class_in_words(row),
+            "second": with_error(row["exponent_2"], row["error_2"]),
+            "bases": peaks_in_words(spectrum)["bases"],
         }
-        figure = draw(scenes, shown["end_shown"], shown["frequency_shown"])
-        save(figure, snakemake.output)
+    return {"rows": rows}
+
+
+if __name__ == "__main__":
+    make_figure(draw, snakemake)

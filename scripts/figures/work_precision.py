@@ -1,13 +1,14 @@
 """Figure of work against precision: one panel a scene, one line a solver."""
 
 import re
+from collections import Counter
 from pathlib import Path
 
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
-from scripts.drawing.style import logged, save
-from scripts.files.tsv import read_table
+from scripts.figures.make_figure import make_figure
+from scripts.figures.wording import count, short
 
 MARKERS = "osD^vx+ph<>"
 ENOUGH = 1e-15
@@ -18,6 +19,20 @@ NAMES = {"jitcdde": "JiTCDDE", "desolve": "deSolve", "desolve_interpol_2": "deSo
 """Of other solvers, as their authors write them."""
 AUTO_AGAIN = "ours"
 """Name of method auto in the table of other solvers."""
+OTHERS = "benchmarks/measured.tsv"
+LEVEL = 1e-6
+"""Of the error at which run times are compared."""
+
+
+def inputs(_config: dict) -> dict:
+    """Errors and run times of all methods, and of other solvers, which were measured before."""
+    return {"table": "<results>/tables/work-precision.tsv", "others": OTHERS}
+
+
+def params(_config: dict) -> dict:
+    """The date on which other solvers were measured, from the first lines of their table."""
+    measured = Path(__file__).parents[2] / OTHERS
+    return {"date": re.search(r"^# date: (\S+)$", measured.read_text(), re.MULTILINE)[1]}
 
 
 def styles_of(solvers: list[str], others: list[str]) -> dict[str, dict]:
@@ -30,19 +45,19 @@ def styles_of(solvers: list[str], others: list[str]) -> dict[str, dict]:
     return styles
 
 
-def draw(rows: list[dict], others: list[dict], date: str) -> Figure:
+def draw(table: list[dict], others: list[dict], date: str) -> Figure:
     """Small multiples, three in a row; solvers look the same in all of them.
 
     Others were measured on a date, and count where their runs are as long.
     """
-    until = {row["scene"]: row["t_end"] for row in rows}
+    until = {row["scene"]: row["t_end"] for row in table}
     others = [
         {**row, "solver": f"{NAMES.get(row['solver'], row['solver'])} {row['version']}"}
         for row in others
         if row["solver"] != AUTO_AGAIN and until.get(row["scene"]) == row["t_end"]
     ]
     scenes = list(until)
-    names = [list(dict.fromkeys(row["solver"] for row in table)) for table in (rows, others)]
+    names = [list(dict.fromkeys(row["solver"] for row in rows)) for rows in (table, others)]
     styles = styles_of(*names)
     lines = -(-len(scenes) // 3)
     figure, grid = plt.subplots(
@@ -54,7 +69,7 @@ def draw(rows: list[dict], others: list[dict], date: str) -> Figure:
         for solver, style in styles.items():
             shown = [
                 row
-                for row in [*rows, *others]
+                for row in [*table, *others]
                 if (row["scene"], row["solver"]) == (scene, solver)
                 and row["error_max"] >= 0
                 and row["seconds"] > 0
@@ -87,13 +102,38 @@ def draw(rows: list[dict], others: list[dict], date: str) -> Figure:
     return figure
 
 
-def date_of(table: str | Path) -> str:
-    """The date in the first lines of a table of measurements."""
-    return re.search(r"^# date: (\S+)$", Path(table).read_text(), re.MULTILINE)[1]
+def numbers(table: list[dict], others: list[dict], date: str) -> dict:
+    """The fastest solver of each scene at one level of the error, and how much others need."""
+    others = [row for row in others if row["solver"] != AUTO_AGAIN]
+    fastest, ratios = Counter(), []
+    for scene, until in {row["scene"]: row["t_end"] for row in table}.items():
+        ours, theirs = (
+            [
+                (row["seconds"], row["solver"])
+                for row in rows
+                if (row["scene"], row["t_end"]) == (scene, until)
+                and row["error_max"] <= LEVEL
+                and row["seconds"] > 0
+            ]
+            for rows in (table, others)
+        )
+        if ours:
+            fastest[min(ours)[1]] += 1
+        if ours and theirs:
+            ratios.append(min(theirs)[0] / min(ours)[0])
+    # methods with fixed steps have these in the place of a tolerance
+    tolerances = [row["tolerance"] for row in table if not row["solver"].startswith("rk4")]
+    return {
+        "loosest": short(max(tolerances)),
+        "tightest": short(min(tolerances)),
+        "level": short(LEVEL),
+        "fastest": [
+            f"{solver} (in {count(number, 'scene')})" for solver, number in fastest.most_common()
+        ],
+        "ratios": [short(f(ratios), 2) for f in (min, max)] if ratios else [],
+        "date": date,
+    }
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
-        measured = snakemake.input.others
-        rows = read_table(snakemake.input.table)
-        save(draw(rows, read_table(measured), date_of(measured)), snakemake.output)
+    make_figure(draw, snakemake)

@@ -102,10 +102,10 @@ def parts_of_atlas(config: dict) -> list[str]:
     return [path for plane in config["atlas"]["planes"] for path in parts_of_plane(config, plane)]
 
 
-def with_plane_alone(config: dict, plane: str) -> dict:
-    """The configuration with one plane of the atlas."""
-    atlas = config["atlas"]
-    return {**config, "atlas": {**atlas, "planes": {plane: atlas["planes"][plane]}}}
+def table_of_atlas(config: dict) -> str:
+    """The table of all planes of the atlas; that of a plane if it is the only one."""
+    planes = list(config["atlas"]["planes"])
+    return f"<results>/tables/atlas{'/' + planes[0] if len(planes) == 1 else ''}.tsv"
 
 
 def curves_of_atlas(config: dict) -> list[str]:

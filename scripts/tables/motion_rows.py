@@ -35,6 +35,16 @@ def kind_of(row: dict) -> str:
     return "multi-loop cycle" if several else row["class"]
 
 
+def own_rows(table: list[dict]) -> dict[str, dict]:
+    """Rows of attractors.tsv from the scenes' own histories, by scene."""
+    return {row["scene"]: row for row in table if row["history"] == 1}
+
+
+def class_in_words(row: dict) -> str:
+    """The class of a motion in a sentence or a title."""
+    return "limit cycle" if row["class"] == "cycle" else row["class"]
+
+
 def nearest_alike(kinds: np.ndarray, computed: np.ndarray) -> np.ndarray:
     """For each point of a grid the nearest computed one of its kind: its line and column.
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from scripts.claims.ledger import check_user_claims, names_in, paper_claims
 from scripts.config.check_config import checked
 from scripts.config.read_config import ConfigError, merge, read
-from scripts.figures import entries
+from scripts.figures import registry
 from scripts.results import paths
 from scripts.results.programs import KINDS
 
@@ -79,7 +79,7 @@ class Plan:
 
     def _data_of_figures(self) -> list[str]:
         """Results that figures read, each once."""
-        read = [path for name in self.figures for path in entries.files_of(name, self.config)]
+        read = [path for name in self.figures for path in registry.files_of(name, self.config)]
         return [path for path in dict.fromkeys(read) if path.startswith("<results>/")]
 
     def tables(self) -> list[str]:
@@ -122,9 +122,9 @@ def read_plan(overlay: dict) -> Plan:
 
 def plan_of_paper(config: dict, folder: str) -> Plan:
     """All of the paper."""
-    used = {scene: entries.variables_used(config, scene) for scene in config["scenes"]}
+    used = {scene: registry.variables_used(config, scene) for scene in config["scenes"]}
     config = set_variables(config, used, least=[])
-    return Plan(config, folder, False, {}, entries.FIGURES, paper_claims())
+    return Plan(config, folder, False, {}, registry.FIGURES, paper_claims())
 
 
 def plan_of_user(whole: dict, names: dict[str, list[str]], folder: str) -> Plan:
@@ -132,8 +132,8 @@ def plan_of_user(whole: dict, names: dict[str, list[str]], folder: str) -> Plan:
     config = checked(whole)
     drawn = {scene: {"u", "v"} for scene in config["scenes"]}
     config = set_variables(config, drawn, least=VARIABLES)
-    figures = entries.own_figures(config, names)
-    claims = check_user_claims(config["claims"], config, {*entries.FIGURES, *figures})
+    figures = registry.user_figures(config, names)
+    claims = check_user_claims(config["claims"], config, {*registry.FIGURES, *figures})
     if not figures and not claims and not any(names.values()):
         raise ConfigError(
             f"{folder}: the file adds no scene, plane, route, atlas, cycles, family or claim"

@@ -1,7 +1,10 @@
-"""Numbers and lists in sentences."""
+"""Numbers, lists and parameters in the sentences of captions."""
 
+import math
 import re
 from collections.abc import Sequence
+
+from scripts.drawing import parameters
 
 COUNTS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 MOST_LISTED = 8
@@ -18,6 +21,13 @@ def short(value: float, digits: int = 3) -> str:
     return f":math:`{power}`" if factor == "1" else rf":math:`{factor} \times {power}`"
 
 
+def with_error(value: float, error: float) -> str:
+    """A measured value with its standard error; an exact one has none, NaN was not measured."""
+    if math.isnan(value):
+        return "not measured"
+    return short(value) if error == 0 else f"{short(value)} ± {short(error, 2)}"
+
+
 def count(number: int, word: str = "", plural: str = "") -> str:
     """A number of things, in words up to ten."""
     said = COUNTS[number] if number < len(COUNTS) else str(number)
@@ -29,9 +39,14 @@ def joined(words: Sequence[str]) -> str:
     return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
 
 
-def listed(values: Sequence[str]) -> str:
+def shortened(values: Sequence[str]) -> str:
     """Values in a sentence; of many the first and the last."""
     return joined(values) if len(values) <= MOST_LISTED else f"{values[0]}, …, {values[-1]}"
+
+
+def counted_at(name: str, places: Sequence[str]) -> str:
+    """How many things of a name there are, and where."""
+    return f"{count(len(places), name)} at {shortened(places)}"
 
 
 def as_formulas(words: str) -> str:
@@ -39,9 +54,21 @@ def as_formulas(words: str) -> str:
     return re.sub(r"\$([^$]*)\$", r":math:`\1`", words)
 
 
-def in_order(words: Sequence[str]) -> str:
-    """A sentence begins with a capital."""
+def place_in_words(place: dict, *left_out: str) -> str:
+    """The parameters of a place as formulas of a caption, without some of them."""
+    return as_formulas(parameters.in_words(place, *left_out))
+
+
+def capitalised(words: str) -> str:
+    """The beginning of a sentence."""
     return words[:1].upper() + words[1:]
 
 
-FILTERS = {"short": short, "count": count, "joined": joined, "listed": listed, "capital": in_order}
+FILTERS = {
+    "short": short,
+    "count": count,
+    "joined": joined,
+    "shortened": shortened,
+    "capital": capitalised,
+}
+"""By their names in templates."""

@@ -1,21 +1,15 @@
-"""Velocity over time and phase portrait, one scene a row, for figures 4 and 5."""
+"""Velocity over time and phase portraits."""
 
 from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
-from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from scripts.drawing import parameters
 from scripts.drawing.style import FAINT, INK
 
-COLUMNS = ("from the start", "at the end", "phase portrait")
 MOST_MISSED = 0.01
 """Maxima of v that exceed their samples by a larger share are mentioned."""
-WORDS = {"cycle": "limit cycle"}
-"""Of classes of motion, where those of the tables are shorter."""
 MOST_TURNS = 150
 """Oscillations that a panel shows one by one; of more it shows the envelope."""
 MOST_LOOPS = 60
@@ -24,50 +18,11 @@ RESOLUTION = 1000
 """Oscillations smaller than this part of the panel's height are not counted."""
 
 
-def draw(rows: dict[str, xr.Dataset], titles: dict[str, str], settings: dict) -> Figure:
-    """Rows a, b, ...: v(t) with its transient, v(t) on the attractor, and the plane (u, v)."""
-    figure, grid = plt.subplots(
-        len(rows),
-        3,
-        figsize=(6.7, 2.2 * len(rows)),
-        width_ratios=[1.5, 1, 1],
-        squeeze=False,
-    )
-    for (label, trajectory), (left, middle, right) in zip(rows.items(), grid, strict=True):
-        last = float(trajectory.t[-1])
-        shown = min(settings["rows"][label]["time_shown"], last)
-        envelope = draw_velocity(left, trajectory, 0.0, shown)
-        draw_velocity(middle, trajectory, max(0.0, last - settings["end_shown"]), last)
-        draw_portrait(right, trajectory, settings["attractor_shown"])
-        middle.sharey(left)
-        middle.set(ylabel="")
-        row = f"$\\bf{{{label}}}$  {parameters.in_words(trajectory.attrs)}: {titles[label]}"
-        columns = (COLUMNS[0] + " (envelope)" * envelope, *COLUMNS[1:])
-        title_columns((left, middle, right), columns, row)
-    figure.legend(*right.get_legend_handles_labels(), loc="outside lower right", ncols=3)
-    return figure
-
-
 def title_columns(panels: Sequence[Axes], columns: Sequence[str], row: str) -> None:
     """A title over each panel of a row, and that of the row above them."""
     for axes, words in zip(panels, columns, strict=True):
         axes.set_title(words)
     panels[0].set_title(f"{row}\n{columns[0]}")
-
-
-def titles_of(settings: dict, table: list[dict]) -> dict[str, str]:
-    """For each row the paper's words and the class of its motion, where attractors are known.
-
-    `table` is attractors.tsv; the class is that of the motion from the scene's own history.
-    """
-    seen = {row["scene"]: row["class"] for row in table if row["history"] == 1}
-    titles = {}
-    for label, row in settings["rows"].items():
-        titles[label] = f"the paper: “{row['paper']}”"
-        if row["scene"] in seen:
-            met = seen[row["scene"]]
-            titles[label] += f"; here: {WORDS.get(met, met)}"
-    return titles
 
 
 def share_missed(trajectory: xr.Dataset) -> float:

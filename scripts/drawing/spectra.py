@@ -1,61 +1,13 @@
-"""Power spectra with their peaks named, one scene a row, for figures 6 and 7."""
+"""Peaks of power spectra, named."""
 
 import xarray as xr
-from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
-from matplotlib.ticker import MaxNLocator
 
 from scripts.drawing.style import INK
-from scripts.drawing.trajectory_rows import title_columns
 
 BASE, HARMONIC, SECOND_BASE, COMBINATION, OTHER = range(5)
 """Values of peak_kind."""
-WIDTH_OF_A_CHARACTER = 0.0162
-"""Of a label, as a share of the wider axis."""
-LEAST_SHOWN = 1e-10
-"""Power below this share of the highest peak is not shown."""
-COLUMNS = ("logarithmic scale", "the same on a linear scale")
-
-
-def draw(rows: dict[str, xr.Dataset], paper: dict[str, str], frequency_shown: float) -> Figure:
-    """Rows a, b, ...: power spectral density of v over frequency, and the same on a linear scale.
-
-    All rows have the same frequencies and, on the logarithmic scale, the same powers.
-    """
-    figure, grid = plt.subplots(
-        len(rows),
-        2,
-        figsize=(6.7, 0.4 + 2.2 * len(rows)),
-        width_ratios=[2.4, 1],
-        sharex="col",
-        squeeze=False,
-    )
-    shown = {
-        label: spectrum.sel(frequency=slice(spectrum.frequency[1], frequency_shown))
-        for label, spectrum in rows.items()
-    }
-    highest = max(float(spectrum.power.max()) for spectrum in shown.values())
-    least = min(float(spectrum.power.min()) for spectrum in shown.values())
-    for (label, spectrum), (left, right) in zip(rows.items(), grid, strict=True):
-        draw_power(left, shown[label], frequency_shown)
-        left.set(yscale="log", ylim=(max(0.3 * least, LEAST_SHOWN * highest), 100 * highest))
-        label_peaks(left, spectrum, frequency_shown, WIDTH_OF_A_CHARACTER)
-        draw_power(right, shown[label], frequency_shown)
-        right.set(ylim=(0, None))
-        right.xaxis.set_major_locator(MaxNLocator(4))
-        letter = f"$\\bf{{{label}}}$  " if len(rows) > 1 else ""
-        title_columns((left, right), COLUMNS, f"{letter}{seen(spectrum, paper[label])}")
-    grid[-1, 0].set_xlabel("frequency (cycles per unit of time)")
-    grid[-1, 1].set_xlabel("frequency")
-    return figure
-
-
-def draw_power(axes: Axes, spectrum: xr.Dataset, frequency_shown: float) -> None:
-    """Power spectral density over frequency."""
-    axes.plot(spectrum.frequency, spectrum.power, color="C0", lw=0.7)
-    axes.set(ylabel="power spectral density of $v$", xlim=(0, frequency_shown))
 
 
 def label_peaks(axes: Axes, spectrum: xr.Dataset, frequency_shown: float, letter: float) -> None:
@@ -110,12 +62,6 @@ def name_of(peak: xr.Dataset) -> str:
 def characters(label: str) -> int:
     """How many characters of a label are seen."""
     return len(label.replace("$", "").replace("_", ""))
-
-
-def seen(spectrum: xr.Dataset, paper: str) -> str:
-    """What the paper says, and what the spectrum shows."""
-    scene = spectrum.attrs["scene"].replace("_", " ")
-    return f"scene {scene}; the paper: “{paper}”; here: {lines_in_words(spectrum)}"
 
 
 def lines_in_words(spectrum: xr.Dataset) -> str:

@@ -1,0 +1,47 @@
+"""Captions of figures: their templates filled with numbers and verdicts."""
+
+import json
+from pathlib import Path
+
+from jinja2 import Environment, StrictUndefined
+
+from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, NOT_TESTABLE, REPRODUCED
+from scripts.figures import registry
+from scripts.figures.make_figure import call
+from scripts.figures.wording import FILTERS
+from scripts.files.outputs import logged, written
+
+IN_WORDS = {
+    REPRODUCED: "**holds**",
+    CORRECTED: "**holds with a correction**",
+    NOT_REPRODUCED: "**does not hold**",
+    NOT_TESTABLE: "**cannot be tested**",
+}
+ENVIRONMENT = Environment(
+    undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True
+)
+ENVIRONMENT.filters |= FILTERS
+
+
+def caption_of(figure: str, inputs: dict, params: dict, claims: list[dict]) -> str:
+    """The caption of a figure; in the template `paper` says whether it is one of the paper's."""
+    text = (registry.PROJECT / registry.template_of(figure)).read_text(encoding="utf-8")
+    numbers = call(registry.numbers_of(figure), inputs, params)
+    return render(text, paper=figure in registry.FIGURES, claims=claims, **numbers)
+
+
+def render(text: str, claims: list[dict], **numbers) -> str:
+    """A template filled in; a number or a claim that is missing is an error."""
+    verdicts = {claim["id"]: IN_WORDS[claim["verdict"]] for claim in claims}
+    return ENVIRONMENT.from_string(text).render(verdict=verdicts.__getitem__, **numbers)
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        # a user's file may have no claims, and its figures say nothing of them
+        path = snakemake.input.claims
+        ledger = json.loads(Path(path).read_text()) if path else []
+        for figure, target in zip(snakemake.params.figures, snakemake.output, strict=True):
+            caption = caption_of(figure["name"], figure["inputs"], figure["params"], ledger)
+            with written(target) as file:
+                file.write_text(caption, encoding="utf-8")
