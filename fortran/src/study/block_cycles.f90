@@ -150,15 +150,10 @@ contains
 
    !> Follow the branches of double period that start on a branch.
    subroutine follow_doublings(how, points, found, left_out, error)
-      !> How branches are followed
       type(branch_settings_type), intent(in) :: how
-      !> Special points of the branch
       type(special_point_type), intent(in) :: points(:)
-      !> Branches so far
       type(cycles_type), allocatable, intent(inout) :: found(:)
-      !> Starts without a branch
       type(left_out_type), allocatable, intent(inout) :: left_out(:)
-      !> A search failed
       type(error_type), allocatable, intent(out) :: error
       type(special_point_type) :: here(size(points))
       type(orbit_change_type) :: tangent
@@ -180,23 +175,15 @@ contains
    !> Follow a branch and append it with its special points, or to what is left out if it cannot be
    !> started.
    subroutine append(how, orbit, direction, origin, at, found, left_out, error, tangent)
-      !> How branches are followed
       type(branch_settings_type), intent(in) :: how
-      !> Approximation of the first orbit
       type(periodic_orbit_type), intent(in) :: orbit
       !> 1 or -1
       integer, intent(in) :: direction
-      !> Where the branch starts
       character(len=*), intent(in) :: origin
-      !> Parameter along the line there
       real(wp), intent(in) :: at
-      !> Branches so far
       type(cycles_type), allocatable, intent(inout) :: found(:)
-      !> Starts without a branch
       type(left_out_type), allocatable, intent(inout) :: left_out(:)
-      !> A special point was not found
       type(error_type), allocatable, intent(out) :: error
-      !> Tangent at the start
       type(orbit_change_type), intent(in), optional :: tangent
       type(cycles_type), allocatable :: longer(:)
       type(error_type), allocatable :: failure
@@ -221,11 +208,8 @@ contains
 
    !> Note a start without a branch.
    pure subroutine leave_out(origin, at, reason, left_out)
-      !> Origin
       character(len=*), intent(in) :: origin
-      !> Parameter along the line
       real(wp), intent(in) :: at
-      !> Why
       character(len=*), intent(in) :: reason
       !> Those before, then this one, too
       type(left_out_type), allocatable, intent(inout) :: left_out(:)
@@ -235,13 +219,9 @@ contains
 
    !> The cycle that a trajectory reaches.
    subroutine orbit_at(settings, i, basis, orbit, error)
-      !> What is computed
       type(cycle_settings_type), intent(in) :: settings
-      !> Number of the start
       integer, intent(in) :: i
-      !> Polynomials
       type(collocation_basis_type), intent(in) :: basis
-      !> The orbit
       type(periodic_orbit_type), intent(out) :: orbit
       !> Error if the trajectory leads to no cycle
       type(error_type), allocatable, intent(out) :: error
@@ -268,11 +248,8 @@ contains
 
    !> Whether a branch already ends at a Hopf point.
    pure logical function is_end(settings, found, hopf) result(value)
-      !> What is computed
       type(cycle_settings_type), intent(in) :: settings
-      !> Branches so far
       type(cycles_type), intent(in) :: found(:)
-      !> The Hopf point
       type(hopf_start_type), intent(in) :: hopf
       real(wp) :: vector(4)
       integer :: i
@@ -292,11 +269,8 @@ contains
 
    !> Whether a branch already passes an orbit.
    pure logical function is_known(settings, found, orbit) result(value)
-      !> What is computed
       type(cycle_settings_type), intent(in) :: settings
-      !> Branches so far
       type(cycles_type), intent(in) :: found(:)
-      !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       integer :: i, j
 
@@ -316,7 +290,6 @@ contains
 
    !> Whether a number lies between two others, or almost so.
    pure logical function is_between(x, a, b) result(value)
-      !> The number
       real(wp), intent(in) :: x
       !> The others, > 0
       real(wp), intent(in) :: a, b

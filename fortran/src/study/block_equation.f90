@@ -55,7 +55,6 @@ contains
    !> exp(-w) f with f linear: of the former it is the product of all w_i, of the latter the sum
    !> over i of f_i times the other w.
    pure function derivative_of_4(self, x) result(form)
-      !> The block
       class(block_equation_type), intent(in) :: self
       !> Histories at t and t - tau, shape (3, 2, k)
       complex(wp), intent(in) :: x(:, :, :)
@@ -84,7 +83,6 @@ contains
 
    !> theta + (1 + epsilon) w(t - tau).
    pure complex(wp) function friction(p, x) result(value)
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
       !> History at t and t - tau
       complex(wp), intent(in) :: x(:, :)
@@ -94,7 +92,6 @@ contains
 
    !> u + (theta + w)/xi.
    pure complex(wp) function force(p, x) result(value)
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
       !> History at t and t - tau
       complex(wp), intent(in) :: x(:, :)

@@ -19,11 +19,9 @@ contains
 
    !> The block at parameters. A delay of 0 remains a delay.
    subroutine block_at(self, parameters, problem)
-      !> The family
       class(block_family_type), intent(in) :: self
       !> tau, epsilon, xi, gamma
       real(wp), intent(in) :: parameters(:)
-      !> The block
       class(dde_problem_type), allocatable, intent(out) :: problem
 
       allocate (problem, source=spring_block_type(parameters_of(parameters), block_history_type()))

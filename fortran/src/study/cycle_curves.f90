@@ -87,11 +87,8 @@ contains
 
    !> Whether a curve passes a point on the line.
    pure logical function passes(settings, curve, point) result(value)
-      !> The line
       type(cycle_settings_type), intent(in) :: settings
-      !> The curve
       type(cycle_curve_type), intent(in) :: curve
-      !> The point
       type(special_point_type), intent(in) :: point
       real(wp) :: share
       integer :: across, i, k

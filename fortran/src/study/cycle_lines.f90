@@ -96,9 +96,7 @@ contains
 
    !> Parameters of a pair i omega on the line.
    type(block_parameters_type) function at_frequency(miss, omega) result(parameters)
-      !> The line and the branch
       type(miss_type), intent(in) :: miss
-      !> Frequency
       real(wp), intent(in) :: omega
 
       parameters = miss%line%parameters
@@ -117,9 +115,7 @@ contains
 
    !> By how much a pair i omega misses the line.
    real(wp) function miss_of_line(self, x) result(value)
-      !> The function
       class(miss_type), intent(in) :: self
-      !> Frequency
       real(wp), intent(in) :: x
 
       associate (p => self%line%parameters)

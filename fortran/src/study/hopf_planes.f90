@@ -116,11 +116,8 @@ contains
 
    !> Equations (7) and (10) at fixed xi.
    pure type(block_parameters_type) function tau_branch(self, omega, k) result(p)
-      !> The plane
       class(tau_plane_type), intent(in) :: self
-      !> Frequency of the pair
       real(wp), intent(in) :: omega
-      !> Branch
       integer, intent(in) :: k
 
       p = block_parameters_type(tau=hopf_tau(omega, self%xi, self%gamma, k), xi=self%xi, &
@@ -129,19 +126,14 @@ contains
 
    !> At fixed xi.
    pure type(block_parameters_type) function tau_parameters(self, epsilon, ordinate) result(p)
-      !> The plane
       class(tau_plane_type), intent(in) :: self
-      !> Abscissa
-      real(wp), intent(in) :: epsilon
-      !> tau
-      real(wp), intent(in) :: ordinate
+      real(wp), intent(in) :: epsilon, ordinate
 
       p = block_parameters_type(tau=ordinate, epsilon=epsilon, xi=self%xi, gamma=self%gamma)
    end function tau_parameters
 
    !> tau.
    pure real(wp) function tau_ordinate(p) result(value)
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
 
       value = p%tau
@@ -149,9 +141,7 @@ contains
 
    !> By epsilon and tau.
    pure function tau_slopes(p, s) result(slopes)
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
-      !> The root
       complex(wp), intent(in) :: s
       complex(wp) :: slopes(2)
 
@@ -161,13 +151,9 @@ contains
    !> Least omega: where xi |gamma^2 - omega^2|/(gamma^2 omega) falls to omega_most; highest branch:
    !> where (2 pi k - pi)/omega_most exceeds tau.
    pure subroutine tau_bounds(self, omega_most, omega_least, k_most)
-      !> The plane
       class(tau_plane_type), intent(in) :: self
-      !> Largest omega in the window
       real(wp), intent(in) :: omega_most
-      !> Least omega
       real(wp), intent(out) :: omega_least
-      !> Highest branch
       integer, intent(out) :: k_most
 
       omega_least = least_omega(self%xi, self%gamma, omega_most)
@@ -176,11 +162,8 @@ contains
 
    !> Equations (7) and (9) at fixed tau, as far as (10) gives that tau back on branch k.
    pure type(block_parameters_type) function xi_branch(self, omega, k) result(p)
-      !> The plane
       class(xi_plane_type), intent(in) :: self
-      !> Frequency of the pair
       real(wp), intent(in) :: omega
-      !> Branch
       integer, intent(in) :: k
 
       p = block_parameters_type(tau=self%tau, xi=hopf_xi(omega, self%tau, self%gamma), &
@@ -195,19 +178,14 @@ contains
 
    !> At fixed tau.
    pure type(block_parameters_type) function xi_parameters(self, epsilon, ordinate) result(p)
-      !> The plane
       class(xi_plane_type), intent(in) :: self
-      !> Abscissa
-      real(wp), intent(in) :: epsilon
-      !> xi
-      real(wp), intent(in) :: ordinate
+      real(wp), intent(in) :: epsilon, ordinate
 
       p = block_parameters_type(tau=self%tau, epsilon=epsilon, xi=ordinate, gamma=self%gamma)
    end function xi_parameters
 
    !> xi.
    pure real(wp) function xi_ordinate(p) result(value)
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
 
       value = p%xi
@@ -215,9 +193,7 @@ contains
 
    !> By epsilon and xi.
    pure function xi_slopes(p, s) result(slopes)
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
-      !> The root
       complex(wp), intent(in) :: s
       complex(wp) :: slopes(2)
 
@@ -226,13 +202,9 @@ contains
 
    !> Least omega: as in `tau_bounds` for the least xi; highest branch: from omega_most and tau.
    pure subroutine xi_bounds(self, omega_most, omega_least, k_most)
-      !> The plane
       class(xi_plane_type), intent(in) :: self
-      !> Largest omega in the window
       real(wp), intent(in) :: omega_most
-      !> Least omega
       real(wp), intent(out) :: omega_least
-      !> Highest branch
       integer, intent(out) :: k_most
 
       omega_least = least_omega(self%ordinate_window(1), self%gamma, omega_most)
@@ -242,12 +214,7 @@ contains
    !> The omega at which xi (gamma^2 - omega^2)/(gamma^2 omega) = omega_most: below it epsilon lies
    !> beyond the window, for 1 + epsilon = sqrt((1 + omega^2)(1 + B^2)) with B that ratio.
    pure real(wp) function least_omega(xi, gamma, omega_most) result(value)
-      !> Spring constant
-      real(wp), intent(in) :: xi
-      !> Frequency of the block
-      real(wp), intent(in) :: gamma
-      !> Largest omega in the window
-      real(wp), intent(in) :: omega_most
+      real(wp), intent(in) :: xi, gamma, omega_most
       real(wp) :: half
 
       half = 0.5_wp*gamma**2*omega_most/xi

@@ -139,11 +139,8 @@ contains
 
    !> The point without delay, where the plane shows it.
    subroutine find_start(plane, found, error)
-      !> The plane
       class(curve_plane_type), intent(in) :: plane
-      !> Points so far
       type(hopf_point_type), allocatable, intent(inout) :: found(:)
-      !> A root was not found
       type(error_type), allocatable, intent(out) :: error
       type(delay_function_type) :: delay
       real(wp) :: omega
@@ -163,17 +160,12 @@ contains
 
    !> A further point with all that is known of it.
    subroutine add(found, kind, plane, omega, branch, error)
-      !> Points so far
       type(hopf_point_type), allocatable, intent(inout) :: found(:)
-      !> Kind of the point
       character(len=*), intent(in) :: kind
-      !> The plane
       class(curve_plane_type), intent(in) :: plane
       !> Frequencies, ascending
       real(wp), intent(in) :: omega(:)
-      !> Their branches
       integer, intent(in) :: branch(:)
-      !> No coefficient
       type(error_type), allocatable, intent(out) :: error
       type(hopf_point_type) :: point
       integer :: i
@@ -201,9 +193,7 @@ contains
 
    !> The coefficient at a frequency; 0 where there is none, which `add` then reports.
    real(wp) function coefficient_along(self, x) result(value)
-      !> Plane and branch
       class(coefficient_function_type), intent(in) :: self
-      !> omega
       real(wp), intent(in) :: x
       type(error_type), allocatable :: error
 
@@ -213,9 +203,7 @@ contains
 
    !> Zero where the second frequency is a root's, too.
    real(wp) function distance_to_meeting(self, x) result(value)
-      !> Plane and branches
       class(meeting_function_type), intent(in) :: self
-      !> omega
       real(wp), intent(in) :: x
       real(wp) :: partner
 
@@ -227,9 +215,7 @@ contains
 
    !> Zero where the delay is.
    real(wp) function delay_along(self, x) result(value)
-      !> The plane
       class(delay_function_type), intent(in) :: self
-      !> omega
       real(wp), intent(in) :: x
 
       value = x*hopf_tau(x, self%plane%xi, self%plane%gamma, 0)

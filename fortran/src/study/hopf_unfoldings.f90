@@ -166,14 +166,9 @@ contains
 
    !> The step (epsilon, ordinate) from a double Hopf point to given growth rates.
    pure function way_to(plane, parameters, omega, mu) result(way)
-      !> The plane
       class(curve_plane_type), intent(in) :: plane
-      !> Parameters of the point
       type(block_parameters_type), intent(in) :: parameters
-      !> Frequencies
-      real(wp), intent(in) :: omega(2)
-      !> Growth rates of the pairs
-      real(wp), intent(in) :: mu(2)
+      real(wp), intent(in) :: omega(2), mu(2)
       real(wp) :: way(2)
       real(wp) :: growth(2, 2)
       integer :: j

@@ -135,11 +135,8 @@ contains
 
    !> The frequency at which epsilon is least: where both frequencies of an epsilon are the same.
    subroutine least_epsilon_at(p, omega, error)
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
-      !> The frequency
       real(wp), intent(out) :: omega
-      !> No root found
       type(error_type), allocatable, intent(out) :: error
       type(partner_function_type) :: partner
 
@@ -149,9 +146,7 @@ contains
 
    !> A crossing at the pair i omega.
    pure type(stability_change_type) function change_at(p, omega, speed) result(change)
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
-      !> Frequency
       real(wp), intent(in) :: omega
       !> How fast the pair moves to the right
       real(wp), intent(in) :: speed
@@ -168,9 +163,7 @@ contains
 
    !> Put a crossing in its place.
    pure subroutine insert(changes, change, earlier)
-      !> Crossings so far
       type(stability_change_type), allocatable, intent(inout) :: changes(:)
-      !> The new one
       type(stability_change_type), intent(in) :: change
       !> Which of the others come first; they are ascending
       logical, intent(in) :: earlier(:)
@@ -182,9 +175,7 @@ contains
 
    !> Zero where epsilon is the given one.
    real(wp) function epsilon_above(self, x) result(value)
-      !> Parameters
       class(epsilon_function_type), intent(in) :: self
-      !> omega
       real(wp), intent(in) :: x
 
       value = hopf_epsilon(x, self%p%xi, self%p%gamma) - self%p%epsilon
@@ -192,9 +183,7 @@ contains
 
    !> Zero where both frequencies are the same.
    real(wp) function partner_above(self, x) result(value)
-      !> Parameters
       class(partner_function_type), intent(in) :: self
-      !> omega
       real(wp), intent(in) :: x
 
       value = partner_omega(x, self%p%xi, self%p%gamma) - x
@@ -202,9 +191,7 @@ contains
 
    !> Zero where the delay is the given one.
    real(wp) function angle_above(self, x) result(value)
-      !> Parameters and branch
       class(angle_function_type), intent(in) :: self
-      !> omega
       real(wp), intent(in) :: x
 
       value = x*(hopf_tau(x, self%p%xi, self%p%gamma, self%k) - self%p%tau)

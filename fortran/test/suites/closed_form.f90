@@ -61,10 +61,7 @@ contains
    elemental real(wp) function ratio(omega, xi, gamma) result(b)
       !> Frequency of the pair, > 0
       real(wp), intent(in) :: omega
-      !> Spring constant
-      real(wp), intent(in) :: xi
-      !> Frequency of the block
-      real(wp), intent(in) :: gamma
+      real(wp), intent(in) :: xi, gamma
 
       b = xi*(gamma**2 - omega**2)/(gamma**2*omega)
    end function ratio

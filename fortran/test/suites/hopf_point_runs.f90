@@ -144,7 +144,6 @@ contains
 
    !> The state at t = 0.
    pure subroutine oscillation_at_zero(self, y)
-      !> The block
       class(oscillating_block), intent(in) :: self
       !> theta, u, ln v
       real(wp), intent(out) :: y(self%n)
@@ -155,11 +154,9 @@ contains
 
    !> The sum of the oscillations.
    pure function oscillation(self, t, component) result(value)
-      !> The block
       class(oscillating_block), intent(in) :: self
       !> Time <= 0
       real(wp), intent(in) :: t
-      !> Index into the state
       integer, intent(in) :: component
       real(wp) :: value
 

@@ -110,11 +110,9 @@ contains
 
    !> The Hopf point of a kind in the plane of epsilon and tau that is nearest to a place.
    subroutine nearest_hopf_point(xi, window, kind, place, nearest, error)
-      !> Spring constant
       real(wp), intent(in) :: xi
       !> Window on epsilon, window on tau
       real(wp), intent(in) :: window(4)
-      !> Kind
       character(len=*), intent(in) :: kind
       !> epsilon, tau
       real(wp), intent(in) :: place(2)
@@ -153,7 +151,6 @@ contains
       character(len=*), intent(in) :: kind, ending
       !> Window in which Hopf points are looked for
       real(wp), intent(in) :: window(4)
-      !> Distance allowed
       real(wp), intent(in) :: within
       type(error_type), allocatable, intent(inout) :: error
       type(cycle_curve_type), allocatable :: curves(:)

@@ -146,9 +146,7 @@ contains
 
    !> cos x - slope x.
    real(wp) function cosine_less_line_value(self, x) result(value)
-      !> The function
       class(cosine_less_line), intent(in) :: self
-      !> Where
       real(wp), intent(in) :: x
 
       value = cos(x) - self%slope*x
@@ -156,9 +154,7 @@ contains
 
    !> -1, no number, or 1.
    real(wp) function hole_value(self, x) result(value)
-      !> The function
       class(hole), intent(in) :: self
-      !> Where
       real(wp), intent(in) :: x
 
       value = ieee_value(x, ieee_quiet_nan)

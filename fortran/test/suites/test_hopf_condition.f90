@@ -102,7 +102,6 @@ contains
 
       !> Delta at a neighbouring delay.
       complex(wp) function at_tau(shift) result(value)
-         !> Difference of delays
          real(wp), intent(in) :: shift
          type(block_parameters_type) :: neighbour
 
@@ -222,11 +221,8 @@ contains
 
    !> Random parameters and a random place beside the imaginary axis.
    pure subroutine random_point(i, p, s)
-      !> Number of the point
       integer, intent(in) :: i
-      !> Parameters
       type(block_parameters_type), intent(out) :: p
-      !> Place
       complex(wp), intent(out) :: s
       real(wp) :: x(6)
 
@@ -237,7 +233,6 @@ contains
 
    !> Random omega in 0.05..3, xi and gamma in 0.1..10.
    pure function random_omega(i) result(x)
-      !> Number of the point
       integer, intent(in) :: i
       real(wp) :: x(3)
 
@@ -247,9 +242,7 @@ contains
 
    !> Size of the terms of Delta(s).
    pure real(wp) function size_of(p, s) result(value)
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
-      !> Place
       complex(wp), intent(in) :: s
 
       value = 1.0_wp + abs(s)**3 + (1.0_wp + p%gamma**2*(1.0_wp + abs(s))*(1.0_wp + 1.0_wp/p%xi)) &
@@ -258,7 +251,6 @@ contains
 
    !> Determinant of three by three.
    pure complex(wp) function determinant(m) result(value)
-      !> The matrix
       complex(wp), intent(in) :: m(3, 3)
 
       value = m(1, 1)*(m(2, 2)*m(3, 3) - m(2, 3)*m(3, 2)) &

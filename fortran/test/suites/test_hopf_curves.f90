@@ -234,9 +234,7 @@ contains
 
    !> The omegas at which branch k enters and leaves the window.
    function ends_by_scan(plane, k) result(ends)
-      !> The plane
       class(curve_plane_type), intent(in) :: plane
-      !> Branch
       integer, intent(in) :: k
       real(wp), allocatable :: ends(:)
       real(wp) :: omega, place(2)
@@ -256,9 +254,7 @@ contains
 
    !> The omegas at which the pieces of branch k begin and end.
    function ends_of_pieces(points, k) result(ends)
-      !> Points of all pieces
       type(curve_point_type), intent(in) :: points(:)
-      !> Branch
       integer, intent(in) :: k
       real(wp), allocatable :: ends(:)
       integer :: i
@@ -273,10 +269,7 @@ contains
 
    !> The omega of least epsilon, by a scan.
    real(wp) function least_epsilon_at(xi, gamma) result(omega)
-      !> Spring constant
-      real(wp), intent(in) :: xi
-      !> Frequency of the block
-      real(wp), intent(in) :: gamma
+      real(wp), intent(in) :: xi, gamma
       integer :: i
 
       omega = scan_step*minloc([(closed_epsilon(scan_step*i, xi, gamma), i=1, scan_points)], dim=1)

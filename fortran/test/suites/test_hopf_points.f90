@@ -80,9 +80,7 @@ contains
    !> The special points of a plane: their frequencies are roots of (5), the coefficient vanishes
    !> where it should, and beside a point of a curve the pairs are those of the map.
    subroutine check_points(i, found, error)
-      !> Number of the plane
       integer, intent(in) :: i
-      !> Special points
       type(hopf_point_type), allocatable, intent(out) :: found(:)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
@@ -122,9 +120,7 @@ contains
 
       !> Whether between two points l1 keeps its sign or a generalised point lies.
       logical function sign_is_kept(traced, j) result(kept)
-         !> The plane
          type(traced_plane), intent(in) :: traced
-         !> Number of the first point
          integer, intent(in) :: j
 
          associate (p => traced%points(j), q => traced%points(j + 1))

@@ -129,13 +129,9 @@ contains
 
    !> On both sides of the line at which the torus of a cycle is born.
    subroutine check_line(plane, point, pair, error)
-      !> The plane
       class(curve_plane_type), intent(in) :: plane
-      !> The double Hopf point
       type(hopf_point_type), intent(in) :: point
-      !> Pair of the cycle
       integer, intent(in) :: pair
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       complex(wp) :: mode(3, 2)
       real(wp) :: known_mean, known_range, least, mean, most, mu(2), r(2)

@@ -256,10 +256,7 @@ contains
 
    !> x' = sum_j a_j x(t - lag_j).
    pure function scalar_system(a, lag) result(system)
-      !> Coefficients
-      real(wp), intent(in) :: a(:)
-      !> Lags
-      real(wp), intent(in) :: lag(:)
+      real(wp), intent(in) :: a(:), lag(:)
       type(linear_system_type) :: system
 
       allocate (system%a, source=reshape(a, [1, 1, size(a)]))

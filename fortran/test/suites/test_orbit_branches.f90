@@ -43,17 +43,12 @@ contains
 
    !> The branch of a block through the cycle that a trajectory has reached, and its points.
    subroutine branch_of_block(block, settings, degree, points, direction, branch, special, error)
-      !> The block
       type(spring_block_type), intent(in) :: block
-      !> How far and how
       type(branch_settings_type), intent(in) :: settings
-      !> Degree and kind of points
       integer, intent(in) :: degree, points
       !> 1 or -1
       integer, intent(in) :: direction
-      !> The branch
       type(branch_type), intent(out) :: branch
-      !> Its special points
       type(special_point_type), allocatable, intent(out) :: special(:)
       type(error_type), allocatable, intent(inout) :: error
       type(block_family_type) :: family
@@ -79,15 +74,12 @@ contains
 
    !> Maxima of a component over the last part of a run that goes on from another one.
    subroutine last_maxima(problem, component, start, duration, last, maxima, error)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The component
       integer, intent(in) :: component
       !> Where the run starts; not changed
       type(continuation_type), intent(in) :: start
       !> Its duration, and that of its last part
       real(wp), intent(in) :: duration, last
-      !> The maxima
       real(wp), allocatable, intent(out) :: maxima(:)
       type(error_type), allocatable, intent(inout) :: error
       type(continuation_type) :: place
@@ -282,9 +274,7 @@ contains
 
       !> The last maxima at a delay.
       subroutine simulate(delay, found)
-         !> The delay
          real(wp), intent(in) :: delay
-         !> The maxima
          real(wp), allocatable, intent(out) :: found(:)
          class(dde_problem_type), allocatable :: problem
          type(continuation_type) :: place
@@ -383,9 +373,7 @@ contains
    !> The first parameter on a branch at a period, by linear interpolation after it was last
    !> shorter.
    pure real(wp) function parameter_at(branch, period) result(value)
-      !> The branch
       type(branch_type), intent(in) :: branch
-      !> The period
       real(wp), intent(in) :: period
       integer :: i
 

@@ -36,13 +36,9 @@ contains
 
    !> A Hopf point of the Duffing equation: (a + b - omega^2)^2 + (d omega)^2 = b^2.
    pure subroutine hopf_of_duffing(a, b, d, upper, turns, omega, tau)
-      !> Parameters
       real(wp), intent(in) :: a, b, d
-      !> Whether the larger omega is meant
       logical, intent(in) :: upper
-      !> Full turns of omega tau
       integer, intent(in) :: turns
-      !> Frequency and delay
       real(wp), intent(out) :: omega, tau
       real(wp) :: half, root
 
@@ -54,16 +50,11 @@ contains
 
    !> The curve that starts at the first point of a kind on the branch from a Hopf point.
    subroutine curve_of_duffing(b, upper, turns, kind, direction, curve, error)
-      !> Strength of the feedback
       real(wp), intent(in) :: b
-      !> Hopf point
       logical, intent(in) :: upper
       integer, intent(in) :: turns
-      !> Kind of the point
       character(len=*), intent(in) :: kind
-      !> Towards greater or smaller b
       integer, intent(in) :: direction
-      !> The curve
       type(curve_type), intent(out) :: curve
       type(error_type), allocatable, intent(inout) :: error
       real(wp), parameter :: a = 0.5_wp, d = 0.05_wp
@@ -142,13 +133,7 @@ contains
    !> The curve of folds of cycles sqrt(1 + s) sin t of a cubic towards smaller b. The folds are at
    !> a = -2 s^3, b = 3 s^2, with a cusp at s = 0.
    subroutine curve_of_cubic(first, most_b, longest_step, curve, error)
-      !> s at the first point
-      real(wp), intent(in) :: first
-      !> Greatest b
-      real(wp), intent(in) :: most_b
-      !> Longest step
-      real(wp), intent(in) :: longest_step
-      !> The curve
+      real(wp), intent(in) :: first, most_b, longest_step
       type(curve_type), intent(out) :: curve
       type(error_type), allocatable, intent(inout) :: error
       integer, parameter :: degree = 5, intervals = 20

@@ -103,7 +103,6 @@ contains
 
    !> Phase of the sine that is nearest to an orbit of one component.
    real(wp) function phase_of(orbit) result(value)
-      !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       real(wp) :: part(2), state(1)
       integer, parameter :: places = 1000

@@ -73,11 +73,9 @@ contains
 
    !> Crossings ascend, join, have their pair on the axis, and the roots between them are counted.
    subroutine check_changes(changes, places, ends, error)
-      !> Crossings
       type(stability_change_type), intent(in) :: changes(:)
       !> Where: tau or epsilon
       real(wp), intent(in) :: places(:)
-      !> Ends of the search
       real(wp), intent(in) :: ends(2)
       type(error_type), allocatable, intent(inout) :: error
       type(block_parameters_type) :: p
@@ -101,7 +99,6 @@ contains
 
       !> Unstable pairs at another place.
       integer function pairs_at(place) result(pairs)
-         !> tau or epsilon
          real(wp), intent(in) :: place
          type(block_parameters_type) :: there
 
@@ -162,7 +159,6 @@ contains
 
    !> Random parameters; every third gamma is between 1e-2 and 1e12.
    pure type(block_parameters_type) function random_block(i) result(p)
-      !> Number of the block
       integer, intent(in) :: i
       real(wp) :: x(4)
 

@@ -33,7 +33,6 @@ contains
 
    !> A block at the steady state.
    pure type(spring_block_type) function steady(tau, epsilon, xi, gamma) result(block)
-      !> Parameters
       real(wp), intent(in) :: tau, epsilon, xi, gamma
 
       block = build_block(tau=tau, epsilon=epsilon, xi=xi, gamma=gamma)
@@ -41,10 +40,7 @@ contains
 
    !> An oscillation of ln v that grows at a rate, from an amplitude, in 400 units of time.
    pure function oscillation(amplitude, rate) result(w)
-      !> Amplitude at the start
-      real(wp), intent(in) :: amplitude
-      !> Rate of growth
-      real(wp), intent(in) :: rate
+      real(wp), intent(in) :: amplitude, rate
       real(wp) :: w(4000)
       integer :: i
 

@@ -107,7 +107,6 @@ contains
    !> Zeros of P_m(x) - share P_{m-1}(x) with x = 2 point - 1, by Newton's method from the right,
    !> where zeros already found are divided out (Maehly).
    pure function points_of(degree, share) result(points)
-      !> Degree m
       integer, intent(in) :: degree
       !> 0 for Gauss points, 1 for those of Radau IIA
       real(wp), intent(in) :: share

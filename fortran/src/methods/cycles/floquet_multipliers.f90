@@ -85,11 +85,8 @@ contains
 
    !> A disturbance over the period.
    function over_period(map, past, orbit) result(disturbance)
-      !> The map
       type(period_map_type), intent(inout) :: map
-      !> Past of the disturbance
       real(wp), intent(in) :: past(:)
-      !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       real(wp) :: disturbance(size(orbit%nodes, 1), size(orbit%nodes, 2))
 
@@ -99,11 +96,8 @@ contains
 
    !> The past a period later.
    subroutine past_after_period(self, vector, image)
-      !> The map
       class(period_map_type), intent(inout) :: self
-      !> A past
       real(wp), intent(in) :: vector(:)
-      !> The past a period later
       real(wp), intent(out) :: image(:)
 
       call self%linear%pass(vector, [0.0_wp, 0.0_wp], self%nodes, self%delayed)

@@ -130,21 +130,14 @@ contains
 
    !> The first orbit of a branch and its tangent.
    subroutine first_orbit(family, scale, start, orbit, along, newton, error, tangent)
-      !> The problems
       class(problem_family_type), intent(in) :: family
-      !> Free parameters
       type(orbit_scale_type), intent(in) :: scale
-      !> Approximation of the orbit
       type(periodic_orbit_type), intent(in) :: start
-      !> The orbit
       type(periodic_orbit_type), intent(out) :: orbit
       !> Tangent of the branch at the orbit
       type(orbit_change_type), intent(out) :: along
-      !> Effort
       type(newton_type), intent(out) :: newton
-      !> There is no orbit
       type(error_type), allocatable, intent(out) :: error
-      !> Approximation of the tangent
       type(orbit_change_type), intent(in), optional :: tangent
       type(orbit_change_type) :: directions(1)
 
@@ -167,21 +160,14 @@ contains
 
    !> The next orbit of a branch.
    subroutine take_step(family, settings, branch, i, step, newton, passes, error)
-      !> The problems
       class(problem_family_type), intent(in) :: family
-      !> How far and how
       type(branch_settings_type), intent(in) :: settings
-      !> The branch
       type(branch_type), intent(inout) :: branch
-      !> Orbits so far
       integer, intent(in) :: i
-      !> Length of the step
       real(wp), intent(in) :: step
-      !> Effort
       type(newton_type), intent(out) :: newton
       !> Whether the branch passes through a shorter cycle
       logical, intent(out) :: passes
-      !> The step is too long
       type(error_type), allocatable, intent(out) :: error
       type(orbit_change_type) :: along(1), move
       type(periodic_orbit_type) :: orbit
@@ -213,11 +199,8 @@ contains
 
    !> Replace the last orbit by that at the edge of the window.
    subroutine end_at_window(family, settings, branch)
-      !> The problems
       class(problem_family_type), intent(in) :: family
-      !> The window
       type(branch_settings_type), intent(in) :: settings
-      !> The branch
       type(branch_type), intent(inout) :: branch
       type(error_type), allocatable :: error
       type(multipliers_type) :: multipliers
@@ -257,9 +240,7 @@ contains
 
    !> Keep the first orbits of a branch.
    subroutine cut(branch, count)
-      !> The branch
       type(branch_type), intent(inout) :: branch
-      !> Their number
       integer, intent(in) :: count
 
       type(branch_type) :: whole
@@ -278,7 +259,6 @@ contains
 
    !> The direction in which only the parameter changes.
    pure type(orbit_change_type) function parameter_direction(orbit) result(direction)
-      !> An orbit
       type(periodic_orbit_type), intent(in) :: orbit
 
       allocate (direction%nodes(size(orbit%nodes, 1), size(orbit%nodes, 2)), source=0.0_wp)

@@ -100,23 +100,18 @@ contains
 
    !> The root of the test function on the line beside the end of a step, by the secant method.
    subroutine find_beside(family, settings, before, frame, ahead, most, point, evaluations, error)
-      !> The problems
       class(problem_family_type), intent(in) :: family
-      !> How far and how
       type(curve_settings_type), intent(in) :: settings
       !> The orbit from which the step goes
       type(periodic_orbit_type), intent(in) :: before
       !> Directions there, and the slope of the test function, which is improved
       type(frame_type), intent(inout) :: frame
-      !> Length of the step
       real(wp), intent(in) :: ahead
       !> Most that the root may lie beside it
       real(wp), intent(in) :: most
       !> The point, of known kind
       type(special_point_type), intent(inout) :: point
-      !> Evaluations of the test function
       integer, intent(out) :: evaluations
-      !> There is none
       type(error_type), allocatable, intent(out) :: error
       type(orbit_change_type) :: change
       real(wp) :: at, g, g_before, move

@@ -102,17 +102,11 @@ contains
 
    !> Find the cusp on a curve of folds within a step from a point, on two meshes, and append it.
    subroutine find_cusp(family, settings, before, frame, step, cusps)
-      !> The problems
       class(problem_family_type), intent(in) :: family
-      !> How far and how
       type(curve_settings_type), intent(in) :: settings
-      !> The point before it
       type(special_point_type), intent(in) :: before
-      !> Directions there
       type(frame_type), intent(in) :: frame
-      !> Length of the step
       real(wp), intent(in) :: step
-      !> Cusps
       type(special_point_type), allocatable, intent(inout) :: cusps(:)
       type(error_type), allocatable :: error
       type(special_point_type) :: coarse, fine, first
@@ -135,17 +129,11 @@ contains
    !> The point within a step at which the direction of a curve of folds has no part along the
    !> parameters.
    subroutine locate_cusp(family, settings, before, frame, step, point, error)
-      !> The problems
       class(problem_family_type), intent(in) :: family
-      !> How far and how
       type(curve_settings_type), intent(in) :: settings
-      !> The point before it
       type(special_point_type), intent(in) :: before
-      !> Directions there
       type(frame_type), intent(in) :: frame
-      !> Length of the step
       real(wp), intent(in) :: step
-      !> The cusp
       type(special_point_type), intent(out) :: point
       !> Error if the cusp was not found
       type(error_type), allocatable, intent(out) :: error
@@ -174,7 +162,6 @@ contains
 
       !> The point after a part of the step, and the part of its direction along the parameters.
       subroutine part_along(length, value)
-         !> Length of the part
          real(wp), intent(in) :: length
          !> Inner product of the parameters' parts of the directions
          real(wp), intent(out) :: value
@@ -193,13 +180,9 @@ contains
 
    !> Whether a curve ends at its last point, and why.
    logical function has_ended(settings, points, last, step, reason) result(value)
-      !> Limits of the curve
       type(curve_settings_type), intent(in) :: settings
-      !> Points
       type(special_point_type), intent(in) :: points(:)
-      !> The last of them
       integer, intent(in) :: last
-      !> Length of the last step
       real(wp), intent(in) :: step
       !> Why, where it ends
       character(len=:), allocatable, intent(inout) :: reason
@@ -231,9 +214,7 @@ contains
 
    !> Keep the first points.
    subroutine cut(points, count)
-      !> The points
       type(special_point_type), allocatable, intent(inout) :: points(:)
-      !> Their number
       integer, intent(in) :: count
       type(special_point_type), allocatable :: whole(:)
       integer :: i

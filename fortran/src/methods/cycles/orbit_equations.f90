@@ -147,21 +147,15 @@ contains
 
    !> Solve the linear equations about an orbit.
    subroutine solve_conditions(family, scale, orbit, conditions, residual, targets, changes, error)
-      !> The problems
       class(problem_family_type), intent(in) :: family
-      !> Free parameters
       type(orbit_scale_type), intent(in) :: scale
-      !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
-      !> Conditions
       type(orbit_change_type), intent(in) :: conditions(:)
       !> 1 if the change removes the residual of the orbit, 0 if it leaves it
       real(wp), intent(in) :: residual
       !> Values of the conditions, shape (conditions, changes)
       real(wp), intent(in) :: targets(:, :)
-      !> The changes
       type(orbit_change_type), intent(out) :: changes(:)
-      !> No solution
       type(error_type), allocatable, intent(out) :: error
       type(orbit_map_type) :: map
       real(wp), allocatable :: right(:), solution(:)
@@ -194,11 +188,9 @@ contains
 
    !> The past less the past a period later, and the values of the conditions.
    subroutine defect_of_change(self, vector, image)
-      !> The system
       class(orbit_map_type), intent(inout) :: self
       !> Past, changes of the period and of the free parameters
       real(wp), intent(in) :: vector(:)
-      !> The defects
       real(wp), intent(out) :: image(:)
 
       call answer(self, vector, 0.0_wp, image)
@@ -206,13 +198,10 @@ contains
 
    !> Defect of a change, plus a multiple of the residual of the orbit.
    subroutine answer(self, vector, residual, image)
-      !> The system
       class(orbit_map_type), intent(inout) :: self
       !> Past, changes of the period and of the free parameters
       real(wp), intent(in) :: vector(:)
-      !> Factor of the residual
       real(wp), intent(in) :: residual
-      !> The defects
       real(wp), intent(out) :: image(:)
       integer :: i, past
 
@@ -230,17 +219,12 @@ contains
 
    !> Values that the conditions must still gain.
    subroutine remaining(reference, scale, conditions, distances, orbit, target)
-      !> The reference
       type(periodic_orbit_type), intent(in) :: reference
-      !> Free parameters
       type(orbit_scale_type), intent(in) :: scale
-      !> Conditions
       type(orbit_change_type), intent(in) :: conditions(:)
       !> Inner products wanted, one less than conditions
       real(wp), intent(in) :: distances(:)
-      !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
-      !> What is left of them
       real(wp), intent(out) :: target(:)
       type(orbit_change_type) :: made
       integer :: i

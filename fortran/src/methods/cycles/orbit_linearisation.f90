@@ -84,13 +84,9 @@ contains
 
    !> Parameters of which a free one is changed.
    pure function changed(parameters, scale, p, share) result(moved)
-      !> Parameters
       real(wp), intent(in) :: parameters(:)
-      !> Free parameters
       type(orbit_scale_type), intent(in) :: scale
-      !> Which of them
       integer, intent(in) :: p
-      !> Change in its unit
       real(wp), intent(in) :: share
       real(wp) :: moved(size(parameters))
 
@@ -100,13 +96,9 @@ contains
 
    !> Where delayed values come from.
    subroutine find_sources(self, problem, orbit, whole_past, place)
-      !> The equations
       type(orbit_passes_type), intent(inout) :: self
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
-      !> Whether delays reach back over periods
       logical, intent(in) :: whole_past
       !> Place in the interval of the source, shape (delays, m, intervals)
       real(wp), allocatable, intent(out) :: place(:, :, :)
@@ -148,19 +140,14 @@ contains
    !> Equations of an interval: local x = right (inputs), x all its nodes; the first n columns of
    !> local, those of the left end, are moved to the right.
    subroutine local_system(self, problem, beside, orbit, place, i, local, right)
-      !> The equations
       type(orbit_passes_type), intent(inout) :: self
-      !> The problem of the orbit
       class(dde_problem_type), intent(in) :: problem
       !> Problems with a free parameter above and below
       type(member_type), intent(in) :: beside(:, :)
-      !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       !> Place in the interval of the source of delayed values, shape (delays, m)
       real(wp), intent(in) :: place(:, :)
-      !> Interval
       integer, intent(in) :: i
-      !> Left-hand side
       real(wp), intent(out) :: local(:, :)
       !> Right-hand sides; those of further forcings are given
       real(wp), intent(inout) :: right(:, :)
@@ -218,19 +205,14 @@ contains
 
    !> Derivatives and forcings at a collocation point.
    subroutine evaluate(self, problem, beside, orbit, place, i, k, point)
-      !> The equations
       type(orbit_passes_type), intent(in) :: self
-      !> The problem of the orbit
       class(dde_problem_type), intent(in) :: problem
       !> Problems with a free parameter above and below
       type(member_type), intent(in) :: beside(:, :)
-      !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       !> Place of the sources of delayed values, shape (delays)
       real(wp), intent(in) :: place(:)
-      !> Interval and point
       integer, intent(in) :: i, k
-      !> What is found
       type(point_type), intent(inout) :: point
       real(wp) :: slope_z(size(place)), z(size(place))
       real(wp), dimension(self%n) :: f, f_above, f_below, y, y_slope

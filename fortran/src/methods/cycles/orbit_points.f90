@@ -63,21 +63,14 @@ contains
    !> Special points between two orbits.
    recursive subroutine search(family, settings, first, second, signs, before, behind, halvings, &
                                points, error)
-      !> The problems
       class(problem_family_type), intent(in) :: family
-      !> How the branch was followed
       type(branch_settings_type), intent(in) :: settings
-      !> The orbits
       type(periodic_orbit_type), intent(in) :: first, second
       !> Direction of the parameter there, 1 or -1
       real(wp), intent(in) :: signs(2)
-      !> Their multipliers
       type(multipliers_type), intent(in) :: before, behind
-      !> Halvings allowed
       integer, intent(in) :: halvings
-      !> Points so far
       type(special_point_type), allocatable, intent(inout) :: points(:)
-      !> A point was not found
       type(error_type), allocatable, intent(out) :: error
       type(multipliers_type) :: between
       type(orbit_change_type) :: tangent
@@ -132,11 +125,8 @@ contains
 
    !> Find a point on the mesh of the segment, then on finer ones until the last two agree.
    subroutine locate_on_meshes(family, settings, segment, point, error)
-      !> The problems
       class(problem_family_type), intent(in) :: family
-      !> How the branch was followed
       type(branch_settings_type), intent(in) :: settings
-      !> The segment
       type(segment_type), intent(in) :: segment
       !> The point, of known kind
       type(special_point_type), intent(inout) :: point
@@ -169,11 +159,8 @@ contains
 
    !> Set the coefficient of a torus point on this mesh, and its difference from that before.
    subroutine set_coefficient(family, settings, point)
-      !> The problems
       class(problem_family_type), intent(in) :: family
-      !> How the branch was followed
       type(branch_settings_type), intent(in) :: settings
-      !> The point
       type(special_point_type), intent(inout) :: point
       type(error_type), allocatable :: failure
       real(wp) :: coefficient, disturbed(size(point%orbit%nodes, 1))
@@ -195,11 +182,8 @@ contains
 
    !> Find a point on a segment.
    subroutine locate(family, settings, segment, point, error)
-      !> The problems
       class(problem_family_type), intent(in) :: family
-      !> How the branch was followed
       type(branch_settings_type), intent(in) :: settings
-      !> The segment
       type(segment_type), intent(in) :: segment
       !> The point, of known kind
       type(special_point_type), intent(inout) :: point
@@ -236,15 +220,10 @@ contains
 
    !> Set the growth of a torus point by the multipliers on both sides.
    subroutine set_growth(family, settings, segment, at, point)
-      !> The problems
       class(problem_family_type), intent(in) :: family
-      !> How the branch was followed
       type(branch_settings_type), intent(in) :: settings
-      !> The segment
       type(segment_type), intent(in) :: segment
-      !> Place of the point on it
       real(wp), intent(in) :: at
-      !> The point
       type(special_point_type), intent(inout) :: point
       type(error_type), allocatable :: failure
       type(special_point_type) :: side
@@ -265,19 +244,14 @@ contains
 
    !> The orbit at a place on a segment, and the test function of the point there.
    subroutine test_at(family, settings, segment, place, point, g, error)
-      !> The problems
       class(problem_family_type), intent(in) :: family
-      !> How the branch was followed
       type(branch_settings_type), intent(in) :: settings
-      !> The segment
       type(segment_type), intent(in) :: segment
       !> Place, 0..1
       real(wp), intent(in) :: place
       !> The point, of known kind; its orbit is the one at the place
       type(special_point_type), intent(inout) :: point
-      !> Test function
       real(wp), intent(out) :: g
-      !> There is no orbit
       type(error_type), allocatable, intent(out) :: error
       type(multipliers_type) :: multipliers
       type(orbit_change_type) :: tangent

@@ -82,7 +82,6 @@ contains
 
    !> Distribute the difference between the ends over the period: the mesh would follow a jump.
    pure subroutine close_orbit(orbit)
-      !> The orbit
       type(periodic_orbit_type), intent(inout) :: orbit
       real(wp) :: gap(size(orbit%nodes, 1)), times(size(orbit%nodes, 2))
       integer :: i
@@ -164,9 +163,7 @@ contains
 
    !> The linear part of a problem at a stationary state.
    function linear_part(problem, state) result(linear)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Stationary state
       real(wp), intent(in) :: state(:)
       type(linear_system_type) :: linear
       real(wp) :: by_y(size(state), size(state)), by_z(size(state), size(problem%lag))

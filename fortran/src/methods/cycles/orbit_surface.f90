@@ -88,15 +88,10 @@ contains
    !> Turn two directions into orthonormal ones of the tangent plane; the first keeps its direction
    !> in it.
    subroutine turn_frame(family, scale, orbit, directions, error)
-      !> The problems
       class(problem_family_type), intent(in) :: family
-      !> Free parameters
       type(orbit_scale_type), intent(in) :: scale
-      !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
-      !> The directions
       type(orbit_change_type), intent(inout) :: directions(2)
-      !> They do not determine the plane
       type(error_type), allocatable, intent(out) :: error
       type(orbit_change_type) :: plane(2)
 
@@ -112,21 +107,13 @@ contains
 
    !> The test function at a place of the plane near a point.
    subroutine test_near(family, scale, wanted, point, frame, place, g, error)
-      !> The problems
       class(problem_family_type), intent(in) :: family
-      !> The two free parameters
       type(orbit_scale_type), intent(in) :: scale
-      !> Number of multipliers
       integer, intent(in) :: wanted
-      !> The point
       type(special_point_type), intent(in) :: point
-      !> Directions of the plane
       type(frame_type), intent(in) :: frame
-      !> Place
       real(wp), intent(in) :: place(2)
-      !> The test function
       real(wp), intent(out) :: g
-      !> There is no orbit
       type(error_type), allocatable, intent(out) :: error
       type(orbit_change_type) :: move
       type(special_point_type) :: near
@@ -197,9 +184,7 @@ contains
 
    !> A linear combination of two changes.
    type(orbit_change_type) function combination(changes, factors) result(change)
-      !> The changes
       type(orbit_change_type), intent(in) :: changes(2)
-      !> Their factors
       real(wp), intent(in) :: factors(2)
 
       change = changes(1)%times(factors(1))

@@ -182,7 +182,6 @@ contains
    !> Least share of an orbit beside its means after 1/k of the period, k > 1: it is 0 where the
    !> orbit is one of 1/k of its period.
    pure real(wp) function part_share(self) result(share)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: self
       integer :: turns
 
@@ -195,9 +194,7 @@ contains
    !> What is left of an orbit at its nodes without its mean or, for k > 1, without the mean of its
    !> values after 0, 1/k, ... of the period.
    pure function part_beside(orbit, turns) result(part)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: orbit
-      !> k
       integer, intent(in) :: turns
       real(wp) :: part(size(orbit%nodes, 1), size(orbit%nodes, 2))
       real(wp) :: times(size(orbit%nodes, 2))
@@ -245,13 +242,10 @@ contains
 
    !> Maximum of a component times a sign.
    pure subroutine find_highest(self, component, sign, value, time)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: self
-      !> Component of the state
       integer, intent(in) :: component
       !> 1 or -1
       real(wp), intent(in) :: sign
-      !> The maximum
       real(wp), intent(out) :: value
       !> When it is there, in periods
       real(wp), intent(out) :: time

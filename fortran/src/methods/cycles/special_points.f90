@@ -90,7 +90,6 @@ contains
    !> Whether an angle in turns is that of a resonance 1:1 to 1:4, where there is another normal
    !> form.
    pure logical function is_strong_resonance(angle) result(value)
-      !> The angle
       real(wp), intent(in) :: angle
       integer :: q
 

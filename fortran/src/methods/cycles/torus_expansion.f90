@@ -110,7 +110,6 @@ contains
 
    !> The least |z| of the differences.
    pure real(wp) function least_size(self) result(z)
-      !> The expansion with q
       class(torus_expansion_type), intent(in) :: self
 
       z = share*self%orbit%amplitude()/(2.0_wp*maxval(abs(self%nodes(:, :, q))))

@@ -124,7 +124,6 @@ contains
 
    !> Weights w of the nodes with sum(w x) = mean of conjg(y) . x over the period.
    function weights_with(orbit, y) result(weights)
-      !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       !> y at the nodes, shape (n, nodes)
       complex(wp), intent(in) :: y(:, :)
@@ -140,13 +139,10 @@ contains
 
    !> Solve the linear equation of a term.
    subroutine solve_term(map, nodes, unknown, error)
-      !> The equation
       type(term_map_type), intent(inout) :: map
       !> The term at the nodes, shape (n, nodes)
       complex(wp), intent(out) :: nodes(:, :)
-      !> The further unknown
       complex(wp), intent(out) :: unknown
-      !> No solution
       type(error_type), allocatable, intent(out) :: error
       real(wp), allocatable :: right(:), solution(:)
 
@@ -171,11 +167,8 @@ contains
 
    !> The past times the multiplier, less the past a period later, and the condition.
    subroutine defect_of_term(self, vector, image)
-      !> The equation
       class(term_map_type), intent(inout) :: self
-      !> Past and further unknown
       real(wp), intent(in) :: vector(:)
-      !> The defects
       real(wp), intent(out) :: image(:)
 
       call defect(self, vector, 0.0_wp, image)
@@ -183,13 +176,8 @@ contains
 
    !> Defect of a term, plus a multiple of the given forcing.
    subroutine defect(self, vector, given, image)
-      !> The equation
       class(term_map_type), intent(inout) :: self
-      !> Past and further unknown
-      real(wp), intent(in) :: vector(:)
-      !> Factor of the given forcing
-      real(wp), intent(in) :: given
-      !> The defects
+      real(wp), intent(in) :: vector(:), given
       real(wp), intent(out) :: image(:)
       complex(wp) :: past(self%linear%past_size()), unknown
       real(wp) :: factor(0:6, 2), later(size(past), 2)

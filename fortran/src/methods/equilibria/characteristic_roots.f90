@@ -74,13 +74,9 @@ contains
 
    !> The eigenvalues s of the scaled generator, M s x = G x.
    subroutine approximate_roots(system, intervals, approximate, error)
-      !> The system
       type(linear_system_type), intent(in) :: system
-      !> Intervals between the nodes
       integer, intent(in) :: intervals
-      !> The eigenvalues
       complex(wp), allocatable, intent(out) :: approximate(:)
-      !> They cannot be found
       type(error_type), allocatable, intent(out) :: error
       real(wp), allocatable :: divisor(:), matrix(:, :)
       real(wp) :: unit
@@ -103,9 +99,7 @@ contains
    !> The generator on Chebyshev nodes from 0 back to the longest lag: the system itself at 0,
    !> differentiation of the history elsewhere. Only delayed components have a history.
    pure function generator(system, intervals, unit) result(matrix)
-      !> The system
       type(linear_system_type), intent(in) :: system
-      !> Intervals between the nodes
       integer, intent(in) :: intervals
       !> Unit of time: the longest lag
       real(wp), intent(in) :: unit
@@ -152,7 +146,6 @@ contains
 
    !> Components with a delayed value in the system.
    pure function delayed_components(system) result(components)
-      !> The system
       type(linear_system_type), intent(in) :: system
       integer, allocatable :: components(:)
       integer :: i, k
@@ -164,12 +157,7 @@ contains
 
    !> Coefficients by which values at the nodes give the value between them.
    pure function interpolation(x, weight, at) result(row)
-      !> Nodes
-      real(wp), intent(in) :: x(:)
-      !> Their barycentric weights
-      real(wp), intent(in) :: weight(:)
-      !> Where
-      real(wp), intent(in) :: at
+      real(wp), intent(in) :: x(:), weight(:), at
       real(wp) :: row(size(x))
       integer :: nearest
 
@@ -185,11 +173,8 @@ contains
 
    !> The roots that approximate ones lead to, each once.
    function refined(system, bound, approximate) result(roots)
-      !> The system
       type(linear_system_type), intent(in) :: system
-      !> Least real part
       real(wp), intent(in) :: bound
-      !> Approximations
       complex(wp), intent(in) :: approximate(:)
       complex(wp), allocatable :: roots(:)
       complex(wp) :: s
@@ -210,7 +195,6 @@ contains
 
    !> A root above the real axis and its conjugate, or a real root alone.
    pure function with_partner(s) result(both)
-      !> The root
       complex(wp), intent(in) :: s
       complex(wp), allocatable :: both(:)
 
@@ -223,7 +207,6 @@ contains
 
    !> Newton's method on det Delta(s), whose logarithm has the derivative trace(Delta^-1 Delta').
    subroutine follow_newton(system, start, s, found)
-      !> The system
       type(linear_system_type), intent(in) :: system
       !> Where to start, on or above the real axis
       complex(wp), intent(in) :: start

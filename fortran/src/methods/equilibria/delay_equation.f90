@@ -53,12 +53,8 @@ contains
 
    !> Second derivative.
    pure function second_form(self, x, y) result(form)
-      !> The equation
       class(delay_equation_type), intent(in) :: self
-      !> First history
-      complex(wp), intent(in) :: x(:, :)
-      !> Second history
-      complex(wp), intent(in) :: y(:, :)
+      complex(wp), intent(in) :: x(:, :), y(:, :)
       complex(wp) :: form(size(x, 1))
 
       form = self%derivative(reshape([x, y], [shape(x), 2]))
@@ -66,14 +62,8 @@ contains
 
    !> Third derivative.
    pure function third_form(self, x, y, z) result(form)
-      !> The equation
       class(delay_equation_type), intent(in) :: self
-      !> First history
-      complex(wp), intent(in) :: x(:, :)
-      !> Second history
-      complex(wp), intent(in) :: y(:, :)
-      !> Third history
-      complex(wp), intent(in) :: z(:, :)
+      complex(wp), intent(in) :: x(:, :), y(:, :), z(:, :)
       complex(wp) :: form(size(x, 1))
 
       form = self%derivative(reshape([x, y, z], [shape(x), 3]))

@@ -160,7 +160,6 @@ contains
 
    !> p_11 p_22 - p_12 p_21.
    pure real(wp) function determinant(form) result(value)
-      !> The coefficients
       type(double_hopf_type), intent(in) :: form
 
       associate (p => real(form%g, wp))

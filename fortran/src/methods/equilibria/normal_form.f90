@@ -75,15 +75,11 @@ contains
 
    !> The answer of the linear system to a forcing exp(s t), as history.
    subroutine respond(equation, s, forcing, history, error)
-      !> The equation
       class(delay_equation_type), intent(in) :: equation
-      !> Exponent
       complex(wp), intent(in) :: s
       !> Amplitude of the forcing, shape (n)
       complex(wp), intent(in) :: forcing(:)
-      !> The answer at all lags
       complex(wp), intent(out) :: history(:, :)
-      !> s is a root
       type(error_type), allocatable, intent(out) :: error
       complex(wp) :: answer(size(forcing), 1)
 
@@ -96,9 +92,7 @@ contains
    pure function history_of(amplitude, s, lag) result(history)
       !> Amplitude, shape (n)
       complex(wp), intent(in) :: amplitude(:)
-      !> Exponent
       complex(wp), intent(in) :: s
-      !> Lags
       real(wp), intent(in) :: lag(:)
       complex(wp) :: history(size(amplitude), size(lag))
       integer :: i
