@@ -3,7 +3,7 @@
 module block_cycles
    use block_family, only: block_family_type, parameters_of, vector_of
    use block_parameters, only: block_history_type, block_parameters_type
-   use branch_ends, only: branch_settings_type
+   use branch_ends, only: follow_settings_type
    use collocation_basis, only: collocation_basis_type, radau_points
    use cycle_lines, only: cycle_line_type, find_hopf_starts, hopf_start_type
    use dde, only: continuation_type, integrate, integration_options, integration_result
@@ -11,11 +11,10 @@ module block_cycles
    use dde_kinds, only: wp
    use orbit_branch, only: branch_type, follow_branch
    use orbit_change, only: orbit_change_type
-   use orbit_passes, only: orbit_scale_type
    use orbit_points, only: find_special_points
-   use orbit_start, only: orbit_at_hopf_point, orbit_of_trajectory
-   use orbit_switch, only: orbit_of_double_period
+   use orbit_start, only: orbit_at_hopf_point, orbit_of_double_period, orbit_of_trajectory
    use periodic_orbit, only: periodic_orbit_type
+   use problem_family, only: free_family_type
    use progress_receiver, only: progress_receiver_type
    use special_points, only: period_doubling, special_point_type
    use spring_block, only: index_of_ln_v, spring_block_type
@@ -86,7 +85,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Receiver of the number of starts done
       class(progress_receiver_type), intent(inout), optional :: progress
-      type(branch_settings_type) :: how
+      type(follow_settings_type) :: how
       type(collocation_basis_type) :: basis
       type(error_type), allocatable :: failure
       type(orbit_change_type) :: tangent
@@ -97,10 +96,11 @@ contains
       associate (line => settings%line)
          call find_hopf_starts(line, hopf, error)
          if (allocated(error)) return
-         how%scale = orbit_scale_type([line%along], [line%window(2) - line%window(1)])
-         how%window = line%window
+         how%family = free_family_type(block_family_type(), [line%along], &
+                                       [line%window(2) - line%window(1)])
+         how%window(:, 1) = line%window
          how%longest_period = settings%longest_period
-         how%most_orbits = settings%most_orbits
+         how%most_points = settings%most_orbits
          how%least_amplitude = first_amplitude
          basis = collocation_basis_type(settings%degree, radau_points)
       end associate
@@ -108,11 +108,10 @@ contains
       do i = 1, size(hopf)
          if (present(progress)) call progress%advance(i - 1, size(hopf) + size(settings%starts))
          if (is_end(settings, found, hopf(i))) cycle
-         call orbit_at_hopf_point(block_family_type(), vector_of(hopf(i)%parameters), &
-                                  [0.0_wp, 0.0_wp, 0.0_wp], hopf(i)%omega, &
+         at = vector_of(hopf(i)%parameters)
+         call orbit_at_hopf_point(how%family, at, [0.0_wp, 0.0_wp, 0.0_wp], hopf(i)%omega, &
                                   first_amplitude, basis, settings%intervals, orbit, tangent, error)
          if (allocated(error)) return
-         at = vector_of(hopf(i)%parameters)
          call append(how, orbit, 1, "hopf", at(settings%line%along), found, left_out, error, &
                      tangent)
          if (allocated(error)) return
@@ -150,7 +149,7 @@ contains
 
    !> Follow the branches of double period that start on a branch.
    subroutine follow_doublings(how, points, found, left_out, error)
-      type(branch_settings_type), intent(in) :: how
+      type(follow_settings_type), intent(in) :: how
       type(special_point_type), intent(in) :: points(:)
       type(cycles_type), allocatable, intent(inout) :: found(:)
       type(left_out_type), allocatable, intent(inout) :: left_out(:)
@@ -163,11 +162,10 @@ contains
       here = points
       do i = 1, size(here)
          if (here(i)%kind /= period_doubling) cycle
-         call orbit_of_double_period(block_family_type(), here(i), first_amplitude, orbit, &
-                                     tangent, error)
+         call orbit_of_double_period(how%family, here(i), first_amplitude, orbit, tangent, error)
          if (allocated(error)) return
          call append(how, orbit, 1, "period_doubling", &
-                     here(i)%orbit%parameters(how%scale%free(1)), found, left_out, error, tangent)
+                     here(i)%orbit%parameters(how%family%free(1)), found, left_out, error, tangent)
          if (allocated(error)) return
       end do
    end subroutine follow_doublings
@@ -175,7 +173,7 @@ contains
    !> Follow a branch and append it with its special points, or to what is left out if it cannot be
    !> started.
    subroutine append(how, orbit, direction, origin, at, found, left_out, error, tangent)
-      type(branch_settings_type), intent(in) :: how
+      type(follow_settings_type), intent(in) :: how
       type(periodic_orbit_type), intent(in) :: orbit
       !> 1 or -1
       integer, intent(in) :: direction
@@ -187,21 +185,17 @@ contains
       type(orbit_change_type), intent(in), optional :: tangent
       type(cycles_type), allocatable :: longer(:)
       type(error_type), allocatable :: failure
-      integer :: i
 
       allocate (longer(size(found) + 1))
-      do i = 1, size(found)
-         longer(i) = found(i)
-      end do
+      longer(:size(found)) = found
       associate (last => longer(size(longer)))
          last%origin = origin
-         call follow_branch(block_family_type(), how, orbit, direction, last%branch, failure, &
-                            tangent)
+         call follow_branch(how, orbit, direction, last%branch, failure, tangent)
          if (allocated(failure)) then
             call leave_out(origin, at, failure%message, left_out)
             return
          end if
-         call find_special_points(block_family_type(), how, last%branch, last%points, error)
+         call find_special_points(how, last%branch, last%points, error)
       end associate
       call move_alloc(longer, found)
    end subroutine append

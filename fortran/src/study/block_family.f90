@@ -7,7 +7,11 @@ module block_family
    use spring_block, only: index_of_ln_v, spring_block_type
    implicit none (type, external)
    private
-   public :: block_family_type, parameters_of, vector_of
+   public :: along_epsilon, along_gamma, along_tau, along_xi, block_family_type, parameters_of, &
+             vector_of
+
+   !> Numbers of the parameters in the order of the family.
+   integer, parameter :: along_tau = 1, along_epsilon = 2, along_xi = 3, along_gamma = 4
 
    !> The block; parameters tau, epsilon, xi, gamma.
    type, extends(problem_family_type) :: block_family_type

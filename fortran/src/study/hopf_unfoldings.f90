@@ -48,7 +48,7 @@ contains
    !> curve and leaves towards the part where l1 and l2 differ in sign.
    subroutine unfold_generalised_hopf(plane, omega, k, unfolding, error)
       !> The plane
-      class(curve_plane_type), intent(in) :: plane
+      type(curve_plane_type), intent(in) :: plane
       !> Frequency of the pair
       real(wp), intent(in) :: omega
       !> Branch of the curve
@@ -84,7 +84,7 @@ contains
    !> The coefficients, and the directions by mu_j = sum over parameters of Re(d root_j).
    subroutine unfold_double_hopf(plane, parameters, omega, unfolding, error)
       !> The plane
-      class(curve_plane_type), intent(in) :: plane
+      type(curve_plane_type), intent(in) :: plane
       !> Parameters of the point
       type(block_parameters_type), intent(in) :: parameters
       !> Frequencies of the pairs
@@ -107,7 +107,7 @@ contains
    !> A fold of cycles near a generalised Hopf point.
    subroutine predict_fold(plane, omega, k, unfolding, amplitude, cycle_at_fold, error)
       !> The plane
-      class(curve_plane_type), intent(in) :: plane
+      type(curve_plane_type), intent(in) :: plane
       !> Frequency of the pair at the point
       real(wp), intent(in) :: omega
       !> Branch of the curve
@@ -141,7 +141,7 @@ contains
    type(cycle_type) function predict_torus(plane, parameters, unfolding, pair, amplitude) &
       result(cycle_at_torus)
       !> The plane
-      class(curve_plane_type), intent(in) :: plane
+      type(curve_plane_type), intent(in) :: plane
       !> Parameters of the point
       type(block_parameters_type), intent(in) :: parameters
       !> The normal form
@@ -166,7 +166,7 @@ contains
 
    !> The step (epsilon, ordinate) from a double Hopf point to given growth rates.
    pure function way_to(plane, parameters, omega, mu) result(way)
-      class(curve_plane_type), intent(in) :: plane
+      type(curve_plane_type), intent(in) :: plane
       type(block_parameters_type), intent(in) :: parameters
       real(wp), intent(in) :: omega(2), mu(2)
       real(wp) :: way(2)

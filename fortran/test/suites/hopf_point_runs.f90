@@ -37,7 +37,7 @@ contains
       !> Kind
       character(len=*), intent(in) :: kind
       !> The plane
-      class(curve_plane_type), allocatable, intent(out) :: plane
+      type(curve_plane_type), intent(out) :: plane
       !> The points
       type(hopf_point_type), allocatable, intent(out) :: found(:)
       !> The first failure of the test
@@ -53,7 +53,7 @@ contains
       call find_hopf_points(traced%plane, traced%points, all_points, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
-      allocate (plane, source=traced%plane)
+      plane = traced%plane
       found = pack(all_points, all_points%kind == kind)
    end subroutine find_points
 
@@ -61,7 +61,7 @@ contains
    !> both curves of tori.
    type(block_parameters_type) function parameters_at(plane, point, mu) result(there)
       !> The plane
-      class(curve_plane_type), intent(in) :: plane
+      type(curve_plane_type), intent(in) :: plane
       !> The double Hopf point
       type(hopf_point_type), intent(in) :: point
       !> Growth rates

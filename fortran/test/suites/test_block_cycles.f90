@@ -11,10 +11,11 @@ module test_block_cycles
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_success
    use hopf_curves, only: curve_point_type, trace_curves
-   use hopf_planes, only: tau_plane_type
+   use hopf_planes, only: curve_plane_type
    use hopf_points, only: find_hopf_points, hopf_point_type, judge_points
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use special_points, only: fold, torus_bifurcation
+   use traced_planes, only: new_plane
    implicit none (type, external)
    private
    public :: collect_block_cycles
@@ -122,12 +123,11 @@ contains
       type(curve_point_type), allocatable :: points(:)
       type(failure_type), allocatable :: failure
       type(hopf_point_type), allocatable :: found(:)
-      type(tau_plane_type) :: plane
+      type(curve_plane_type) :: plane
       integer :: i
 
       nearest = 1000.0_wp
-      plane = tau_plane_type(gamma=0.8_wp, epsilon_window=window(:2), ordinate_window=window(3:), &
-                             xi=xi)
+      plane = new_plane(along_tau, 0.8_wp, xi, window)
       call trace_curves(plane, points, failure)
       call expect_success(error, failure)
       call judge_points(points, failure)

@@ -234,7 +234,7 @@ contains
 
    !> The omegas at which branch k enters and leaves the window.
    function ends_by_scan(plane, k) result(ends)
-      class(curve_plane_type), intent(in) :: plane
+      type(curve_plane_type), intent(in) :: plane
       integer, intent(in) :: k
       real(wp), allocatable :: ends(:)
       real(wp) :: omega, place(2)

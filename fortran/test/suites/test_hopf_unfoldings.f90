@@ -38,7 +38,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(hopf_point_type), allocatable :: found(:)
-      class(curve_plane_type), allocatable :: plane
+      type(curve_plane_type) :: plane
       complex(wp), allocatable :: roots(:)
       type(block_equation_type) :: equation
       real(wp), parameter :: step = 1.0e-5_wp
@@ -77,7 +77,7 @@ contains
    subroutine test_fold_direction(error)
       type(error_type), allocatable, intent(out) :: error
       type(hopf_point_type), allocatable :: found(:)
-      class(curve_plane_type), allocatable :: plane
+      type(curve_plane_type) :: plane
       type(block_parameters_type) :: there
       real(wp) :: way(2)
       integer :: i, n, side
@@ -106,7 +106,7 @@ contains
    subroutine test_torus(error)
       type(error_type), allocatable, intent(out) :: error
       type(hopf_point_type), allocatable :: found(:)
-      class(curve_plane_type), allocatable :: plane
+      type(curve_plane_type) :: plane
       integer :: i, n, pair, tested
 
       tested = 0
@@ -129,7 +129,7 @@ contains
 
    !> On both sides of the line at which the torus of a cycle is born.
    subroutine check_line(plane, point, pair, error)
-      class(curve_plane_type), intent(in) :: plane
+      type(curve_plane_type), intent(in) :: plane
       type(hopf_point_type), intent(in) :: point
       integer, intent(in) :: pair
       type(error_type), allocatable, intent(inout) :: error
@@ -170,7 +170,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(hopf_point_type), allocatable :: found(:)
-      class(curve_plane_type), allocatable :: plane
+      type(curve_plane_type) :: plane
       type(cycle_type) :: fold
       complex(wp) :: mode(3, 2)
       real(wp), parameter :: amplitude = 0.02_wp, shares(-1:1) = [0.5_wp, 1.0_wp, 1.5_wp]
@@ -211,7 +211,7 @@ contains
    subroutine test_cycle_at_torus(error)
       type(error_type), allocatable, intent(out) :: error
       type(hopf_point_type), allocatable :: found(:)
-      class(curve_plane_type), allocatable :: plane
+      type(curve_plane_type) :: plane
       type(cycle_type) :: torus
       complex(wp) :: mode(3, 2)
       real(wp), parameter :: amplitude = 0.02_wp

@@ -3,15 +3,15 @@ module test_periodic_orbits
    use block_builder, only: build_block
    use collocation_basis, only: collocation_basis_type, gauss_points, radau_points
    use cycle_families, only: delayed_sine, known_family
-   use dde, only: continuation_type, integrate, integration_result
+   use dde, only: continuation_type
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use floquet_multipliers, only: multipliers_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use orbit_equations, only: newton_type
-   use orbit_mesh, only: adapted_mesh, uniform_mesh
-   use orbit_runs, only: correct, cycle_of_block
+   use orbit_mesh, only: adapted_mesh
+   use orbit_runs, only: advance, correct, cycle_of_block, new_orbit
    use orbit_start, only: orbit_of_trajectory
    use periodic_orbit, only: periodic_orbit_type
    use solving, only: at_tolerance
@@ -78,10 +78,7 @@ contains
       do kind = gauss_points, radau_points
          do m = 3, 5
             do i = 1, 2
-               orbit%basis = collocation_basis_type(m, kind)
-               orbit%mesh = uniform_mesh(intervals(i))
-               orbit%parameters = [0.25_wp]
-               orbit%period = 6.3_wp
+               orbit = new_orbit(m, kind, intervals(i), 6.3_wp, [0.25_wp])
                orbit%nodes = reshape(0.51_wp*sin(2.0_wp*pi*orbit%node_times()), &
                                      [1, intervals(i)*m + 1])
                call correct(known_family(equation=delayed_sine), orbit, newton, failure)
@@ -185,10 +182,7 @@ contains
       real(wp) :: mesh(31), place, state(1)
       integer :: interval
 
-      orbit%basis = collocation_basis_type(5, gauss_points)
-      orbit%mesh = uniform_mesh(200)
-      orbit%period = 1.0_wp
-      orbit%parameters = [0.0_wp]
+      orbit = new_orbit(5, gauss_points, 200, 1.0_wp, [0.0_wp])
       orbit%nodes = reshape(tanh(100.0_wp*(orbit%node_times() - 0.3_wp)) &
                             - tanh(100.0_wp*(orbit%node_times() - 0.7_wp)), [1, 1001])
       mesh = adapted_mesh(orbit, 30)
@@ -228,10 +222,7 @@ contains
       !> The part of the whole period, and its shift
       real(wp), intent(in) :: a, shift
 
-      orbit%basis = collocation_basis_type(5, gauss_points)
-      orbit%mesh = uniform_mesh(30)
-      orbit%period = 1.0_wp
-      orbit%parameters = [0.0_wp]
+      orbit = new_orbit(5, gauss_points, 30, 1.0_wp, [0.0_wp])
       associate (s => orbit%node_times())
          orbit%nodes = reshape(cos(6.0_wp*pi*s) + a*cos(2.0_wp*pi*(s + shift)), [1, size(s)])
       end associate
@@ -242,23 +233,17 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(continuation_type) :: arrived
       type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
       type(newton_type) :: newton
       type(periodic_orbit_type) :: orbit
       type(spring_block_type) :: block
 
-      orbit%basis = collocation_basis_type(4, gauss_points)
-      orbit%mesh = uniform_mesh(10)
-      orbit%parameters = [-0.5_wp]
-      orbit%period = 6.0_wp
+      orbit = new_orbit(4, gauss_points, 10, 6.0_wp, [-0.5_wp])
       orbit%nodes = reshape(sin(2.0_wp*pi*orbit%node_times()), [1, 41])
       newton%most_iterations = 4
       call correct(known_family(equation=delayed_sine), orbit, newton, failure)
       call expect_failure(error, failure, "Newton's method")
       block = build_block(tau=0.0_wp, epsilon=0.1_wp, xi=0.5_wp, gamma=0.8_wp, v=1.1_wp)
-      call integrate(block, 0.0_wp, 10.0_wp, at_tolerance(1.0e-9_wp, "auto"), outcome, failure, &
-                     continuation=arrived)
-      call expect_success(error, failure)
+      call advance(block, 0.0_wp, 10.0_wp, arrived, error)
       call orbit_of_trajectory(block, at_tolerance(1.0e-9_wp), arrived, index_of_ln_v, 1.0_wp, &
                                collocation_basis_type(4, gauss_points), 10, orbit, failure)
       call expect_failure(error, failure, "maxima")

@@ -1,11 +1,12 @@
 !> Changes of periodic orbits as vectors, with an inner product.
 module orbit_change
    use dde_kinds, only: wp
-   use orbit_passes, only: orbit_scale_type
    use periodic_orbit, only: periodic_orbit_type
+   use problem_family, only: free_family_type
    implicit none (type, external)
    private
-   public :: difference_of, inner_product, orbit_change_type, phase_condition, weights_of
+   public :: amplitude_direction, difference_of, inner_product, orbit_change_type, &
+             parameter_direction, phase_condition, weights_of
 
    !> A change of an orbit, on its mesh.
    type :: orbit_change_type
@@ -29,6 +30,31 @@ module orbit_change
    end type orbit_change_type
 
 contains
+
+   !> The direction in which an orbit grows away from its mean at fixed parameters.
+   pure function amplitude_direction(orbit, free) result(direction)
+      !> The orbit
+      type(periodic_orbit_type), intent(in) :: orbit
+      !> Number of free parameters
+      integer, intent(in) :: free
+      type(orbit_change_type) :: direction
+
+      direction%nodes = orbit%deviations()
+      allocate (direction%parameters(free), source=0.0_wp)
+   end function amplitude_direction
+
+   !> The direction in which only the last free parameter changes.
+   pure function parameter_direction(orbit, free) result(direction)
+      !> The orbit
+      type(periodic_orbit_type), intent(in) :: orbit
+      !> Number of free parameters
+      integer, intent(in) :: free
+      type(orbit_change_type) :: direction
+
+      allocate (direction%nodes(size(orbit%nodes, 1), size(orbit%nodes, 2)), source=0.0_wp)
+      allocate (direction%parameters(free), source=0.0_wp)
+      direction%parameters(free) = 1.0_wp
+   end function parameter_direction
 
    !> The condition that the integral of x . x_ref' over the period is 0, divided by the norm of
    !> x_ref'.
@@ -92,34 +118,34 @@ contains
    end function inner_product
 
    !> Change from one orbit to another on the same mesh.
-   pure function difference_of(orbit, reference, scale) result(change)
+   pure function difference_of(orbit, reference, family) result(change)
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       !> The one it is compared with
       type(periodic_orbit_type), intent(in) :: reference
-      !> Free parameters
-      type(orbit_scale_type), intent(in) :: scale
+      !> The free parameters
+      type(free_family_type), intent(in) :: family
       type(orbit_change_type) :: change
 
       change%nodes = orbit%nodes - reference%nodes
       change%period = (orbit%period - reference%period)/reference%period
-      change%parameters = (orbit%parameters(scale%free) - reference%parameters(scale%free)) &
-                          /scale%unit
+      change%parameters = (orbit%parameters(family%free) - reference%parameters(family%free)) &
+                          /family%unit
    end function difference_of
 
    !> Add a change to an orbit.
-   subroutine add_to(self, orbit, scale)
+   subroutine add_to(self, orbit, family)
       !> The change
       class(orbit_change_type), intent(in) :: self
       !> The orbit
       type(periodic_orbit_type), intent(inout) :: orbit
-      !> Free parameters
-      type(orbit_scale_type), intent(in) :: scale
+      !> The free parameters
+      type(free_family_type), intent(in) :: family
 
       orbit%nodes = orbit%nodes + self%nodes
       orbit%nodes(:, size(orbit%nodes, 2)) = orbit%nodes(:, 1)
       orbit%period = orbit%period*(1.0_wp + self%period)
-      orbit%parameters(scale%free) = orbit%parameters(scale%free) + self%parameters*scale%unit
+      orbit%parameters(family%free) = orbit%parameters(family%free) + self%parameters*family%unit
    end subroutine add_to
 
    !> The largest change of a component over its greatest value, of the period over the period and

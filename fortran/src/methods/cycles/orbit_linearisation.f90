@@ -5,9 +5,9 @@ module orbit_linearisation
    use dde_errors, only: error_type, raise
    use dde_kinds, only: wp
    use lapack, only: solve
-   use orbit_passes, only: orbit_passes_type, orbit_scale_type
+   use orbit_passes, only: orbit_passes_type
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: problem_family_type
+   use problem_family, only: free_family_type
    implicit none (type, external)
    private
    public :: linearise_orbit
@@ -32,15 +32,13 @@ module orbit_linearisation
 contains
 
    !> The equations about an orbit.
-   subroutine linearise_orbit(family, orbit, scale, whole_past, self, error, further)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
+   subroutine linearise_orbit(family, orbit, whole_past, self, error, further)
+      !> Problems and free parameters
+      type(free_family_type), intent(in) :: family
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
-      !> Free parameters
-      type(orbit_scale_type), intent(in) :: scale
-      !> Whether delays reach back over periods, as is needed for multipliers; otherwise they are
-      !> taken modulo the period
+      !> Whether delays reach back over periods and no parameter is free, as is needed for
+      !> multipliers; otherwise delays are taken modulo the period
       logical, intent(in) :: whole_past
       !> The equations
       type(orbit_passes_type), intent(out) :: self
@@ -50,21 +48,27 @@ contains
       !> those of the parameters
       real(wp), intent(in), optional :: further(:, :, :, :)
       class(dde_problem_type), allocatable :: problem
-      type(member_type) :: beside(2, size(scale%free))
-      real(wp), allocatable :: local(:, :), place(:, :, :), right(:, :)
+      type(member_type), allocatable :: beside(:, :)
+      real(wp), allocatable :: local(:, :), parameters(:), place(:, :, :), right(:, :)
       integer :: first, forcings, i, p
 
-      call family%at(orbit%parameters, problem)
-      do p = 1, size(scale%free)
-         call family%at(changed(orbit%parameters, scale, p, difference), beside(1, p)%problem)
-         call family%at(changed(orbit%parameters, scale, p, -difference), beside(2, p)%problem)
+      call family%problems%at(orbit%parameters, problem)
+      allocate (beside(2, merge(0, size(family%free), whole_past)))
+      do p = 1, size(beside, 2)
+         do i = 1, 2
+            parameters = orbit%parameters
+            associate (moved => parameters(family%free(p)))
+               moved = moved + (3 - 2*i)*difference*family%unit(p)
+            end associate
+            call family%problems%at(parameters, beside(i, p)%problem)
+         end do
       end do
       self%n = problem%n
       self%degree = orbit%basis%degree
       self%intervals = orbit%intervals()
       call find_sources(self, problem, orbit, whole_past, place)
       associate (n => self%n, m => self%degree, delays => size(problem%lag))
-         first = n + delays*m + 2 + size(scale%free) + 1
+         first = n + delays*m + 2 + size(beside, 2) + 1
          forcings = 0
          if (present(further)) forcings = size(further, 4)
          allocate (self%response(n*m, first - 1 + forcings, self%intervals))
@@ -81,18 +85,6 @@ contains
                     //"finite values expected")
       end if
    end subroutine linearise_orbit
-
-   !> Parameters of which a free one is changed.
-   pure function changed(parameters, scale, p, share) result(moved)
-      real(wp), intent(in) :: parameters(:)
-      type(orbit_scale_type), intent(in) :: scale
-      integer, intent(in) :: p
-      real(wp), intent(in) :: share
-      real(wp) :: moved(size(parameters))
-
-      moved = parameters
-      moved(scale%free(p)) = moved(scale%free(p)) + share*scale%unit(p)
-   end function changed
 
    !> Where delayed values come from.
    subroutine find_sources(self, problem, orbit, whole_past, place)

@@ -30,9 +30,9 @@ module periodic_orbit
       procedure :: node_times
       !> The orbit on another mesh
       procedure :: on_mesh
-      !> Largest range of a component
-      procedure :: amplitude
-      !> Whether a part of another orbit on the same mesh is opposite
+      !> Nodes less their mean, and the largest range of a component
+      procedure :: deviations, amplitude
+      !> Turns after which the parts of another orbit on the same mesh are opposite
       procedure :: opposite_parts
       !> Whether the orbit is almost one of a part of its period, more so than the orbit before it
       procedure :: comes_to_shorter
@@ -137,6 +137,16 @@ contains
       orbit%nodes(:, size(orbit%nodes, 2)) = orbit%nodes(:, 1)
    end function on_mesh
 
+   !> State at the nodes less the mean of all nodes, shape (n, nodes).
+   pure function deviations(self) result(nodes)
+      !> The orbit
+      class(periodic_orbit_type), intent(in) :: self
+      real(wp) :: nodes(size(self%nodes, 1), size(self%nodes, 2))
+
+      nodes = self%nodes - spread(sum(self%nodes, dim=2)/size(self%nodes, 2), 2, &
+                                  size(self%nodes, 2))
+   end function deviations
+
    !> The largest range of a component, by the nodes.
    pure real(wp) function amplitude(self) result(value)
       !> The orbit
@@ -200,12 +210,9 @@ contains
       real(wp) :: times(size(orbit%nodes, 2))
       integer :: i, k
 
-      part = orbit%nodes
-      if (turns == 1) then
-         part = part - spread(sum(part, dim=2)/size(part, 2), 2, size(part, 2))
-         return
-      end if
-      part = part*(1.0_wp - 1.0_wp/turns)
+      part = orbit%deviations()
+      if (turns == 1) return
+      part = orbit%nodes*(1.0_wp - 1.0_wp/turns)
       times = orbit%node_times()
       do i = 1, size(times)
          do k = 1, turns - 1

@@ -1,12 +1,14 @@
 !> Special points of periodic orbits: what they are, and their test functions.
 module special_points
+   use branch_ends, only: follow_settings_type
+   use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use floquet_multipliers, only: multipliers_type
+   use floquet_multipliers, only: find_multipliers, multipliers_type
    use periodic_orbit, only: periodic_orbit_type
    implicit none (type, external)
    private
-   public :: branching, cusp, fold, kind_length, nearest_resonance, period_doubling, &
-             special_point_type, test_value, torus_bifurcation
+   public :: branching, cusp, fold, judge_point, kind_length, nearest_resonance, &
+             period_doubling, special_point_type, torus_bifurcation
 
    !> Kinds of special points.
    character(len=*), parameter :: fold = "fold", period_doubling = "period_doubling", &
@@ -112,6 +114,26 @@ contains
          end if
       end do
    end function nearest_resonance
+
+   !> The critical multiplier of a point, its accuracy, and the test function by multipliers.
+   subroutine judge_point(settings, point, g, error)
+      !> Problems and number of multipliers
+      type(follow_settings_type), intent(in) :: settings
+      !> The point, of known kind and orbit
+      type(special_point_type), intent(inout) :: point
+      !> The test function
+      real(wp), intent(out) :: g
+      !> No multipliers
+      type(error_type), allocatable, intent(out) :: error
+      type(multipliers_type) :: multipliers
+
+      g = 0.0_wp
+      call find_multipliers(settings%family, point%orbit, settings%refinement%multipliers, &
+                            multipliers, error)
+      if (allocated(error)) return
+      call test_value(point%kind, multipliers, point%multiplier, g)
+      point%trivial_error = multipliers%trivial_error
+   end subroutine judge_point
 
    !> Test function of a kind of point by multipliers: m - 1 or |m| - 1 for the one nearest to 1, or
    !> to the unit circle off the real axis; for a period doubling the product of all m + 1, of which

@@ -16,9 +16,9 @@ module torus_normal_form
    use linear_map, only: linear_map_type, solve_by_gmres
    use orbit_change, only: orbit_change_type, phase_condition, weights_of
    use orbit_linearisation, only: linearise_orbit
-   use orbit_passes, only: orbit_passes_type, orbit_scale_type
+   use orbit_passes, only: orbit_passes_type
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: problem_family_type
+   use problem_family, only: free_family_type
    use torus_expansion, only: h11, h20, q, torus_expansion_type, x0
    implicit none (type, external)
    private
@@ -36,8 +36,8 @@ module torus_normal_form
       !> Weights of the nodes in a sum that is 0; where they are not allocated, the further unknown
       !> is 0
       complex(wp), allocatable :: condition(:)
-      !> Real and imaginary part of the nodes for the last vector, and delayed components
-      real(wp), allocatable :: nodes(:, :), delayed(:, :)
+      !> Real and imaginary part of the nodes for the last vector
+      real(wp), allocatable :: nodes(:, :)
    contains
       procedure :: apply => defect_of_term
    end type term_map_type
@@ -52,8 +52,8 @@ contains
    !> The coefficient Re d/T: d|z|/dt = Re d/T |z|^3, where the mean of |q|^2 over the period is 1.
    subroutine find_torus_coefficient(family, orbit, multiplier, wanted, coefficient, disturbed, &
                                      error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
+      !> Problems and free parameters
+      type(free_family_type), intent(in) :: family
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       !> The critical multiplier
@@ -71,7 +71,6 @@ contains
       type(torus_expansion_type) :: x
       type(multipliers_type) :: found
       type(orbit_change_type) :: phase
-      type(orbit_scale_type) :: none
       type(term_map_type) :: map
       integer :: critical, i
 
@@ -80,7 +79,7 @@ contains
       call find_multipliers(family, orbit, wanted, found, error, disturbances)
       if (allocated(error)) return
       critical = minloc(abs(found%values - multiplier), dim=1)
-      call family%at(orbit%parameters, x%problem)
+      call family%problems%at(orbit%parameters, x%problem)
       x%orbit = orbit
       x%multiplier(q:h20) = found%values(critical)**[1, 2]
       allocate (x%nodes(size(orbit%nodes, 1), size(orbit%nodes, 2), 0:3), source=(0.0_wp, 0.0_wp))
@@ -93,8 +92,7 @@ contains
          disturbed(i) = abs(terms(i, q))
       end do
 
-      allocate (none%free(0), none%unit(0))
-      call linearise_orbit(family, orbit, none, .true., map%linear, error, x%second_order())
+      call linearise_orbit(family, orbit, .true., map%linear, error, x%second_order())
       if (allocated(error)) return
       map%multiplier = x%multiplier(h20)
       map%given = further + [1, 2]
@@ -110,7 +108,7 @@ contains
       if (allocated(error)) return
       x%a = -real(a)
 
-      call linearise_orbit(family, orbit, none, .true., map%linear, error, x%third_order())
+      call linearise_orbit(family, orbit, .true., map%linear, error, x%third_order())
       if (allocated(error)) return
       map%multiplier = x%multiplier(q)
       map%given = further + [1, 2]
@@ -147,10 +145,8 @@ contains
       real(wp), allocatable :: right(:), solution(:)
 
       associate (linear => map%linear)
-         if (allocated(map%nodes)) deallocate (map%nodes, map%delayed)
+         if (allocated(map%nodes)) deallocate (map%nodes)
          allocate (map%nodes(size(nodes), 2))
-         allocate (map%delayed(size(linear%delayed), &
-                               (linear%reach + linear%intervals)*linear%degree + 1))
          allocate (right(2*linear%past_size() + 2), solution(2*linear%past_size() + 2))
       end associate
       nodes = 0.0_wp
@@ -195,8 +191,7 @@ contains
                 - self%linear%degree*size(self%linear%row)
          do i = 1, 2
             call self%linear%pass(vector((i - 1)*n + 1:i*n), factor(1:last, i), self%nodes(:, i), &
-                                  self%delayed)
-            later(:, i) = self%linear%later_past(self%nodes(:, i), self%delayed)
+                                  later(:, i))
          end do
          past = self%multiplier*past - cmplx(later(:, 1), later(:, 2), kind=wp)
          if (allocated(self%condition)) then
