@@ -2,7 +2,7 @@
 !> trajectories, with their special points.
 module block_cycles
    use block_family, only: block_family_type, parameters_of, vector_of
-   use block_parameters, only: block_history_type, block_parameters_type
+   use block_parameters, only: block_history_type
    use branch_ends, only: follow_settings_type
    use collocation_basis, only: collocation_basis_type, radau_points
    use cycle_lines, only: cycle_line_type, find_hopf_starts, hopf_start_type
@@ -90,6 +90,7 @@ contains
       type(error_type), allocatable :: failure
       type(orbit_change_type) :: tangent
       type(periodic_orbit_type) :: orbit
+      type(special_point_type), allocatable :: here(:)
       real(wp) :: at(4)
       integer :: branches, direction, i, j
 
@@ -112,8 +113,7 @@ contains
          call orbit_at_hopf_point(how%family, at, [0.0_wp, 0.0_wp, 0.0_wp], hopf(i)%omega, &
                                   first_amplitude, basis, settings%intervals, orbit, tangent, error)
          if (allocated(error)) return
-         call append(how, orbit, 1, "hopf", at(settings%line%along), found, left_out, error, &
-                     tangent)
+         call append(1, "hopf", at(settings%line%along), tangent)
          if (allocated(error)) return
       end do
       do i = 1, size(settings%starts)
@@ -122,94 +122,67 @@ contains
          end if
          call orbit_at(settings, i, basis, orbit, failure)
          if (allocated(failure)) then
-            call leave_out("trajectory", settings%starts(i), failure%message, left_out)
-            cycle
+            call leave_out("trajectory", settings%starts(i), failure%message)
          else if (orbit%amplitude() < first_amplitude) then
-            call leave_out("trajectory", settings%starts(i), "it comes to rest", left_out)
-            cycle
+            call leave_out("trajectory", settings%starts(i), "it comes to rest")
          else if (is_known(settings, found, orbit)) then
-            call leave_out("trajectory", settings%starts(i), "its cycle is on a branch", left_out)
-            cycle
+            call leave_out("trajectory", settings%starts(i), "its cycle is on a branch")
+         else
+            do direction = -1, 1, 2
+               branches = size(found)
+               call append(direction, "trajectory", settings%starts(i))
+               if (allocated(error)) return
+               if (size(found) == branches) exit
+               if (found(size(found))%branch%ending == "closed") exit
+            end do
          end if
-         do direction = -1, 1, 2
-            branches = size(found)
-            call append(how, orbit, direction, "trajectory", settings%starts(i), found, left_out, &
-                        error)
+      end do
+      do i = 1, size(found)
+         here = found(i)%points
+         do j = 1, size(here)
+            if (here(j)%kind /= period_doubling) cycle
+            call orbit_of_double_period(how%family, here(j), first_amplitude, orbit, tangent, error)
             if (allocated(error)) return
-            if (size(found) == branches) exit
-            if (found(size(found))%branch%ending == "closed") exit
+            call append(1, "period_doubling", here(j)%orbit%parameters(settings%line%along), &
+                        tangent)
+            if (allocated(error)) return
          end do
       end do
-      j = size(found)
-      do i = 1, j
-         call follow_doublings(how, found(i)%points, found, left_out, error)
-         if (allocated(error)) return
-      end do
+
+   contains
+
+      !> Follow the branch from `orbit` and append it with its special points, or leave it out if it
+      !> cannot be started.
+      subroutine append(direction, origin, place, tangent)
+         !> 1 or -1
+         integer, intent(in) :: direction
+         character(len=*), intent(in) :: origin
+         real(wp), intent(in) :: place
+         type(orbit_change_type), intent(in), optional :: tangent
+         type(cycles_type), allocatable :: longer(:)
+
+         allocate (longer(size(found) + 1))
+         longer(:size(found)) = found
+         associate (last => longer(size(longer)))
+            last%origin = origin
+            call follow_branch(how, orbit, direction, last%branch, failure, tangent)
+            if (allocated(failure)) then
+               call leave_out(origin, place, failure%message)
+               return
+            end if
+            call find_special_points(how, last%branch, last%points, error)
+         end associate
+         call move_alloc(longer, found)
+      end subroutine append
+
+      !> Note a start without a branch.
+      subroutine leave_out(origin, place, reason)
+         character(len=*), intent(in) :: origin, reason
+         real(wp), intent(in) :: place
+
+         left_out = [left_out, left_out_type(origin, place, reason)]
+      end subroutine leave_out
    end subroutine find_cycles
-
-   !> Follow the branches of double period that start on a branch.
-   subroutine follow_doublings(how, points, found, left_out, error)
-      type(follow_settings_type), intent(in) :: how
-      type(special_point_type), intent(in) :: points(:)
-      type(cycles_type), allocatable, intent(inout) :: found(:)
-      type(left_out_type), allocatable, intent(inout) :: left_out(:)
-      type(error_type), allocatable, intent(out) :: error
-      type(special_point_type) :: here(size(points))
-      type(orbit_change_type) :: tangent
-      type(periodic_orbit_type) :: orbit
-      integer :: i
-
-      here = points
-      do i = 1, size(here)
-         if (here(i)%kind /= period_doubling) cycle
-         call orbit_of_double_period(how%family, here(i), first_amplitude, orbit, tangent, error)
-         if (allocated(error)) return
-         call append(how, orbit, 1, "period_doubling", &
-                     here(i)%orbit%parameters(how%family%free(1)), found, left_out, error, tangent)
-         if (allocated(error)) return
-      end do
-   end subroutine follow_doublings
-
-   !> Follow a branch and append it with its special points, or to what is left out if it cannot be
-   !> started.
-   subroutine append(how, orbit, direction, origin, at, found, left_out, error, tangent)
-      type(follow_settings_type), intent(in) :: how
-      type(periodic_orbit_type), intent(in) :: orbit
-      !> 1 or -1
-      integer, intent(in) :: direction
-      character(len=*), intent(in) :: origin
-      real(wp), intent(in) :: at
-      type(cycles_type), allocatable, intent(inout) :: found(:)
-      type(left_out_type), allocatable, intent(inout) :: left_out(:)
-      type(error_type), allocatable, intent(out) :: error
-      type(orbit_change_type), intent(in), optional :: tangent
-      type(cycles_type), allocatable :: longer(:)
-      type(error_type), allocatable :: failure
-
-      allocate (longer(size(found) + 1))
-      longer(:size(found)) = found
-      associate (last => longer(size(longer)))
-         last%origin = origin
-         call follow_branch(how, orbit, direction, last%branch, failure, tangent)
-         if (allocated(failure)) then
-            call leave_out(origin, at, failure%message, left_out)
-            return
-         end if
-         call find_special_points(how, last%branch, last%points, error)
-      end associate
-      call move_alloc(longer, found)
-   end subroutine append
-
-   !> Note a start without a branch.
-   pure subroutine leave_out(origin, at, reason, left_out)
-      character(len=*), intent(in) :: origin
-      real(wp), intent(in) :: at
-      character(len=*), intent(in) :: reason
-      !> Those before, then this one, too
-      type(left_out_type), allocatable, intent(inout) :: left_out(:)
-
-      left_out = [left_out, left_out_type(origin, at, reason)]
-   end subroutine leave_out
 
    !> The cycle that a trajectory reaches.
    subroutine orbit_at(settings, i, basis, orbit, error)
@@ -219,7 +192,6 @@ contains
       type(periodic_orbit_type), intent(out) :: orbit
       !> Error if the trajectory leads to no cycle
       type(error_type), allocatable, intent(out) :: error
-      type(block_parameters_type) :: parameters
       type(continuation_type) :: arrived
       type(integration_options) :: options
       type(integration_result) :: outcome
@@ -228,8 +200,7 @@ contains
 
       vector = vector_of(settings%line%parameters)
       vector(settings%line%along) = settings%starts(i)
-      parameters = parameters_of(vector)
-      block = spring_block_type(parameters, block_history_type(v=settings%start_v(i)))
+      block = spring_block_type(parameters_of(vector), block_history_type(v=settings%start_v(i)))
       options%relative = tolerance
       options%absolute = tolerance
       call integrate(block, 0.0_wp, settings%t_transient, options, outcome, error, &

@@ -1,5 +1,5 @@
-!> Planes of two parameters in which Hopf curves are drawn, each with its window: tau over epsilon at
-!> fixed xi (Figure 2), or xi over epsilon at fixed tau (Figure 3).
+!> Planes of two parameters in which Hopf curves are drawn, each with its window: tau over epsilon
+!> at fixed xi (Figure 2), or xi over epsilon at fixed tau (Figure 3).
 module hopf_planes
    use block_family, only: along_epsilon, along_tau, along_xi, parameters_of, vector_of
    use block_parameters, only: block_parameters_type
@@ -21,24 +21,15 @@ module hopf_planes
       !> Window on the ordinate: least, most
       real(wp) :: ordinate_window(2) = [0.0_wp, 1.0_wp]
    contains
-      !> Parameters at which branch k has the pair i omega
-      procedure :: at
-      !> Parameters at a place of the plane
-      procedure :: parameters
-      !> The ordinate among the parameters
-      procedure :: ordinate
-      !> Derivatives of a root by epsilon and by the ordinate
-      procedure :: root_slopes
-      !> Least omega, and highest branch, that the window can hold
-      procedure :: bounds
+      procedure :: at, parameters, ordinate, root_slopes, bounds
    end type curve_plane_type
 
 contains
 
-   !> Parameters at which branch k has the pair i omega; xi <= 0 if there are none. Equations (7) and
-   !> (10) at fixed xi; at fixed tau (7) and (9), as far as (10) gives that tau back on branch k.
+   !> Parameters at which branch k has the pair i omega; xi <= 0 if there are none. Equations (7)
+   !> and (10) at fixed xi; at fixed tau (7) and (9), as far as (10) gives that tau back on branch
+   !> k.
    pure type(block_parameters_type) function at(self, omega, k) result(p)
-      !> The plane
       class(curve_plane_type), intent(in) :: self
       !> Frequency of the pair
       real(wp), intent(in) :: omega
@@ -61,7 +52,6 @@ contains
 
    !> Parameters at a place of the plane.
    pure type(block_parameters_type) function parameters(self, epsilon, ordinate) result(p)
-      !> The plane
       class(curve_plane_type), intent(in) :: self
       !> Abscissa and ordinate
       real(wp), intent(in) :: epsilon, ordinate
@@ -74,7 +64,6 @@ contains
 
    !> The ordinate among the parameters.
    pure real(wp) function ordinate(self, p) result(value)
-      !> The plane
       class(curve_plane_type), intent(in) :: self
       !> Parameters
       type(block_parameters_type), intent(in) :: p
@@ -84,7 +73,6 @@ contains
 
    !> Derivatives of a root by epsilon and by the ordinate.
    pure function root_slopes(self, p, s) result(slopes)
-      !> The plane
       class(curve_plane_type), intent(in) :: self
       !> Parameters
       type(block_parameters_type), intent(in) :: p
@@ -100,11 +88,10 @@ contains
       end if
    end function root_slopes
 
-   !> Least omega: where xi (gamma^2 - omega^2)/(gamma^2 omega) falls to omega_most for the least xi.
-   !> Below it epsilon lies beyond the window, for 1 + epsilon = sqrt((1 + omega^2)(1 + B^2)) with B
-   !> that ratio. Highest branch: where (2 pi k - pi)/omega_most exceeds the longest tau.
+   !> Least omega: where xi (gamma^2 - omega^2)/(gamma^2 omega) falls to omega_most for the least
+   !> xi. Below it epsilon lies beyond the window, for 1 + epsilon = sqrt((1 + omega^2)(1 + B^2))
+   !> with B that ratio. Highest branch: where (2 pi k - pi)/omega_most exceeds the longest tau.
    pure subroutine bounds(self, omega_most, omega_least, k_most)
-      !> The plane
       class(curve_plane_type), intent(in) :: self
       !> Largest omega in the window
       real(wp), intent(in) :: omega_most

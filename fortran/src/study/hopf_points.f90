@@ -43,7 +43,7 @@ module hopf_points
       type(unfolding_type) :: unfolding
    end type hopf_point_type
 
-   !> Along a branch the first Lyapunov coefficient, 0 where there is none, which `add` then reports;
+   !> Along a branch the first Lyapunov coefficient (0 if there is none, which `add` then reports),
    !> or the number of the branch that a second frequency would be on, less a given one.
    type, extends(scalar_function_type) :: branch_function_type
       !> The plane

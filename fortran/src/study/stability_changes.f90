@@ -23,9 +23,9 @@ module stability_changes
       integer :: pairs_before = 0, pairs_after = 0
    end type stability_change_type
 
-   !> Functions of omega: epsilon less a given one; the other frequency of the same epsilon less this
-   !> one, which falls as omega grows; omega tau of a branch less that of a given delay, which falls
-   !> and has one root.
+   !> Functions of omega: epsilon less a given one; the other frequency of the same epsilon less
+   !> this one, which falls as omega grows; omega tau of a branch less that of a given delay, which
+   !> falls and has one root.
    integer, parameter :: epsilon_above = 1, partner_above = 2, angle_above = 3
 
    !> One of these functions.

@@ -54,7 +54,7 @@ contains
       call expect_success(error, failure)
       if (allocated(error)) return
       plane = traced%plane
-      found = pack(all_points, all_points%kind == kind)
+      found = pack(all_points, all_points%kind == kind .or. kind == "")
    end subroutine find_points
 
    !> The parameters at which both pairs have given growth rates, to first order, from the starts of

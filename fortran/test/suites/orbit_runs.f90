@@ -179,7 +179,8 @@ contains
    end subroutine branch_from
 
    !> The branch from a Hopf point.
-   subroutine branch_from_hopf(settings, parameters, state, omega, amplitude, branch, special, error)
+   subroutine branch_from_hopf(settings, parameters, state, omega, amplitude, branch, special, &
+                               error)
       !> How far and how
       type(follow_settings_type), intent(in) :: settings
       !> Parameters and stationary state of the Hopf point, its frequency, first amplitude

@@ -9,7 +9,7 @@ module test_linear_stability
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use hopf_condition, only: hopf_epsilon, hopf_tau
    use dde_kinds, only: wp
-   use known_forms, only: block_in_v, neurons, new_block_in_v, new_neurons
+   use known_equations, only: new_block_by_values, new_neurons, small_equation
    use lapack, only: solve
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use normal_form, only: first_lyapunov_coefficient
@@ -199,7 +199,7 @@ contains
    subroutine test_neurons(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(neurons) :: equation
+      type(small_equation) :: equation
       complex(wp), allocatable :: roots(:)
       real(wp) :: l1
 
@@ -218,14 +218,18 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(block_parameters_type) :: p
       type(block_equation_type) :: equation
-      type(block_in_v) :: by_hand
+      real(wp) :: by_hand(3, 3, 2)
 
       p = block_parameters_type(tau=3.0_wp, epsilon=0.4_wp, xi=0.6_wp, gamma=1.7_wp)
       equation = block_equation_type(p)
-      by_hand = new_block_in_v(p)
-      call expect_close(error, maxval(abs(equation%linear%a - by_hand%linear%a)), 0.0_wp, &
-                        1.0e-15_wp, "difference of the matrices")
-      call expect_close(error, equation%linear%lag, by_hand%linear%lag, 0.0_wp, "lags")
+      by_hand = 0.0_wp
+      by_hand(1, 1, 1) = -1.0_wp
+      by_hand(2, 3, 1) = 1.0_wp
+      by_hand(3, :, 1) = -p%gamma**2*[1.0_wp/p%xi, 1.0_wp, 1.0_wp/p%xi]
+      by_hand(1, 3, 2) = -(1.0_wp + p%epsilon)
+      call expect_close(error, maxval(abs(equation%linear%a - by_hand)), 0.0_wp, 1.0e-15_wp, &
+                        "difference of the matrices")
+      call expect_close(error, equation%linear%lag, [0.0_wp, p%tau], 0.0_wp, "lags")
    end subroutine test_linear_part
 
    !> l1 is the same in v and in ln v, which differ by a change of coordinates near the identity.
@@ -244,7 +248,7 @@ contains
                                       gamma=0.8_wp, epsilon=hopf_epsilon(omega, 0.5_wp, 0.8_wp))
             call first_lyapunov_coefficient(block_equation_type(p), omega, in_ln_v, failure)
             call expect_success(error, failure)
-            call first_lyapunov_coefficient(new_block_in_v(p), omega, in_v, failure)
+            call first_lyapunov_coefficient(new_block_by_values(p, .true.), omega, in_v, failure)
             call expect_success(error, failure)
             call expect_close(error, in_v, in_ln_v, 1.0e-11_wp*(1.0_wp + abs(in_ln_v)), &
                               "l1 in v at omega = "//text(omega)//", k = "//text(k))

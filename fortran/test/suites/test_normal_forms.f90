@@ -8,8 +8,7 @@ module test_normal_forms
    use expectations, only: expect, expect_close, expect_success
    use hopf_condition, only: hopf_epsilon, hopf_tau
    use known_equations, only: block_by_values, duffing_with_pair, new_block_by_values, new_layers, &
-                              new_lienard, new_quadratic, new_transformed, transformed
-   use known_forms, only: new_neurons
+                              new_lienard, new_neurons, new_quadratic, new_transformed, transformed
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use normal_form, only: first_lyapunov_coefficient

@@ -52,23 +52,24 @@ contains
    subroutine test_signals(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp), parameter :: fifth = -log(0.8_wp)/200.0_wp
-      real(wp) :: constant(100)
+      ! fast decay, a little over a fifth and a little less, decay still far away, none, growth,
+      ! none but very small, not so small
+      real(wp), parameter :: amplitude(8) = [1.0_wp, 0.1_wp, 0.1_wp, 1.0_wp, 0.1_wp, 0.01_wp, &
+                                             0.9e-3_wp, 1.1e-3_wp]
+      real(wp), parameter :: rate(8) = [-0.1_wp, -1.1_wp*fifth, -0.9_wp*fifth, -1.1_wp*fifth, &
+                                        0.0_wp, 0.002_wp, 0.0_wp, 0.0_wp]
+      logical, parameter :: known(8) = [.true., .true., .false., .false., .false., .false., &
+                                        .true., .false.]
+      integer :: i
 
-      call expect(error, settles(oscillation(1.0_wp, -0.1_wp)), "fast decay")
-      call expect(error, settles(oscillation(0.1_wp, -1.1_wp*fifth)), "a little over a fifth")
-      call expect(error, .not. settles(oscillation(0.1_wp, -0.9_wp*fifth)), &
-                  "a little less than a fifth")
-      call expect(error, .not. settles(oscillation(1.0_wp, -1.1_wp*fifth)), &
-                  "still far away")
-      call expect(error, .not. settles(oscillation(0.1_wp, 0.0_wp)), "no decay")
-      call expect(error, .not. settles(oscillation(0.01_wp, 0.002_wp)), "growth")
-      call expect(error, settles(oscillation(0.9e-3_wp, 0.0_wp)), "no decay, very small")
-      call expect(error, .not. settles(oscillation(1.1e-3_wp, 0.0_wp)), "not so small")
-      call expect(error, settles(-oscillation(1.0_wp, -0.1_wp)), "the sign does not matter")
-      constant = 0.1_wp
-      call expect(error, .not. settles(constant), "a constant away from 0")
-      constant = 0.0_wp
-      call expect(error, settles(constant), "always at rest")
+      do i = 1, size(known)
+         call expect(error, settles(oscillation(amplitude(i), rate(i))) .eqv. known(i), &
+                     "oscillation "//text(i))
+         call expect(error, settles(-oscillation(amplitude(i), rate(i))) .eqv. known(i), &
+                     "oscillation of other sign "//text(i))
+      end do
+      call expect(error, .not. settles(spread(0.1_wp, 1, 100)), "a constant away from 0")
+      call expect(error, settles(spread(0.0_wp, 1, 100)), "always at rest")
    end subroutine test_signals
 
    !> Without delay: the eigenvalues of the cubic's companion matrix by LAPACK.

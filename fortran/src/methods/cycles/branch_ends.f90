@@ -20,7 +20,6 @@ module branch_ends
       !> Most intervals
       integer :: most_intervals = 200
    contains
-      !> Intervals of the mesh after one that is not accurate
       procedure :: next_intervals
    end type refinement_type
 
@@ -41,7 +40,6 @@ module branch_ends
       !> Multipliers and their accuracy
       type(refinement_type) :: refinement
    contains
-      !> Whether an orbit is outside of the windows
       procedure :: is_outside
    end type follow_settings_type
 
@@ -54,7 +52,6 @@ contains
 
    !> Intervals of the mesh after one that is not accurate.
    pure integer function next_intervals(self, intervals) result(next)
-      !> Multipliers and their accuracy
       class(refinement_type), intent(in) :: self
       !> Intervals of the mesh
       integer, intent(in) :: intervals
@@ -64,7 +61,6 @@ contains
 
    !> Whether a free parameter of an orbit is outside of its window.
    pure logical function is_outside(self, orbit) result(value)
-      !> The windows
       class(follow_settings_type), intent(in) :: self
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit

@@ -25,10 +25,7 @@ module collocation_basis
       !> Their coefficients of the power m, shape (m + 1)
       real(wp), allocatable :: leading(:)
    contains
-      !> Lagrange polynomials at a place
-      procedure :: values_at
-      !> Their derivatives at a place
-      procedure :: slopes_at
+      procedure :: values_at, slopes_at
    end type collocation_basis_type
 
    interface collocation_basis_type
@@ -67,7 +64,6 @@ contains
 
    !> Lagrange polynomials at a place.
    pure function values_at(self, place) result(values)
-      !> The basis
       class(collocation_basis_type), intent(in) :: self
       !> Place, 0..1 inside the interval
       real(wp), intent(in) :: place
@@ -84,7 +80,6 @@ contains
 
    !> Derivatives of the Lagrange polynomials at a place.
    pure function slopes_at(self, place) result(slopes)
-      !> The basis
       class(collocation_basis_type), intent(in) :: self
       !> Place, 0..1 inside the interval
       real(wp), intent(in) :: place

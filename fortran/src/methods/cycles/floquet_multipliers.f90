@@ -20,7 +20,6 @@ module floquet_multipliers
       !> Distance of the trivial multiplier from 1: the accuracy
       real(wp) :: trivial_error = 0.0_wp
    contains
-      !> Number outside of the unit circle
       procedure :: unstable
    end type multipliers_type
 
@@ -99,7 +98,6 @@ contains
 
    !> Number of multipliers outside of the unit circle.
    pure integer function unstable(self) result(value)
-      !> The multipliers
       class(multipliers_type), intent(in) :: self
 
       value = count(abs(self%values) > 1.0_wp)

@@ -17,16 +17,7 @@ module orbit_change
       !> Changes of free parameters in their units
       real(wp), allocatable :: parameters(:)
    contains
-      !> Add it to an orbit
-      procedure :: add_to
-      !> Size of the change against an orbit
-      procedure :: size_against
-      !> A multiple of it
-      procedure :: times
-      !> Sum of the change and a multiple of another one
-      procedure :: plus
-      !> The change interpolated on another mesh
-      procedure :: on_mesh
+      procedure :: add_to, size_against, times, plus, on_mesh
    end type orbit_change_type
 
 contains
@@ -135,7 +126,6 @@ contains
 
    !> Add a change to an orbit.
    subroutine add_to(self, orbit, family)
-      !> The change
       class(orbit_change_type), intent(in) :: self
       !> The orbit
       type(periodic_orbit_type), intent(inout) :: orbit
@@ -151,7 +141,6 @@ contains
    !> The largest change of a component over its greatest value, of the period over the period and
    !> of a parameter in its unit.
    pure real(wp) function size_against(self, orbit) result(value)
-      !> The change
       class(orbit_change_type), intent(in) :: self
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
@@ -164,7 +153,6 @@ contains
 
    !> A multiple of a change.
    pure type(orbit_change_type) function times(self, factor) result(value)
-      !> The change
       class(orbit_change_type), intent(in) :: self
       !> Factor
       real(wp), intent(in) :: factor
@@ -176,7 +164,6 @@ contains
 
    !> A change and a multiple of another one.
    pure type(orbit_change_type) function plus(self, other, factor) result(value)
-      !> The change
       class(orbit_change_type), intent(in) :: self
       !> The other one
       type(orbit_change_type), intent(in) :: other
@@ -190,7 +177,6 @@ contains
 
    !> A change interpolated on another mesh.
    pure type(orbit_change_type) function on_mesh(self, orbit, mesh) result(value)
-      !> The change
       class(orbit_change_type), intent(in) :: self
       !> The orbit it changes
       type(periodic_orbit_type), intent(in) :: orbit

@@ -26,17 +26,13 @@ module orbit_passes
       !> relative change of the period, changes of free parameters in their units.
       real(wp), allocatable :: response(:, :, :)
    contains
-      !> Numbers of a past
-      procedure :: past_size
-      !> Nodes that follow from a past, and the past a period later
-      procedure :: pass
+      procedure :: past_size, pass
    end type orbit_passes_type
 
 contains
 
    !> Numbers of a past.
    pure integer function past_size(self) result(value)
-      !> The equations
       class(orbit_passes_type), intent(in) :: self
 
       value = self%n + size(self%delayed)*self%reach*self%degree
@@ -44,7 +40,6 @@ contains
 
    !> Nodes over a period, and the past a period later, that follow from a past and forcings.
    pure subroutine pass(self, past, forcing, nodes, later)
-      !> The equations
       class(orbit_passes_type), intent(in) :: self
       !> State at s = 0, delayed components at nodes before, ascending
       real(wp), intent(in) :: past(:)

@@ -20,26 +20,8 @@ module periodic_orbit
       !> Parameters of the problem family
       real(wp), allocatable :: parameters(:)
    contains
-      !> Number of intervals
-      procedure :: intervals
-      !> Interval and place in it
-      procedure :: locate
-      !> State
-      procedure :: at
-      !> All nodes in s
-      procedure :: node_times
-      !> The orbit on another mesh
-      procedure :: on_mesh
-      !> Nodes less their mean, and the largest range of a component
-      procedure :: deviations, amplitude
-      !> Turns after which the parts of another orbit on the same mesh are opposite
-      procedure :: opposite_parts
-      !> Whether the orbit is almost one of a part of its period, more so than the orbit before it
-      procedure :: comes_to_shorter
-      !> Least and greatest value of a component, and when it is greatest
-      procedure :: range_of, time_of_highest
-      !> Weights of an inner product
-      procedure :: functional
+      procedure :: intervals, locate, at, node_times, on_mesh, deviations, amplitude
+      procedure :: opposite_parts, comes_to_shorter, range_of, time_of_highest, functional
    end type periodic_orbit_type
 
    !> Most turns of a shorter cycle that an orbit is compared with.
@@ -49,7 +31,6 @@ contains
 
    !> Number of intervals.
    pure integer function intervals(self) result(value)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: self
 
       value = size(self%mesh) - 1
@@ -57,7 +38,6 @@ contains
 
    !> The interval and the place 0..1 in it of a time in [0, 1].
    pure subroutine locate(self, s, interval, place)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: self
       !> Time in periods, 0..1
       real(wp), intent(in) :: s
@@ -84,7 +64,6 @@ contains
 
    !> State at a time of any period.
    pure function at(self, s) result(state)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: self
       !> Time in periods
       real(wp), intent(in) :: s
@@ -99,7 +78,6 @@ contains
 
    !> Times of all nodes, in periods.
    pure function node_times(self) result(times)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: self
       real(wp) :: times((size(self%mesh) - 1)*self%basis%degree + 1)
       integer :: i
@@ -114,7 +92,6 @@ contains
 
    !> The orbit by its values at the nodes of another mesh.
    pure function on_mesh(self, mesh, basis) result(orbit)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: self
       !> Ends of the intervals, from 0 to 1
       real(wp), intent(in) :: mesh(:)
@@ -139,7 +116,6 @@ contains
 
    !> State at the nodes less the mean of all nodes, shape (n, nodes).
    pure function deviations(self) result(nodes)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: self
       real(wp) :: nodes(size(self%nodes, 1), size(self%nodes, 2))
 
@@ -149,7 +125,6 @@ contains
 
    !> The largest range of a component, by the nodes.
    pure real(wp) function amplitude(self) result(value)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: self
 
       value = maxval(maxval(self%nodes, dim=2) - minval(self%nodes, dim=2))
@@ -160,7 +135,6 @@ contains
    !> point, otherwise on both sides of a cycle of 1/k of their period, on a branch that passes
    !> through it. There the parts may also be shifted: then they are neither opposite nor alike.
    pure integer function opposite_parts(self, other) result(turns)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: self
       !> The other one
       type(periodic_orbit_type), intent(in) :: other
@@ -177,7 +151,6 @@ contains
 
    !> Whether a branch reaches an orbit of a part of its period.
    pure logical function comes_to_shorter(self, last) result(value)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: self
       !> The orbit before it
       type(periodic_orbit_type), intent(in) :: last
@@ -224,7 +197,6 @@ contains
    !> Least and greatest value of a component. Each extreme at a node is made better by the extreme
    !> of its polynomial, found by golden section between the neighbouring nodes.
    pure function range_of(self, component) result(range)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: self
       !> Component of the state
       integer, intent(in) :: component
@@ -238,7 +210,6 @@ contains
 
    !> Time at which a component is greatest, in periods.
    pure real(wp) function time_of_highest(self, component) result(time)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: self
       !> Component of the state
       integer, intent(in) :: component
@@ -290,7 +261,6 @@ contains
    !> Weights g of the nodes with sum(g x) = integral of a . x over the period, for a function a and
    !> all piecewise polynomials x.
    pure function functional(self, a) result(g)
-      !> The orbit, whose mesh and polynomials are meant
       class(periodic_orbit_type), intent(in) :: self
       !> Values of a at the collocation points, shape (n, m, intervals)
       real(wp), intent(in) :: a(:, :, :)

@@ -43,19 +43,13 @@ module special_points
       !> Of a torus point: the rate at which q grows along the cycle, by the parameter
       real(wp), allocatable :: growth
    contains
-      !> Share of a turn of the critical pair
-      procedure :: angle
-      !> On which side of a torus point the tori are
-      procedure :: criticality
-      !> Size of these tori
-      procedure :: torus_amplitude
+      procedure :: angle, criticality, torus_amplitude
    end type special_point_type
 
 contains
 
    !> Angle of the multiplier over a full turn.
    pure real(wp) function angle(self) result(value)
-      !> The point
       class(special_point_type), intent(in) :: self
       real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
 
@@ -65,7 +59,6 @@ contains
    !> 'supercritical' where the tori are on the side on which the cycle has two more unstable
    !> multipliers, 'subcritical' on the other side, 'not determined', or '' for other kinds.
    pure function criticality(self) result(word)
-      !> The point
       class(special_point_type), intent(in) :: self
       character(len=kind_length) :: word
 
@@ -79,9 +72,8 @@ contains
    end function criticality
 
    !> Half the range of the maxima of a component on the tori, over the root of the distance of the
-   !> parameter from the point, to first order.
+   !> parameter from the torus point, to first order; coefficient and growth must be known.
    pure real(wp) function torus_amplitude(self, component) result(value)
-      !> The torus point, its coefficient and growth known
       class(special_point_type), intent(in) :: self
       !> Which component
       integer, intent(in) :: component

@@ -36,7 +36,6 @@ module centre_manifold
       !> g_jm of the mode j for which m is resonant, or 0, shape (terms)
       complex(wp), allocatable :: flow(:)
    contains
-      !> Position of a multi-index
       procedure :: place
    end type series_type
 
@@ -255,7 +254,6 @@ contains
 
    !> Position of a multi-index among the terms.
    pure integer function place(self, m) result(number)
-      !> The series
       class(series_type), intent(in) :: self
       !> Multi-index
       integer, intent(in) :: m(:)

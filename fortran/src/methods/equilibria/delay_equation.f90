@@ -16,10 +16,7 @@ module delay_equation
       !> Lags, each >= 0
       real(wp), allocatable :: lag(:)
    contains
-      !> Delta(s) = s - sum_j A_j exp(-s lag_j)
-      procedure :: characteristic_matrix
-      !> Derivative of Delta(s) by s
-      procedure :: characteristic_slope
+      procedure :: characteristic_matrix, characteristic_slope
    end type linear_system_type
 
    !> A right-hand side by its derivatives at the stationary state. The arguments of the forms are
@@ -71,7 +68,6 @@ contains
 
    !> Delta(s), singular at characteristic roots.
    pure function characteristic_matrix(self, s) result(matrix)
-      !> The system
       class(linear_system_type), intent(in) :: self
       !> Point of the complex plane
       complex(wp), intent(in) :: s
@@ -89,7 +85,6 @@ contains
 
    !> Derivative of Delta(s).
    pure function characteristic_slope(self, s) result(matrix)
-      !> The system
       class(linear_system_type), intent(in) :: self
       !> Point of the complex plane
       complex(wp), intent(in) :: s
