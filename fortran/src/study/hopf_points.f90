@@ -179,7 +179,6 @@ contains
    !> The coefficient, or 0 where the second frequency is one of the other branch, too.
    real(wp) function value_along_branch(self, x) result(value)
       class(branch_function_type), intent(in) :: self
-      !> omega
       real(wp), intent(in) :: x
       type(error_type), allocatable :: error
       real(wp) :: partner

@@ -158,7 +158,6 @@ contains
    !> Value of the function.
    real(wp) function value_at_omega(self, x) result(value)
       class(omega_function_type), intent(in) :: self
-      !> omega
       real(wp), intent(in) :: x
 
       associate (p => self%p)

@@ -10,9 +10,9 @@ module test_hopf_unfoldings
    use harmonic_balance, only: find_cycle
    use hopf_condition, only: two_pi
    use hopf_planes, only: curve_plane_type
-   use hopf_point_runs, only: find_points, modes_of, parameters_at, run
+   use hopf_point_runs, only: cycle_type, find_points, modes_of, parameters_at, predict_fold, &
+                              predict_torus, run
    use hopf_points, only: hopf_point_type
-   use hopf_unfoldings, only: cycle_type, predict_fold, predict_torus
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use spring_block, only: index_of_ln_v
    implicit none (type, external)

@@ -5,9 +5,9 @@ module test_linear_stability
    use characteristic_function, only: relative_residual
    use characteristic_roots, only: find_roots
    use delay_equation, only: linear_system_type
+   use closed_form, only: block_with_pair
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
-   use hopf_condition, only: hopf_epsilon, hopf_tau
    use dde_kinds, only: wp
    use known_equations, only: new_block_by_values, new_neurons, small_equation
    use lapack, only: solve
@@ -142,8 +142,7 @@ contains
       do i = 1, 10
          omega = 0.2_wp + 0.1_wp*i
          do k = merge(1, 0, omega > 0.5_wp), 2
-            p = block_parameters_type(tau=hopf_tau(omega, 0.5_wp, 0.8_wp, k), xi=0.5_wp, &
-                                      gamma=0.8_wp, epsilon=hopf_epsilon(omega, 0.5_wp, 0.8_wp))
+            p = block_with_pair(omega, 0.5_wp, 0.8_wp, k)
             equation = block_equation_type(p)
             call find_roots(equation%linear, -0.01_wp, roots, failure)
             call expect_success(error, failure)
@@ -244,8 +243,7 @@ contains
       do i = 1, 30
          omega = 0.05_wp*i
          do k = 1, 3
-            p = block_parameters_type(tau=hopf_tau(omega, 0.5_wp, 0.8_wp, k), xi=0.5_wp, &
-                                      gamma=0.8_wp, epsilon=hopf_epsilon(omega, 0.5_wp, 0.8_wp))
+            p = block_with_pair(omega, 0.5_wp, 0.8_wp, k)
             call first_lyapunov_coefficient(block_equation_type(p), omega, in_ln_v, failure)
             call expect_success(error, failure)
             call first_lyapunov_coefficient(new_block_by_values(p, .true.), omega, in_v, failure)

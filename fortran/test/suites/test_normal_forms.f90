@@ -3,10 +3,10 @@ module test_normal_forms
    use block_equation, only: block_equation_type
    use block_parameters, only: block_parameters_type
    use centre_manifold, only: normal_form_coefficient
+   use closed_form, only: block_with_pair
    use dde_errors, only: failure_type => error_type, text
    use double_hopf, only: double_hopf_type, find_double_hopf, word_length
    use expectations, only: expect, expect_close, expect_success
-   use hopf_condition, only: hopf_epsilon, hopf_tau
    use known_equations, only: block_by_values, duffing_with_pair, new_block_by_values, new_layers, &
                               new_lienard, new_neurons, new_quadratic, new_transformed, transformed
    use dde_kinds, only: wp
@@ -46,8 +46,7 @@ contains
       do i = 1, 10
          omega = 0.15_wp*i
          do k = 1, 2
-            p = block_parameters_type(tau=hopf_tau(omega, 0.5_wp, 0.8_wp, k), xi=0.5_wp, &
-                                      gamma=0.8_wp, epsilon=hopf_epsilon(omega, 0.5_wp, 0.8_wp))
+            p = block_with_pair(omega, 0.5_wp, 0.8_wp, k)
             call first_lyapunov_coefficient(block_equation_type(p), omega, l1, failure)
             call expect_success(error, failure)
             call normal_form_coefficient(block_equation_type(p), [omega], [2, 1], c1, failure)
@@ -243,8 +242,7 @@ contains
       x = reshape([(cmplx(sin(1.0_wp*i), cos(3.0_wp*i), kind=wp), i=1, size(x))], shape(x))
       do i = 1, 10
          omega = 0.15_wp*i
-         p = block_parameters_type(tau=hopf_tau(omega, 0.5_wp, 0.8_wp, 2), xi=0.5_wp, &
-                                   gamma=0.8_wp, epsilon=hopf_epsilon(omega, 0.5_wp, 0.8_wp))
+         p = block_with_pair(omega, 0.5_wp, 0.8_wp, 2)
          block = block_equation_type(p)
          in_w = new_block_by_values(p, .false.)
          in_v = new_block_by_values(p, .true.)
@@ -267,7 +265,7 @@ contains
    subroutine test_large_gamma(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      real(wp), parameter :: gamma(2) = [1.0e6_wp, 1.0e12_wp], xi = 0.5_wp
+      real(wp), parameter :: gamma(2) = [1.0e6_wp, 1.0e12_wp]
       complex(wp) :: c2(2)
       real(wp) :: omega
       integer :: i, j
@@ -275,10 +273,8 @@ contains
       do i = 1, 10
          omega = 0.15_wp*i
          do j = 1, 2
-            call normal_form_coefficient(block_equation_type(block_parameters_type( &
-                                         tau=hopf_tau(omega, xi, gamma(j), 2), xi=xi, &
-                                         gamma=gamma(j), &
-                                         epsilon=hopf_epsilon(omega, xi, gamma(j)))), &
+            call normal_form_coefficient(block_equation_type( &
+                                         block_with_pair(omega, 0.5_wp, gamma(j), 2)), &
                                          [omega], [3, 2], c2(j), failure)
             call expect_success(error, failure)
          end do

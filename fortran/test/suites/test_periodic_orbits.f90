@@ -31,8 +31,7 @@ contains
       testsuite = [new_unittest("points and weights", test_points), &
                    new_unittest("order of an exact orbit", test_order), &
                    new_unittest("without delay", test_no_delay), &
-                   new_unittest("relaxation cycles", test_relaxation), &
-                   new_unittest("gamma = 1e6", test_stiff), &
+                   new_unittest("stiff cycles on two meshes", test_two_meshes), &
                    new_unittest("adapted meshes", test_meshes), &
                    new_unittest("shorter cycles", test_shorter), &
                    new_unittest("refusals", test_refusals)]
@@ -141,39 +140,39 @@ contains
       call expect(error, multipliers%unstable() == 0, "a stable cycle")
    end subroutine test_no_delay
 
-   !> v over four decades: periods on two meshes agree.
-   subroutine test_relaxation(error)
+   !> A relaxation cycle with v over four decades, and the gamma of stiff faults, where a component
+   !> is in balance: Radau points and an odd number of Gauss points give the same cycle.
+   subroutine test_two_meshes(error)
       type(error_type), allocatable, intent(out) :: error
-      type(multipliers_type) :: multipliers
-      type(periodic_orbit_type) :: fine, orbit
-      type(spring_block_type) :: block
       real(wp) :: range(2)
+      type(periodic_orbit_type) :: orbit
 
-      block = build_block(tau=0.1_wp, epsilon=2.0_wp, xi=0.5_wp, gamma=1.0e4_wp, v=1.1_wp)
-      call cycle_of_block(block, 400.0_wp, 6, radau_points, 120, orbit, multipliers, error)
+      call check(build_block(tau=0.1_wp, epsilon=2.0_wp, xi=0.5_wp, gamma=1.0e4_wp, v=1.1_wp), &
+                 400.0_wp, [120, 150], 1.0e-3_wp, 1.0e-7_wp)
       if (allocated(error)) return
       range = orbit%range_of(index_of_ln_v)
       call expect(error, range(2) - range(1) > log(1.0e4_wp), "four decades of v")
-      call expect_close(error, multipliers%trivial_error, 0.0_wp, 1.0e-3_wp, "trivial multiplier")
-      call cycle_of_block(block, 400.0_wp, 7, gauss_points, 150, fine, multipliers, error)
-      call expect_close(error, orbit%period, fine%period, 1.0e-7_wp, "period")
-   end subroutine test_relaxation
+      call check(build_block(tau=1.0_wp, epsilon=0.9_wp, xi=0.5_wp, gamma=1.0e6_wp, v=1.1_wp), &
+                 1000.0_wp, [40, 41], 1.0e-8_wp, 1.0e-8_wp)
 
-   !> At the gamma of stiff faults a component is in balance: Radau points, and an odd number of
-   !> Gauss points, give the same cycle.
-   subroutine test_stiff(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(multipliers_type) :: multipliers
-      type(periodic_orbit_type) :: gauss, radau
-      type(spring_block_type) :: block
+   contains
 
-      block = build_block(tau=1.0_wp, epsilon=0.9_wp, xi=0.5_wp, gamma=1.0e6_wp, v=1.1_wp)
-      call cycle_of_block(block, 1000.0_wp, 6, radau_points, 40, radau, multipliers, error)
-      if (allocated(error)) return
-      call expect_close(error, multipliers%trivial_error, 0.0_wp, 1.0e-8_wp, "trivial multiplier")
-      call cycle_of_block(block, 1000.0_wp, 7, gauss_points, 41, gauss, multipliers, error)
-      call expect_close(error, radau%period, gauss%period, 1.0e-8_wp, "period")
-   end subroutine test_stiff
+      !> Periods at Radau and at Gauss points.
+      subroutine check(block, t_end, intervals, trivial_error, within)
+         type(spring_block_type), intent(in) :: block
+         real(wp), intent(in) :: t_end, trivial_error, within
+         integer, intent(in) :: intervals(2)
+         type(multipliers_type) :: multipliers
+         type(periodic_orbit_type) :: other
+
+         call cycle_of_block(block, t_end, 6, radau_points, intervals(1), orbit, multipliers, error)
+         if (allocated(error)) return
+         call expect_close(error, multipliers%trivial_error, 0.0_wp, trivial_error, &
+                           "trivial multiplier")
+         call cycle_of_block(block, t_end, 7, gauss_points, intervals(2), other, multipliers, error)
+         call expect_close(error, orbit%period, other%period, within, "period")
+      end subroutine check
+   end subroutine test_two_meshes
 
    !> An adapted mesh follows a front, and its orbit has the same values.
    subroutine test_meshes(error)

@@ -5,7 +5,8 @@ module branch_ends
    use problem_family, only: free_family_type
    implicit none (type, external)
    private
-   public :: follow_settings_type, has_ended, is_closed, longer_step, refinement_type, shorter
+   public :: follow_settings_type, has_ended, is_closed, longer_step, most_rounds, &
+             refinement_type, shorter
 
    !> Factors of the step after one that was easy, or failed
    real(wp), parameter :: longer = 1.5_wp, shorter = 0.5_wp
@@ -43,7 +44,8 @@ module branch_ends
       procedure :: is_outside
    end type follow_settings_type
 
-   !> How the intervals of a mesh grow where it is not accurate
+   !> Adaptions of a mesh that is not accurate, and how its intervals grow after the second
+   integer, parameter :: most_rounds = 4
    real(wp), parameter :: growth = 1.3_wp
    !> A smaller amplitude counts as this one: near a Hopf point the parameters make the step.
    real(wp), parameter :: amplitude_of_steps = 2.0_wp

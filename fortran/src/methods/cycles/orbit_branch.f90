@@ -1,14 +1,14 @@
 !> Branches of periodic orbits in one parameter by pseudo-arclength continuation, through folds. The
 !> step is controlled by the effort of Newton's method.
 module orbit_branch
-   use branch_ends, only: follow_settings_type, has_ended, longer_step, shorter
+   use branch_ends, only: follow_settings_type, has_ended, longer_step, most_rounds, shorter
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use floquet_multipliers, only: multipliers_type
+   use floquet_multipliers, only: find_multipliers, multipliers_type
    use orbit_change, only: amplitude_direction, inner_product, orbit_change_type, &
                            parameter_direction
    use orbit_equations, only: correct_orbit, newton_type, turn_to_tangent
-   use orbit_refinement, only: make_accurate
+   use orbit_mesh, only: adapted_mesh
    use periodic_orbit, only: periodic_orbit_type
    use problem_family, only: free_family_type
    implicit none (type, external)
@@ -129,11 +129,9 @@ contains
 
    !> The first orbit of a branch and its tangent.
    subroutine first_orbit(family, start, orbit, along, newton, error, tangent)
-      !> Problems and free parameters
       type(free_family_type), intent(in) :: family
       type(periodic_orbit_type), intent(in) :: start
       type(periodic_orbit_type), intent(out) :: orbit
-      !> Tangent of the branch at the orbit
       type(orbit_change_type), intent(out) :: along
       type(newton_type), intent(out) :: newton
       type(error_type), allocatable, intent(out) :: error
@@ -192,6 +190,49 @@ contains
          branch%tangents(i + 1) = along(1)
       end associate
    end subroutine take_step
+
+   !> Find the multipliers, on an adapted mesh where that is due or where the trivial multiplier is
+   !> not accurate, and on more intervals where that is not enough.
+   subroutine make_accurate(settings, orbit, along, multipliers, due, error)
+      type(follow_settings_type), intent(in) :: settings
+      type(periodic_orbit_type), intent(inout) :: orbit
+      type(orbit_change_type), intent(inout) :: along
+      type(multipliers_type), intent(out) :: multipliers
+      !> Whether the mesh is to be adapted anyway
+      logical, intent(in) :: due
+      type(error_type), allocatable, intent(out) :: error
+      type(error_type), allocatable :: failure
+      type(multipliers_type) :: better
+      type(newton_type) :: newton
+      type(orbit_change_type) :: direction(1)
+      type(periodic_orbit_type) :: adapted, reference
+      integer :: intervals, round
+
+      associate (family => settings%family, refinement => settings%refinement)
+         call find_multipliers(family, orbit, refinement%multipliers, multipliers, error)
+         if (allocated(error)) return
+         intervals = orbit%intervals()
+         do round = 1, most_rounds
+            if (multipliers%trivial_error <= refinement%accuracy) then
+               if (round > 1 .or. .not. due) return
+            end if
+            reference = orbit%on_mesh(adapted_mesh(orbit, intervals))
+            direction(1) = along%on_mesh(orbit, reference%mesh)
+            adapted = reference
+            call correct_orbit(family, reference, direction, [0.0_wp], adapted, newton, &
+                               failure)
+            if (allocated(failure)) return
+            call turn_to_tangent(family, adapted, direction(1), failure)
+            if (allocated(failure)) return
+            call find_multipliers(family, adapted, refinement%multipliers, better, failure)
+            if (allocated(failure)) return
+            orbit = adapted
+            along = direction(1)
+            multipliers = better
+            if (round > 1) intervals = refinement%next_intervals(intervals)
+         end do
+      end associate
+   end subroutine make_accurate
 
    !> Replace the last orbit by that at the edge of the window.
    subroutine end_at_window(settings, branch)

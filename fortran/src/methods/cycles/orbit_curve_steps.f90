@@ -1,12 +1,11 @@
 !> Steps along a curve of special points of periodic orbits: the next point is sought beside the
 !> direction of the curve, by the secant method.
 module orbit_curve_steps
-   use branch_ends, only: follow_settings_type, refinement_type
+   use branch_ends, only: follow_settings_type, most_rounds, refinement_type
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use orbit_change, only: orbit_change_type
    use orbit_mesh, only: adapted_mesh
-   use orbit_refinement, only: most_rounds
    use orbit_surface, only: frame_type, test_beside, turn_along
    use periodic_orbit, only: periodic_orbit_type
    use special_points, only: fold, judge_point, special_point_type
@@ -80,7 +79,6 @@ contains
    !> The root of the test function on the line beside the end of a step, by the secant method.
    subroutine find_beside(settings, before, frame, ahead, most, point, evaluations, error)
       type(follow_settings_type), intent(in) :: settings
-      !> The orbit from which the step goes
       type(periodic_orbit_type), intent(in) :: before
       !> Directions there, and the slope of the test function, which is improved
       type(frame_type), intent(inout) :: frame

@@ -130,7 +130,6 @@ contains
       type(frame_type), intent(in) :: frame
       real(wp), intent(in) :: step
       type(special_point_type), intent(out) :: point
-      !> Error if the cusp was not found
       type(error_type), allocatable, intent(out) :: error
       type(sign_change_type) :: change
       real(wp) :: at, g, moved

@@ -141,7 +141,6 @@ contains
 
    !> Solve the linear equations about an orbit.
    subroutine solve_conditions(family, orbit, conditions, residual, targets, changes, error)
-      !> Problems and free parameters
       type(free_family_type), intent(in) :: family
       type(periodic_orbit_type), intent(in) :: orbit
       type(orbit_change_type), intent(in) :: conditions(:)

@@ -136,7 +136,6 @@ contains
       type(segment_type), intent(in) :: segment
       !> The point, of known kind
       type(special_point_type), intent(inout) :: point
-      !> Error if the point was not found
       type(error_type), allocatable, intent(out) :: error
       real(wp), allocatable :: finer(:)
       real(wp) :: coarse
@@ -191,7 +190,6 @@ contains
       type(segment_type), intent(in) :: segment
       !> The point, of known kind
       type(special_point_type), intent(inout) :: point
-      !> Error if the point was not found
       type(error_type), allocatable, intent(out) :: error
       type(sign_change_type) :: change
       real(wp) :: at, g, moved

@@ -2,11 +2,11 @@
 !> Hopf point, and from a period doubling.
 module orbit_start
    use collocation_basis, only: collocation_basis_type
-   use dde, only: continuation_type, dde_problem_type, event_table, find_jacobian, integrate, &
+   use dde, only: continuation_type, dde_problem_type, event_table, integrate, &
                   integration_options, integration_result, table_sampler
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use delay_equation, only: linear_system_type
+   use delay_equation, only: linear_part, linear_system_type
    use floquet_multipliers, only: find_multipliers, multipliers_type
    use lapack, only: null_vectors
    use orbit_change, only: orbit_change_type
@@ -165,23 +165,7 @@ contains
       orbit%nodes = spread(state, 2, size(tangent%nodes, 2)) + amplitude*tangent%nodes
    end subroutine orbit_at_hopf_point
 
-   !> The linear part of a problem at a stationary state.
-   function linear_part(problem, state) result(linear)
-      class(dde_problem_type), intent(in) :: problem
-      real(wp), intent(in) :: state(:)
-      type(linear_system_type) :: linear
-      real(wp) :: by_y(size(state), size(state)), by_z(size(state), size(problem%lag))
-      integer :: k
-
-      call find_jacobian(problem, 0.0_wp, state, state(problem%component), by_y, by_z)
-      allocate (linear%a(size(state), size(state), size(problem%lag) + 1), source=0.0_wp)
-      linear%a(:, :, 1) = by_y
-      do k = 1, size(problem%lag)
-         linear%a(:, problem%component(k), k + 1) = by_z(:, k)
-      end do
-      linear%lag = [0.0_wp, problem%lag]
-   end function linear_part
-   !> First approximation of an orbit on the branch of twice the period that starts at a period
+  !> First approximation of an orbit on the branch of twice the period that starts at a period
    !> doubling: the orbit passed twice, plus a multiple of the
    !> disturbance v with v(s + 1) = -v(s).
    subroutine orbit_of_double_period(family, point, amplitude, orbit, tangent, error)

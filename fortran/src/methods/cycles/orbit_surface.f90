@@ -78,7 +78,6 @@ contains
    !> Turn two directions into orthonormal ones of the tangent plane; the first keeps its direction
    !> in it.
    subroutine turn_frame(family, orbit, directions, error)
-      !> Problems and free parameters
       type(free_family_type), intent(in) :: family
       type(periodic_orbit_type), intent(in) :: orbit
       type(orbit_change_type), intent(inout) :: directions(2)
@@ -97,7 +96,6 @@ contains
 
    !> The test function at a place of the plane near a point.
    subroutine test_near(settings, point, frame, place, g, error)
-      !> Problems and number of multipliers
       type(follow_settings_type), intent(in) :: settings
       type(special_point_type), intent(in) :: point
       type(frame_type), intent(in) :: frame

@@ -91,17 +91,14 @@ contains
    end function node_times
 
    !> The orbit by its values at the nodes of another mesh.
-   pure function on_mesh(self, mesh, basis) result(orbit)
+   pure function on_mesh(self, mesh) result(orbit)
       class(periodic_orbit_type), intent(in) :: self
       !> Ends of the intervals, from 0 to 1
       real(wp), intent(in) :: mesh(:)
-      !> Polynomials, where they are others
-      type(collocation_basis_type), intent(in), optional :: basis
       type(periodic_orbit_type) :: orbit
       integer :: i
 
       orbit%basis = self%basis
-      if (present(basis)) orbit%basis = basis
       orbit%mesh = mesh
       orbit%period = self%period
       orbit%parameters = self%parameters

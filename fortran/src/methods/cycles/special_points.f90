@@ -131,13 +131,9 @@ contains
    !> to the unit circle off the real axis; for a period doubling the product of all m + 1, of which
    !> those greater than 1 count with modulus 1.
    pure subroutine test_value(kind, multipliers, critical, g)
-      !> Kind of the point
       character(len=*), intent(in) :: kind
-      !> Multipliers
       type(multipliers_type), intent(in) :: multipliers
-      !> The critical one
       complex(wp), intent(out) :: critical
-      !> The test function
       real(wp), intent(out) :: g
       logical :: real_ones(size(multipliers%values))
 

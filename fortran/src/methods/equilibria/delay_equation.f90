@@ -4,10 +4,11 @@
 !>
 !> and the higher derivative forms of their right-hand side.
 module delay_equation
+   use dde, only: dde_problem_type, find_jacobian
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: delay_equation_type, linear_system_type
+   public :: delay_equation_type, linear_part, linear_system_type
 
    !> A linear system with constant lags; an instantaneous term has lag 0.
    type :: linear_system_type
@@ -48,7 +49,24 @@ module delay_equation
 
 contains
 
-   !> Second derivative.
+   !> The linear part of a problem at a stationary state; lag 1 is 0, those of the problem follow.
+   pure function linear_part(problem, state) result(linear)
+      !> The problem, with constant lags
+      class(dde_problem_type), intent(in) :: problem
+      real(wp), intent(in) :: state(:)
+      type(linear_system_type) :: linear
+      real(wp) :: by_y(size(state), size(state)), by_z(size(state), size(problem%lag))
+      integer :: k
+
+      call find_jacobian(problem, 0.0_wp, state, state(problem%component), by_y, by_z)
+      allocate (linear%a(size(state), size(state), size(problem%lag) + 1), source=0.0_wp)
+      linear%a(:, :, 1) = by_y
+      do k = 1, size(problem%lag)
+         linear%a(:, problem%component(k), k + 1) = by_z(:, k)
+      end do
+      linear%lag = [0.0_wp, problem%lag]
+   end function linear_part
+    !> Second derivative.
    pure function second_form(self, x, y) result(form)
       class(delay_equation_type), intent(in) :: self
       complex(wp), intent(in) :: x(:, :), y(:, :)
