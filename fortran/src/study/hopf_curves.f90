@@ -179,7 +179,7 @@ contains
       end if
    end function chord_is_bad
 
-   !> The point of branch k at omega with all that is known of it.
+   !> The point of branch k at omega with its residuals and crossing.
    pure type(curve_point_type) function point_of_curve(plane, k, omega, piece) result(point)
       type(curve_plane_type), intent(in) :: plane
       integer, intent(in) :: k

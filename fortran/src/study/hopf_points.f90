@@ -43,8 +43,8 @@ module hopf_points
       type(unfolding_type) :: unfolding
    end type hopf_point_type
 
-   !> Along a branch the first Lyapunov coefficient (0 if there is none, which `add` then reports),
-   !> or the number of the branch that a second frequency would be on, less a given one.
+   !> Along a branch the first Lyapunov coefficient (0 if there is none, which `add_point` then
+   !> reports), or the number of the branch that a second frequency would be on, less a given one.
    type, extends(scalar_function_type) :: branch_function_type
       !> The plane
       type(curve_plane_type) :: plane
@@ -103,7 +103,7 @@ contains
                call find_root(coefficient, p%omega, q%omega, omega, error)
                if (allocated(error)) return
                if (abs(coefficient%value(omega)) <= small_coefficient) then
-                  call add(found, "generalised_hopf", plane, [omega], [p%branch], error)
+                  call add_point(found, "generalised_hopf", plane, [omega], [p%branch], error)
                end if
             end if
             ! of two frequencies at the same parameters, the lower one's pair becomes stable
@@ -117,8 +117,9 @@ contains
                   call find_root(meeting, p%omega, q%omega, omega, error)
                   if (allocated(error)) return
                   associate (b => plane%at(omega, p%branch))
-                     call add(found, "double_hopf", plane, &
-                              [omega, partner_omega(omega, b%xi, b%gamma)], [p%branch, m], error)
+                     call add_point(found, "double_hopf", plane, &
+                                    [omega, partner_omega(omega, b%xi, b%gamma)], &
+                                    [p%branch, m], error)
                   end associate
                end do
             end associate
@@ -140,11 +141,11 @@ contains
       associate (p => plane%at(omega, 0), window => plane%epsilon_window)
          if (p%epsilon < window(1) .or. p%epsilon > window(2)) return
       end associate
-      call add(found, "hopf_without_delay", plane, [omega], [0], error)
+      call add_point(found, "hopf_without_delay", plane, [omega], [0], error)
    end subroutine find_start
 
-   !> A further point with all that is known of it.
-   subroutine add(found, kind, plane, omega, branch, error)
+   !> Append a point with its coefficients and its normal form.
+   subroutine add_point(found, kind, plane, omega, branch, error)
       type(hopf_point_type), allocatable, intent(inout) :: found(:)
       character(len=*), intent(in) :: kind
       type(curve_plane_type), intent(in) :: plane
@@ -174,7 +175,7 @@ contains
       case default
       end select
       found = [found, point]
-   end subroutine add
+   end subroutine add_point
 
    !> The coefficient, or 0 where the second frequency is one of the other branch, too.
    real(wp) function value_along_branch(self, x) result(value)

@@ -82,9 +82,9 @@ contains
             if (there%tau > tau_most) exit
             k = k + 1
             if (there%tau <= 0.0_wp) cycle
-            associate (s => cmplx(0.0_wp, omega(i), kind=wp))
-               call insert(changes, change_at(there, omega(i), real(root_by_tau(there, s))), &
-                           changes%parameters%tau < there%tau)
+            associate (speed => real(root_by_tau(there, cmplx(0.0_wp, omega(i), kind=wp))))
+               call insert_change(changes, change_at(there, omega(i), speed), &
+                                  changes%parameters%tau < there%tau)
             end associate
          end do
       end do
@@ -121,8 +121,8 @@ contains
          there%epsilon = hopf_epsilon(omega, p%xi, p%gamma)
          if (there%epsilon > epsilon_most) cycle
          s = cmplx(0.0_wp, omega, kind=wp)
-         call insert(changes, change_at(there, omega, real(root_by_epsilon(there, s))), &
-                     changes%parameters%epsilon < there%epsilon)
+         call insert_change(changes, change_at(there, omega, real(root_by_epsilon(there, s))), &
+                            changes%parameters%epsilon < there%epsilon)
       end do
    end subroutine changes_with_epsilon
 
@@ -144,7 +144,7 @@ contains
    end function change_at
 
    !> Put a crossing in its place.
-   pure subroutine insert(changes, change, earlier)
+   pure subroutine insert_change(changes, change, earlier)
       type(stability_change_type), allocatable, intent(inout) :: changes(:)
       type(stability_change_type), intent(in) :: change
       !> Which of the others come first; they are ascending
@@ -153,7 +153,7 @@ contains
 
       n = count(earlier)
       changes = [changes(:n), change, changes(n + 1:)]
-   end subroutine insert
+   end subroutine insert_change
 
    !> Value of the function.
    real(wp) function value_at_omega(self, x) result(value)

@@ -74,11 +74,11 @@ contains
 
    !> The step after one that was easy.
    pure real(wp) function longer_step(step, longest, orbit) result(next)
-      !> That step
+      !> Length of the last step
       real(wp), intent(in) :: step
       !> The longest step over the amplitude
       real(wp), intent(in) :: longest
-      !> The orbit it led to
+      !> The orbit at its end
       type(periodic_orbit_type), intent(in) :: orbit
 
       next = min(longer*step, longest*max(amplitude_of_steps, orbit%amplitude()))

@@ -22,7 +22,7 @@ module collocation_basis
       real(wp), allocatable :: weight(:)
       !> Values and slopes of the Lagrange polynomials at the points, shape (m + 1, m)
       real(wp), allocatable :: value(:, :), slope(:, :)
-      !> Their coefficients of the power m, shape (m + 1)
+      !> Coefficients of the power m of the Lagrange polynomials, shape (m + 1)
       real(wp), allocatable :: leading(:)
    contains
       procedure :: values_at, slopes_at

@@ -110,7 +110,7 @@ contains
       integer, intent(in) :: wanted
       !> Norm of the residual of an eigenvector of norm 1, over the modulus of the first eigenvalue
       real(wp), intent(in) :: tolerance
-      !> The eigenvalues; as many as wanted, or a few less or more where pairs would be separated or
+      !> The eigenvalues: the number wanted, or a few less or more where pairs would be separated or
       !> the vectors are shorter
       complex(wp), allocatable, intent(out) :: values(:)
       !> Eigenvectors, shape (n, size(values))

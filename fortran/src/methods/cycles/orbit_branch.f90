@@ -123,7 +123,7 @@ contains
             end if
          end do
       end associate
-      call cut(branch, i)
+      call keep_first(branch, i)
       if (branch%ending == "window") call end_at_window(settings, branch)
    end subroutine follow_branch
 
@@ -275,7 +275,7 @@ contains
    end subroutine end_at_window
 
    !> Keep the first orbits of a branch.
-   subroutine cut(branch, count)
+   subroutine keep_first(branch, count)
       type(branch_type), intent(inout) :: branch
       integer, intent(in) :: count
       type(branch_type) :: whole
@@ -286,5 +286,5 @@ contains
       allocate (branch%orbits, source=whole%orbits(:count))
       allocate (branch%tangents, source=whole%tangents(:count))
       allocate (branch%multipliers, source=whole%multipliers(:count))
-   end subroutine cut
+   end subroutine keep_first
 end module orbit_branch

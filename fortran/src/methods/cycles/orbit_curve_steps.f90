@@ -11,7 +11,7 @@ module orbit_curve_steps
    use special_points, only: fold, judge_point, special_point_type
    implicit none (type, external)
    private
-   public :: accurate, frame_on, take_step
+   public :: frame_on, is_accurate, take_step
 
    !> Evaluations of the test function at one point, and the distance between two at which it is
    !> zero
@@ -68,7 +68,7 @@ contains
                call judge_point(settings, point, g, error)
                if (allocated(error)) return
             end if
-            if (accurate(point, refinement)) exit
+            if (is_accurate(point, refinement)) exit
             if (round > 1) intervals = refinement%next_intervals(intervals)
             ahead = 0.0_wp
          end do
@@ -129,7 +129,7 @@ contains
 
    !> Whether the multipliers of a point are accurate. At a fold the trivial one is double: then its
    !> error is the square root of the other errors.
-   pure logical function accurate(point, refinement) result(value)
+   pure logical function is_accurate(point, refinement) result(value)
       !> The point
       type(special_point_type), intent(in) :: point
       !> What is accurate
@@ -137,5 +137,5 @@ contains
 
       value = point%trivial_error <= refinement%accuracy
       if (point%kind == fold) value = point%trivial_error <= sqrt(refinement%accuracy)
-   end function accurate
+   end function is_accurate
 end module orbit_curve_steps

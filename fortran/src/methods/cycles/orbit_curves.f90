@@ -4,7 +4,7 @@ module orbit_curves
    use branch_ends, only: follow_settings_type, is_closed, longer_step, shorter
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use orbit_curve_steps, only: accurate, frame_on, take_step
+   use orbit_curve_steps, only: frame_on, is_accurate, take_step
    use orbit_mesh, only: adapted_mesh
    use orbit_surface, only: first_plane, frame_type, turn_along
    use sign_change, only: sign_change_type
@@ -193,7 +193,7 @@ contains
             reason = "1:2"
          else if (point%orbit%period > settings%longest_period) then
             reason = "period"
-         else if (.not. accurate(point, settings%refinement)) then
+         else if (.not. is_accurate(point, settings%refinement)) then
             reason = "intervals"
          else if (point%orbit%comes_to_shorter(points(last - 1)%orbit)) then
             reason = "shorter_period"

@@ -79,7 +79,7 @@ contains
       newton%last_change = huge(1.0_wp)
       do i = 1, newton%most_iterations
          newton%iterations = i
-         call remaining(reference, family, conditions, distances, orbit, target(:, 1))
+         call find_targets(reference, family, conditions, distances, orbit, target(:, 1))
          call solve_conditions(family, orbit, conditions, 1.0_wp, target, change, error)
          if (allocated(error)) return
          before = newton%last_change
@@ -95,8 +95,8 @@ contains
                  //" iterations; at most "//text(newton%tolerance)//" expected")
    end subroutine correct_orbit
 
-   !> Changes that keep an orbit one: tangents. Each has the inner product 1 with one of as many
-   !> directions and 0 with the others.
+   !> Changes that keep an orbit one: tangents. Tangent i has the inner product 1 with
+   !> direction i and 0 with the others.
    subroutine find_tangents(family, orbit, directions, tangents, error)
       !> Problems and free parameters
       type(free_family_type), intent(in) :: family
@@ -163,12 +163,12 @@ contains
       allocate (right(unknowns), solution(unknowns))
       do i = 1, size(changes)
          solution = 0.0_wp
-         call answer(map, solution, residual, right)
+         call find_defects(map, solution, residual, right)
          right = -right
          right(past + 1:) = right(past + 1:) + targets(:, i)
          call solve_by_gmres(map, right, linear_tolerance, solution, error)
          if (allocated(error)) return
-         call answer(map, solution, residual, right)
+         call find_defects(map, solution, residual, right)
          changes(i)%nodes = reshape(map%nodes, shape(orbit%nodes))
          changes(i)%period = solution(past + 1)
          changes(i)%parameters = solution(past + 2:)
@@ -182,11 +182,11 @@ contains
       real(wp), intent(in) :: vector(:)
       real(wp), intent(out) :: image(:)
 
-      call answer(self, vector, 0.0_wp, image)
+      call find_defects(self, vector, 0.0_wp, image)
    end subroutine defect_of_change
 
    !> Defect of a change, plus a multiple of the residual of the orbit.
-   subroutine answer(self, vector, residual, image)
+   subroutine find_defects(self, vector, residual, image)
       class(orbit_map_type), intent(inout) :: self
       !> Past, changes of the period and of the free parameters
       real(wp), intent(in) :: vector(:)
@@ -204,10 +204,10 @@ contains
                               + dot_product(c%parameters, vector(past + 2:))
          end associate
       end do
-   end subroutine answer
+   end subroutine find_defects
 
    !> Values that the conditions must still gain.
-   subroutine remaining(reference, family, conditions, distances, orbit, target)
+   subroutine find_targets(reference, family, conditions, distances, orbit, target)
       type(periodic_orbit_type), intent(in) :: reference
       type(free_family_type), intent(in) :: family
       type(orbit_change_type), intent(in) :: conditions(:)
@@ -226,5 +226,5 @@ contains
                         - dot_product(c%parameters, made%parameters)
          end associate
       end do
-   end subroutine remaining
+   end subroutine find_targets
 end module orbit_equations

@@ -154,7 +154,7 @@ contains
       associate (n => self%n, m => self%degree, basis => orbit%basis, period => orbit%period)
          do k = 1, m
             r = (k - 1)*n
-            call evaluate(self, problem, beside, orbit, place(:, k), i, k, point)
+            call evaluate_point(self, problem, beside, orbit, place(:, k), i, k, point)
             do j = 1, m + 1
                column = (j - 1)*n
                local(r + 1:r + n, column + 1:column + n) = -period*basis%value(j, k)*point%by_y
@@ -196,7 +196,7 @@ contains
    end subroutine local_system
 
    !> Derivatives and forcings at a collocation point.
-   subroutine evaluate(self, problem, beside, orbit, place, i, k, point)
+   subroutine evaluate_point(self, problem, beside, orbit, place, i, k, point)
       type(orbit_passes_type), intent(in) :: self
       class(dde_problem_type), intent(in) :: problem
       !> Problems with a free parameter above and below
@@ -241,5 +241,5 @@ contains
             end associate
          end do
       end associate
-   end subroutine evaluate
+   end subroutine evaluate_point
 end module orbit_linearisation

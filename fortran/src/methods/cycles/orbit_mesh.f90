@@ -13,9 +13,9 @@ module orbit_mesh
 
 contains
 
-   !> Intervals of one length.
+   !> A mesh of intervals of one length.
    pure function uniform_mesh(intervals) result(mesh)
-      !> Their number
+      !> Number of intervals
       integer, intent(in) :: intervals
       real(wp) :: mesh(intervals + 1)
       integer :: i

@@ -59,17 +59,18 @@ contains
 
       allocate (points(0))
       do i = 1, size(branch%orbits) - 1
-         call search(settings, branch%orbits(i), branch%orbits(i + 1), &
-                     [sign(1.0_wp, branch%tangents(i)%parameters(1)), &
-                      sign(1.0_wp, branch%tangents(i + 1)%parameters(1))], &
-                     branch%multipliers(i), branch%multipliers(i + 1), most_halvings, points, error)
+         call search_between(settings, branch%orbits(i), branch%orbits(i + 1), &
+                             [sign(1.0_wp, branch%tangents(i)%parameters(1)), &
+                              sign(1.0_wp, branch%tangents(i + 1)%parameters(1))], &
+                             branch%multipliers(i), branch%multipliers(i + 1), most_halvings, &
+                             points, error)
          if (allocated(error)) return
       end do
    end subroutine find_special_points
 
    !> Special points between two orbits.
-   recursive subroutine search(settings, first, second, signs, before, behind, halvings, &
-                               points, error)
+   recursive subroutine search_between(settings, first, second, signs, before, behind, &
+                                       halvings, points, error)
       type(follow_settings_type), intent(in) :: settings
       type(periodic_orbit_type), intent(in) :: first, second
       !> Direction of the parameter there, 1 or -1
@@ -123,12 +124,12 @@ contains
       call turn_to_tangent(settings%family, middle, tangent, error)
       if (allocated(error)) return
       sign_between = sign(1.0_wp, tangent%parameters(1))
-      call search(settings, first, middle, [signs(1), sign_between], before, between, &
-                  halvings - 1, points, error)
+      call search_between(settings, first, middle, [signs(1), sign_between], before, between, &
+                          halvings - 1, points, error)
       if (allocated(error)) return
-      call search(settings, middle, second, [sign_between, signs(2)], between, behind, &
-                  halvings - 1, points, error)
-   end subroutine search
+      call search_between(settings, middle, second, [sign_between, signs(2)], between, behind, &
+                          halvings - 1, points, error)
+   end subroutine search_between
 
    !> Find a point on the mesh of the segment, then on finer ones until the last two agree.
    subroutine locate_on_meshes(settings, segment, point, error)
@@ -142,7 +143,7 @@ contains
       integer :: intervals, p
       type(periodic_orbit_type) :: first
 
-      call locate(settings, segment, point, error)
+      call locate_point(settings, segment, point, error)
       if (allocated(error)) return
       call set_coefficient(settings, point)
       p = settings%family%free(1)
@@ -151,8 +152,8 @@ contains
          intervals = nint(refinement*point%orbit%intervals())
          finer = adapted_mesh(point%orbit, intervals)
          first = segment%ends(1)%on_mesh(finer)
-         call locate(settings, segment_between(first, segment%ends(2), settings%family), &
-                     point, error)
+         call locate_point(settings, segment_between(first, segment%ends(2), settings%family), &
+                           point, error)
          if (allocated(error)) return
          call set_coefficient(settings, point)
          point%mesh_error = abs(point%orbit%parameters(p) - coarse)
@@ -185,7 +186,7 @@ contains
    end subroutine set_coefficient
 
    !> Find a point on a segment.
-   subroutine locate(settings, segment, point, error)
+   subroutine locate_point(settings, segment, point, error)
       type(follow_settings_type), intent(in) :: settings
       type(segment_type), intent(in) :: segment
       !> The point, of known kind
@@ -218,7 +219,7 @@ contains
       else if (point%kind == torus_bifurcation) then
          call set_growth(settings, segment, at, point)
       end if
-   end subroutine locate
+   end subroutine locate_point
 
    !> Set the growth of a torus point by the multipliers on both sides.
    subroutine set_growth(settings, segment, at, point)

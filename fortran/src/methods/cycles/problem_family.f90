@@ -50,7 +50,7 @@ contains
       class(problem_family_type), intent(in) :: problems
       !> Numbers of the free parameters
       integer, intent(in) :: free(:)
-      !> Their units, > 0
+      !> Unit of each, > 0
       real(wp), intent(in) :: unit(:)
       type(free_family_type) :: family
 

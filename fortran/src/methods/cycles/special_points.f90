@@ -1,4 +1,4 @@
-!> Special points of periodic orbits: what they are, and their test functions.
+!> Special points of periodic orbits with their test functions.
 module special_points
    use branch_ends, only: follow_settings_type
    use dde_errors, only: error_type

@@ -23,7 +23,7 @@ module torus_expansion
       type(periodic_orbit_type) :: orbit
       !> All terms at the nodes of the orbit, shape (n, nodes, 0:3); 0 before they are known
       complex(wp), allocatable :: nodes(:, :, :)
-      !> Their factors over a period
+      !> Factor of each term over a period
       complex(wp) :: multiplier(0:3) = (1.0_wp, 0.0_wp)
       !> Change of speed
       real(wp) :: a = 0.0_wp

@@ -57,7 +57,7 @@ contains
       integer :: i
 
       coefficient = 0.0_wp
-      call begin(equation, omega, m, series, error)
+      call set_first_order(equation, omega, m, series, error)
       do i = 2, size(series%flow)
          if (allocated(error)) return
          if (sum(series%power(:, i)) > 1) call add_term(equation, series, i, error)
@@ -66,7 +66,7 @@ contains
    end subroutine normal_form_coefficient
 
    !> The terms of first order.
-   subroutine begin(equation, omega, m, series, error)
+   subroutine set_first_order(equation, omega, m, series, error)
       class(delay_equation_type), intent(in) :: equation
       real(wp), intent(in) :: omega(:)
       integer, intent(in) :: m(:)
@@ -99,7 +99,7 @@ contains
          series%history(:, :, j) = values_at_lags(series%polynomial(:, :, j), series%s(i), &
                                                   equation%linear%lag)
       end do
-   end subroutine begin
+   end subroutine set_first_order
 
    !> The term of a multi-index of second or higher order, all lower ones being known.
    subroutine add_term(equation, series, term, error)

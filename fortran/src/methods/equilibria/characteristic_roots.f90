@@ -36,9 +36,9 @@ contains
       real(wp), intent(in) :: bound
       !> The roots
       complex(wp), allocatable, intent(out) :: roots(:)
-      !> Not as many as expected, or not the same with twice as many nodes
+      !> The expected number is not found, or twice the nodes give other roots
       type(error_type), allocatable, intent(out) :: error
-      !> Their number, if it is known
+      !> Number of roots, if it is known
       integer, intent(in), optional :: expected
       complex(wp), allocatable :: approximate(:), before(:)
       integer :: intervals
@@ -53,7 +53,7 @@ contains
       do while (intervals <= most_intervals)
          call approximate_roots(system, intervals, approximate, error)
          if (allocated(error)) return
-         roots = refined(system, bound, approximate)
+         roots = refine_roots(system, bound, approximate)
          if (present(expected)) then
             if (size(roots) == expected) return
          else if (maxval(system%lag) <= 0.0_wp) then
@@ -172,7 +172,7 @@ contains
    end function interpolation
 
    !> The roots that approximate ones lead to, each once.
-   function refined(system, bound, approximate) result(roots)
+   function refine_roots(system, bound, approximate) result(roots)
       type(linear_system_type), intent(in) :: system
       real(wp), intent(in) :: bound
       complex(wp), intent(in) :: approximate(:)
@@ -191,7 +191,7 @@ contains
          roots = [roots(:after), s, roots(after + 1:)]
       end do
       roots = [(with_partner(roots(i)), i=1, size(roots))]
-   end function refined
+   end function refine_roots
 
    !> A root above the real axis and its conjugate, or a real root alone.
    pure function with_partner(s) result(both)
