@@ -5,13 +5,13 @@ module known_equations
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: block_by_values, duffing_with_pair, new_block_by_values, new_layers, new_lienard, &
-             new_neurons, new_quadratic, new_transformed, small_equation, transformed
+   public :: block_by_values, duffing_with_pair, layers, lienard, neurons, new_block_by_values, &
+             new_small, new_transformed, quadratic, small_equation, transformed
 
    !> One turn.
    real(wp), parameter :: two_pi = 2.0_wp*acos(-1.0_wp)
 
-   !> Small equations and their coefficients p:
+   !> Small equations, their coefficients p and delays:
    !>
    !>     lienard    x' = y - a3 x^3 - a5 x^5, y' = -x; a3, a5
    !>     quadratic  the form of Kapteyn and Bautin at lambda1 = 0; l1, ..., l6:
@@ -19,13 +19,14 @@ module known_equations
    !>                - l2 y^2
    !>     duffing    delayed feedback, demonstration minimal_demo of DDE-BIFTOOL, in the state
    !>                (x + bend v^2, v) with v = x': x'' + d x' + a x + x^3 + b [x - x(t - tau)] = 0;
-   !>                a, b, d, bend
-   !>     layers     two layers of neurons, demonstration nmfm_demo of DDE-BIFTOOL; a, c:
+   !>                a, b, d, bend; tau
+   !>     layers     two layers of neurons, demonstration nmfm_demo of DDE-BIFTOOL; a, c; tau1,
+   !>                tau2:
    !>                x1' = -x1 - a g(2 x1(t - tau1)) + c g(1.2 x2(t - tau2)), x2' with 1 and 2
    !>                exchanged, g(z) = [tanh(z - 1) + tanh 1] cosh^2 1
-   !>     neurons    two neurons, demonstration neuron of DDE-BIFTOOL; a21:
-   !>                x1' = -x1/2 - tanh x1(t - tau_s) + tanh x2(t - 0.2), x2' = -x2/2
-   !>                - tanh x2(t - tau_s) + a21 tanh x1(t - 0.2)
+   !>     neurons    two neurons, demonstration neuron of DDE-BIFTOOL; a21; tau_s, tau1 = 0.2:
+   !>                x1' = -x1/2 - tanh x1(t - tau_s) + tanh x2(t - tau1), x2' = -x2/2
+   !>                - tanh x2(t - tau_s) + a21 tanh x1(t - tau1)
    integer, parameter :: lienard = 1, quadratic = 2, duffing = 3, layers = 4, neurons = 5
 
    !> One of these equations.
@@ -62,20 +63,6 @@ module known_equations
 
 contains
 
-   !> Lienard's equation.
-   type(small_equation) function new_lienard(a3, a5) result(equation)
-      real(wp), intent(in) :: a3, a5
-
-      equation = new_small(lienard, [a3, a5], [0.0_wp])
-   end function new_lienard
-
-   !> The quadratic system.
-   type(small_equation) function new_quadratic(l) result(equation)
-      real(wp), intent(in) :: l(6)
-
-      equation = new_small(quadratic, l, [0.0_wp])
-   end function new_quadratic
-
    !> Duffing's oscillator at a frequency above sqrt(a) with this pair on the axis, on branch k.
    type(small_equation) function duffing_with_pair(omega, k, bend) result(equation)
       real(wp), intent(in) :: omega, bend
@@ -86,31 +73,25 @@ contains
       excess = omega**2 - a
       b = (excess**2 + (d*omega)**2)/(2.0_wp*excess)
       equation = new_small(duffing, [a, b, d, bend], &
-                           [0.0_wp, (atan2(-d*omega, b - excess) + two_pi*k)/omega])
+                           [(atan2(-d*omega, b - excess) + two_pi*k)/omega])
    end function duffing_with_pair
 
-   !> The layers of neurons.
-   type(small_equation) function new_layers(a, c) result(equation)
-      real(wp), intent(in) :: a, c
-
-      equation = new_small(layers, [a, c], [0.0_wp, 12.7_wp, 20.2_wp])
-   end function new_layers
-
-   !> The two neurons.
-   type(small_equation) function new_neurons(a21, tau_s) result(equation)
-      real(wp), intent(in) :: a21, tau_s
-
-      equation = new_small(neurons, [a21], [0.0_wp, tau_s, 0.2_wp])
-   end function new_neurons
-
    !> A small equation with its linear part.
-   type(small_equation) function new_small(equation, p, lag) result(made)
+   type(small_equation) function new_small(equation, p, delays) result(made)
+      !> The equation
       integer, intent(in) :: equation
-      real(wp), intent(in) :: p(:), lag(:)
+      !> Coefficients
+      real(wp), intent(in) :: p(:)
+      !> Lags > 0, in the order of the equation
+      real(wp), intent(in), optional :: delays(:)
 
       made%equation = equation
       made%p = p
-      call set_linear_part(made, 2, lag)
+      if (present(delays)) then
+         call set_linear_part(made, 2, [0.0_wp, delays])
+      else
+         call set_linear_part(made, 2, [0.0_wp])
+      end if
    end function new_small
 
    !> The small equations.

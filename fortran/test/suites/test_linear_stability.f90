@@ -9,7 +9,7 @@ module test_linear_stability
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use dde_kinds, only: wp
-   use known_equations, only: new_block_by_values, new_neurons, small_equation
+   use known_equations, only: neurons, new_block_by_values, new_small, small_equation
    use lapack, only: solve
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use normal_form, only: first_lyapunov_coefficient
@@ -202,7 +202,7 @@ contains
       complex(wp), allocatable :: roots(:)
       real(wp) :: l1
 
-      equation = new_neurons(0.8071232250_wp, 1.5_wp)
+      equation = new_small(neurons, [0.8071232250_wp], [1.5_wp, 0.2_wp])
       call find_roots(equation%linear, -0.01_wp, roots, failure)
       call expect_success(error, failure)
       call expect_close(error, real(roots(1)), 0.0_wp, 1.0e-9_wp, "real part of the pair")

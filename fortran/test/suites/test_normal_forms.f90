@@ -7,8 +7,9 @@ module test_normal_forms
    use dde_errors, only: failure_type => error_type, text
    use double_hopf, only: double_hopf_type, find_double_hopf, word_length
    use expectations, only: expect, expect_close, expect_success
-   use known_equations, only: block_by_values, duffing_with_pair, new_block_by_values, new_layers, &
-                              new_lienard, new_neurons, new_quadratic, new_transformed, transformed
+   use known_equations, only: block_by_values, duffing_with_pair, layers, lienard, neurons, &
+                              new_block_by_values, new_small, new_transformed, quadratic, &
+                              transformed
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use normal_form, only: first_lyapunov_coefficient
@@ -67,17 +68,17 @@ contains
       complex(wp) :: c1, c2
       real(wp) :: l(6)
 
-      call normal_form_coefficient(new_lienard(0.0_wp, a5), [1.0_wp], [3, 2], c2, failure)
+      call normal_form_coefficient(new_small(lienard, [0.0_wp, a5]), [1.0_wp], [3, 2], c2, failure)
       call expect_success(error, failure)
       call expect_close(error, real(c2), -1.25_wp*a5, 1.0e-9_wp, "Re c2 of Lienard")
       l = [0.0_wp, 0.3_wp, 0.5_wp, -0.7_wp, 0.0_wp, 1.1_wp]
       associate (v5 => pi/24.0_wp*l(2)*l(4)*(l(3) - l(6))*(l(4) + 5.0_wp*(l(3) - l(6))))
-         call normal_form_coefficient(new_quadratic(l), [1.0_wp], [3, 2], c2, failure)
+         call normal_form_coefficient(new_small(quadratic, l), [1.0_wp], [3, 2], c2, failure)
          call expect_success(error, failure)
          call expect_close(error, real(c2), 2.0_wp*v5/pi, 1.0e-9_wp, "Re c2 of Bautin")
       end associate
       l(5) = 0.4_wp
-      call normal_form_coefficient(new_quadratic(l), [1.0_wp], [2, 1], c1, failure)
+      call normal_form_coefficient(new_small(quadratic, l), [1.0_wp], [2, 1], c1, failure)
       call expect_success(error, failure)
       call expect_close(error, real(c1), -0.25_wp*l(5)*(l(3) - l(6)), 1.0e-9_wp, "Re c1 of Bautin")
    end subroutine test_planar
@@ -149,13 +150,14 @@ contains
          [(-0.030007_wp, -0.0094837_wp), (-0.11318_wp, 0.037831_wp), &
           (-0.060013_wp, -0.018967_wp), (-0.056592_wp, 0.018915_wp)]
 
-      call find_double_hopf(new_neurons(0.2072962626_wp, 8.6340742187_wp), &
+      call find_double_hopf(new_small(neurons, [0.2072962626_wp], [8.6340742187_wp, 0.2_wp]), &
                             [0.3287154065_wp, 0.9157115883_wp], form, failure)
       call expect_success(error, failure)
       call expect_close(error, abs(pack(form%g, .true.) - known), spread(0.0_wp, 1, 4), 1.0e-5_wp, &
                         "error of the neurons' g_jk")
       call expect_close(error, form%ratios(), [1.0605_wp, 3.7719_wp], 5.0e-5_wp, "theta, delta")
-      call find_double_hopf(new_layers(0.0899922748_wp, 0.7735178974_wp), &
+      call find_double_hopf(new_small(layers, [0.0899922748_wp, 0.7735178974_wp], &
+                                      [12.7_wp, 20.2_wp]), &
                             [0.1560058562_wp, 0.2900084424_wp], form, failure)
       call expect_success(error, failure)
       call expect_close(error, form%ratios(), [1.5255011842_wp, 1.6984697752_wp], 5.0e-9_wp, &

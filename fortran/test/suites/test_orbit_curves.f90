@@ -24,8 +24,7 @@ contains
    subroutine collect_orbit_curves(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("torus curves end at published points", test_torus_curves), &
-                   new_unittest("a fold curve ends at a published point", test_fold_curve), &
+      testsuite = [new_unittest("curves end at published points", test_published), &
                    new_unittest("a known fold curve and its cusp", test_cusp), &
                    new_unittest("a cusp among short steps", test_cusp_short_steps)]
    end subroutine collect_orbit_curves
@@ -89,8 +88,9 @@ contains
    end subroutine curve_of_duffing
 
    !> "minimal_demo" of DDE-BIFTOOL: torus curves start at the double Hopf points b = 0.354445,
-   !> tau = 8.72874 and b = 0.173725, tau = 17.4169.
-   subroutine test_torus_curves(error)
+   !> tau = 8.72874 and b = 0.173725, tau = 17.4169, a curve of folds at the generalised Hopf point
+   !> b = 0.036906, tau = 14.8348.
+   subroutine test_published(error)
       type(error_type), allocatable, intent(out) :: error
       type(curve_type) :: curve
 
@@ -99,19 +99,12 @@ contains
       if (allocated(error)) return
       call curve_of_duffing(0.2_wp, 2, torus_bifurcation, [0.173725_wp, 17.4169_wp], &
                             [2.0e-6_wp, 2.0e-4_wp], curve, error)
-   end subroutine test_torus_curves
-
-   !> In "minimal_demo" a curve of folds starts at the generalised Hopf point b = 0.036906,
-   !> tau = 14.8348.
-   subroutine test_fold_curve(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(curve_type) :: curve
-
+      if (allocated(error)) return
       call curve_of_duffing(0.04_wp, 1, fold, [0.036906_wp, 14.8348_wp], [1.0e-6_wp, 2.0e-4_wp], &
                             curve, error)
       if (allocated(error)) return
       call expect(error, size(curve%cusps) == 0, "no cusp at the generalised Hopf point")
-   end subroutine test_fold_curve
+   end subroutine test_published
 
    !> The curve of folds of cycles sqrt(1 + s) sin t of a cubic towards smaller b. The folds are at
    !> a = -2 s^3, b = 3 s^2, with a cusp at s = 0.
