@@ -7,7 +7,7 @@ module test_hopf_condition
                                       relative_residual
    use closed_form, only: closed_epsilon, closed_tau
    use dde_errors, only: text
-   use expectations, only: expect, expect_between, expect_close
+   use expectations, only: expect_between, expect_close
    use hopf_condition, only: hopf_epsilon, hopf_tau, hopf_xi, printed_tau
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
