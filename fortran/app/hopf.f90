@@ -12,7 +12,7 @@ program hopf
    character(len=:), allocatable :: namelist_path, output_path
    type(error_type), allocatable :: error
    type(hopf_settings_type) :: settings
-   class(curve_plane_type), allocatable :: plane
+   type(curve_plane_type) :: plane
    type(curve_point_type), allocatable :: points(:)
    type(hopf_point_type), allocatable :: special(:)
 

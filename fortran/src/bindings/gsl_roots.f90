@@ -1,7 +1,7 @@
 !> Root finding by GSL (Brent's method).
 module gsl_roots
-   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_funptr, &
-                                          c_int, c_loc, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_funloc, c_funptr, c_int, &
+                                          c_loc, c_ptr
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    implicit none (type, external)
@@ -10,8 +10,8 @@ module gsl_roots
 
    !> Most iterations of one search.
    integer, parameter :: most_iterations = 200
-   !> GSL's status for success.
-   integer(c_int), parameter :: gsl_success = 0
+   !> How a search that failed ended, as in gsl_accessors.c.
+   integer(c_int), parameter :: no_memory = 1, same_signs = 2, no_convergence = 3
 
    !> A continuous function of one variable; its parameters are components of the extension.
    type, abstract :: scalar_function_type
@@ -37,73 +37,18 @@ module gsl_roots
       class(scalar_function_type), pointer :: f => null()
    end type callback_data_type
 
-   !> The C type gsl_function.
-   type, bind(c) :: gsl_function
-      type(c_funptr) :: evaluate
-      type(c_ptr) :: params
-   end type gsl_function
-
    interface
-      type(c_ptr) function brent_of_gsl() result(value) bind(c)
-         import :: c_ptr
+      !> Root by Brent's method (gsl_accessors.c), and how the search ended.
+      integer(c_int) function find_root_by_brent(f, params, lower, upper, most, relative, root) &
+         result(outcome) bind(c)
+         import :: c_double, c_funptr, c_int, c_ptr
          implicit none (type, external)
-      end function brent_of_gsl
-
-      type(c_ptr) function gsl_set_error_handler_off() result(value) bind(c)
-         import :: c_ptr
-         implicit none (type, external)
-      end function gsl_set_error_handler_off
-
-      type(c_ptr) function gsl_root_fsolver_alloc(method) result(value) bind(c)
-         import :: c_ptr
-         implicit none (type, external)
-         type(c_ptr), value :: method
-      end function gsl_root_fsolver_alloc
-
-      integer(c_int) function gsl_root_fsolver_set(solver, f, lower, upper) result(value) bind(c)
-         import :: c_double, c_int, c_ptr, gsl_function
-         implicit none (type, external)
-         type(c_ptr), value :: solver
-         type(gsl_function), intent(in) :: f
-         real(c_double), value :: lower, upper
-      end function gsl_root_fsolver_set
-
-      integer(c_int) function gsl_root_fsolver_iterate(solver) result(value) bind(c)
-         import :: c_int, c_ptr
-         implicit none (type, external)
-         type(c_ptr), value :: solver
-      end function gsl_root_fsolver_iterate
-
-      real(c_double) function gsl_root_fsolver_root(solver) result(value) bind(c)
-         import :: c_double, c_ptr
-         implicit none (type, external)
-         type(c_ptr), value :: solver
-      end function gsl_root_fsolver_root
-
-      real(c_double) function gsl_root_fsolver_x_lower(solver) result(value) bind(c)
-         import :: c_double, c_ptr
-         implicit none (type, external)
-         type(c_ptr), value :: solver
-      end function gsl_root_fsolver_x_lower
-
-      real(c_double) function gsl_root_fsolver_x_upper(solver) result(value) bind(c)
-         import :: c_double, c_ptr
-         implicit none (type, external)
-         type(c_ptr), value :: solver
-      end function gsl_root_fsolver_x_upper
-
-      integer(c_int) function gsl_root_test_interval(lower, upper, absolute, relative) &
-         result(value) bind(c)
-         import :: c_double, c_int
-         implicit none (type, external)
-         real(c_double), value :: lower, upper, absolute, relative
-      end function gsl_root_test_interval
-
-      subroutine gsl_root_fsolver_free(solver) bind(c)
-         import :: c_ptr
-         implicit none (type, external)
-         type(c_ptr), value :: solver
-      end subroutine gsl_root_fsolver_free
+         type(c_funptr), value :: f
+         type(c_ptr), value :: params
+         real(c_double), value :: lower, upper, relative
+         integer(c_int), value :: most
+         real(c_double), intent(inout) :: root
+      end function find_root_by_brent
    end interface
 
 contains
@@ -121,9 +66,6 @@ contains
       !> No bracket, the signs do not differ, or no convergence
       type(error_type), allocatable, intent(out) :: error
       type(callback_data_type), target :: context
-      type(c_ptr) :: old_handler, solver
-      integer(c_int) :: status
-      integer :: i
 
       root = lower
       if (.not. lower < upper) then
@@ -132,33 +74,17 @@ contains
          return
       end if
       context%f => f
-      old_handler = gsl_set_error_handler_off()
-      solver = gsl_root_fsolver_alloc(brent_of_gsl())
-      if (.not. c_associated(solver)) then
+      select case (find_root_by_brent(c_funloc(callback), c_loc(context), lower, upper, &
+                                      most_iterations, 4.0_wp*epsilon(1.0_wp), root))
+      case (no_memory)
          call raise(error, "find_root: out of memory")
-         return
-      end if
-      status = gsl_root_fsolver_set(solver, gsl_function(c_funloc(callback), c_loc(context)), &
-                                    lower, upper)
-      if (status /= gsl_success) then
+      case (same_signs)
          call raise(error, "find_root: f("//text(lower)//") = "//text(f%value(lower))//" and f(" &
                     //text(upper)//") = "//text(f%value(upper))//"; opposite signs expected")
-      end if
-      do i = 1, most_iterations
-         if (allocated(error)) exit
-         status = gsl_root_fsolver_iterate(solver)
-         root = gsl_root_fsolver_root(solver)
-         if (status == gsl_success) then
-            status = gsl_root_test_interval(gsl_root_fsolver_x_lower(solver), &
-                                            gsl_root_fsolver_x_upper(solver), 0.0_wp, &
-                                            4.0_wp*epsilon(1.0_wp))
-            if (status == gsl_success) exit
-         end if
-         if (i == most_iterations) then
-            call raise(error, "find_root: no convergence in "//text(most_iterations)//" iterations")
-         end if
-      end do
-      call gsl_root_fsolver_free(solver)
+      case (no_convergence)
+         call raise(error, "find_root: no convergence in "//text(most_iterations)//" iterations")
+      case default
+      end select
    end subroutine find_root
 
    !> The root of `f` where it falls from positive to negative values between 0 and infinity: the

@@ -1,8 +1,9 @@
 !> The plane and window of Hopf curves, from the namelist group &hopf_curves.
 module hopf_input
+   use block_family, only: along_tau, along_xi
    use block_parameters, only: check_quantity
    use dde_errors, only: error_type
-   use hopf_planes, only: curve_plane_type, tau_plane_type, xi_plane_type
+   use hopf_planes, only: curve_plane_type
    use dde_kinds, only: wp
    use namelist_input, only: close_namelist, not_given, open_namelist, word_length
    use value_checks, only: check_choice, check_count, check_number
@@ -38,7 +39,7 @@ contains
       !> The settings
       type(hopf_settings_type), intent(out) :: settings
       !> The plane they describe
-      class(curve_plane_type), allocatable, intent(out) :: plane
+      type(curve_plane_type), intent(out) :: plane
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
       character(len=3) :: other
@@ -54,12 +55,15 @@ contains
          call check_quantity(error, path, trim(settings%ordinate), y(1), "ordinate_window(1)")
          call check_number(error, path, "ordinate_window(2)", y(2), above=y(1))
          call check_count(error, path, "cells", settings%cells, 1)
+         plane%epsilon_window = x
+         plane%ordinate_window = y
+         plane%fixed%gamma = settings%gamma
          if (settings%ordinate == "tau") then
-            plane = tau_plane_type(gamma=settings%gamma, epsilon_window=x, ordinate_window=y, &
-                                   xi=settings%fixed)
+            plane%along = along_tau
+            plane%fixed%xi = settings%fixed
          else
-            plane = xi_plane_type(gamma=settings%gamma, epsilon_window=x, ordinate_window=y, &
-                                  tau=settings%fixed)
+            plane%along = along_xi
+            plane%fixed%tau = settings%fixed
          end if
       end associate
    end subroutine read_plane

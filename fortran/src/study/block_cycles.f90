@@ -2,8 +2,8 @@
 !> trajectories, with their special points.
 module block_cycles
    use block_family, only: block_family_type, parameters_of, vector_of
-   use block_parameters, only: block_history_type, block_parameters_type
-   use branch_ends, only: branch_settings_type
+   use block_parameters, only: block_history_type
+   use branch_ends, only: follow_settings_type
    use collocation_basis, only: collocation_basis_type, radau_points
    use cycle_lines, only: cycle_line_type, find_hopf_starts, hopf_start_type
    use dde, only: continuation_type, integrate, integration_options, integration_result
@@ -11,11 +11,10 @@ module block_cycles
    use dde_kinds, only: wp
    use orbit_branch, only: branch_type, follow_branch
    use orbit_change, only: orbit_change_type
-   use orbit_passes, only: orbit_scale_type
    use orbit_points, only: find_special_points
-   use orbit_start, only: orbit_at_hopf_point, orbit_of_trajectory
-   use orbit_switch, only: orbit_of_double_period
+   use orbit_start, only: orbit_at_hopf_point, orbit_of_double_period, orbit_of_trajectory
    use periodic_orbit, only: periodic_orbit_type
+   use problem_family, only: free_family_type
    use progress_receiver, only: progress_receiver_type
    use special_points, only: period_doubling, special_point_type
    use spring_block, only: index_of_ln_v, spring_block_type
@@ -86,21 +85,23 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Receiver of the number of starts done
       class(progress_receiver_type), intent(inout), optional :: progress
-      type(branch_settings_type) :: how
+      type(follow_settings_type) :: how
       type(collocation_basis_type) :: basis
       type(error_type), allocatable :: failure
       type(orbit_change_type) :: tangent
       type(periodic_orbit_type) :: orbit
+      type(special_point_type), allocatable :: here(:)
       real(wp) :: at(4)
       integer :: branches, direction, i, j
 
       associate (line => settings%line)
          call find_hopf_starts(line, hopf, error)
          if (allocated(error)) return
-         how%scale = orbit_scale_type([line%along], [line%window(2) - line%window(1)])
-         how%window = line%window
+         how%family = free_family_type(block_family_type(), [line%along], &
+                                       [line%window(2) - line%window(1)])
+         how%window(:, 1) = line%window
          how%longest_period = settings%longest_period
-         how%most_orbits = settings%most_orbits
+         how%most_points = settings%most_orbits
          how%least_amplitude = first_amplitude
          basis = collocation_basis_type(settings%degree, radau_points)
       end associate
@@ -108,13 +109,11 @@ contains
       do i = 1, size(hopf)
          if (present(progress)) call progress%advance(i - 1, size(hopf) + size(settings%starts))
          if (is_end(settings, found, hopf(i))) cycle
-         call orbit_at_hopf_point(block_family_type(), vector_of(hopf(i)%parameters), &
-                                  [0.0_wp, 0.0_wp, 0.0_wp], hopf(i)%omega, &
+         at = vector_of(hopf(i)%parameters)
+         call orbit_at_hopf_point(how%family, at, [0.0_wp, 0.0_wp, 0.0_wp], hopf(i)%omega, &
                                   first_amplitude, basis, settings%intervals, orbit, tangent, error)
          if (allocated(error)) return
-         at = vector_of(hopf(i)%parameters)
-         call append(how, orbit, 1, "hopf", at(settings%line%along), found, left_out, error, &
-                     tangent)
+         call append(1, "hopf", at(settings%line%along), tangent)
          if (allocated(error)) return
       end do
       do i = 1, size(settings%starts)
@@ -123,129 +122,76 @@ contains
          end if
          call orbit_at(settings, i, basis, orbit, failure)
          if (allocated(failure)) then
-            call leave_out("trajectory", settings%starts(i), failure%message, left_out)
-            cycle
+            call leave_out("trajectory", settings%starts(i), failure%message)
          else if (orbit%amplitude() < first_amplitude) then
-            call leave_out("trajectory", settings%starts(i), "it comes to rest", left_out)
-            cycle
+            call leave_out("trajectory", settings%starts(i), "it comes to rest")
          else if (is_known(settings, found, orbit)) then
-            call leave_out("trajectory", settings%starts(i), "its cycle is on a branch", left_out)
-            cycle
+            call leave_out("trajectory", settings%starts(i), "its cycle is on a branch")
+         else
+            do direction = -1, 1, 2
+               branches = size(found)
+               call append(direction, "trajectory", settings%starts(i))
+               if (allocated(error)) return
+               if (size(found) == branches) exit
+               if (found(size(found))%branch%ending == "closed") exit
+            end do
          end if
-         do direction = -1, 1, 2
-            branches = size(found)
-            call append(how, orbit, direction, "trajectory", settings%starts(i), found, left_out, &
-                        error)
+      end do
+      do i = 1, size(found)
+         here = found(i)%points
+         do j = 1, size(here)
+            if (here(j)%kind /= period_doubling) cycle
+            call orbit_of_double_period(how%family, here(j), first_amplitude, orbit, tangent, error)
             if (allocated(error)) return
-            if (size(found) == branches) exit
-            if (found(size(found))%branch%ending == "closed") exit
+            call append(1, "period_doubling", here(j)%orbit%parameters(settings%line%along), &
+                        tangent)
+            if (allocated(error)) return
          end do
       end do
-      j = size(found)
-      do i = 1, j
-         call follow_doublings(how, found(i)%points, found, left_out, error)
-         if (allocated(error)) return
-      end do
+
+   contains
+
+      !> Follow the branch from `orbit` and append it with its special points, or leave it out if it
+      !> cannot be started.
+      subroutine append(direction, origin, place, tangent)
+         !> 1 or -1
+         integer, intent(in) :: direction
+         character(len=*), intent(in) :: origin
+         real(wp), intent(in) :: place
+         type(orbit_change_type), intent(in), optional :: tangent
+         type(cycles_type), allocatable :: longer(:)
+
+         allocate (longer(size(found) + 1))
+         longer(:size(found)) = found
+         associate (last => longer(size(longer)))
+            last%origin = origin
+            call follow_branch(how, orbit, direction, last%branch, failure, tangent)
+            if (allocated(failure)) then
+               call leave_out(origin, place, failure%message)
+               return
+            end if
+            call find_special_points(how, last%branch, last%points, error)
+         end associate
+         call move_alloc(longer, found)
+      end subroutine append
+
+      !> Note a start without a branch.
+      subroutine leave_out(origin, place, reason)
+         character(len=*), intent(in) :: origin, reason
+         real(wp), intent(in) :: place
+
+         left_out = [left_out, left_out_type(origin, place, reason)]
+      end subroutine leave_out
    end subroutine find_cycles
-
-   !> Follow the branches of double period that start on a branch.
-   subroutine follow_doublings(how, points, found, left_out, error)
-      !> How branches are followed
-      type(branch_settings_type), intent(in) :: how
-      !> Special points of the branch
-      type(special_point_type), intent(in) :: points(:)
-      !> Branches so far
-      type(cycles_type), allocatable, intent(inout) :: found(:)
-      !> Starts without a branch
-      type(left_out_type), allocatable, intent(inout) :: left_out(:)
-      !> A search failed
-      type(error_type), allocatable, intent(out) :: error
-      type(special_point_type) :: here(size(points))
-      type(orbit_change_type) :: tangent
-      type(periodic_orbit_type) :: orbit
-      integer :: i
-
-      here = points
-      do i = 1, size(here)
-         if (here(i)%kind /= period_doubling) cycle
-         call orbit_of_double_period(block_family_type(), here(i), first_amplitude, orbit, &
-                                     tangent, error)
-         if (allocated(error)) return
-         call append(how, orbit, 1, "period_doubling", &
-                     here(i)%orbit%parameters(how%scale%free(1)), found, left_out, error, tangent)
-         if (allocated(error)) return
-      end do
-   end subroutine follow_doublings
-
-   !> Follow a branch and append it with its special points, or to what is left out if it cannot be
-   !> started.
-   subroutine append(how, orbit, direction, origin, at, found, left_out, error, tangent)
-      !> How branches are followed
-      type(branch_settings_type), intent(in) :: how
-      !> Approximation of the first orbit
-      type(periodic_orbit_type), intent(in) :: orbit
-      !> 1 or -1
-      integer, intent(in) :: direction
-      !> Where the branch starts
-      character(len=*), intent(in) :: origin
-      !> Parameter along the line there
-      real(wp), intent(in) :: at
-      !> Branches so far
-      type(cycles_type), allocatable, intent(inout) :: found(:)
-      !> Starts without a branch
-      type(left_out_type), allocatable, intent(inout) :: left_out(:)
-      !> A special point was not found
-      type(error_type), allocatable, intent(out) :: error
-      !> Tangent at the start
-      type(orbit_change_type), intent(in), optional :: tangent
-      type(cycles_type), allocatable :: longer(:)
-      type(error_type), allocatable :: failure
-      integer :: i
-
-      allocate (longer(size(found) + 1))
-      do i = 1, size(found)
-         longer(i) = found(i)
-      end do
-      associate (last => longer(size(longer)))
-         last%origin = origin
-         call follow_branch(block_family_type(), how, orbit, direction, last%branch, failure, &
-                            tangent)
-         if (allocated(failure)) then
-            call leave_out(origin, at, failure%message, left_out)
-            return
-         end if
-         call find_special_points(block_family_type(), how, last%branch, last%points, error)
-      end associate
-      call move_alloc(longer, found)
-   end subroutine append
-
-   !> Note a start without a branch.
-   pure subroutine leave_out(origin, at, reason, left_out)
-      !> Origin
-      character(len=*), intent(in) :: origin
-      !> Parameter along the line
-      real(wp), intent(in) :: at
-      !> Why
-      character(len=*), intent(in) :: reason
-      !> Those before, then this one, too
-      type(left_out_type), allocatable, intent(inout) :: left_out(:)
-
-      left_out = [left_out, left_out_type(origin, at, reason)]
-   end subroutine leave_out
 
    !> The cycle that a trajectory reaches.
    subroutine orbit_at(settings, i, basis, orbit, error)
-      !> What is computed
       type(cycle_settings_type), intent(in) :: settings
-      !> Number of the start
       integer, intent(in) :: i
-      !> Polynomials
       type(collocation_basis_type), intent(in) :: basis
-      !> The orbit
       type(periodic_orbit_type), intent(out) :: orbit
       !> Error if the trajectory leads to no cycle
       type(error_type), allocatable, intent(out) :: error
-      type(block_parameters_type) :: parameters
       type(continuation_type) :: arrived
       type(integration_options) :: options
       type(integration_result) :: outcome
@@ -254,8 +200,7 @@ contains
 
       vector = vector_of(settings%line%parameters)
       vector(settings%line%along) = settings%starts(i)
-      parameters = parameters_of(vector)
-      block = spring_block_type(parameters, block_history_type(v=settings%start_v(i)))
+      block = spring_block_type(parameters_of(vector), block_history_type(v=settings%start_v(i)))
       options%relative = tolerance
       options%absolute = tolerance
       call integrate(block, 0.0_wp, settings%t_transient, options, outcome, error, &
@@ -268,11 +213,8 @@ contains
 
    !> Whether a branch already ends at a Hopf point.
    pure logical function is_end(settings, found, hopf) result(value)
-      !> What is computed
       type(cycle_settings_type), intent(in) :: settings
-      !> Branches so far
       type(cycles_type), intent(in) :: found(:)
-      !> The Hopf point
       type(hopf_start_type), intent(in) :: hopf
       real(wp) :: vector(4)
       integer :: i
@@ -292,11 +234,8 @@ contains
 
    !> Whether a branch already passes an orbit.
    pure logical function is_known(settings, found, orbit) result(value)
-      !> What is computed
       type(cycle_settings_type), intent(in) :: settings
-      !> Branches so far
       type(cycles_type), intent(in) :: found(:)
-      !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       integer :: i, j
 
@@ -316,7 +255,6 @@ contains
 
    !> Whether a number lies between two others, or almost so.
    pure logical function is_between(x, a, b) result(value)
-      !> The number
       real(wp), intent(in) :: x
       !> The others, > 0
       real(wp), intent(in) :: a, b

@@ -6,8 +6,7 @@
 !>     w'     = -gamma^2 exp(-w) [u + (theta + w)/xi].
 module block_equation
    use block_parameters, only: block_history_type, block_parameters_type
-   use delay_equation, only: delay_equation_type
-   use dde, only: find_jacobian
+   use delay_equation, only: delay_equation_type, linear_part
    use dde_kinds, only: wp
    use spring_block, only: index_of_ln_v, index_of_theta, index_of_u, spring_block_type
    implicit none (type, external)
@@ -34,20 +33,14 @@ contains
       type(block_parameters_type), intent(in) :: parameters
       type(block_equation_type) :: equation
       type(block_parameters_type) :: delayed
-      type(spring_block_type) :: block
       ! the delayed part has the same form for every tau > 0
       real(wp), parameter :: some_delay = 1.0_wp
-      real(wp) :: by_z(3, 1)
 
       equation%parameters = parameters
       delayed = parameters
       delayed%tau = some_delay
-      block = spring_block_type(delayed, block_history_type())
-      allocate (equation%linear%a(3, 3, 2), equation%linear%lag(2))
-      call find_jacobian(block, 0.0_wp, [0.0_wp, 0.0_wp, 0.0_wp], [0.0_wp], &
-                         equation%linear%a(:, :, 1), by_z)
-      equation%linear%a(:, :, 2) = 0.0_wp
-      equation%linear%a(:, index_of_ln_v, 2) = by_z(:, 1)
+      equation%linear = linear_part(spring_block_type(delayed, block_history_type()), &
+                                    [0.0_wp, 0.0_wp, 0.0_wp])
       equation%linear%lag = [0.0_wp, parameters%tau]
    end function new_block_equation
 
@@ -55,7 +48,6 @@ contains
    !> exp(-w) f with f linear: of the former it is the product of all w_i, of the latter the sum
    !> over i of f_i times the other w.
    pure function derivative_of_4(self, x) result(form)
-      !> The block
       class(block_equation_type), intent(in) :: self
       !> Histories at t and t - tau, shape (3, 2, k)
       complex(wp), intent(in) :: x(:, :, :)
@@ -84,7 +76,6 @@ contains
 
    !> theta + (1 + epsilon) w(t - tau).
    pure complex(wp) function friction(p, x) result(value)
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
       !> History at t and t - tau
       complex(wp), intent(in) :: x(:, :)
@@ -94,7 +85,6 @@ contains
 
    !> u + (theta + w)/xi.
    pure complex(wp) function force(p, x) result(value)
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
       !> History at t and t - tau
       complex(wp), intent(in) :: x(:, :)

@@ -7,7 +7,11 @@ module block_family
    use spring_block, only: index_of_ln_v, spring_block_type
    implicit none (type, external)
    private
-   public :: block_family_type, parameters_of, vector_of
+   public :: along_epsilon, along_gamma, along_tau, along_xi, block_family_type, parameters_of, &
+             vector_of
+
+   !> Numbers of the parameters in the order of the family.
+   integer, parameter :: along_tau = 1, along_epsilon = 2, along_xi = 3, along_gamma = 4
 
    !> The block; parameters tau, epsilon, xi, gamma.
    type, extends(problem_family_type) :: block_family_type
@@ -19,11 +23,9 @@ contains
 
    !> The block at parameters. A delay of 0 remains a delay.
    subroutine block_at(self, parameters, problem)
-      !> The family
       class(block_family_type), intent(in) :: self
       !> tau, epsilon, xi, gamma
       real(wp), intent(in) :: parameters(:)
-      !> The block
       class(dde_problem_type), allocatable, intent(out) :: problem
 
       allocate (problem, source=spring_block_type(parameters_of(parameters), block_history_type()))

@@ -2,12 +2,13 @@
 module cycle_curves
    use block_cycles, only: cycle_settings_type, cycles_type
    use block_family, only: block_family_type
+   use branch_ends, only: follow_settings_type
    use cycle_lines, only: along_epsilon, along_tau
    use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use orbit_curves, only: curve_settings_type, curve_type, follow_curve
+   use orbit_curves, only: curve_type, follow_curve
    use orbit_mesh, only: adapted_mesh
-   use orbit_passes, only: orbit_scale_type
+   use problem_family, only: free_family_type
    use progress_receiver, only: progress_receiver_type
    use special_points, only: branching, special_point_type
    implicit none (type, external)
@@ -25,6 +26,8 @@ module cycle_curves
    real(wp), parameter :: near = 1.0e-2_wp
    !> Trivial multipliers are accurate to this: curves are drawn, not tabulated.
    real(wp), parameter :: accuracy = 1.0e-5_wp
+   !> A curve ends at a Hopf curve where no component has a larger range.
+   real(wp), parameter :: least_amplitude = 0.02_wp
    !> A curve starts with a third of the intervals of its point, but not with less than the first of
    !> these; most intervals and points
    integer, parameter :: first_intervals = 50, most_intervals = 120, most_points = 200
@@ -43,7 +46,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Receiver of the number of branches done
       class(progress_receiver_type), intent(inout), optional :: progress
-      type(curve_settings_type) :: how
+      type(follow_settings_type) :: how
       type(cycle_curve_type), allocatable :: all(:)
       type(special_point_type) :: start
       integer :: count, i, intervals, j, k
@@ -52,11 +55,13 @@ contains
       count = 0
       if (allocated(settings%curve_window)) then
          associate (window => settings%curve_window)
-            how%scale = orbit_scale_type([along_epsilon, along_tau], window(2, :) - window(1, :))
+            how%family = free_family_type(block_family_type(), [along_epsilon, along_tau], &
+                                          window(2, :) - window(1, :))
          end associate
          how%window = settings%curve_window
          how%longest_period = settings%longest_period
          how%most_points = most_points
+         how%least_amplitude = least_amplitude
          how%refinement%accuracy = accuracy
          how%refinement%most_intervals = most_intervals
          do i = 1, size(found)
@@ -71,27 +76,20 @@ contains
                   intervals = min(intervals, max(first_intervals, intervals/3))
                   start%orbit = point%orbit%on_mesh(adapted_mesh(point%orbit, intervals))
                   do k = 1, 2
-                     call follow_curve(block_family_type(), how, start, 2*k - 3, &
-                                       all(count)%parts(k), error)
+                     call follow_curve(how, start, 2*k - 3, all(count)%parts(k), error)
                      if (allocated(error)) return
                   end do
                end associate
             end do
          end do
       end if
-      allocate (curves(count))
-      do i = 1, count
-         curves(i) = all(i)
-      end do
+      allocate (curves, source=all(:count))
    end subroutine find_curves
 
    !> Whether a curve passes a point on the line.
    pure logical function passes(settings, curve, point) result(value)
-      !> The line
       type(cycle_settings_type), intent(in) :: settings
-      !> The curve
       type(cycle_curve_type), intent(in) :: curve
-      !> The point
       type(special_point_type), intent(in) :: point
       real(wp) :: share
       integer :: across, i, k

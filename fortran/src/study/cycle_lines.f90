@@ -1,6 +1,6 @@
 !> Lines of parameters of the block on which cycles are followed, and the Hopf points on them.
 module cycle_lines
-   use block_family, only: vector_of
+   use block_family, only: along_epsilon, along_gamma, along_tau, along_xi, vector_of
    use block_parameters, only: block_parameters_type
    use dde_errors, only: error_type
    use dde_kinds, only: wp
@@ -12,8 +12,6 @@ module cycle_lines
    public :: along_epsilon, along_gamma, along_tau, along_xi, cycle_line_type, find_hopf_starts, &
              hopf_start_type
 
-   !> Numbers of the parameters along which a line may run, in the order of the family of blocks.
-   integer, parameter :: along_tau = 1, along_epsilon = 2, along_xi = 3, along_gamma = 4
    !> Places at which a sign of the condition is looked for between frequencies 0 and the largest
    integer, parameter :: scan_places = 4000
 
@@ -96,9 +94,7 @@ contains
 
    !> Parameters of a pair i omega on the line.
    type(block_parameters_type) function at_frequency(miss, omega) result(parameters)
-      !> The line and the branch
       type(miss_type), intent(in) :: miss
-      !> Frequency
       real(wp), intent(in) :: omega
 
       parameters = miss%line%parameters
@@ -117,9 +113,7 @@ contains
 
    !> By how much a pair i omega misses the line.
    real(wp) function miss_of_line(self, x) result(value)
-      !> The function
       class(miss_type), intent(in) :: self
-      !> Frequency
       real(wp), intent(in) :: x
 
       associate (p => self%line%parameters)

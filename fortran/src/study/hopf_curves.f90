@@ -46,7 +46,7 @@ module hopf_curves
    !> How far inside the window branch k is at omega, -1..1 (negative: outside).
    type, extends(scalar_function_type) :: margin_function_type
       !> The plane
-      class(curve_plane_type), allocatable :: plane
+      type(curve_plane_type) :: plane
       !> Branch
       integer :: k = 0
    contains
@@ -58,7 +58,7 @@ contains
    !> All points of all branches in the window of `plane`, piece by piece, omega ascending.
    subroutine trace_curves(plane, points, error)
       !> The plane and its window
-      class(curve_plane_type), intent(in) :: plane
+      type(curve_plane_type), intent(in) :: plane
       !> Points
       type(curve_point_type), allocatable, intent(out) :: points(:)
       !> A root was not found
@@ -70,11 +70,11 @@ contains
       integer :: first, i, k, k_most, last, piece
 
       allocate (points(0), omega(0:scan_points), inside(0:scan_points))
-      allocate (margin%plane, source=plane)
+      margin%plane = plane
       omega_most = largest_omega(plane%epsilon_window(2))
       call plane%bounds(omega_most, omega_least, k_most)
       ! |B| of `least_omega` is the same at gamma^2/omega, and larger beyond it
-      omega_most = min(omega_most, plane%gamma**2/omega_least)
+      omega_most = min(omega_most, plane%fixed%gamma**2/omega_least)
       omega(:) = [(omega_least + (omega_most - omega_least)*i/scan_points, i=0, scan_points)]
       piece = 0
       do k = 0, k_most
@@ -101,17 +101,13 @@ contains
 
    !> Where a piece leaves the window, between scan points `inner` and `outer`.
    subroutine refine_end(margin, omega, inner, outer, end_of_piece, error)
-      !> Margin to the window
       type(margin_function_type), intent(in) :: margin
-      !> Scan points
       real(wp), intent(in) :: omega(0:)
-      !> Last one inside
       integer, intent(in) :: inner
       !> First one outside, beyond the scan if there is none
       integer, intent(in) :: outer
       !> The omega between them at which the window ends
       real(wp), intent(out) :: end_of_piece
-      !> No root found
       type(error_type), allocatable, intent(out) :: error
 
       end_of_piece = omega(inner)
@@ -122,9 +118,7 @@ contains
 
    !> Distance of branch k at omega to the nearest edge of the window, in units of the window.
    real(wp) function window_margin(self, x) result(margin)
-      !> Plane and branch
       class(margin_function_type), intent(in) :: self
-      !> omega
       real(wp), intent(in) :: x
       type(block_parameters_type) :: p
       real(wp) :: place(2)
@@ -138,9 +132,7 @@ contains
 
    !> (epsilon, ordinate) in units of the window, 0..1 inside.
    pure function place_in_window(plane, p) result(place)
-      !> The plane
-      class(curve_plane_type), intent(in) :: plane
-      !> Parameters
+      type(curve_plane_type), intent(in) :: plane
       type(block_parameters_type), intent(in) :: p
       real(wp) :: place(2)
 
@@ -151,13 +143,9 @@ contains
 
    !> Points of branch k between two omegas, set so close that the chords look like the curve.
    pure function piece_of_curve(plane, k, ends, piece) result(points)
-      !> The plane
-      class(curve_plane_type), intent(in) :: plane
-      !> Branch
+      type(curve_plane_type), intent(in) :: plane
       integer, intent(in) :: k
-      !> First and last omega
       real(wp), intent(in) :: ends(2)
-      !> Number of the piece
       integer, intent(in) :: piece
       type(curve_point_type), allocatable :: points(:)
       real(wp), allocatable :: omega(:)
@@ -176,14 +164,9 @@ contains
 
    !> Whether the chord between two omegas misses the curve's middle or is too long.
    pure logical function chord_is_bad(plane, k, omega_1, omega_2) result(value)
-      !> The plane
-      class(curve_plane_type), intent(in) :: plane
-      !> Branch
+      type(curve_plane_type), intent(in) :: plane
       integer, intent(in) :: k
-      !> One end
-      real(wp), intent(in) :: omega_1
-      !> The other end
-      real(wp), intent(in) :: omega_2
+      real(wp), intent(in) :: omega_1, omega_2
       real(wp), dimension(2) :: chord, middle, start
 
       start = place_in_window(plane, plane%at(omega_1, k))
@@ -196,15 +179,11 @@ contains
       end if
    end function chord_is_bad
 
-   !> The point of branch k at omega with all that is known of it.
+   !> The point of branch k at omega with its residuals and crossing.
    pure type(curve_point_type) function point_of_curve(plane, k, omega, piece) result(point)
-      !> The plane
-      class(curve_plane_type), intent(in) :: plane
-      !> Branch
+      type(curve_plane_type), intent(in) :: plane
       integer, intent(in) :: k
-      !> Frequency of the pair
       real(wp), intent(in) :: omega
-      !> Number of the piece
       integer, intent(in) :: piece
       type(block_parameters_type) :: printed
       complex(wp) :: s

@@ -2,22 +2,26 @@
 !> beside the one on the axis, and the points at which the kind of the bifurcation changes.
 module hopf_points
    use block_equation, only: block_equation_type
+   use block_family, only: along_tau
    use block_parameters, only: block_parameters_type
    use dde_errors, only: error_type
    use gsl_roots, only: find_falling_root, find_root, scalar_function_type
    use hopf_condition, only: hopf_tau, partner_omega, two_pi
    use hopf_curves, only: curve_point_type
-   use hopf_planes, only: curve_plane_type, tau_plane_type
+   use hopf_planes, only: curve_plane_type
    use hopf_unfoldings, only: unfold_double_hopf, unfold_generalised_hopf, unfolding_type
    use dde_kinds, only: wp
    use normal_form, only: first_lyapunov_coefficient
    use root_counts, only: pairs_beside
+   use stability_changes, only: angle_above, omega_function_type
    implicit none (type, external)
    private
    public :: find_hopf_points, hopf_point_type, judge_points, kind_length
 
    !> Letters of a kind of point.
    integer, parameter :: kind_length = 20
+   !> Marks a function that meets no branch.
+   integer, parameter :: no_branch = -1
    !> The coefficient passes through 0, not through a pole, where it is this small.
    real(wp), parameter :: small_coefficient = 1.0e-7_wp
 
@@ -39,33 +43,18 @@ module hopf_points
       type(unfolding_type) :: unfolding
    end type hopf_point_type
 
-   !> First Lyapunov coefficient along a branch.
-   type, extends(scalar_function_type) :: coefficient_function_type
+   !> Along a branch the first Lyapunov coefficient (0 if there is none, which `add_point` then
+   !> reports), or the number of the branch that a second frequency would be on, less a given one.
+   type, extends(scalar_function_type) :: branch_function_type
       !> The plane
-      class(curve_plane_type), allocatable :: plane
+      type(curve_plane_type) :: plane
       !> Branch
       integer :: k = 0
+      !> The branch to meet, or `no_branch` for the coefficient
+      integer :: other = no_branch
    contains
-      procedure :: value => coefficient_along
-   end type coefficient_function_type
-
-   !> Along a branch, number of the branch that a second frequency would be on, less a given one.
-   type, extends(scalar_function_type) :: meeting_function_type
-      !> The plane
-      class(curve_plane_type), allocatable :: plane
-      !> Branch, and the one to meet
-      integer :: k = 0, other = 0
-   contains
-      procedure :: value => distance_to_meeting
-   end type meeting_function_type
-
-   !> omega tau on branch 0, which falls from pi/2 as omega grows.
-   type, extends(scalar_function_type) :: delay_function_type
-      !> The plane
-      type(tau_plane_type) :: plane
-   contains
-      procedure :: value => delay_along
-   end type delay_function_type
+      procedure :: value => value_along_branch
+   end type branch_function_type
 
 contains
 
@@ -90,20 +79,20 @@ contains
    !> All special points on curves that have been judged.
    subroutine find_hopf_points(plane, points, found, error)
       !> The plane
-      class(curve_plane_type), intent(in) :: plane
+      type(curve_plane_type), intent(in) :: plane
       !> Points of its curves
       type(curve_point_type), intent(in) :: points(:)
       !> Special points
       type(hopf_point_type), allocatable, intent(out) :: found(:)
       !> A root was not found
       type(error_type), allocatable, intent(out) :: error
-      type(coefficient_function_type) :: coefficient
-      type(meeting_function_type) :: meeting
+      type(branch_function_type) :: coefficient, meeting
       real(wp) :: omega
       integer :: i, m
 
       allocate (found(0))
-      allocate (coefficient%plane, meeting%plane, source=plane)
+      coefficient%plane = plane
+      meeting%plane = plane
       call find_start(plane, found, error)
       do i = 1, size(points) - 1
          if (allocated(error)) return
@@ -114,7 +103,7 @@ contains
                call find_root(coefficient, p%omega, q%omega, omega, error)
                if (allocated(error)) return
                if (abs(coefficient%value(omega)) <= small_coefficient) then
-                  call add(found, "generalised_hopf", plane, [omega], [p%branch], error)
+                  call add_point(found, "generalised_hopf", plane, [omega], [p%branch], error)
                end if
             end if
             ! of two frequencies at the same parameters, the lower one's pair becomes stable
@@ -128,8 +117,9 @@ contains
                   call find_root(meeting, p%omega, q%omega, omega, error)
                   if (allocated(error)) return
                   associate (b => plane%at(omega, p%branch))
-                     call add(found, "double_hopf", plane, &
-                              [omega, partner_omega(omega, b%xi, b%gamma)], [p%branch, m], error)
+                     call add_point(found, "double_hopf", plane, &
+                                    [omega, partner_omega(omega, b%xi, b%gamma)], &
+                                    [p%branch, m], error)
                   end associate
                end do
             end associate
@@ -139,41 +129,29 @@ contains
 
    !> The point without delay, where the plane shows it.
    subroutine find_start(plane, found, error)
-      !> The plane
-      class(curve_plane_type), intent(in) :: plane
-      !> Points so far
+      type(curve_plane_type), intent(in) :: plane
       type(hopf_point_type), allocatable, intent(inout) :: found(:)
-      !> A root was not found
       type(error_type), allocatable, intent(out) :: error
-      type(delay_function_type) :: delay
       real(wp) :: omega
 
-      select type (plane)
-      type is (tau_plane_type)
-         if (plane%ordinate_window(1) > 0.0_wp) return
-         delay%plane = plane
-         call find_falling_root(delay, 1.0_wp, omega, error)
-         if (allocated(error)) return
-         associate (p => plane%at(omega, 0), window => plane%epsilon_window)
-            if (p%epsilon < window(1) .or. p%epsilon > window(2)) return
-         end associate
-         call add(found, "hopf_without_delay", plane, [omega], [0], error)
-      end select
+      if (plane%along /= along_tau .or. plane%ordinate_window(1) > 0.0_wp) return
+      ! omega tau falls from pi/2 as omega grows
+      call find_falling_root(omega_function_type(angle_above, plane%fixed), 1.0_wp, omega, error)
+      if (allocated(error)) return
+      associate (p => plane%at(omega, 0), window => plane%epsilon_window)
+         if (p%epsilon < window(1) .or. p%epsilon > window(2)) return
+      end associate
+      call add_point(found, "hopf_without_delay", plane, [omega], [0], error)
    end subroutine find_start
 
-   !> A further point with all that is known of it.
-   subroutine add(found, kind, plane, omega, branch, error)
-      !> Points so far
+   !> Append a point with its coefficients and its normal form.
+   subroutine add_point(found, kind, plane, omega, branch, error)
       type(hopf_point_type), allocatable, intent(inout) :: found(:)
-      !> Kind of the point
       character(len=*), intent(in) :: kind
-      !> The plane
-      class(curve_plane_type), intent(in) :: plane
+      type(curve_plane_type), intent(in) :: plane
       !> Frequencies, ascending
       real(wp), intent(in) :: omega(:)
-      !> Their branches
       integer, intent(in) :: branch(:)
-      !> No coefficient
       type(error_type), allocatable, intent(out) :: error
       type(hopf_point_type) :: point
       integer :: i
@@ -197,41 +175,22 @@ contains
       case default
       end select
       found = [found, point]
-   end subroutine add
+   end subroutine add_point
 
-   !> The coefficient at a frequency; 0 where there is none, which `add` then reports.
-   real(wp) function coefficient_along(self, x) result(value)
-      !> Plane and branch
-      class(coefficient_function_type), intent(in) :: self
-      !> omega
+   !> The coefficient, or 0 where the second frequency is one of the other branch, too.
+   real(wp) function value_along_branch(self, x) result(value)
+      class(branch_function_type), intent(in) :: self
       real(wp), intent(in) :: x
       type(error_type), allocatable :: error
-
-      call first_lyapunov_coefficient(block_equation_type(self%plane%at(x, self%k)), x, value, &
-                                      error)
-   end function coefficient_along
-
-   !> Zero where the second frequency is a root's, too.
-   real(wp) function distance_to_meeting(self, x) result(value)
-      !> Plane and branches
-      class(meeting_function_type), intent(in) :: self
-      !> omega
-      real(wp), intent(in) :: x
       real(wp) :: partner
 
       associate (p => self%plane%at(x, self%k))
-         partner = partner_omega(x, p%xi, p%gamma)
-         value = partner*(p%tau - hopf_tau(partner, p%xi, p%gamma, 0))/two_pi - self%other
+         if (self%other == no_branch) then
+            call first_lyapunov_coefficient(block_equation_type(p), x, value, error)
+         else
+            partner = partner_omega(x, p%xi, p%gamma)
+            value = partner*(p%tau - hopf_tau(partner, p%xi, p%gamma, 0))/two_pi - self%other
+         end if
       end associate
-   end function distance_to_meeting
-
-   !> Zero where the delay is.
-   real(wp) function delay_along(self, x) result(value)
-      !> The plane
-      class(delay_function_type), intent(in) :: self
-      !> omega
-      real(wp), intent(in) :: x
-
-      value = x*hopf_tau(x, self%plane%xi, self%plane%gamma, 0)
-   end function delay_along
+   end function value_along_branch
 end module hopf_points

@@ -8,12 +8,10 @@ module hopf_unfoldings
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use double_hopf, only: double_hopf_type, find_double_hopf
-   use hopf_condition, only: two_pi
    use hopf_planes, only: curve_plane_type
    implicit none (type, external)
    private
-   public :: cycle_type, predict_fold, predict_torus, unfold_double_hopf, unfold_generalised_hopf
-   public :: unfolding_type
+   public :: unfold_double_hopf, unfold_generalised_hopf, unfolding_type, way_to_growth
 
    !> Step of the slope of c1 along the curve, in units of omega; its error is of fourth order.
    real(wp), parameter :: slope_step = 1.0e-3_wp
@@ -31,16 +29,6 @@ module hopf_unfoldings
       real(wp) :: start(2, 2) = 0.0_wp
    end type unfolding_type
 
-   !> A cycle near a special point.
-   type :: cycle_type
-      !> Parameters, nondimensional
-      type(block_parameters_type) :: parameters
-      !> Period
-      real(wp) :: period = 0.0_wp
-      !> |z|
-      real(wp) :: amplitude = 0.0_wp
-   end type cycle_type
-
 contains
 
    !> The second Lyapunov coefficient l2 = Re(c2)/omega. From mu + Re(c1) r + Re(c2) r^2 = 0 and its
@@ -48,7 +36,7 @@ contains
    !> curve and leaves towards the part where l1 and l2 differ in sign.
    subroutine unfold_generalised_hopf(plane, omega, k, unfolding, error)
       !> The plane
-      class(curve_plane_type), intent(in) :: plane
+      type(curve_plane_type), intent(in) :: plane
       !> Frequency of the pair
       real(wp), intent(in) :: omega
       !> Branch of the curve
@@ -84,7 +72,7 @@ contains
    !> The coefficients, and the directions by mu_j = sum over parameters of Re(d root_j).
    subroutine unfold_double_hopf(plane, parameters, omega, unfolding, error)
       !> The plane
-      class(curve_plane_type), intent(in) :: plane
+      type(curve_plane_type), intent(in) :: plane
       !> Parameters of the point
       type(block_parameters_type), intent(in) :: parameters
       !> Frequencies of the pairs
@@ -98,82 +86,21 @@ contains
       call find_double_hopf(block_equation_type(parameters), omega, unfolding%form, error)
       if (allocated(error)) return
       do pair = 1, 2
-         associate (way => way_to(plane, parameters, omega, unfolding%form%torus_rates(pair)))
+         associate (way => way_to_growth(plane, parameters, omega, &
+                                         unfolding%form%torus_rates(pair)))
             unfolding%start(:, pair) = way/norm2(way)
          end associate
       end do
    end subroutine unfold_double_hopf
 
-   !> A fold of cycles near a generalised Hopf point.
-   subroutine predict_fold(plane, omega, k, unfolding, amplitude, cycle_at_fold, error)
-      !> The plane
-      class(curve_plane_type), intent(in) :: plane
-      !> Frequency of the pair at the point
-      real(wp), intent(in) :: omega
-      !> Branch of the curve
-      integer, intent(in) :: k
-      !> The normal form
-      type(unfolding_type), intent(in) :: unfolding
-      !> |z|
-      real(wp), intent(in) :: amplitude
-      !> The cycle
-      type(cycle_type), intent(out) :: cycle_at_fold
-      !> No coefficient
-      type(error_type), allocatable, intent(out) :: error
-      complex(wp) :: c1, slopes(2)
-      real(wp) :: epsilon_step, r, there
-
-      r = amplitude**2
-      there = omega - 2.0_wp*real(unfolding%c2)*r/unfolding%c1_slope
-      associate (p => cycle_at_fold%parameters)
-         p = plane%at(there, k)
-         call normal_form_coefficient(block_equation_type(p), [there], [2, 1], c1, error)
-         if (allocated(error)) return
-         slopes = plane%root_slopes(p, cmplx(0.0_wp, there, kind=wp))
-         epsilon_step = real(unfolding%c2)*r**2/real(slopes(1))
-         p%epsilon = p%epsilon + epsilon_step
-      end associate
-      cycle_at_fold%amplitude = amplitude
-      cycle_at_fold%period = two_pi/(there + aimag(slopes(1))*epsilon_step + aimag(c1)*r)
-   end subroutine predict_fold
-
-   !> A torus bifurcation of the cycle of a pair near a double Hopf point.
-   type(cycle_type) function predict_torus(plane, parameters, unfolding, pair, amplitude) &
-      result(cycle_at_torus)
-      !> The plane
-      class(curve_plane_type), intent(in) :: plane
-      !> Parameters of the point
-      type(block_parameters_type), intent(in) :: parameters
-      !> The normal form
-      type(unfolding_type), intent(in) :: unfolding
-      !> The pair, 1 or 2
-      integer, intent(in) :: pair
-      !> |z|
-      real(wp), intent(in) :: amplitude
-      complex(wp) :: slopes(2)
-      real(wp) :: way(2)
-
-      associate (form => unfolding%form)
-         way = way_to(plane, parameters, form%omega, -amplitude**2*real(form%g(:, pair)))
-         slopes = plane%root_slopes(parameters, cmplx(0.0_wp, form%omega(pair), kind=wp))
-         cycle_at_torus%parameters = plane%parameters(parameters%epsilon + way(1), &
-                                                      plane%ordinate(parameters) + way(2))
-         cycle_at_torus%amplitude = amplitude
-         cycle_at_torus%period = two_pi/(form%omega(pair) + sum(aimag(slopes)*way) &
-                                         + amplitude**2*aimag(form%g(pair, pair)))
-      end associate
-   end function predict_torus
-
    !> The step (epsilon, ordinate) from a double Hopf point to given growth rates.
-   pure function way_to(plane, parameters, omega, mu) result(way)
+   pure function way_to_growth(plane, parameters, omega, mu) result(way)
       !> The plane
-      class(curve_plane_type), intent(in) :: plane
+      type(curve_plane_type), intent(in) :: plane
       !> Parameters of the point
       type(block_parameters_type), intent(in) :: parameters
-      !> Frequencies
-      real(wp), intent(in) :: omega(2)
-      !> Growth rates of the pairs
-      real(wp), intent(in) :: mu(2)
+      !> Frequencies and growth rates of the pairs
+      real(wp), intent(in) :: omega(2), mu(2)
       real(wp) :: way(2)
       real(wp) :: growth(2, 2)
       integer :: j
@@ -183,5 +110,5 @@ contains
       end do
       way = [growth(2, 2)*mu(1) - growth(1, 2)*mu(2), growth(1, 1)*mu(2) - growth(2, 1)*mu(1)] &
             /(growth(1, 1)*growth(2, 2) - growth(1, 2)*growth(2, 1))
-   end function way_to
+   end function way_to_growth
 end module hopf_unfoldings

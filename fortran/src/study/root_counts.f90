@@ -89,12 +89,8 @@ contains
    !> Number of roots from the growth of the argument up to `far_end`; from there on the argument
    !> grows as that of the leading part.
    pure integer function number_of(p, growth, bound) result(number)
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
-      !> Growth of the argument
-      real(wp), intent(in) :: growth
-      !> Real part of the line
-      real(wp), intent(in) :: bound
+      real(wp), intent(in) :: growth, bound
       complex(wp) :: factor, s
       real(wp) :: rest
 
@@ -106,9 +102,7 @@ contains
 
    !> A w from which on the leading part outweighs the other terms; their ratio grows with w.
    pure real(wp) function far_end(p, bound) result(w)
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
-      !> Real part of the line
       real(wp), intent(in) :: bound
       complex(wp) :: term(5)
 
@@ -122,14 +116,8 @@ contains
 
    !> Growth of the argument of Delta along s = bound + i w.
    pure real(wp) function line_growth(p, bound, from, to) result(growth)
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
-      !> Real part
-      real(wp), intent(in) :: bound
-      !> First w
-      real(wp), intent(in) :: from
-      !> Last w
-      real(wp), intent(in) :: to
+      real(wp), intent(in) :: bound, from, to
       complex(wp) :: s, value, value_before
       real(wp) :: step, w
 
@@ -152,12 +140,8 @@ contains
 
    !> Growth of the argument of Delta along the half circle to the right of i omega.
    pure real(wp) function arc_growth(p, omega, radius) result(growth)
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
-      !> Centre
-      real(wp), intent(in) :: omega
-      !> Radius
-      real(wp), intent(in) :: radius
+      real(wp), intent(in) :: omega, radius
       complex(wp) :: value, value_before
       integer :: i
 
@@ -174,7 +158,6 @@ contains
 
    !> Argument of a number, -pi..pi.
    pure real(wp) function angle(z) result(value)
-      !> The number
       complex(wp), intent(in) :: z
 
       value = atan2(aimag(z), real(z))

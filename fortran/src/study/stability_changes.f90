@@ -10,7 +10,8 @@ module stability_changes
    use root_counts, only: pairs_beside
    implicit none (type, external)
    private
-   public :: changes_with_epsilon, changes_with_tau, stability_change_type
+   public :: angle_above, changes_with_epsilon, changes_with_tau, omega_function_type, &
+             stability_change_type
 
    !> A crossing.
    type :: stability_change_type
@@ -22,31 +23,22 @@ module stability_changes
       integer :: pairs_before = 0, pairs_after = 0
    end type stability_change_type
 
-   !> Epsilon of a frequency, less a given one.
-   type, extends(scalar_function_type) :: epsilon_function_type
-      !> Parameters
-      type(block_parameters_type) :: p
-   contains
-      procedure :: value => epsilon_above
-   end type epsilon_function_type
+   !> Functions of omega: epsilon less a given one; the other frequency of the same epsilon less
+   !> this one, which falls as omega grows; omega tau of a branch less that of a given delay, which
+   !> falls and has one root.
+   integer, parameter :: epsilon_above = 1, partner_above = 2, angle_above = 3
 
-   !> The other frequency of the same epsilon, less this one: falls as omega grows.
-   type, extends(scalar_function_type) :: partner_function_type
-      !> Parameters
-      type(block_parameters_type) :: p
-   contains
-      procedure :: value => partner_above
-   end type partner_function_type
-
-   !> omega tau of a branch, less that of a given delay: falls as omega grows, and has one root.
-   type, extends(scalar_function_type) :: angle_function_type
-      !> Parameters
+   !> One of these functions.
+   type, extends(scalar_function_type) :: omega_function_type
+      !> epsilon_above, partner_above or angle_above
+      integer :: quantity = 0
+      !> Parameters, with the given epsilon or delay
       type(block_parameters_type) :: p
       !> Branch
       integer :: k = 0
    contains
-      procedure :: value => angle_above
-   end type angle_function_type
+      procedure :: value => value_at_omega
+   end type omega_function_type
 
 contains
 
@@ -61,14 +53,15 @@ contains
       !> A root was not found
       type(error_type), allocatable, intent(out) :: error
       type(block_parameters_type) :: there
-      type(epsilon_function_type) :: excess
+      type(omega_function_type) :: excess
       real(wp) :: bottom, lower, omega(2), upper
       integer :: i, k
 
       allocate (changes(0))
-      call least_epsilon_at(p, bottom, error)
+      ! epsilon is least where both frequencies of an epsilon are the same
+      call find_falling_root(omega_function_type(partner_above, p), p%gamma, bottom, error)
       if (allocated(error)) return
-      excess%p = p
+      excess = omega_function_type(epsilon_above, p)
       if (excess%value(bottom) >= 0.0_wp) return
       lower = bottom
       do while (excess%value(lower) <= 0.0_wp)
@@ -89,9 +82,9 @@ contains
             if (there%tau > tau_most) exit
             k = k + 1
             if (there%tau <= 0.0_wp) cycle
-            associate (s => cmplx(0.0_wp, omega(i), kind=wp))
-               call insert(changes, change_at(there, omega(i), real(root_by_tau(there, s))), &
-                           changes%parameters%tau < there%tau)
+            associate (speed => real(root_by_tau(there, cmplx(0.0_wp, omega(i), kind=wp))))
+               call insert_change(changes, change_at(there, omega(i), speed), &
+                                  changes%parameters%tau < there%tau)
             end associate
          end do
       end do
@@ -108,12 +101,12 @@ contains
       !> A root was not found
       type(error_type), allocatable, intent(out) :: error
       type(block_parameters_type) :: there
-      type(angle_function_type) :: angle
+      type(omega_function_type) :: angle
       complex(wp) :: s
       real(wp) :: lower, omega, omega_most
 
       allocate (changes(0))
-      angle%p = p
+      angle = omega_function_type(angle_above, p)
       omega_most = largest_omega(epsilon_most)
       there = p
       do
@@ -128,30 +121,14 @@ contains
          there%epsilon = hopf_epsilon(omega, p%xi, p%gamma)
          if (there%epsilon > epsilon_most) cycle
          s = cmplx(0.0_wp, omega, kind=wp)
-         call insert(changes, change_at(there, omega, real(root_by_epsilon(there, s))), &
-                     changes%parameters%epsilon < there%epsilon)
+         call insert_change(changes, change_at(there, omega, real(root_by_epsilon(there, s))), &
+                            changes%parameters%epsilon < there%epsilon)
       end do
    end subroutine changes_with_epsilon
 
-   !> The frequency at which epsilon is least: where both frequencies of an epsilon are the same.
-   subroutine least_epsilon_at(p, omega, error)
-      !> Parameters
-      type(block_parameters_type), intent(in) :: p
-      !> The frequency
-      real(wp), intent(out) :: omega
-      !> No root found
-      type(error_type), allocatable, intent(out) :: error
-      type(partner_function_type) :: partner
-
-      partner%p = p
-      call find_falling_root(partner, p%gamma, omega, error)
-   end subroutine least_epsilon_at
-
    !> A crossing at the pair i omega.
    pure type(stability_change_type) function change_at(p, omega, speed) result(change)
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
-      !> Frequency
       real(wp), intent(in) :: omega
       !> How fast the pair moves to the right
       real(wp), intent(in) :: speed
@@ -167,10 +144,8 @@ contains
    end function change_at
 
    !> Put a crossing in its place.
-   pure subroutine insert(changes, change, earlier)
-      !> Crossings so far
+   pure subroutine insert_change(changes, change, earlier)
       type(stability_change_type), allocatable, intent(inout) :: changes(:)
-      !> The new one
       type(stability_change_type), intent(in) :: change
       !> Which of the others come first; they are ascending
       logical, intent(in) :: earlier(:)
@@ -178,35 +153,22 @@ contains
 
       n = count(earlier)
       changes = [changes(:n), change, changes(n + 1:)]
-   end subroutine insert
+   end subroutine insert_change
 
-   !> Zero where epsilon is the given one.
-   real(wp) function epsilon_above(self, x) result(value)
-      !> Parameters
-      class(epsilon_function_type), intent(in) :: self
-      !> omega
+   !> Value of the function.
+   real(wp) function value_at_omega(self, x) result(value)
+      class(omega_function_type), intent(in) :: self
       real(wp), intent(in) :: x
 
-      value = hopf_epsilon(x, self%p%xi, self%p%gamma) - self%p%epsilon
-   end function epsilon_above
-
-   !> Zero where both frequencies are the same.
-   real(wp) function partner_above(self, x) result(value)
-      !> Parameters
-      class(partner_function_type), intent(in) :: self
-      !> omega
-      real(wp), intent(in) :: x
-
-      value = partner_omega(x, self%p%xi, self%p%gamma) - x
-   end function partner_above
-
-   !> Zero where the delay is the given one.
-   real(wp) function angle_above(self, x) result(value)
-      !> Parameters and branch
-      class(angle_function_type), intent(in) :: self
-      !> omega
-      real(wp), intent(in) :: x
-
-      value = x*(hopf_tau(x, self%p%xi, self%p%gamma, self%k) - self%p%tau)
-   end function angle_above
+      associate (p => self%p)
+         select case (self%quantity)
+         case (epsilon_above)
+            value = hopf_epsilon(x, p%xi, p%gamma) - p%epsilon
+         case (partner_above)
+            value = partner_omega(x, p%xi, p%gamma) - x
+         case default
+            value = x*(hopf_tau(x, p%xi, p%gamma, self%k) - p%tau)
+         end select
+      end associate
+   end function value_at_omega
 end module stability_changes

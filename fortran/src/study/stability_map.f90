@@ -12,7 +12,7 @@ contains
    !> Number of unstable pairs in the middle of each cell of the plane's window.
    pure function unstable_pairs(plane, cells) result(pairs)
       !> The plane
-      class(curve_plane_type), intent(in) :: plane
+      type(curve_plane_type), intent(in) :: plane
       !> Cells along each side
       integer, intent(in) :: cells
       integer :: pairs(cells, cells)

@@ -92,9 +92,7 @@ contains
 
    !> A bound with at least this number of roots of (5) above it, not many more; or the last bound.
    pure real(wp) function bound_for(p, count) result(bound)
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
-      !> How many
       integer, intent(in) :: count
       real(wp) :: nearer
       integer :: i, number, there

@@ -147,7 +147,7 @@ contains
       character(len=*), intent(in) :: path
       !> Why it is refused
       type(failure_type), allocatable, intent(out) :: failure
-      class(curve_plane_type), allocatable :: plane
+      type(curve_plane_type) :: plane
       type(hopf_settings_type) :: settings
 
       call read_plane(path, settings, plane, failure)

@@ -62,9 +62,7 @@ contains
    !> The form of order k from the homogeneous part P_k of the right-hand side, by polarisation: the
    !> sum of (-1)^(k - |S|) P_k(sum of x_i over S) over all sets S of arguments.
    pure function derivative_by_cauchy(self, x) result(form)
-      !> The equation
       class(analytic_equation_type), intent(in) :: self
-      !> Histories
       complex(wp), intent(in) :: x(:, :, :)
       complex(wp) :: form(size(x, 1))
       integer :: i, k, set
@@ -81,11 +79,8 @@ contains
 
    !> The part of degree k.
    pure function homogeneous_part(equation, x, k) result(part)
-      !> The equation
       class(analytic_equation_type), intent(in) :: equation
-      !> History
       complex(wp), intent(in) :: x(:, :)
-      !> Degree
       integer, intent(in) :: k
       complex(wp) :: part(size(x, 1))
       complex(wp) :: factor

@@ -3,15 +3,27 @@
 !>
 !>     1 + epsilon = sqrt((1 + omega^2)(1 + B^2)),   omega tau = atan B - atan omega + 2 pi k.
 module closed_form
+   use block_parameters, only: block_parameters_type
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: closed_epsilon, closed_tau, closed_xi
+   public :: block_with_pair, closed_epsilon, closed_tau, closed_xi
 
    !> One turn.
    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
 
 contains
+
+   !> Parameters of a block with the pair i omega on branch k.
+   elemental type(block_parameters_type) function block_with_pair(omega, xi, gamma, k) result(p)
+      !> Frequency of the pair > 0, spring constant, frequency of the block
+      real(wp), intent(in) :: omega, xi, gamma
+      !> Branch
+      integer, intent(in) :: k
+
+      p = block_parameters_type(tau=closed_tau(omega, xi, gamma, k), xi=xi, gamma=gamma, &
+                                epsilon=closed_epsilon(omega, xi, gamma))
+   end function block_with_pair
 
    !> epsilon of the pair i omega.
    elemental real(wp) function closed_epsilon(omega, xi, gamma) result(epsilon)
@@ -61,10 +73,7 @@ contains
    elemental real(wp) function ratio(omega, xi, gamma) result(b)
       !> Frequency of the pair, > 0
       real(wp), intent(in) :: omega
-      !> Spring constant
-      real(wp), intent(in) :: xi
-      !> Frequency of the block
-      real(wp), intent(in) :: gamma
+      real(wp), intent(in) :: xi, gamma
 
       b = xi*(gamma**2 - omega**2)/(gamma**2*omega)
    end function ratio

@@ -115,9 +115,7 @@ contains
    !> The equations.
    pure subroutine rhs(self, t, y, z, dydt)
       class(known_problem), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
       real(wp) :: s
 
@@ -147,11 +145,8 @@ contains
    !> Their derivatives.
    pure subroutine jacobian(self, t, y, z, by_y, by_z)
       class(known_problem), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
-      real(wp), intent(out) :: by_y(self%n, self%n)
-      real(wp), intent(out) :: by_z(self%n, size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: by_y(self%n, self%n), by_z(self%n, size(self%lag))
       real(wp) :: s
 
       by_y = 0.0_wp

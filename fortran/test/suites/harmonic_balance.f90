@@ -77,12 +77,8 @@ contains
 
    !> frequency x'(t) less the right-hand side at all points of a period.
    pure function residual(parameters, amplitude, x) result(value)
-      !> Parameters but epsilon
       type(block_parameters_type), intent(in) :: parameters
-      !> Coefficient of cos t in ln v
-      real(wp), intent(in) :: amplitude
-      !> Unknowns
-      real(wp), intent(in) :: x(unknowns)
+      real(wp), intent(in) :: amplitude, x(unknowns)
       real(wp) :: value(unknowns)
       type(block_parameters_type) :: there
       type(spring_block_type) :: block
@@ -106,7 +102,6 @@ contains
 
    !> 1, cos t, sin t, cos 2t, ...
    pure function functions(t) result(values)
-      !> Phase
       real(wp), intent(in) :: t
       real(wp) :: values(points)
       integer :: k
@@ -116,7 +111,6 @@ contains
 
    !> Their derivatives.
    pure function slopes(t) result(values)
-      !> Phase
       real(wp), intent(in) :: t
       real(wp) :: values(points)
       integer :: k
@@ -126,10 +120,7 @@ contains
 
    !> Place of a coefficient among the unknowns.
    pure integer function place(component, number) result(value)
-      !> Component
-      integer, intent(in) :: component
-      !> Number of the function
-      integer, intent(in) :: number
+      integer, intent(in) :: component, number
 
       value = (component - 1)*points + number
    end function place

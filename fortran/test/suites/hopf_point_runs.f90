@@ -2,12 +2,14 @@
 module hopf_point_runs
    use block_equation, only: block_equation_type
    use block_parameters, only: block_history_type, block_parameters_type
+   use centre_manifold, only: normal_form_coefficient
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
    use expectations, only: expect_success
+   use hopf_condition, only: two_pi
    use hopf_planes, only: curve_plane_type
    use hopf_points, only: find_hopf_points, hopf_point_type, judge_points
-   use hopf_unfoldings, only: cycle_type, predict_torus
+   use hopf_unfoldings, only: unfolding_type, way_to_growth
    use mctc_env_testing, only: error_type
    use normal_form, only: critical_vectors
    use solving, only: at_tolerance, solve
@@ -15,7 +17,7 @@ module hopf_point_runs
    use traced_planes, only: trace, traced_plane
    implicit none (type, external)
    private
-   public :: find_points, modes_of, parameters_at, run
+   public :: cycle_type, find_points, modes_of, parameters_at, predict_fold, predict_torus, run
 
    !> The block with a history of oscillations, sum over pairs of 2 Re(z q exp(i omega t)).
    type, extends(spring_block_type) :: oscillating_block
@@ -28,6 +30,15 @@ module hopf_point_runs
       procedure :: history => oscillation
    end type oscillating_block
 
+   !> A cycle near a special point.
+   type :: cycle_type
+      !> Parameters, nondimensional
+      type(block_parameters_type) :: parameters
+      !> Period
+      real(wp) :: period = 0.0_wp
+      real(wp) :: amplitude = 0.0_wp
+   end type cycle_type
+
 contains
 
    !> Special points of a kind in a plane of Figures 2 and 3.
@@ -36,9 +47,7 @@ contains
       integer, intent(in) :: i
       !> Kind
       character(len=*), intent(in) :: kind
-      !> The plane
-      class(curve_plane_type), allocatable, intent(out) :: plane
-      !> The points
+      type(curve_plane_type), intent(out) :: plane
       type(hopf_point_type), allocatable, intent(out) :: found(:)
       !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
@@ -53,35 +62,76 @@ contains
       call find_hopf_points(traced%plane, traced%points, all_points, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
-      allocate (plane, source=traced%plane)
-      found = pack(all_points, all_points%kind == kind)
+      plane = traced%plane
+      found = pack(all_points, all_points%kind == kind .or. kind == "")
    end subroutine find_points
 
-   !> The parameters at which both pairs have given growth rates, to first order, from the starts of
-   !> both curves of tori.
+   !> The parameters at which both pairs have given growth rates, to first order.
    type(block_parameters_type) function parameters_at(plane, point, mu) result(there)
-      !> The plane
-      class(curve_plane_type), intent(in) :: plane
+      type(curve_plane_type), intent(in) :: plane
       !> The double Hopf point
       type(hopf_point_type), intent(in) :: point
       !> Growth rates
       real(wp), intent(in) :: mu(2)
-      type(cycle_type) :: at_torus
-      real(wp) :: share(2), way(2, 2)
-      integer :: j
 
-      associate (p => real(point%unfolding%form%g), here => point%parameters)
-         share = -[p(2, 2)*mu(1) - p(1, 2)*mu(2), p(1, 1)*mu(2) - p(2, 1)*mu(1)] &
-                 /(p(1, 1)*p(2, 2) - p(1, 2)*p(2, 1))
-         do j = 1, 2
-            at_torus = predict_torus(plane, here, point%unfolding, j, 1.0_wp)
-            way(:, j) = [at_torus%parameters%epsilon - here%epsilon, &
-                         plane%ordinate(at_torus%parameters) - plane%ordinate(here)]
-         end do
-         there = plane%parameters(here%epsilon + sum(way(1, :)*share), &
-                                  plane%ordinate(here) + sum(way(2, :)*share))
+      associate (p => point%parameters, &
+                 way => way_to_growth(plane, point%parameters, point%omega, mu))
+         there = plane%parameters(p%epsilon + way(1), plane%ordinate(p) + way(2))
       end associate
    end function parameters_at
+
+   !> A fold of cycles near a generalised Hopf point.
+   subroutine predict_fold(plane, omega, k, unfolding, amplitude, cycle_at_fold, error)
+      type(curve_plane_type), intent(in) :: plane
+      !> Frequency of the pair at the point
+      real(wp), intent(in) :: omega
+      !> Branch of the curve
+      integer, intent(in) :: k
+      type(unfolding_type), intent(in) :: unfolding
+      real(wp), intent(in) :: amplitude
+      type(cycle_type), intent(out) :: cycle_at_fold
+      !> No coefficient
+      type(failure_type), allocatable, intent(out) :: error
+      complex(wp) :: c1, slopes(2)
+      real(wp) :: epsilon_step, r, there
+
+      r = amplitude**2
+      there = omega - 2.0_wp*real(unfolding%c2)*r/unfolding%c1_slope
+      associate (p => cycle_at_fold%parameters)
+         p = plane%at(there, k)
+         call normal_form_coefficient(block_equation_type(p), [there], [2, 1], c1, error)
+         if (allocated(error)) return
+         slopes = plane%root_slopes(p, cmplx(0.0_wp, there, kind=wp))
+         epsilon_step = real(unfolding%c2)*r**2/real(slopes(1))
+         p%epsilon = p%epsilon + epsilon_step
+      end associate
+      cycle_at_fold%amplitude = amplitude
+      cycle_at_fold%period = two_pi/(there + aimag(slopes(1))*epsilon_step + aimag(c1)*r)
+   end subroutine predict_fold
+
+   !> A torus bifurcation of the cycle of a pair near a double Hopf point.
+   type(cycle_type) function predict_torus(plane, parameters, unfolding, pair, amplitude) &
+      result(cycle_at_torus)
+      type(curve_plane_type), intent(in) :: plane
+      !> Parameters of the point
+      type(block_parameters_type), intent(in) :: parameters
+      type(unfolding_type), intent(in) :: unfolding
+      !> The pair, 1 or 2
+      integer, intent(in) :: pair
+      real(wp), intent(in) :: amplitude
+      complex(wp) :: slopes(2)
+      real(wp) :: way(2)
+
+      associate (form => unfolding%form)
+         way = way_to_growth(plane, parameters, form%omega, -amplitude**2*real(form%g(:, pair)))
+         slopes = plane%root_slopes(parameters, cmplx(0.0_wp, form%omega(pair), kind=wp))
+         cycle_at_torus%parameters = plane%parameters(parameters%epsilon + way(1), &
+                                                      plane%ordinate(parameters) + way(2))
+         cycle_at_torus%amplitude = amplitude
+         cycle_at_torus%period = two_pi/(form%omega(pair) + sum(aimag(slopes)*way) &
+                                         + amplitude**2*aimag(form%g(pair, pair)))
+      end associate
+   end function predict_torus
 
    !> z q of all pairs of a point.
    function modes_of(point, z) result(mode)
@@ -144,7 +194,6 @@ contains
 
    !> The state at t = 0.
    pure subroutine oscillation_at_zero(self, y)
-      !> The block
       class(oscillating_block), intent(in) :: self
       !> theta, u, ln v
       real(wp), intent(out) :: y(self%n)
@@ -155,11 +204,9 @@ contains
 
    !> The sum of the oscillations.
    pure function oscillation(self, t, component) result(value)
-      !> The block
       class(oscillating_block), intent(in) :: self
       !> Time <= 0
       real(wp), intent(in) :: t
-      !> Index into the state
       integer, intent(in) :: component
       real(wp) :: value
 

@@ -5,28 +5,39 @@ module known_equations
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: block_by_values, duffing_with_pair, new_block_by_values, new_layers, new_lienard
-   public :: new_quadratic, new_transformed, transformed
+   public :: block_by_values, duffing_with_pair, layers, lienard, neurons, new_block_by_values, &
+             new_small, new_transformed, quadratic, small_equation, transformed
 
    !> One turn.
    real(wp), parameter :: two_pi = 2.0_wp*acos(-1.0_wp)
 
-   !> x' = y - a3 x^3 - a5 x^5, y' = -x.
-   type, extends(analytic_equation_type) :: lienard
-      !> Coefficients
-      real(wp) :: a3 = 0.0_wp, a5 = 0.0_wp
-   contains
-      procedure :: rhs => lienard_rhs
-   end type lienard
+   !> Small equations, their coefficients p and delays:
+   !>
+   !>     lienard    x' = y - a3 x^3 - a5 x^5, y' = -x; a3, a5
+   !>     quadratic  the form of Kapteyn and Bautin at lambda1 = 0; l1, ..., l6:
+   !>                x' = -y - l3 x^2 + (2 l2 + l5) x y + l6 y^2, y' = x + l2 x^2 + (2 l3 + l4) x y
+   !>                - l2 y^2
+   !>     duffing    delayed feedback, demonstration minimal_demo of DDE-BIFTOOL, in the state
+   !>                (x + bend v^2, v) with v = x': x'' + d x' + a x + x^3 + b [x - x(t - tau)] = 0;
+   !>                a, b, d, bend; tau
+   !>     layers     two layers of neurons, demonstration nmfm_demo of DDE-BIFTOOL; a, c; tau1,
+   !>                tau2:
+   !>                x1' = -x1 - a g(2 x1(t - tau1)) + c g(1.2 x2(t - tau2)), x2' with 1 and 2
+   !>                exchanged, g(z) = [tanh(z - 1) + tanh 1] cosh^2 1
+   !>     neurons    two neurons, demonstration neuron of DDE-BIFTOOL; a21; tau_s, tau1 = 0.2:
+   !>                x1' = -x1/2 - tanh x1(t - tau_s) + tanh x2(t - tau1), x2' = -x2/2
+   !>                - tanh x2(t - tau_s) + a21 tanh x1(t - tau1)
+   integer, parameter :: lienard = 1, quadratic = 2, duffing = 3, layers = 4, neurons = 5
 
-   !> The quadratic system in the form of Kapteyn and Bautin at lambda1 = 0:
-   !> x' = -y - l3 x^2 + (2 l2 + l5) x y + l6 y^2, y' = x + l2 x^2 + (2 l3 + l4) x y - l2 y^2.
-   type, extends(analytic_equation_type) :: quadratic
-      !> lambda
-      real(wp) :: l(6) = 0.0_wp
+   !> One of these equations.
+   type, extends(analytic_equation_type) :: small_equation
+      !> The equation
+      integer :: equation = 0
+      !> Its coefficients
+      real(wp), allocatable :: p(:)
    contains
-      procedure :: rhs => quadratic_rhs
-   end type quadratic
+      procedure :: rhs => small_rhs
+   end type small_equation
 
    !> z_j' = z_j (i omega_j + sum_k g_jk |z_k|^2 + f_j |z_j|^4), w' = -w with z_j = x_j + i y_j, in
    !> the state (x_1, y_1, x_2, y_2, w) after shears: nonlinear changes of coordinates with exact
@@ -40,25 +51,6 @@ module known_equations
       procedure :: rhs => transformed_rhs
    end type transformed
 
-   !> Duffing's oscillator with delayed feedback, demonstration minimal_demo of DDE-BIFTOOL:
-   !> x'' + d x' + a x + x^3 + b [x - x(t - tau)] = 0, in the state (x + bend v^2, v) with v = x'.
-   type, extends(analytic_equation_type) :: delayed_duffing
-      !> Coefficients
-      real(wp) :: a = 0.5_wp, b = 0.6_wp, d = 0.05_wp, bend = 0.0_wp
-   contains
-      procedure :: rhs => duffing_rhs
-   end type delayed_duffing
-
-   !> Two layers of neurons, demonstration nmfm_demo of DDE-BIFTOOL:
-   !> x1' = -x1 - a g(b x1(t - tau1)) + c g(d x2(t - tau2)), x2' with 1 and 2 exchanged,
-   !> g(z) = [tanh(z - 1) + tanh 1] cosh^2 1, b = 2, d = 1.2.
-   type, extends(analytic_equation_type) :: neural_layers
-      !> Coefficients
-      real(wp) :: a = 0.0_wp, c = 0.0_wp
-   contains
-      procedure :: rhs => layers_rhs
-   end type neural_layers
-
    !> The block in theta, u and ln v or v - 1.
    type, extends(analytic_equation_type) :: block_by_values
       !> Parameters
@@ -71,41 +63,62 @@ module known_equations
 
 contains
 
-   !> The equation with its linear part.
-   type(lienard) function new_lienard(a3, a5) result(equation)
-      real(wp), intent(in) :: a3, a5
+   !> Duffing's oscillator at a frequency above sqrt(a) with this pair on the axis, on branch k.
+   type(small_equation) function duffing_with_pair(omega, k, bend) result(equation)
+      real(wp), intent(in) :: omega, bend
+      integer, intent(in) :: k
+      real(wp), parameter :: a = 0.5_wp, d = 0.05_wp
+      real(wp) :: b, excess
 
-      equation%a3 = a3
-      equation%a5 = a5
-      call set_linear_part(equation, 2, [0.0_wp])
-   end function new_lienard
+      excess = omega**2 - a
+      b = (excess**2 + (d*omega)**2)/(2.0_wp*excess)
+      equation = new_small(duffing, [a, b, d, bend], &
+                           [(atan2(-d*omega, b - excess) + two_pi*k)/omega])
+   end function duffing_with_pair
 
-   pure function lienard_rhs(self, x) result(dxdt)
-      class(lienard), intent(in) :: self
+   !> A small equation with its linear part.
+   type(small_equation) function new_small(equation, p, delays) result(made)
+      !> The equation
+      integer, intent(in) :: equation
+      !> Coefficients
+      real(wp), intent(in) :: p(:)
+      !> Lags > 0, in the order of the equation
+      real(wp), intent(in), optional :: delays(:)
+
+      made%equation = equation
+      made%p = p
+      if (present(delays)) then
+         call set_linear_part(made, 2, [0.0_wp, delays])
+      else
+         call set_linear_part(made, 2, [0.0_wp])
+      end if
+   end function new_small
+
+   !> The small equations.
+   pure function small_rhs(self, x) result(dxdt)
+      class(small_equation), intent(in) :: self
       complex(wp), intent(in) :: x(:, :)
       complex(wp) :: dxdt(size(x, 1))
+      complex(wp) :: place(2)
 
-      dxdt = [x(2, 1) - self%a3*x(1, 1)**3 - self%a5*x(1, 1)**5, -x(1, 1)]
-   end function lienard_rhs
-
-   !> The equation with its linear part.
-   type(quadratic) function new_quadratic(l) result(equation)
-      real(wp), intent(in) :: l(6)
-
-      equation%l = l
-      call set_linear_part(equation, 2, [0.0_wp])
-   end function new_quadratic
-
-   pure function quadratic_rhs(self, x) result(dxdt)
-      class(quadratic), intent(in) :: self
-      complex(wp), intent(in) :: x(:, :)
-      complex(wp) :: dxdt(size(x, 1))
-
-      associate (l => self%l, u => x(1, 1), v => x(2, 1))
-         dxdt = [-v - l(3)*u**2 + (2.0_wp*l(2) + l(5))*u*v + l(6)*v**2, &
-                 u + l(2)*u**2 + (2.0_wp*l(3) + l(4))*u*v - l(2)*v**2]
+      associate (p => self%p, u => x(1, 1), v => x(2, 1))
+         select case (self%equation)
+         case (lienard)
+            dxdt = [v - p(1)*u**3 - p(2)*u**5, -u]
+         case (quadratic)
+            dxdt = [-v - p(3)*u**2 + (2.0_wp*p(2) + p(5))*u*v + p(6)*v**2, &
+                    u + p(2)*u**2 + (2.0_wp*p(3) + p(4))*u*v - p(2)*v**2]
+         case (duffing)
+            place = x(1, :) - p(4)*x(2, :)**2
+            dxdt(2) = -p(3)*v - p(1)*place(1) - place(1)**3 - p(2)*(place(1) - place(2))
+            dxdt(1) = v + 2.0_wp*p(4)*v*dxdt(2)
+         case (layers)
+            dxdt = -x(:, 1) - p(1)*response(2.0_wp*x(:, 2)) + p(2)*response(1.2_wp*x(2:1:-1, 3))
+         case default
+            dxdt = -0.5_wp*x(:, 1) - tanh(x(:, 2)) + [1.0_wp, p(1)]*tanh(x(2:1:-1, 3))
+         end select
       end associate
-   end function quadratic_rhs
+   end function small_rhs
 
    !> The equation with its linear part.
    type(transformed) function new_transformed(omega, g, f) result(equation)
@@ -176,54 +189,6 @@ contains
               + s(3)*(0.5_wp*r(2) + 1.6_wp*r(3) + 0.9_wp*r(1)*r(4)) &
               + s(4)*(0.3_wp*r(1) + 1.2_wp*r(4) + 0.9_wp*r(1)*r(3))
    end function bend_slope
-
-   !> The equation with its linear part.
-   type(delayed_duffing) function new_duffing(b, tau, bend) result(equation)
-      real(wp), intent(in) :: b, tau, bend
-
-      equation%b = b
-      equation%bend = bend
-      call set_linear_part(equation, 2, [0.0_wp, tau])
-   end function new_duffing
-
-   !> At a frequency above sqrt(a), the equation with this pair on the axis, on branch k.
-   type(delayed_duffing) function duffing_with_pair(omega, k, bend) result(equation)
-      real(wp), intent(in) :: omega, bend
-      integer, intent(in) :: k
-      real(wp) :: b, excess
-
-      excess = omega**2 - equation%a
-      b = (excess**2 + (equation%d*omega)**2)/(2.0_wp*excess)
-      equation = new_duffing(b, (atan2(-equation%d*omega, b - excess) + two_pi*k)/omega, bend)
-   end function duffing_with_pair
-
-   pure function duffing_rhs(self, x) result(dxdt)
-      class(delayed_duffing), intent(in) :: self
-      complex(wp), intent(in) :: x(:, :)
-      complex(wp) :: dxdt(size(x, 1))
-      complex(wp) :: place(2)
-
-      place = x(1, :) - self%bend*x(2, :)**2
-      dxdt(2) = -self%d*x(2, 1) - self%a*place(1) - place(1)**3 - self%b*(place(1) - place(2))
-      dxdt(1) = x(2, 1) + 2.0_wp*self%bend*x(2, 1)*dxdt(2)
-   end function duffing_rhs
-
-   !> The equation with its linear part.
-   type(neural_layers) function new_layers(a, c) result(equation)
-      real(wp), intent(in) :: a, c
-
-      equation%a = a
-      equation%c = c
-      call set_linear_part(equation, 2, [0.0_wp, 12.7_wp, 20.2_wp])
-   end function new_layers
-
-   pure function layers_rhs(self, x) result(dxdt)
-      class(neural_layers), intent(in) :: self
-      complex(wp), intent(in) :: x(:, :)
-      complex(wp) :: dxdt(size(x, 1))
-
-      dxdt = -x(:, 1) - self%a*response(2.0_wp*x(:, 2)) + self%c*response(1.2_wp*x(2:1:-1, 3))
-   end function layers_rhs
 
    !> g(z).
    elemental complex(wp) function response(z) result(value)

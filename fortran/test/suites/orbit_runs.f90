@@ -1,32 +1,58 @@
-!> Single periodic orbits for tests: corrected, or those that a trajectory of the block has reached.
+!> Periodic orbits and branches for tests: made up, corrected, or reached by a trajectory.
 module orbit_runs
    use block_family, only: block_family_type, vector_of
-   use collocation_basis, only: collocation_basis_type
-   use dde, only: continuation_type, integrate, integration_result
+   use branch_ends, only: follow_settings_type
+   use collocation_basis, only: collocation_basis_type, gauss_points
+   use dde, only: continuation_type, dde_problem_type, event_table, integrate, integration_result
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
    use expectations, only: expect_success
    use floquet_multipliers, only: find_multipliers, multipliers_type
    use mctc_env_testing, only: error_type
+   use orbit_branch, only: branch_type, follow_branch
    use orbit_change, only: orbit_change_type
    use orbit_equations, only: correct_orbit, newton_type
-   use orbit_mesh, only: adapted_mesh
-   use orbit_passes, only: orbit_scale_type
-   use orbit_start, only: orbit_of_trajectory
+   use orbit_mesh, only: adapted_mesh, uniform_mesh
+   use orbit_points, only: find_special_points
+   use orbit_start, only: orbit_at_hopf_point, orbit_of_trajectory
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: problem_family_type
+   use problem_family, only: free_family_type, problem_family_type
    use solving, only: at_tolerance
+   use special_points, only: special_point_type
    use spring_block, only: index_of_ln_v, spring_block_type
    implicit none (type, external)
    private
-   public :: correct, cycle_of_block
+   public :: advance, branch_from, branch_from_hopf, correct, cycle_of_block, fix_parameters, &
+             new_orbit, orbit_of_block
 
 contains
 
-   !> Correct an orbit at fixed parameters.
-   subroutine correct(family, orbit, newton, failure)
+   !> An orbit on a uniform mesh, without its nodes.
+   pure type(periodic_orbit_type) function new_orbit(degree, points, intervals, period, &
+                                                     parameters) result(orbit)
+      !> Degree, kind of points and intervals
+      integer, intent(in) :: degree, points, intervals
+      !> Period and parameters
+      real(wp), intent(in) :: period, parameters(:)
+
+      orbit%basis = collocation_basis_type(degree, points)
+      orbit%mesh = uniform_mesh(intervals)
+      orbit%period = period
+      orbit%parameters = parameters
+   end function new_orbit
+
+   !> Problems without a free parameter.
+   type(free_family_type) function fix_parameters(problems) result(family)
       !> The problems
-      class(problem_family_type), intent(in) :: family
+      class(problem_family_type), intent(in) :: problems
+
+      family = free_family_type(problems, [integer ::], [real(wp) ::])
+   end function fix_parameters
+
+   !> Correct an orbit at fixed parameters.
+   subroutine correct(problems, orbit, newton, failure)
+      !> The problems
+      class(problem_family_type), intent(in) :: problems
       !> The orbit
       type(periodic_orbit_type), intent(inout) :: orbit
       !> The method
@@ -34,16 +60,71 @@ contains
       !> No convergence
       type(failure_type), allocatable, intent(out) :: failure
       type(orbit_change_type) :: no_direction(0)
-      type(orbit_scale_type) :: none
       type(periodic_orbit_type) :: reference
-      real(wp) :: no_distance(0)
 
-      allocate (none%free(0), none%unit(0))
       reference = orbit
-      call correct_orbit(family, none, reference, no_direction, no_distance, orbit, newton, failure)
+      call correct_orbit(fix_parameters(problems), reference, no_direction, [real(wp) ::], orbit, &
+                         newton, failure)
    end subroutine correct
 
-   !> The orbit of a block that a trajectory has reached, with its multipliers.
+   !> Go on with a run, and note the maxima of a component.
+   subroutine advance(problem, from, to, place, error, component, maxima)
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Times
+      real(wp), intent(in) :: from, to
+      !> Where the run is
+      type(continuation_type), intent(inout) :: place
+      type(error_type), allocatable, intent(inout) :: error
+      !> The component
+      integer, intent(in), optional :: component
+      !> Its maxima
+      real(wp), allocatable, intent(out), optional :: maxima(:)
+      type(event_table) :: found
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+
+      if (allocated(error)) return
+      if (present(maxima)) then
+         found = event_table(component=[component], level=[0.0_wp], direction=[-1], &
+                             of_slope=[.true.])
+         call integrate(problem, from, to, at_tolerance(1.0e-8_wp), outcome, failure, &
+                        watcher=found, continuation=place)
+         if (.not. allocated(failure)) maxima = found%y(component, :found%received)
+      else
+         call integrate(problem, from, to, at_tolerance(1.0e-8_wp), outcome, failure, &
+                        continuation=place)
+      end if
+      call expect_success(error, failure)
+   end subroutine advance
+
+   !> The orbit of a block that a trajectory has reached, before its correction.
+   subroutine orbit_of_block(block, t_end, degree, points, intervals, orbit, error)
+      !> The block
+      type(spring_block_type), intent(in) :: block
+      !> Time of the trajectory
+      real(wp), intent(in) :: t_end
+      !> Degree, kind of points and intervals
+      integer, intent(in) :: degree, points, intervals
+      !> The orbit
+      type(periodic_orbit_type), intent(out) :: orbit
+      type(error_type), allocatable, intent(inout) :: error
+      type(continuation_type) :: arrived
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+
+      call integrate(block, 0.0_wp, t_end, at_tolerance(1.0e-9_wp, "auto"), outcome, failure, &
+                     continuation=arrived)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call orbit_of_trajectory(block, at_tolerance(1.0e-9_wp, "auto"), arrived, index_of_ln_v, &
+                               100.0_wp, collocation_basis_type(degree, points), intervals, orbit, &
+                               failure)
+      call expect_success(error, failure)
+      orbit%parameters = vector_of(block%parameters)
+   end subroutine orbit_of_block
+
+   !> The orbit of a block that a trajectory has reached, corrected, with its multipliers.
    subroutine cycle_of_block(block, t_end, degree, points, intervals, orbit, multipliers, error)
       !> The block
       type(spring_block_type), intent(in) :: block
@@ -56,30 +137,66 @@ contains
       !> Its multipliers
       type(multipliers_type), intent(out) :: multipliers
       type(error_type), allocatable, intent(inout) :: error
-      type(block_family_type) :: family
-      type(continuation_type) :: arrived
       type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
       type(newton_type) :: newton
       integer :: i
 
-      call integrate(block, 0.0_wp, t_end, at_tolerance(1.0e-9_wp, "auto"), outcome, failure, &
-                     continuation=arrived)
-      call expect_success(error, failure)
-      if (allocated(error)) return
-      call orbit_of_trajectory(block, at_tolerance(1.0e-9_wp, "auto"), arrived, index_of_ln_v, &
-                               100.0_wp, collocation_basis_type(degree, points), intervals, orbit, &
-                               failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
-      orbit%parameters = vector_of(block%parameters)
+      call orbit_of_block(block, t_end, degree, points, intervals, orbit, error)
       do i = 1, 2
-         call correct(family, orbit, newton, failure)
-         call expect_success(error, failure)
          if (allocated(error)) return
+         call correct(block_family_type(), orbit, newton, failure)
+         call expect_success(error, failure)
          if (i == 1) orbit = orbit%on_mesh(adapted_mesh(orbit, intervals))
       end do
-      call find_multipliers(family, orbit, 6, multipliers, failure)
+      if (allocated(error)) return
+      call find_multipliers(fix_parameters(block_family_type()), orbit, 6, multipliers, failure)
       call expect_success(error, failure)
    end subroutine cycle_of_block
+
+   !> A branch from an orbit, and its special points.
+   subroutine branch_from(orbit, settings, direction, branch, special, error, tangent)
+      !> Approximation of the first orbit
+      type(periodic_orbit_type), intent(in) :: orbit
+      !> How far and how
+      type(follow_settings_type), intent(in) :: settings
+      !> 1 or -1
+      integer, intent(in) :: direction
+      !> The branch
+      type(branch_type), intent(out) :: branch
+      !> The points
+      type(special_point_type), allocatable, intent(out) :: special(:)
+      type(error_type), allocatable, intent(inout) :: error
+      !> Tangent at the start
+      type(orbit_change_type), intent(in), optional :: tangent
+      type(failure_type), allocatable :: failure
+
+      if (allocated(error)) return
+      call follow_branch(settings, orbit, direction, branch, failure, tangent)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call find_special_points(settings, branch, special, failure)
+      call expect_success(error, failure)
+   end subroutine branch_from
+
+   !> The branch from a Hopf point.
+   subroutine branch_from_hopf(settings, parameters, state, omega, amplitude, branch, special, &
+                               error)
+      !> How far and how
+      type(follow_settings_type), intent(in) :: settings
+      !> Parameters and stationary state of the Hopf point, its frequency, first amplitude
+      real(wp), intent(in) :: parameters(:), state(:), omega, amplitude
+      !> The branch
+      type(branch_type), intent(out) :: branch
+      !> Its special points
+      type(special_point_type), allocatable, intent(out) :: special(:)
+      type(error_type), allocatable, intent(inout) :: error
+      type(failure_type), allocatable :: failure
+      type(orbit_change_type) :: tangent
+      type(periodic_orbit_type) :: orbit
+
+      call orbit_at_hopf_point(settings%family, parameters, state, omega, amplitude, &
+                               collocation_basis_type(5, gauss_points), 20, orbit, tangent, failure)
+      call expect_success(error, failure)
+      call branch_from(orbit, settings, 1, branch, special, error, tangent)
+   end subroutine branch_from_hopf
 end module orbit_runs

@@ -2,7 +2,6 @@
 module test_block_cycles
    use block_cycles, only: cycle_settings_type, cycles_type, find_cycles, left_out_type
    use block_family, only: parameters_of, vector_of
-   use block_parameters, only: block_parameters_type
    use characteristic_function, only: relative_residual
    use cycle_curves, only: cycle_curve_type, find_curves
    use cycle_lines, only: along_epsilon, along_gamma, along_tau, along_xi, cycle_line_type, &
@@ -11,10 +10,11 @@ module test_block_cycles
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_success
    use hopf_curves, only: curve_point_type, trace_curves
-   use hopf_planes, only: tau_plane_type
+   use hopf_planes, only: curve_plane_type
    use hopf_points, only: find_hopf_points, hopf_point_type, judge_points
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use special_points, only: fold, torus_bifurcation
+   use traced_planes, only: new_plane
    implicit none (type, external)
    private
    public :: collect_block_cycles
@@ -82,15 +82,10 @@ contains
       real(wp) :: at(4)
       integer :: i
 
-      settings%degree = 5
-      settings%intervals = 20
-      settings%most_orbits = 20
-      settings%start_v = [1.1_wp]
       do i = 1, size(along)
-         settings%line%along = along(i)
-         settings%line%parameters = block_parameters_type(tau=10.0_wp, epsilon=0.35_wp, &
-                                                          xi=0.8_wp, gamma=0.8_wp)
-         settings%line%window = [0.5_wp, 1.2_wp]
+         settings = settings_on(along(i), [10.0_wp, 0.35_wp, 0.8_wp, 0.8_wp], [0.5_wp, 1.2_wp])
+         settings%most_orbits = 20
+         settings%start_v = [1.1_wp]
          call find_hopf_starts(settings%line, hopf, failure)
          call expect_success(error, failure)
          call expect(error, size(hopf) == 1, "one Hopf point")
@@ -110,11 +105,9 @@ contains
 
    !> The Hopf point of a kind in the plane of epsilon and tau that is nearest to a place.
    subroutine nearest_hopf_point(xi, window, kind, place, nearest, error)
-      !> Spring constant
       real(wp), intent(in) :: xi
       !> Window on epsilon, window on tau
       real(wp), intent(in) :: window(4)
-      !> Kind
       character(len=*), intent(in) :: kind
       !> epsilon, tau
       real(wp), intent(in) :: place(2)
@@ -124,12 +117,11 @@ contains
       type(curve_point_type), allocatable :: points(:)
       type(failure_type), allocatable :: failure
       type(hopf_point_type), allocatable :: found(:)
-      type(tau_plane_type) :: plane
+      type(curve_plane_type) :: plane
       integer :: i
 
       nearest = 1000.0_wp
-      plane = tau_plane_type(gamma=0.8_wp, epsilon_window=window(:2), ordinate_window=window(3:), &
-                             xi=xi)
+      plane = new_plane(along_tau, 0.8_wp, xi, window)
       call trace_curves(plane, points, failure)
       call expect_success(error, failure)
       call judge_points(points, failure)
@@ -146,16 +138,14 @@ contains
    end subroutine nearest_hopf_point
 
    !> The curves of a kind that start on a line end at the Hopf point of another kind.
-   subroutine expect_end(settings, kind, ending, window, within, error)
-      !> The line, and the window of the curves
-      type(cycle_settings_type), intent(in) :: settings
+   subroutine expect_end(line, window, kind, ending, error)
+      type(cycle_settings_type), intent(in) :: line
+      !> Window of the curves on epsilon, and on tau
+      real(wp), intent(in) :: window(4)
       !> Kind of the curve and of the Hopf point
       character(len=*), intent(in) :: kind, ending
-      !> Window in which Hopf points are looked for
-      real(wp), intent(in) :: window(4)
-      !> Distance allowed
-      real(wp), intent(in) :: within
       type(error_type), allocatable, intent(inout) :: error
+      type(cycle_settings_type) :: settings
       type(cycle_curve_type), allocatable :: curves(:)
       type(cycles_type), allocatable :: found(:)
       type(left_out_type), allocatable :: left_out(:)
@@ -164,6 +154,8 @@ contains
       real(wp) :: known(2)
       integer :: ends, i, k
 
+      settings = line
+      settings%curve_window = reshape(window, [2, 2])
       call find_cycles(settings, hopf, found, left_out, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
@@ -178,7 +170,7 @@ contains
                ends = ends + 1
                associate (last => part%points(size(part%points))%orbit%parameters)
                   call nearest_hopf_point(last(3), window, ending, [last(2), last(1)], known, error)
-                  call expect_close(error, [last(2), last(1)], known, within, "end of the curve")
+                  call expect_close(error, [last(2), last(1)], known, 1.0e-4_wp, "end of the curve")
                end associate
             end associate
          end do
@@ -189,36 +181,34 @@ contains
    !> Where the first Lyapunov coefficient vanishes, a curve of folds of cycles begins.
    subroutine test_folds(error)
       type(error_type), allocatable, intent(out) :: error
-      type(cycle_settings_type) :: settings
 
-      settings%line%along = along_epsilon
-      settings%line%parameters = block_parameters_type(tau=5.9_wp, xi=0.8_wp, gamma=0.8_wp)
-      settings%line%window = [0.3_wp, 0.6_wp]
-      allocate (settings%starts(0), settings%start_v(0))
-      settings%degree = 5
-      settings%intervals = 20
-      settings%most_orbits = 40
-      settings%curve_window = reshape([0.3_wp, 0.6_wp, 5.0_wp, 6.0_wp], [2, 2])
-      call expect_end(settings, fold, "generalised_hopf", [0.3_wp, 0.6_wp, 5.0_wp, 6.0_wp], &
-                      1.0e-4_wp, error)
+      call expect_end(settings_on(along_epsilon, [5.9_wp, 0.0_wp, 0.8_wp, 0.8_wp], &
+                                  [0.3_wp, 0.6_wp]), &
+                      [0.3_wp, 0.6_wp, 5.0_wp, 6.0_wp], fold, "generalised_hopf", error)
    end subroutine test_folds
 
    !> Where two pairs of roots are imaginary, a curve of torus points begins.
    subroutine test_tori(error)
       type(error_type), allocatable, intent(out) :: error
+
+      call expect_end(settings_on(along_tau, [0.0_wp, 0.5_wp, 0.8_wp, 0.8_wp], &
+                                  [12.0_wp, 12.8_wp]), &
+                      [0.4_wp, 0.6_wp, 11.5_wp, 12.8_wp], torus_bifurcation, "double_hopf", error)
+   end subroutine test_tori
+
+   !> A line without trajectories, of a coarse mesh.
+   function settings_on(along, parameters, window) result(settings)
+      integer, intent(in) :: along
+      !> tau, epsilon, xi, gamma, and the window on the line
+      real(wp), intent(in) :: parameters(4), window(2)
       type(cycle_settings_type) :: settings
 
-      settings%line%along = along_tau
-      settings%line%parameters = block_parameters_type(epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp)
-      settings%line%window = [12.0_wp, 12.8_wp]
+      settings%line = cycle_line_type(along, parameters_of(parameters), window)
       allocate (settings%starts(0), settings%start_v(0))
       settings%degree = 5
       settings%intervals = 20
       settings%most_orbits = 40
-      settings%curve_window = reshape([0.4_wp, 0.6_wp, 11.5_wp, 12.8_wp], [2, 2])
-      call expect_end(settings, torus_bifurcation, "double_hopf", &
-                      [0.4_wp, 0.6_wp, 11.5_wp, 12.8_wp], 1.0e-4_wp, error)
-   end subroutine test_tori
+   end function settings_on
 
    !> Cycles of three maxima exist between two folds: their branch is closed and is found once.
    subroutine test_closed(error)
@@ -229,9 +219,9 @@ contains
       type(failure_type), allocatable :: failure
       type(hopf_start_type), allocatable :: hopf(:)
 
-      settings%line%along = along_tau
-      settings%line%parameters = block_parameters_type(epsilon=0.7_wp, xi=0.5_wp, gamma=0.8_wp)
-      settings%line%window = [4.8_wp, 5.2_wp]
+      settings%line = cycle_line_type(along_tau, &
+                                      parameters_of([0.0_wp, 0.7_wp, 0.5_wp, 0.8_wp]), &
+                                      [4.8_wp, 5.2_wp])
       settings%starts = [5.0_wp, 5.0_wp]
       settings%start_v = [1.1_wp, 1.1_wp]
       settings%most_orbits = 100

@@ -2,6 +2,7 @@
 !> quadruple precision and the equations of infinite gamma.
 module test_extreme_gamma
    use, intrinsic :: iso_fortran_env, only: real128
+   use block_family, only: along_tau
    use block_equation, only: block_equation_type
    use block_parameters, only: block_parameters_type
    use characteristic_roots, only: find_roots
@@ -10,11 +11,11 @@ module test_extreme_gamma
    use expectations, only: expect, expect_close, expect_success
    use hopf_condition, only: hopf_epsilon, hopf_tau
    use hopf_curves, only: curve_point_type, trace_curves
-   use hopf_planes, only: tau_plane_type
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use normal_form, only: first_lyapunov_coefficient
    use root_counts, only: roots_right_of
+   use traced_planes, only: new_plane
    implicit none (type, external)
    private
    public :: collect_extreme_gamma
@@ -174,9 +175,8 @@ contains
       type(failure_type), allocatable :: failure
       type(curve_point_type), allocatable :: points(:)
 
-      call trace_curves(tau_plane_type(gamma=0.01_wp, epsilon_window=[0.0_wp, 1.5_wp], &
-                                       ordinate_window=[0.0_wp, 30.0_wp], xi=0.5_wp), points, &
-                        failure)
+      call trace_curves(new_plane(along_tau, 0.01_wp, 0.5_wp, [0.0_wp, 1.5_wp, 0.0_wp, 30.0_wp]), &
+                        points, failure)
       call expect_success(error, failure)
       call expect(error, size(points) > 10, "there are points")
       if (allocated(error)) return

@@ -1,7 +1,7 @@
 !> Floquet multipliers against exact ones, characteristic roots and Lyapunov exponents.
 module test_floquet_multipliers
    use block_builder, only: build_block
-   use collocation_basis, only: collocation_basis_type, gauss_points
+   use collocation_basis, only: gauss_points
    use cycle_families, only: delayed_sine, driven_growth, known_family
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
@@ -10,8 +10,7 @@ module test_floquet_multipliers
    use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use orbit_equations, only: newton_type
-   use orbit_mesh, only: uniform_mesh
-   use orbit_runs, only: correct, cycle_of_block
+   use orbit_runs, only: correct, cycle_of_block, fix_parameters, new_orbit
    use periodic_orbit, only: periodic_orbit_type
    use solving, only: at_tolerance
    use spring_block, only: spring_block_type
@@ -48,20 +47,17 @@ contains
       integer :: i, j, k, others
 
       family = known_family(equation=driven_growth)
-      orbit%basis = collocation_basis_type(6, gauss_points)
-      orbit%mesh = uniform_mesh(20)
-      times = orbit%node_times()
       do k = 1, 2
          do i = 1, 2
-            orbit%parameters = [rates(i), 0.7_wp, real(k, wp)]
-            orbit%period = 1.0_wp
+            orbit = new_orbit(6, gauss_points, 20, 1.0_wp, [rates(i), 0.7_wp, real(k, wp)])
+            times = orbit%node_times()
             allocate (orbit%nodes(3, size(times)))
             orbit%nodes(1, :) = cos(2.0_wp*pi*times)
             orbit%nodes(2, :) = sin(2.0_wp*pi*times)
             orbit%nodes(3, :) = 0.0_wp
             call correct(family, orbit, newton, failure)
             call expect_success(error, failure)
-            call find_multipliers(family, orbit, 6, found, failure)
+            call find_multipliers(fix_parameters(family), orbit, 6, found, failure)
             call expect_success(error, failure)
             if (allocated(error)) return
             call expect_close(error, orbit%period, 1.0_wp, 1.0e-12_wp, "period")
@@ -87,7 +83,6 @@ contains
             else
                call expect(error, abs(aimag(found%values(1))) > 0.1_wp, "an oscillation")
             end if
-            deallocate (orbit%nodes)
          end do
       end do
    end subroutine test_exact
@@ -97,6 +92,7 @@ contains
    subroutine test_near_hopf(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
+      type(known_family) :: family
       type(multipliers_type) :: found
       type(newton_type) :: newton
       type(periodic_orbit_type) :: orbit
@@ -104,14 +100,12 @@ contains
       real(wp), parameter :: rho = 1.0e-8_wp
       integer :: i
 
-      orbit%basis = collocation_basis_type(6, gauss_points)
-      orbit%mesh = uniform_mesh(20)
-      orbit%parameters = [rho]
-      orbit%period = 2.0_wp*pi
+      family = known_family(equation=delayed_sine)
+      orbit = new_orbit(6, gauss_points, 20, 2.0_wp*pi, [rho])
       orbit%nodes = reshape(sqrt(rho)*sin(2.0_wp*pi*orbit%node_times()), [1, 121])
-      call correct(known_family(equation=delayed_sine), orbit, newton, failure)
+      call correct(family, orbit, newton, failure)
       call expect_success(error, failure)
-      call find_multipliers(known_family(equation=delayed_sine), orbit, 5, found, failure)
+      call find_multipliers(fix_parameters(family), orbit, 5, found, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
       call expect_close(error, abs(found%values(1)), 1.0_wp, 1.0e-6_wp, "the pair on the axis")

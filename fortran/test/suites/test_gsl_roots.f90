@@ -2,7 +2,7 @@
 module test_gsl_roots
    use, intrinsic :: ieee_arithmetic, only: ieee_get_halting_mode, ieee_invalid, ieee_quiet_nan, &
                                             ieee_set_halting_mode, ieee_value
-   use dde_errors, only: failure_type => error_type
+   use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect_close, expect_failure, expect_success
    use gsl_roots, only: find_falling_root, find_root, scalar_function_type
    use dde_kinds, only: wp
@@ -10,6 +10,9 @@ module test_gsl_roots
    implicit none (type, external)
    private
    public :: collect_gsl_roots
+
+   !> Dottie's number: cos x = x.
+   real(wp), parameter :: dottie = 0.73908513321516064166_wp
 
    !> cos x - slope x.
    type, extends(scalar_function_type) :: cosine_less_line
@@ -33,37 +36,37 @@ contains
    subroutine collect_gsl_roots(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("cos x = x", test_cosine), &
-                   new_unittest("a parameter of the function", test_parameter), &
-                   new_unittest("a root at the end", test_root_at_end), &
-                   new_unittest("a jump", test_jump), &
+      testsuite = [new_unittest("known roots", test_known_roots), &
                    new_unittest("where a function falls", test_falling), &
-                   new_unittest("signs that do not differ", test_same_signs), &
-                   new_unittest("a reversed bracket", test_reversed), &
+                   new_unittest("refused brackets", test_refusals), &
                    new_unittest("no convergence", test_no_convergence)]
    end subroutine collect_gsl_roots
 
-   !> Dottie's number.
-   subroutine test_cosine(error)
+   !> cos x = x; cos x = 0, where the function is called with its own parameters; a bracket that
+   !> ends at a root; a jump from -1 to 1 at 1/3, where only halving helps.
+   subroutine test_known_roots(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      real(wp) :: root
+      real(wp), parameter :: third = 1.0_wp/3.0_wp
 
-      call find_root(cosine_less_line(), 0.0_wp, 1.0_wp, root, failure)
-      call expect_success(error, failure)
-      call expect_close(error, root, 0.73908513321516064166_wp, 1.0e-15_wp, "root")
-   end subroutine test_cosine
+      call check(cosine_less_line(), 0.0_wp, 1.0_wp, dottie, 1.0e-15_wp)
+      call check(cosine_less_line(slope=0.0_wp), 4.0_wp, 5.0_wp, 1.5_wp*acos(-1.0_wp), 5.0e-15_wp)
+      call check(cosine_less_line(), dottie*(1.0_wp - 2.0e-16_wp), 7.0_wp, dottie, 2.0e-15_wp)
+      call check(hole(third, nearest(third, 1.0_wp)), -1.0_wp, 2.5_wp, third, 1.0e-15_wp)
 
-   !> cos x = 0: the function is called with its own parameters.
-   subroutine test_parameter(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      real(wp) :: root
+   contains
 
-      call find_root(cosine_less_line(slope=0.0_wp), 4.0_wp, 5.0_wp, root, failure)
-      call expect_success(error, failure)
-      call expect_close(error, root, 1.5_wp*acos(-1.0_wp), 5.0e-15_wp, "root")
-   end subroutine test_parameter
+      !> The root in a bracket is the known one.
+      subroutine check(f, lower, upper, known, within)
+         class(scalar_function_type), intent(in) :: f
+         real(wp), intent(in) :: lower, upper, known, within
+         type(failure_type), allocatable :: failure
+         real(wp) :: root
+
+         call find_root(f, lower, upper, root, failure)
+         call expect_success(error, failure)
+         call expect_close(error, root, known, within, "root above "//text(lower))
+      end subroutine check
+   end subroutine test_known_roots
 
    !> cos x = x from starts far below and above the root.
    subroutine test_falling(error)
@@ -76,59 +79,34 @@ contains
       do i = 1, size(starts)
          call find_falling_root(cosine_less_line(), starts(i), root, failure)
          call expect_success(error, failure)
-         call expect_close(error, root, 0.73908513321516064166_wp, 1.0e-15_wp, "root")
+         call expect_close(error, root, dottie, 1.0e-15_wp, "root")
       end do
    end subroutine test_falling
 
-   !> 0.73908... or its neighbour as one end of the bracket.
-   subroutine test_root_at_end(error)
+   !> A bracket without a change of sign is refused with both values, a reversed or empty one with
+   !> its ends.
+   subroutine test_refusals(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      real(wp), parameter :: known = 0.73908513321516064166_wp
-      real(wp) :: root
 
-      call find_root(cosine_less_line(), known*(1.0_wp - 2.0e-16_wp), 7.0_wp, root, failure)
-      call expect_success(error, failure)
-      call expect_close(error, root, known, 2.0e-15_wp, "root")
-   end subroutine test_root_at_end
+      call check(1.0_wp, 2.0_wp, "f(1.0) = -0.45969769413186 and f(2.0) = -2.41614683654714; " &
+                 //"opposite signs expected")
+      call check(-1.0_wp, 0.5_wp, "opposite signs expected")
+      call check(1.0_wp, 0.5_wp, "bracket 1.0..0.5; lower end < upper end expected")
+      call check(1.0_wp, 1.0_wp, "bracket 1.0..1.0")
 
-   !> A jump from -1 to 1 at 1/3, where only halving helps, is located to the last bits.
-   subroutine test_jump(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      real(wp), parameter :: third = 1.0_wp/3.0_wp
-      real(wp) :: root
+   contains
 
-      call find_root(hole(third, nearest(third, 1.0_wp)), -1.0_wp, 2.5_wp, root, failure)
-      call expect_success(error, failure)
-      call expect_close(error, root, third, 1.0e-15_wp, "root")
-   end subroutine test_jump
+      !> The bracket is refused with these words.
+      subroutine check(lower, upper, words)
+         real(wp), intent(in) :: lower, upper
+         character(len=*), intent(in) :: words
+         type(failure_type), allocatable :: failure
+         real(wp) :: root
 
-   !> A bracket without a change of sign is refused with both values.
-   subroutine test_same_signs(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      real(wp) :: root
-
-      call find_root(cosine_less_line(), 1.0_wp, 2.0_wp, root, failure)
-      call expect_failure(error, failure, &
-                          "f(1.0) = -0.45969769413186 and f(2.0) = -2.41614683654714")
-      call expect_failure(error, failure, "opposite signs expected")
-      call find_root(cosine_less_line(), -1.0_wp, 0.5_wp, root, failure)
-      call expect_failure(error, failure, "opposite signs expected")
-   end subroutine test_same_signs
-
-   !> A bracket whose ends are exchanged, or one, is refused as such.
-   subroutine test_reversed(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      real(wp) :: root
-
-      call find_root(cosine_less_line(), 1.0_wp, 0.5_wp, root, failure)
-      call expect_failure(error, failure, "bracket 1.0..0.5; lower end < upper end expected")
-      call find_root(cosine_less_line(), 1.0_wp, 1.0_wp, root, failure)
-      call expect_failure(error, failure, "bracket 1.0..1.0")
-   end subroutine test_reversed
+         call find_root(cosine_less_line(), lower, upper, root, failure)
+         call expect_failure(error, failure, words)
+      end subroutine check
+   end subroutine test_refusals
 
    !> A function without values inside the bracket ends in words, not in a wrong root.
    subroutine test_no_convergence(error)
@@ -146,9 +124,7 @@ contains
 
    !> cos x - slope x.
    real(wp) function cosine_less_line_value(self, x) result(value)
-      !> The function
       class(cosine_less_line), intent(in) :: self
-      !> Where
       real(wp), intent(in) :: x
 
       value = cos(x) - self%slope*x
@@ -156,9 +132,7 @@ contains
 
    !> -1, no number, or 1.
    real(wp) function hole_value(self, x) result(value)
-      !> The function
       class(hole), intent(in) :: self
-      !> Where
       real(wp), intent(in) :: x
 
       value = ieee_value(x, ieee_quiet_nan)

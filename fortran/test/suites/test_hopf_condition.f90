@@ -7,7 +7,7 @@ module test_hopf_condition
                                       relative_residual
    use closed_form, only: closed_epsilon, closed_tau
    use dde_errors, only: text
-   use expectations, only: expect, expect_between, expect_close
+   use expectations, only: expect_between, expect_close
    use hopf_condition, only: hopf_epsilon, hopf_tau, hopf_xi, printed_tau
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
@@ -31,9 +31,7 @@ contains
       testsuite = [new_unittest("equation (5) from the block", test_linearisation), &
                    new_unittest("derivatives of (5)", test_derivatives), &
                    new_unittest("residual", test_residual), &
-                   new_unittest("curves in closed form", test_closed_form), &
-                   new_unittest("roots on the curves", test_roots), &
-                   new_unittest("xi from tau", test_xi), &
+                   new_unittest("curves in closed form", test_curves), &
                    new_unittest("Hopf point without delay", test_no_delay), &
                    new_unittest("equation (10) as printed", test_printed)]
    end subroutine collect_hopf_condition
@@ -102,7 +100,6 @@ contains
 
       !> Delta at a neighbouring delay.
       complex(wp) function at_tau(shift) result(value)
-         !> Difference of delays
          real(wp), intent(in) :: shift
          type(block_parameters_type) :: neighbour
 
@@ -125,29 +122,10 @@ contains
                         1.0e-15_wp, "residual of a root")
    end subroutine test_residual
 
-   !> epsilon and tau over omega, for soft and stiff blocks, on four branches.
-   subroutine test_closed_form(error)
-      type(error_type), allocatable, intent(out) :: error
-      real(wp) :: x(3)
-      integer :: i, k
-
-      do i = 1, points
-         x = random_omega(i)
-         associate (omega => x(1), xi => x(2), gamma => x(3))
-            call expect_close(error, (1.0_wp + hopf_epsilon(omega, xi, gamma)) &
-                              /(1.0_wp + closed_epsilon(omega, xi, gamma)), 1.0_wp, 1.0e-13_wp, &
-                              "1 + epsilon over its closed form, point "//text(i))
-            do k = 0, 3
-               call expect_close(error, omega*hopf_tau(omega, xi, gamma, k), &
-                                 omega*closed_tau(omega, xi, gamma, k), 1.0e-12_wp, &
-                                 "omega tau of branch "//text(k)//", point "//text(i))
-            end do
-         end associate
-      end do
-   end subroutine test_closed_form
-
-   !> i omega is a root of (5) at the epsilon and tau of every branch.
-   subroutine test_roots(error)
+   !> For soft and stiff blocks on four branches: epsilon and tau over omega are those in closed
+   !> form, i omega is a root of (5) there, and equation (9) gives back the xi from which (10) gave
+   !> tau.
+   subroutine test_curves(error)
       type(error_type), allocatable, intent(out) :: error
       type(block_parameters_type) :: p
       real(wp) :: x(3)
@@ -155,31 +133,24 @@ contains
 
       do i = 1, points
          x = random_omega(i)
-         do k = 0, 3
-            p = block_parameters_type(tau=hopf_tau(x(1), x(2), x(3), k), xi=x(2), gamma=x(3), &
-                                      epsilon=hopf_epsilon(x(1), x(2), x(3)))
-            call expect_between(error, relative_residual(p, cmplx(0.0_wp, x(1), kind=wp)), 0.0_wp, &
-                                1.0e-13_wp, "residual of branch "//text(k)//", point "//text(i))
-         end do
-      end do
-   end subroutine test_roots
-
-   !> Equation (9) gives back the xi from which (10) gave tau.
-   subroutine test_xi(error)
-      type(error_type), allocatable, intent(out) :: error
-      real(wp) :: x(3)
-      integer :: i, k
-
-      do i = 1, points
-         x = random_omega(i)
          associate (omega => x(1), xi => x(2), gamma => x(3))
+            p = block_parameters_type(epsilon=hopf_epsilon(omega, xi, gamma), xi=xi, gamma=gamma)
+            call expect_close(error, (1.0_wp + p%epsilon) &
+                              /(1.0_wp + closed_epsilon(omega, xi, gamma)), 1.0_wp, 1.0e-13_wp, &
+                              "1 + epsilon over its closed form, point "//text(i))
             do k = 0, 3
-               call expect_close(error, hopf_xi(omega, hopf_tau(omega, xi, gamma, k), gamma)/xi, &
-                                 1.0_wp, 1.0e-9_wp, "xi over xi, point "//text(i))
+               p%tau = hopf_tau(omega, xi, gamma, k)
+               call expect_close(error, omega*p%tau, omega*closed_tau(omega, xi, gamma, k), &
+                                 1.0e-12_wp, "omega tau of branch "//text(k)//", point "//text(i))
+               call expect_between(error, relative_residual(p, cmplx(0.0_wp, omega, kind=wp)), &
+                                   0.0_wp, 1.0e-13_wp, &
+                                   "residual of branch "//text(k)//", point "//text(i))
+               call expect_close(error, hopf_xi(omega, p%tau, gamma)/xi, 1.0_wp, 1.0e-9_wp, &
+                                 "xi over xi, point "//text(i))
             end do
          end associate
       end do
-   end subroutine test_xi
+   end subroutine test_curves
 
    !> At tau = 0 the cubic has a pair i omega where, after Routh and Hurwitz, epsilon
    !> = gamma^2 xi/(xi + gamma^2) and omega^2 is the same; it lies on branch 0.
@@ -222,11 +193,8 @@ contains
 
    !> Random parameters and a random place beside the imaginary axis.
    pure subroutine random_point(i, p, s)
-      !> Number of the point
       integer, intent(in) :: i
-      !> Parameters
       type(block_parameters_type), intent(out) :: p
-      !> Place
       complex(wp), intent(out) :: s
       real(wp) :: x(6)
 
@@ -237,7 +205,6 @@ contains
 
    !> Random omega in 0.05..3, xi and gamma in 0.1..10.
    pure function random_omega(i) result(x)
-      !> Number of the point
       integer, intent(in) :: i
       real(wp) :: x(3)
 
@@ -247,9 +214,7 @@ contains
 
    !> Size of the terms of Delta(s).
    pure real(wp) function size_of(p, s) result(value)
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
-      !> Place
       complex(wp), intent(in) :: s
 
       value = 1.0_wp + abs(s)**3 + (1.0_wp + p%gamma**2*(1.0_wp + abs(s))*(1.0_wp + 1.0_wp/p%xi)) &
@@ -258,7 +223,6 @@ contains
 
    !> Determinant of three by three.
    pure complex(wp) function determinant(m) result(value)
-      !> The matrix
       complex(wp), intent(in) :: m(3, 3)
 
       value = m(1, 1)*(m(2, 2)*m(3, 3) - m(2, 3)*m(3, 2)) &

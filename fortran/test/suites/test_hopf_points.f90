@@ -23,8 +23,7 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("second frequency", test_partner), &
-                   new_unittest("special points of Figure 2", test_figure_2), &
-                   new_unittest("special points of Figure 3", test_figure_3), &
+                   new_unittest("special points of Figures 2 and 3", test_figures), &
                    new_unittest("map of unstable pairs", test_map)]
    end subroutine collect_hopf_points
 
@@ -47,44 +46,40 @@ contains
       end do
    end subroutine test_partner
 
-   !> The point without delay as by Routh and Hurwitz, nine double and six generalised points.
-   subroutine test_figure_2(error)
+   !> Figure 2 has nine double points, six generalised ones and the point without delay as by Routh
+   !> and Hurwitz; Figure 3 has five double points and two generalised ones.
+   subroutine test_figures(error)
       type(error_type), allocatable, intent(out) :: error
       type(hopf_point_type), allocatable :: found(:)
+      character(len=*), parameter :: kinds(3) = ["double_hopf       ", "generalised_hopf  ", &
+                                                 "hopf_without_delay"]
+      integer, parameter :: known(3, 2) = reshape([9, 6, 1, 5, 2, 0], [3, 2])
+      integer :: i, k
 
-      call check_points(1, found, error)
-      if (allocated(error)) return
-      call expect(error, count(found%kind == "double_hopf") == 9, "nine double points")
-      call expect(error, count(found%kind == "generalised_hopf") == 6, "six generalised points")
-      call expect(error, count(found%kind == "hopf_without_delay") == 1, "one without delay")
-      associate (first => found(1))
-         call expect_close(error, first%parameters%epsilon, 0.32_wp/1.14_wp, 1.0e-14_wp, &
-                           "epsilon without delay")
-         call expect_close(error, first%parameters%tau, 0.0_wp, 1.0e-14_wp, "tau")
-         call expect_between(error, first%l1(1), -1.0_wp, -0.01_wp, "l1")
-      end associate
-   end subroutine test_figure_2
-
-   !> Five double points, two generalised.
-   subroutine test_figure_3(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(hopf_point_type), allocatable :: found(:)
-
-      call check_points(2, found, error)
-      if (allocated(error)) return
-      call expect(error, count(found%kind == "double_hopf") == 5, "five double points")
-      call expect(error, count(found%kind == "generalised_hopf") == 2, "two generalised points")
-      call expect(error, size(found) == 7, "no others")
-   end subroutine test_figure_3
+      do i = 1, 2
+         call check_points(i, found, error)
+         if (allocated(error)) return
+         do k = 1, 3
+            call expect(error, count(found%kind == kinds(k)) == known(k, i), &
+                        text(known(k, i))//" points of kind "//trim(kinds(k)))
+         end do
+         call expect(error, size(found) == sum(known(:, i)), "no others")
+         if (i == 2) exit
+         associate (first => found(1))
+            call expect_close(error, first%parameters%epsilon, 0.32_wp/1.14_wp, 1.0e-14_wp, &
+                              "epsilon without delay")
+            call expect_close(error, first%parameters%tau, 0.0_wp, 1.0e-14_wp, "tau")
+            call expect_between(error, first%l1(1), -1.0_wp, -0.01_wp, "l1")
+         end associate
+      end do
+   end subroutine test_figures
 
    !> The special points of a plane: their frequencies are roots of (5), the coefficient vanishes
    !> where it should, and beside a point of a curve the pairs are those of the map.
    subroutine check_points(i, found, error)
-      !> Number of the plane
       integer, intent(in) :: i
-      !> Special points
       type(hopf_point_type), allocatable, intent(out) :: found(:)
-      type(error_type), allocatable, intent(out) :: error
+      type(error_type), allocatable, intent(inout) :: error
       type(failure_type), allocatable :: failure
       type(traced_plane) :: traced
       integer :: j, k
@@ -122,9 +117,7 @@ contains
 
       !> Whether between two points l1 keeps its sign or a generalised point lies.
       logical function sign_is_kept(traced, j) result(kept)
-         !> The plane
          type(traced_plane), intent(in) :: traced
-         !> Number of the first point
          integer, intent(in) :: j
 
          associate (p => traced%points(j), q => traced%points(j + 1))

@@ -10,9 +10,9 @@ module test_hopf_unfoldings
    use harmonic_balance, only: find_cycle
    use hopf_condition, only: two_pi
    use hopf_planes, only: curve_plane_type
-   use hopf_point_runs, only: find_points, modes_of, parameters_at, run
+   use hopf_point_runs, only: cycle_type, find_points, modes_of, parameters_at, predict_fold, &
+                              predict_torus, run
    use hopf_points, only: hopf_point_type
-   use hopf_unfoldings, only: cycle_type, predict_fold, predict_torus
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use spring_block, only: index_of_ln_v
    implicit none (type, external)
@@ -38,7 +38,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(hopf_point_type), allocatable :: found(:)
-      class(curve_plane_type), allocatable :: plane
+      type(curve_plane_type) :: plane
       complex(wp), allocatable :: roots(:)
       type(block_equation_type) :: equation
       real(wp), parameter :: step = 1.0e-5_wp
@@ -77,7 +77,7 @@ contains
    subroutine test_fold_direction(error)
       type(error_type), allocatable, intent(out) :: error
       type(hopf_point_type), allocatable :: found(:)
-      class(curve_plane_type), allocatable :: plane
+      type(curve_plane_type) :: plane
       type(block_parameters_type) :: there
       real(wp) :: way(2)
       integer :: i, n, side
@@ -106,7 +106,7 @@ contains
    subroutine test_torus(error)
       type(error_type), allocatable, intent(out) :: error
       type(hopf_point_type), allocatable :: found(:)
-      class(curve_plane_type), allocatable :: plane
+      type(curve_plane_type) :: plane
       integer :: i, n, pair, tested
 
       tested = 0
@@ -129,13 +129,9 @@ contains
 
    !> On both sides of the line at which the torus of a cycle is born.
    subroutine check_line(plane, point, pair, error)
-      !> The plane
-      class(curve_plane_type), intent(in) :: plane
-      !> The double Hopf point
+      type(curve_plane_type), intent(in) :: plane
       type(hopf_point_type), intent(in) :: point
-      !> Pair of the cycle
       integer, intent(in) :: pair
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       complex(wp) :: mode(3, 2)
       real(wp) :: known_mean, known_range, least, mean, most, mu(2), r(2)
@@ -174,7 +170,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(hopf_point_type), allocatable :: found(:)
-      class(curve_plane_type), allocatable :: plane
+      type(curve_plane_type) :: plane
       type(cycle_type) :: fold
       complex(wp) :: mode(3, 2)
       real(wp), parameter :: amplitude = 0.02_wp, shares(-1:1) = [0.5_wp, 1.0_wp, 1.5_wp]
@@ -215,7 +211,7 @@ contains
    subroutine test_cycle_at_torus(error)
       type(error_type), allocatable, intent(out) :: error
       type(hopf_point_type), allocatable :: found(:)
-      class(curve_plane_type), allocatable :: plane
+      type(curve_plane_type) :: plane
       type(cycle_type) :: torus
       complex(wp) :: mode(3, 2)
       real(wp), parameter :: amplitude = 0.02_wp

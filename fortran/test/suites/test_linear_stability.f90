@@ -5,11 +5,11 @@ module test_linear_stability
    use characteristic_function, only: relative_residual
    use characteristic_roots, only: find_roots
    use delay_equation, only: linear_system_type
+   use closed_form, only: block_with_pair
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
-   use hopf_condition, only: hopf_epsilon, hopf_tau
    use dde_kinds, only: wp
-   use known_forms, only: block_in_v, neurons, new_block_in_v, new_neurons
+   use known_equations, only: neurons, new_block_by_values, new_small, small_equation
    use lapack, only: solve
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use normal_form, only: first_lyapunov_coefficient
@@ -142,8 +142,7 @@ contains
       do i = 1, 10
          omega = 0.2_wp + 0.1_wp*i
          do k = merge(1, 0, omega > 0.5_wp), 2
-            p = block_parameters_type(tau=hopf_tau(omega, 0.5_wp, 0.8_wp, k), xi=0.5_wp, &
-                                      gamma=0.8_wp, epsilon=hopf_epsilon(omega, 0.5_wp, 0.8_wp))
+            p = block_with_pair(omega, 0.5_wp, 0.8_wp, k)
             equation = block_equation_type(p)
             call find_roots(equation%linear, -0.01_wp, roots, failure)
             call expect_success(error, failure)
@@ -199,11 +198,11 @@ contains
    subroutine test_neurons(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(neurons) :: equation
+      type(small_equation) :: equation
       complex(wp), allocatable :: roots(:)
       real(wp) :: l1
 
-      equation = new_neurons(0.8071232250_wp, 1.5_wp)
+      equation = new_small(neurons, [0.8071232250_wp], [1.5_wp, 0.2_wp])
       call find_roots(equation%linear, -0.01_wp, roots, failure)
       call expect_success(error, failure)
       call expect_close(error, real(roots(1)), 0.0_wp, 1.0e-9_wp, "real part of the pair")
@@ -218,14 +217,18 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(block_parameters_type) :: p
       type(block_equation_type) :: equation
-      type(block_in_v) :: by_hand
+      real(wp) :: by_hand(3, 3, 2)
 
       p = block_parameters_type(tau=3.0_wp, epsilon=0.4_wp, xi=0.6_wp, gamma=1.7_wp)
       equation = block_equation_type(p)
-      by_hand = new_block_in_v(p)
-      call expect_close(error, maxval(abs(equation%linear%a - by_hand%linear%a)), 0.0_wp, &
-                        1.0e-15_wp, "difference of the matrices")
-      call expect_close(error, equation%linear%lag, by_hand%linear%lag, 0.0_wp, "lags")
+      by_hand = 0.0_wp
+      by_hand(1, 1, 1) = -1.0_wp
+      by_hand(2, 3, 1) = 1.0_wp
+      by_hand(3, :, 1) = -p%gamma**2*[1.0_wp/p%xi, 1.0_wp, 1.0_wp/p%xi]
+      by_hand(1, 3, 2) = -(1.0_wp + p%epsilon)
+      call expect_close(error, maxval(abs(equation%linear%a - by_hand)), 0.0_wp, 1.0e-15_wp, &
+                        "difference of the matrices")
+      call expect_close(error, equation%linear%lag, [0.0_wp, p%tau], 0.0_wp, "lags")
    end subroutine test_linear_part
 
    !> l1 is the same in v and in ln v, which differ by a change of coordinates near the identity.
@@ -240,11 +243,10 @@ contains
       do i = 1, 30
          omega = 0.05_wp*i
          do k = 1, 3
-            p = block_parameters_type(tau=hopf_tau(omega, 0.5_wp, 0.8_wp, k), xi=0.5_wp, &
-                                      gamma=0.8_wp, epsilon=hopf_epsilon(omega, 0.5_wp, 0.8_wp))
+            p = block_with_pair(omega, 0.5_wp, 0.8_wp, k)
             call first_lyapunov_coefficient(block_equation_type(p), omega, in_ln_v, failure)
             call expect_success(error, failure)
-            call first_lyapunov_coefficient(new_block_in_v(p), omega, in_v, failure)
+            call first_lyapunov_coefficient(new_block_by_values(p, .true.), omega, in_v, failure)
             call expect_success(error, failure)
             call expect_close(error, in_v, in_ln_v, 1.0e-11_wp*(1.0_wp + abs(in_ln_v)), &
                               "l1 in v at omega = "//text(omega)//", k = "//text(k))
@@ -256,10 +258,7 @@ contains
 
    !> x' = sum_j a_j x(t - lag_j).
    pure function scalar_system(a, lag) result(system)
-      !> Coefficients
-      real(wp), intent(in) :: a(:)
-      !> Lags
-      real(wp), intent(in) :: lag(:)
+      real(wp), intent(in) :: a(:), lag(:)
       type(linear_system_type) :: system
 
       allocate (system%a, source=reshape(a, [1, 1, size(a)]))

@@ -3,13 +3,13 @@ module test_normal_forms
    use block_equation, only: block_equation_type
    use block_parameters, only: block_parameters_type
    use centre_manifold, only: normal_form_coefficient
+   use closed_form, only: block_with_pair
    use dde_errors, only: failure_type => error_type, text
    use double_hopf, only: double_hopf_type, find_double_hopf, word_length
    use expectations, only: expect, expect_close, expect_success
-   use hopf_condition, only: hopf_epsilon, hopf_tau
-   use known_equations, only: block_by_values, duffing_with_pair, new_block_by_values, new_layers, &
-                              new_lienard, new_quadratic, new_transformed, transformed
-   use known_forms, only: new_neurons
+   use known_equations, only: block_by_values, duffing_with_pair, layers, lienard, neurons, &
+                              new_block_by_values, new_small, new_transformed, quadratic, &
+                              transformed
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use normal_form, only: first_lyapunov_coefficient
@@ -47,8 +47,7 @@ contains
       do i = 1, 10
          omega = 0.15_wp*i
          do k = 1, 2
-            p = block_parameters_type(tau=hopf_tau(omega, 0.5_wp, 0.8_wp, k), xi=0.5_wp, &
-                                      gamma=0.8_wp, epsilon=hopf_epsilon(omega, 0.5_wp, 0.8_wp))
+            p = block_with_pair(omega, 0.5_wp, 0.8_wp, k)
             call first_lyapunov_coefficient(block_equation_type(p), omega, l1, failure)
             call expect_success(error, failure)
             call normal_form_coefficient(block_equation_type(p), [omega], [2, 1], c1, failure)
@@ -69,17 +68,17 @@ contains
       complex(wp) :: c1, c2
       real(wp) :: l(6)
 
-      call normal_form_coefficient(new_lienard(0.0_wp, a5), [1.0_wp], [3, 2], c2, failure)
+      call normal_form_coefficient(new_small(lienard, [0.0_wp, a5]), [1.0_wp], [3, 2], c2, failure)
       call expect_success(error, failure)
       call expect_close(error, real(c2), -1.25_wp*a5, 1.0e-9_wp, "Re c2 of Lienard")
       l = [0.0_wp, 0.3_wp, 0.5_wp, -0.7_wp, 0.0_wp, 1.1_wp]
       associate (v5 => pi/24.0_wp*l(2)*l(4)*(l(3) - l(6))*(l(4) + 5.0_wp*(l(3) - l(6))))
-         call normal_form_coefficient(new_quadratic(l), [1.0_wp], [3, 2], c2, failure)
+         call normal_form_coefficient(new_small(quadratic, l), [1.0_wp], [3, 2], c2, failure)
          call expect_success(error, failure)
          call expect_close(error, real(c2), 2.0_wp*v5/pi, 1.0e-9_wp, "Re c2 of Bautin")
       end associate
       l(5) = 0.4_wp
-      call normal_form_coefficient(new_quadratic(l), [1.0_wp], [2, 1], c1, failure)
+      call normal_form_coefficient(new_small(quadratic, l), [1.0_wp], [2, 1], c1, failure)
       call expect_success(error, failure)
       call expect_close(error, real(c1), -0.25_wp*l(5)*(l(3) - l(6)), 1.0e-9_wp, "Re c1 of Bautin")
    end subroutine test_planar
@@ -151,13 +150,14 @@ contains
          [(-0.030007_wp, -0.0094837_wp), (-0.11318_wp, 0.037831_wp), &
           (-0.060013_wp, -0.018967_wp), (-0.056592_wp, 0.018915_wp)]
 
-      call find_double_hopf(new_neurons(0.2072962626_wp, 8.6340742187_wp), &
+      call find_double_hopf(new_small(neurons, [0.2072962626_wp], [8.6340742187_wp, 0.2_wp]), &
                             [0.3287154065_wp, 0.9157115883_wp], form, failure)
       call expect_success(error, failure)
       call expect_close(error, abs(pack(form%g, .true.) - known), spread(0.0_wp, 1, 4), 1.0e-5_wp, &
                         "error of the neurons' g_jk")
       call expect_close(error, form%ratios(), [1.0605_wp, 3.7719_wp], 5.0e-5_wp, "theta, delta")
-      call find_double_hopf(new_layers(0.0899922748_wp, 0.7735178974_wp), &
+      call find_double_hopf(new_small(layers, [0.0899922748_wp, 0.7735178974_wp], &
+                                      [12.7_wp, 20.2_wp]), &
                             [0.1560058562_wp, 0.2900084424_wp], form, failure)
       call expect_success(error, failure)
       call expect_close(error, form%ratios(), [1.5255011842_wp, 1.6984697752_wp], 5.0e-9_wp, &
@@ -244,8 +244,7 @@ contains
       x = reshape([(cmplx(sin(1.0_wp*i), cos(3.0_wp*i), kind=wp), i=1, size(x))], shape(x))
       do i = 1, 10
          omega = 0.15_wp*i
-         p = block_parameters_type(tau=hopf_tau(omega, 0.5_wp, 0.8_wp, 2), xi=0.5_wp, &
-                                   gamma=0.8_wp, epsilon=hopf_epsilon(omega, 0.5_wp, 0.8_wp))
+         p = block_with_pair(omega, 0.5_wp, 0.8_wp, 2)
          block = block_equation_type(p)
          in_w = new_block_by_values(p, .false.)
          in_v = new_block_by_values(p, .true.)
@@ -268,7 +267,7 @@ contains
    subroutine test_large_gamma(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      real(wp), parameter :: gamma(2) = [1.0e6_wp, 1.0e12_wp], xi = 0.5_wp
+      real(wp), parameter :: gamma(2) = [1.0e6_wp, 1.0e12_wp]
       complex(wp) :: c2(2)
       real(wp) :: omega
       integer :: i, j
@@ -276,10 +275,8 @@ contains
       do i = 1, 10
          omega = 0.15_wp*i
          do j = 1, 2
-            call normal_form_coefficient(block_equation_type(block_parameters_type( &
-                                         tau=hopf_tau(omega, xi, gamma(j), 2), xi=xi, &
-                                         gamma=gamma(j), &
-                                         epsilon=hopf_epsilon(omega, xi, gamma(j)))), &
+            call normal_form_coefficient(block_equation_type( &
+                                         block_with_pair(omega, 0.5_wp, gamma(j), 2)), &
                                          [omega], [3, 2], c2(j), failure)
             call expect_success(error, failure)
          end do

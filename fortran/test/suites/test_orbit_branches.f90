@@ -2,24 +2,21 @@
 !> simulations on both sides.
 module test_orbit_branches
    use block_builder, only: build_block
-   use block_family, only: block_family_type, vector_of
-   use branch_ends, only: branch_settings_type
-   use collocation_basis, only: collocation_basis_type, gauss_points, radau_points
+   use block_family, only: block_family_type
+   use branch_ends, only: follow_settings_type
+   use collocation_basis, only: gauss_points, radau_points
    use cycle_families, only: known_family, mackey_glass, neurons
-   use dde, only: continuation_type, dde_problem_type, event_table, integrate, integration_result
+   use dde, only: continuation_type, dde_problem_type
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use orbit_branch, only: branch_type, follow_branch
+   use orbit_branch, only: branch_type
    use orbit_change, only: orbit_change_type
-   use orbit_passes, only: orbit_scale_type
-   use orbit_points, only: find_special_points
-   use orbit_start, only: orbit_at_hopf_point, orbit_of_trajectory
-   use orbit_switch, only: orbit_of_double_period
+   use orbit_runs, only: advance, branch_from, branch_from_hopf, orbit_of_block
+   use orbit_start, only: orbit_of_double_period
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: problem_family_type
-   use solving, only: at_tolerance
+   use problem_family, only: free_family_type
    use special_points, only: fold, nearest_resonance, period_doubling, special_point_type, &
                              torus_bifurcation
    use spring_block, only: index_of_ln_v, spring_block_type
@@ -41,126 +38,110 @@ contains
                    new_unittest("nearest resonances", test_resonances)]
    end subroutine collect_orbit_branches
 
+   !> The block at xi = gamma = 0.8, started near steady sliding.
+   pure type(spring_block_type) function block_at(tau, epsilon) result(block)
+      real(wp), intent(in) :: tau, epsilon
+
+      block = build_block(tau, epsilon, 0.8_wp, 0.8_wp, v=1.1_wp)
+   end function block_at
+
    !> The branch of a block through the cycle that a trajectory has reached, and its points.
-   subroutine branch_of_block(block, settings, degree, points, direction, branch, special, error)
-      !> The block
-      type(spring_block_type), intent(in) :: block
-      !> How far and how
-      type(branch_settings_type), intent(in) :: settings
-      !> Degree and kind of points
-      integer, intent(in) :: degree, points
-      !> 1 or -1
-      integer, intent(in) :: direction
-      !> The branch
+   subroutine branch_of_block(tau, epsilon, settings, degree, points, direction, branch, special, &
+                              error)
+      real(wp), intent(in) :: tau, epsilon
+      type(follow_settings_type), intent(in) :: settings
+      !> Degree and kind of points, 1 or -1
+      integer, intent(in) :: degree, points, direction
       type(branch_type), intent(out) :: branch
-      !> Its special points
       type(special_point_type), allocatable, intent(out) :: special(:)
       type(error_type), allocatable, intent(inout) :: error
-      type(block_family_type) :: family
-      type(continuation_type) :: arrived
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
       type(periodic_orbit_type) :: orbit
 
-      call integrate(block, 0.0_wp, 1000.0_wp, at_tolerance(1.0e-8_wp), outcome, failure, &
-                     continuation=arrived)
-      call expect_success(error, failure)
-      call orbit_of_trajectory(block, at_tolerance(1.0e-8_wp), arrived, index_of_ln_v, 60.0_wp, &
-                               collocation_basis_type(degree, points), 30, orbit, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
-      orbit%parameters = vector_of(block%parameters)
-      call follow_branch(family, settings, orbit, direction, branch, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
-      call find_special_points(family, settings, branch, special, failure)
-      call expect_success(error, failure)
+      call orbit_of_block(block_at(tau, epsilon), 1000.0_wp, degree, points, 30, orbit, error)
+      call branch_from(orbit, settings, direction, branch, special, error)
    end subroutine branch_of_block
 
    !> Maxima of a component over the last part of a run that goes on from another one.
    subroutine last_maxima(problem, component, start, duration, last, maxima, error)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The component
       integer, intent(in) :: component
       !> Where the run starts; not changed
       type(continuation_type), intent(in) :: start
       !> Its duration, and that of its last part
       real(wp), intent(in) :: duration, last
-      !> The maxima
       real(wp), allocatable, intent(out) :: maxima(:)
       type(error_type), allocatable, intent(inout) :: error
       type(continuation_type) :: place
-      type(event_table) :: found
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
       real(wp) :: t
 
+      if (allocated(error)) return
       place = start
       t = start%time(1)
-      found = event_table(component=[component], level=[0.0_wp], direction=[-1], of_slope=[.true.])
-      call integrate(problem, t, t + duration - last, at_tolerance(1.0e-8_wp), outcome, failure, &
-                     continuation=place)
-      call expect_success(error, failure)
-      call integrate(problem, place%time(1), t + duration, at_tolerance(1.0e-8_wp), outcome, &
-                     failure, watcher=found, continuation=place)
-      call expect_success(error, failure)
+      call advance(problem, t, t + duration - last, place, error)
       if (allocated(error)) return
-      maxima = found%y(component, :found%received)
+      call advance(problem, place%time(1), t + duration, place, error, component, maxima)
    end subroutine last_maxima
 
+   !> The special point of a branch, and on a mesh of another degree and kind of points.
+   subroutine find_point_twice(settings, kind, point, other, branch, error)
+      type(follow_settings_type), intent(in) :: settings
+      character(len=*), intent(in) :: kind
+      type(special_point_type), intent(out) :: point, other
+      type(branch_type), intent(out) :: branch
+      type(error_type), allocatable, intent(inout) :: error
+      type(special_point_type), allocatable :: special(:)
+
+      call branch_of_block(10.0_wp, 0.5_wp, settings, 5, radau_points, 1, branch, special, error)
+      if (allocated(error)) return
+      call expect(error, size(special) == 1, "one special point at the points of Radau")
+      if (allocated(error)) return
+      other = special(1)
+      call branch_of_block(10.0_wp, 0.5_wp, settings, 6, gauss_points, 1, branch, special, error)
+      if (allocated(error)) return
+      call expect(error, size(special) == 1, "one special point")
+      if (allocated(error)) return
+      point = special(1)
+      call expect(error, point%kind == kind, "a point of kind "//kind)
+      call expect_close(error, point%mesh_error, 0.0_wp, 1.0e-9_wp, "difference of the meshes")
+      call expect_close(error, point%orbit%parameters, other%orbit%parameters, 1.0e-8_wp, &
+                        "parameters of both points")
+   end subroutine find_point_twice
+
    !> The cycle of tau = 10, xi = 0.8 ends in a fold: simulations stay on it below and leave it
-   !> above. Two degrees and kinds of points give the same value.
+   !> above.
    subroutine test_fold(error)
       type(error_type), allocatable, intent(out) :: error
-      type(branch_settings_type) :: settings
+      type(follow_settings_type) :: settings
       type(branch_type) :: branch
       type(continuation_type) :: arrived
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
-      type(special_point_type), allocatable :: other(:), special(:)
+      type(special_point_type) :: other, point
       real(wp), allocatable :: maxima(:)
       real(wp) :: range(2)
       integer :: i
 
-      settings%scale = orbit_scale_type([2], [1.0_wp])
-      settings%window = [0.4_wp, 1.0_wp]
-      settings%most_orbits = 18
-      call branch_of_block(build_block(10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp, v=1.1_wp), settings, 6, &
-                           gauss_points, 1, branch, special, error)
+      settings%family = free_family_type(block_family_type(), [2], [1.0_wp])
+      settings%window(:, 1) = [0.4_wp, 1.0_wp]
+      settings%most_points = 18
+      call find_point_twice(settings, fold, point, other, branch, error)
       if (allocated(error)) return
-      call expect(error, size(special) == 1, "one special point")
-      call expect(error, special(1)%kind == fold, "a fold")
-      call expect(error, all(special(1)%unstable == [0, 1]), "behind it one unstable multiplier")
-      call expect_close(error, special(1)%mesh_error, 0.0_wp, 1.0e-9_wp, "difference of the meshes")
-      call branch_of_block(build_block(10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp, v=1.1_wp), settings, 5, &
-                           radau_points, 1, branch, other, error)
-      if (allocated(error)) return
-      call expect_close(error, special(1)%orbit%parameters(2), other(1)%orbit%parameters(2), &
-                        1.0e-8_wp, "epsilon at the fold")
-      associate (epsilon_of_fold => special(1)%orbit%parameters(2))
-         call integrate(build_block(10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp, v=1.1_wp), 0.0_wp, &
-                        1000.0_wp, at_tolerance(1.0e-8_wp), outcome, failure, &
-                        continuation=arrived)
-         call expect_success(error, failure)
+      call expect(error, all(point%unstable == [0, 1]), "behind it one unstable multiplier")
+      associate (epsilon_of_fold => point%orbit%parameters(2))
+         call advance(block_at(10.0_wp, 0.5_wp), 0.0_wp, 1000.0_wp, arrived, error)
          do i = 1, 8
+            if (allocated(error)) return
             ! in small steps of epsilon up to just below the fold
-            call integrate(build_block(10.0_wp, &
-                                       0.5_wp + (epsilon_of_fold - 1.0e-3_wp - 0.5_wp)*i/8, &
-                                       0.8_wp, 0.8_wp), arrived%time(1), arrived%time(1) &
-                           + 400.0_wp, at_tolerance(1.0e-8_wp), outcome, failure, &
-                           continuation=arrived)
-            call expect_success(error, failure)
+            call advance(block_at(10.0_wp, 0.5_wp + (epsilon_of_fold - 1.0e-3_wp - 0.5_wp)*i/8), &
+                         arrived%time(1), arrived%time(1) + 400.0_wp, arrived, error)
          end do
-         range = special(1)%orbit%range_of(index_of_ln_v)
-         call last_maxima(build_block(10.0_wp, epsilon_of_fold - 1.0e-3_wp, 0.8_wp, 0.8_wp), &
-                          index_of_ln_v, arrived, 1500.0_wp, 100.0_wp, maxima, error)
+         range = point%orbit%range_of(index_of_ln_v)
+         call last_maxima(block_at(10.0_wp, epsilon_of_fold - 1.0e-3_wp), index_of_ln_v, arrived, &
+                          1500.0_wp, 100.0_wp, maxima, error)
          if (allocated(error)) return
          call expect_close(error, maxval(maxima), minval(maxima), 1.0e-3_wp, "a cycle below")
          call expect_close(error, maxval(maxima), range(2), 0.05_wp, "the cycle of the branch")
          ! beyond a fold the motion returns to where the cycle was for a long time
-         call last_maxima(build_block(10.0_wp, epsilon_of_fold + 3.0e-3_wp, 0.8_wp, 0.8_wp), &
-                          index_of_ln_v, arrived, 6000.0_wp, 5000.0_wp, maxima, error)
+         call last_maxima(block_at(10.0_wp, epsilon_of_fold + 3.0e-3_wp), index_of_ln_v, arrived, &
+                          6000.0_wp, 5000.0_wp, maxima, error)
          if (allocated(error)) return
          call expect(error, maxval(abs(maxima - range(2))) > 0.1_wp, "no such cycle above")
       end associate
@@ -169,161 +150,139 @@ contains
    !> A longer delay makes the cycle of epsilon = 0.5, xi = 0.8 a torus.
    subroutine test_torus(error)
       type(error_type), allocatable, intent(out) :: error
-      type(branch_settings_type) :: settings
+      type(follow_settings_type) :: settings
       type(branch_type) :: branch
-      type(continuation_type) :: arrived, behind
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
-      type(special_point_type), allocatable :: other(:), special(:)
-      real(wp), allocatable :: maxima(:)
+      type(special_point_type) :: other, point
+      real(wp) :: spread_of(2)
+      integer :: i
 
-      settings%scale = orbit_scale_type([1], [5.0_wp])
-      settings%window = [10.0_wp, 12.4_wp]
-      call branch_of_block(build_block(10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp, v=1.1_wp), settings, 6, &
-                           gauss_points, 1, branch, special, error)
+      settings%family = free_family_type(block_family_type(), [1], [5.0_wp])
+      settings%window(:, 1) = [10.0_wp, 12.4_wp]
+      call find_point_twice(settings, torus_bifurcation, point, other, branch, error)
       if (allocated(error)) return
       call expect(error, branch%ending == "window", "the end of the window")
       call expect_close(error, branch%orbits(size(branch%orbits))%parameters(1), 12.4_wp, &
                         1.0e-12_wp, "the last orbit is at the edge")
-      call expect(error, size(special) == 1, "one special point")
-      call expect(error, special(1)%kind == torus_bifurcation, "a torus point")
-      call expect_close(error, abs(special(1)%multiplier), 1.0_wp, 1.0e-9_wp, "modulus of the pair")
-      call expect_close(error, special(1)%mesh_error, 0.0_wp, 1.0e-9_wp, "difference of the meshes")
-      call branch_of_block(build_block(10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp, v=1.1_wp), settings, 5, &
-                           radau_points, 1, branch, other, error)
-      if (allocated(error)) return
-      call expect_close(error, special(1)%orbit%parameters(1), other(1)%orbit%parameters(1), &
-                        1.0e-8_wp, "tau at the torus point")
-      call expect(error, special(1)%criticality() == "supercritical", "stable tori start there")
-      call expect_close(error, special(1)%coefficient, other(1)%coefficient, 1.0e-8_wp, &
+      call expect_close(error, abs(point%multiplier), 1.0_wp, 1.0e-9_wp, "modulus of the pair")
+      call expect(error, point%criticality() == "supercritical", "stable tori start there")
+      call expect_close(error, point%coefficient, other%coefficient, 1.0e-8_wp, &
                         "coefficient of the normal form")
-      associate (tau => special(1)%orbit%parameters(1))
-         call integrate(build_block(tau - 0.25_wp, 0.5_wp, 0.8_wp, 0.8_wp, v=1.1_wp), 0.0_wp, &
-                        3000.0_wp, at_tolerance(1.0e-8_wp), outcome, failure, &
-                        continuation=arrived)
-         call expect_success(error, failure)
-         call last_maxima(build_block(tau - 0.25_wp, 0.5_wp, 0.8_wp, 0.8_wp), index_of_ln_v, &
-                          arrived, 1000.0_wp, 200.0_wp, maxima, error)
-         if (allocated(error)) return
-         call expect_close(error, maxval(maxima), minval(maxima), 1.0e-3_wp, "a cycle before it")
-         call integrate(build_block(tau + 0.15_wp, 0.5_wp, 0.8_wp, 0.8_wp, v=1.1_wp), 0.0_wp, &
-                        3000.0_wp, at_tolerance(1.0e-8_wp), outcome, failure, &
-                        continuation=behind)
-         call expect_success(error, failure)
-         call last_maxima(build_block(tau + 0.15_wp, 0.5_wp, 0.8_wp, 0.8_wp), index_of_ln_v, &
-                          behind, 1000.0_wp, 200.0_wp, maxima, error)
-         if (allocated(error)) return
-         call expect(error, maxval(maxima) - minval(maxima) > 1.0e-2_wp, "no cycle behind it")
-      end associate
+      do i = 1, 2
+         call simulate(block_at(point%orbit%parameters(1) + merge(-0.25_wp, 0.15_wp, i == 1), &
+                                0.5_wp), spread_of(i))
+      end do
+      call expect_between(error, spread_of(1), 0.0_wp, 1.0e-3_wp, "a cycle before it")
+      call expect(error, spread_of(2) > 1.0e-2_wp, "no cycle behind it")
+
+   contains
+
+      !> Range of the last maxima of a block.
+      subroutine simulate(block, range)
+         type(spring_block_type), intent(in) :: block
+         real(wp), intent(out) :: range
+         type(continuation_type) :: arrived
+         real(wp), allocatable :: maxima(:)
+
+         range = 0.0_wp
+         call advance(block, 0.0_wp, 3000.0_wp, arrived, error)
+         call last_maxima(block, index_of_ln_v, arrived, 1000.0_wp, 200.0_wp, maxima, error)
+         if (.not. allocated(error)) range = maxval(maxima) - minval(maxima)
+      end subroutine simulate
    end subroutine test_torus
 
    !> Mackey and Glass's equation: from its Hopf point (cos(omega tau) = -1/4, omega^2 = 0.15) to
-   !> the first period doubling. Simulations repeat after one maximum before it and after two
-   !> behind it,
-   !> and those lie on the branch of double period.
+   !> the first period doubling. Simulations repeat after one maximum before it and after two behind
+   !> it, and those lie on the branch of double period.
    subroutine test_doubling(error)
       type(error_type), allocatable, intent(out) :: error
-      type(branch_settings_type) :: settings
+      type(follow_settings_type) :: settings
       type(branch_type) :: branch, doubled
       type(failure_type), allocatable :: failure
-      type(known_family) :: family
       type(orbit_change_type) :: tangent
       type(periodic_orbit_type) :: orbit
-      type(special_point_type), allocatable :: special(:)
+      type(special_point_type), allocatable :: of_doubled(:), special(:)
       real(wp), allocatable :: maxima(:)
       real(wp) :: omega, range(2), tau
       integer :: i
 
-      family = known_family(equation=mackey_glass)
       omega = sqrt(0.15_wp)
-      settings%scale = orbit_scale_type([1], [10.0_wp])
-      settings%window = [4.0_wp, 14.5_wp]
-      call orbit_at_hopf_point(family, [acos(-0.25_wp)/omega, 0.2_wp], [1.0_wp], omega, 0.01_wp, &
-                               collocation_basis_type(5, gauss_points), 20, orbit, tangent, failure)
-      call expect_success(error, failure)
-      call follow_branch(family, settings, orbit, 1, branch, failure, tangent)
-      call expect_success(error, failure)
+      settings%family = free_family_type(known_family(equation=mackey_glass), [1], [10.0_wp])
+      settings%window(:, 1) = [4.0_wp, 14.5_wp]
+      call branch_from_hopf(settings, [acos(-0.25_wp)/omega, 0.2_wp], [1.0_wp], omega, 0.01_wp, &
+                            branch, special, error)
       if (allocated(error)) return
       call expect(error, branch%ending == "window", "the end of the window")
       call expect(error, branch%orbits(2)%parameters(1) > acos(-0.25_wp)/omega, "supercritical")
       call expect(error, branch%multipliers(2)%unstable() == 0, "stable at first")
-      call find_special_points(family, settings, branch, special, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
       call expect(error, size(special) >= 1, "a special point")
-      call expect(error, special(1)%kind == period_doubling, "a period doubling")
-      call expect_close(error, abs(special(1)%multiplier + 1.0_wp), 0.0_wp, 1.0e-9_wp, "multiplier")
-      tau = special(1)%orbit%parameters(1)
-      call simulate(tau - 0.3_wp, maxima)
       if (allocated(error)) return
-      call expect_close(error, maxval(maxima), minval(maxima), 1.0e-4_wp, "one maximum before it")
-      call simulate(tau + 0.3_wp, maxima)
-      if (allocated(error)) return
-      call expect(error, abs(maxima(2) - maxima(1)) > 1.0e-2_wp, "different maxima behind it")
-      call expect_close(error, maxima(3), maxima(1), 1.0e-4_wp, "two in turn")
-      call orbit_of_double_period(family, special(1), 0.01_wp, orbit, tangent, failure)
-      call expect_success(error, failure)
-      settings%window(2) = tau + 0.3_wp
-      call follow_branch(family, settings, orbit, 1, doubled, failure, tangent)
-      call expect_success(error, failure)
-      if (allocated(error)) return
-      i = size(doubled%orbits)
-      call expect(error, doubled%ending == "window", "the branch of double period goes on")
-      range = doubled%orbits(i)%range_of(1)
-      call expect_close(error, range(2), maxval(maxima), 1.0e-5_wp, "its maximum")
-      call expect(error, doubled%multipliers(i)%unstable() == 0, "stable")
-      call expect_close(error, doubled%orbits(1)%period/special(1)%orbit%period, 2.0_wp, &
-                        1.0e-2_wp, "twice the period")
-      special(1)%kind = fold
-      call orbit_of_double_period(family, special(1), 0.01_wp, orbit, tangent, failure)
-      call expect_failure(error, failure, "kind fold")
+      associate (point => special(1))
+         call expect(error, point%kind == period_doubling, "a period doubling")
+         call expect_close(error, abs(point%multiplier + 1.0_wp), 0.0_wp, 1.0e-9_wp, "multiplier")
+         tau = point%orbit%parameters(1)
+         call simulate(tau - 0.3_wp, maxima)
+         if (allocated(error)) return
+         call expect_close(error, maxval(maxima), minval(maxima), 1.0e-4_wp, &
+                           "one maximum before it")
+         call simulate(tau + 0.3_wp, maxima)
+         if (allocated(error)) return
+         call expect(error, abs(maxima(2) - maxima(1)) > 1.0e-2_wp, "different maxima behind it")
+         call expect_close(error, maxima(3), maxima(1), 1.0e-4_wp, "two in turn")
+         call orbit_of_double_period(settings%family, point, 0.01_wp, orbit, tangent, failure)
+         call expect_success(error, failure)
+         settings%window(2, 1) = tau + 0.3_wp
+         call branch_from(orbit, settings, 1, doubled, of_doubled, error, tangent)
+         if (allocated(error)) return
+         i = size(doubled%orbits)
+         call expect(error, doubled%ending == "window", "the branch of double period goes on")
+         range = doubled%orbits(i)%range_of(1)
+         call expect_close(error, range(2), maxval(maxima), 1.0e-5_wp, "its maximum")
+         call expect(error, doubled%multipliers(i)%unstable() == 0, "stable")
+         call expect_close(error, doubled%orbits(1)%period/point%orbit%period, 2.0_wp, 1.0e-2_wp, &
+                           "twice the period")
+         point%kind = fold
+         call orbit_of_double_period(settings%family, point, 0.01_wp, orbit, tangent, failure)
+         call expect_failure(error, failure, "kind fold")
+      end associate
 
    contains
 
       !> The last maxima at a delay.
       subroutine simulate(delay, found)
-         !> The delay
          real(wp), intent(in) :: delay
-         !> The maxima
          real(wp), allocatable, intent(out) :: found(:)
          class(dde_problem_type), allocatable :: problem
          type(continuation_type) :: place
-         type(integration_result) :: outcome
 
-         call family%at([delay, 0.2_wp], problem)
-         call integrate(problem, 0.0_wp, 10.0_wp, at_tolerance(1.0e-8_wp), outcome, failure, &
-                        continuation=place)
-         call expect_success(error, failure)
+         call settings%family%problems%at([delay, 0.2_wp], problem)
+         call advance(problem, 0.0_wp, 10.0_wp, place, error)
          call last_maxima(problem, 1, place, 8000.0_wp, 300.0_wp, found, error)
       end subroutine simulate
    end subroutine test_doubling
 
-   !> Branches end where they are told to.
+   !> Branches end at a small amplitude (towards smaller epsilon the cycle shrinks to the Hopf
+   !> point), at a long period and after the most orbits.
    subroutine test_ends(error)
       type(error_type), allocatable, intent(out) :: error
-      type(branch_settings_type) :: settings
+      type(follow_settings_type) :: settings
       type(branch_type) :: branch
       type(special_point_type), allocatable :: special(:)
 
-      settings%scale = orbit_scale_type([2], [1.0_wp])
-      settings%window = [0.0_wp, 1.0_wp]
+      settings%family = free_family_type(block_family_type(), [2], [1.0_wp])
+      settings%window(:, 1) = [0.0_wp, 1.0_wp]
       settings%least_amplitude = 0.05_wp
-      ! towards smaller epsilon the cycle shrinks to the Hopf point
-      call branch_of_block(build_block(10.0_wp, 0.35_wp, 0.8_wp, 0.8_wp, v=1.1_wp), settings, 5, &
-                           gauss_points, -1, branch, special, error)
+      call branch_of_block(10.0_wp, 0.35_wp, settings, 5, gauss_points, -1, branch, special, error)
       if (allocated(error)) return
       call expect(error, branch%ending == "amplitude", "a small amplitude")
       call expect_between(error, branch%orbits(size(branch%orbits))%amplitude(), 1.0e-4_wp, &
                           0.05_wp, "the last amplitude")
       settings%longest_period = 10.4_wp
-      call branch_of_block(build_block(10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp, v=1.1_wp), settings, 5, &
-                           gauss_points, 1, branch, special, error)
+      call branch_of_block(10.0_wp, 0.5_wp, settings, 5, gauss_points, 1, branch, special, error)
       if (allocated(error)) return
       call expect(error, branch%ending == "period", "a long period")
       settings%longest_period = 20.0_wp
-      settings%most_orbits = 3
-      call branch_of_block(build_block(10.0_wp, 0.5_wp, 0.8_wp, 0.8_wp, v=1.1_wp), settings, 5, &
-                           gauss_points, 1, branch, special, error)
+      settings%most_points = 3
+      call branch_of_block(10.0_wp, 0.5_wp, settings, 5, gauss_points, 1, branch, special, error)
       if (allocated(error)) return
       call expect(error, branch%ending == "orbits" .and. size(branch%orbits) == 3, "three orbits")
    end subroutine test_ends
@@ -333,33 +292,23 @@ contains
    !> limit of a21 at long periods. A small orbit has the period 8.0354 at a21 = 0.8072.
    subroutine test_neurons(error)
       type(error_type), allocatable, intent(out) :: error
-      type(branch_settings_type) :: settings
+      type(follow_settings_type) :: settings
       type(branch_type) :: branch
-      type(failure_type), allocatable :: failure
-      type(known_family) :: family
-      type(orbit_change_type) :: tangent
-      type(periodic_orbit_type) :: orbit
       type(special_point_type), allocatable :: special(:)
       real(wp) :: a21(3)
-      integer :: i, last
+      integer :: i
 
-      family = known_family(equation=neurons)
-      settings%scale = orbit_scale_type([1], [1.0_wp])
-      settings%window = [0.0_wp, 5.0_wp]
+      settings%family = free_family_type(known_family(equation=neurons), [1], [1.0_wp])
+      settings%window(:, 1) = [0.0_wp, 5.0_wp]
       settings%longest_step = 1.5_wp
       settings%longest_period = 120.0_wp
       settings%refinement%accuracy = 1.0e-4_wp
-      call orbit_at_hopf_point(family, [0.8071232250_wp], [0.0_wp, 0.0_wp], 0.7819651621_wp, &
-                               0.01_wp, collocation_basis_type(5, gauss_points), 20, orbit, &
-                               tangent, failure)
-      call expect_success(error, failure)
-      call follow_branch(family, settings, orbit, 1, branch, failure, tangent)
-      call expect_success(error, failure)
+      call branch_from_hopf(settings, [0.8071232250_wp], [0.0_wp, 0.0_wp], 0.7819651621_wp, &
+                            0.01_wp, branch, special, error)
       if (allocated(error)) return
       call expect(error, branch%ending == "period", "a long period")
       ! a21 rounds to 0.8072 and the period to 8.0354 at the same amplitude
-      last = size(branch%orbits)
-      do i = 1, last - 1
+      do i = 1, size(branch%orbits) - 1
          associate (a => branch%orbits(i), b => branch%orbits(i + 1))
             if (b%parameters(1) < 0.8072_wp) cycle
             call expect_close(error, a%period + (b%period - a%period) &
@@ -368,14 +317,9 @@ contains
             exit
          end associate
       end do
-      do i = 1, 3
-         a21(i) = parameter_at(branch, 90.0_wp + 10.0_wp*i)
-      end do
+      a21 = [(parameter_at(branch, 90.0_wp + 10.0_wp*i), i=1, 3)]
       call expect_close(error, a21(3) - (a21(3) - a21(2))**2/(a21(3) - 2.0_wp*a21(2) + a21(1)), &
                         2.34595_wp, 1.0e-4_wp, "a21 of the homoclinic orbit")
-      call find_special_points(family, settings, branch, special, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
       call expect(error, count(special%kind == fold) == 1, "one fold, not " &
                   //text(count(special%kind == fold)))
    end subroutine test_neurons
@@ -383,9 +327,7 @@ contains
    !> The first parameter on a branch at a period, by linear interpolation after it was last
    !> shorter.
    pure real(wp) function parameter_at(branch, period) result(value)
-      !> The branch
       type(branch_type), intent(in) :: branch
-      !> The period
       real(wp), intent(in) :: period
       integer :: i
 

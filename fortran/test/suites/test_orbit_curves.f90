@@ -1,20 +1,16 @@
 !> Curves of special points of periodic orbits, against published values.
 module test_orbit_curves
-   use branch_ends, only: branch_settings_type
-   use collocation_basis, only: collocation_basis_type, gauss_points
+   use branch_ends, only: follow_settings_type
+   use collocation_basis, only: gauss_points
    use cycle_families, only: delayed_cubic, duffing, known_family
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
    use expectations, only: expect, expect_close, expect_success
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use orbit_branch, only: branch_type, follow_branch
-   use orbit_change, only: orbit_change_type
-   use orbit_curves, only: curve_settings_type, curve_type, follow_curve
-   use orbit_mesh, only: uniform_mesh
-   use orbit_passes, only: orbit_scale_type
-   use orbit_points, only: find_special_points
-   use orbit_start, only: orbit_at_hopf_point
-   use periodic_orbit, only: periodic_orbit_type
+   use orbit_branch, only: branch_type
+   use orbit_curves, only: curve_type, follow_curve
+   use orbit_runs, only: branch_from_hopf, new_orbit
+   use problem_family, only: free_family_type
    use special_points, only: cusp, fold, special_point_type, torus_bifurcation
    implicit none (type, external)
    private
@@ -28,147 +24,109 @@ contains
    subroutine collect_orbit_curves(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("torus curves end at published points", test_torus_curves), &
-                   new_unittest("a fold curve ends at a published point", test_fold_curve), &
+      testsuite = [new_unittest("curves end at published points", test_published), &
                    new_unittest("a known fold curve and its cusp", test_cusp), &
                    new_unittest("a cusp among short steps", test_cusp_short_steps)]
    end subroutine collect_orbit_curves
 
-   !> A Hopf point of the Duffing equation: (a + b - omega^2)^2 + (d omega)^2 = b^2.
-   pure subroutine hopf_of_duffing(a, b, d, upper, turns, omega, tau)
-      !> Parameters
+   !> The Hopf point of greater omega of the Duffing equation:
+   !> (a + b - omega^2)^2 + (d omega)^2 = b^2.
+   pure subroutine hopf_of_duffing(a, b, d, turns, omega, tau)
       real(wp), intent(in) :: a, b, d
-      !> Whether the larger omega is meant
-      logical, intent(in) :: upper
       !> Full turns of omega tau
       integer, intent(in) :: turns
-      !> Frequency and delay
       real(wp), intent(out) :: omega, tau
-      real(wp) :: half, root
+      real(wp) :: half
 
       half = a + b - 0.5_wp*d**2
-      root = sqrt(half**2 - (a + b)**2 + b**2)
-      omega = sqrt(half + merge(root, -root, upper))
+      omega = sqrt(half + sqrt(half**2 - (a + b)**2 + b**2))
       tau = (modulo(atan2(-d*omega/b, (a + b - omega**2)/b), 2.0_wp*pi) + 2.0_wp*pi*turns)/omega
    end subroutine hopf_of_duffing
 
    !> The curve that starts at the first point of a kind on the branch from a Hopf point.
-   subroutine curve_of_duffing(b, upper, turns, kind, direction, curve, error)
+   subroutine curve_of_duffing(b, turns, kind, known, within, curve, error)
       !> Strength of the feedback
       real(wp), intent(in) :: b
-      !> Hopf point
-      logical, intent(in) :: upper
+      !> Full turns of omega tau at the Hopf point
       integer, intent(in) :: turns
-      !> Kind of the point
       character(len=*), intent(in) :: kind
-      !> Towards greater or smaller b
-      integer, intent(in) :: direction
-      !> The curve
+      !> b and tau at the end of the curve, and the accuracy to which they are published
+      real(wp), intent(in) :: known(2), within(2)
       type(curve_type), intent(out) :: curve
       type(error_type), allocatable, intent(inout) :: error
       real(wp), parameter :: a = 0.5_wp, d = 0.05_wp
-      type(branch_settings_type) :: settings
+      type(follow_settings_type) :: settings
       type(branch_type) :: branch
-      type(curve_settings_type) :: curve_settings
       type(failure_type), allocatable :: failure
-      type(known_family) :: family
-      type(orbit_change_type) :: tangent
-      type(periodic_orbit_type) :: orbit
       type(special_point_type), allocatable :: special(:)
       real(wp) :: omega, tau
       integer :: i
 
-      family = known_family(equation=duffing)
-      call hopf_of_duffing(a, b, d, upper, turns, omega, tau)
-      settings%scale = orbit_scale_type([1], [5.0_wp])
-      settings%window = [0.0_wp, 20.0_wp]
-      settings%most_orbits = 30
-      call orbit_at_hopf_point(family, [tau, a, b, d], [0.0_wp, 0.0_wp], omega, 0.02_wp, &
-                               collocation_basis_type(5, gauss_points), 20, orbit, tangent, failure)
-      call expect_success(error, failure)
-      call follow_branch(family, settings, orbit, 1, branch, failure, tangent)
-      call expect_success(error, failure)
-      if (allocated(error)) return
-      call find_special_points(family, settings, branch, special, failure)
-      call expect_success(error, failure)
+      call hopf_of_duffing(a, b, d, turns, omega, tau)
+      settings%family = free_family_type(known_family(equation=duffing), [1], [5.0_wp])
+      settings%window(:, 1) = [0.0_wp, 20.0_wp]
+      settings%most_points = 30
+      call branch_from_hopf(settings, [tau, a, b, d], [0.0_wp, 0.0_wp], omega, 0.02_wp, branch, &
+                            special, error)
       if (allocated(error)) return
       i = findloc(special%kind == kind, .true., dim=1)
       call expect(error, i > 0, "a point of kind "//kind)
       if (allocated(error)) return
-      curve_settings%scale = orbit_scale_type([1, 3], [5.0_wp, 0.2_wp])
-      curve_settings%least_amplitude = 0.003_wp
-      curve_settings%window = reshape([0.1_wp, 20.0_wp, 0.01_wp, 0.6_wp], [2, 2])
-      call follow_curve(family, curve_settings, special(i), direction, curve, failure)
+      settings%family = free_family_type(known_family(equation=duffing), [1, 3], [5.0_wp, 0.2_wp])
+      settings%least_amplitude = 0.003_wp
+      settings%window = reshape([0.1_wp, 20.0_wp, 0.01_wp, 0.6_wp], [2, 2])
+      settings%most_points = 200
+      call follow_curve(settings, special(i), -1, curve, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
       call expect(error, curve%ending == trim(merge("generalised_hopf", "double_hopf     ", &
                                                     kind == fold)), "a Hopf point at its end")
+      associate (parameters => curve%points(size(curve%points))%orbit%parameters)
+         call expect_close(error, parameters(3), known(1), within(1), "b")
+         call expect_close(error, parameters(1), known(2), within(2), "tau")
+      end associate
    end subroutine curve_of_duffing
 
    !> "minimal_demo" of DDE-BIFTOOL: torus curves start at the double Hopf points b = 0.354445,
-   !> tau = 8.72874 and b = 0.173725, tau = 17.4169.
-   subroutine test_torus_curves(error)
+   !> tau = 8.72874 and b = 0.173725, tau = 17.4169, a curve of folds at the generalised Hopf point
+   !> b = 0.036906, tau = 14.8348.
+   subroutine test_published(error)
       type(error_type), allocatable, intent(out) :: error
       type(curve_type) :: curve
 
-      call curve_of_duffing(0.37_wp, .true., 1, torus_bifurcation, -1, curve, error)
+      call curve_of_duffing(0.37_wp, 1, torus_bifurcation, [0.354445_wp, 8.72874_wp], &
+                            [2.0e-6_wp, 5.0e-5_wp], curve, error)
       if (allocated(error)) return
-      associate (parameters => curve%points(size(curve%points))%orbit%parameters)
-         call expect_close(error, parameters(3), 0.354445_wp, 2.0e-6_wp, "b")
-         call expect_close(error, parameters(1), 8.72874_wp, 5.0e-5_wp, "tau")
-      end associate
-      call curve_of_duffing(0.2_wp, .true., 2, torus_bifurcation, -1, curve, error)
+      call curve_of_duffing(0.2_wp, 2, torus_bifurcation, [0.173725_wp, 17.4169_wp], &
+                            [2.0e-6_wp, 2.0e-4_wp], curve, error)
       if (allocated(error)) return
-      associate (parameters => curve%points(size(curve%points))%orbit%parameters)
-         call expect_close(error, parameters(3), 0.173725_wp, 2.0e-6_wp, "b")
-         call expect_close(error, parameters(1), 17.4169_wp, 2.0e-4_wp, "tau")
-      end associate
-   end subroutine test_torus_curves
-
-   !> The same: a curve of folds starts at the generalised Hopf point b = 0.036906, tau = 14.8348.
-   subroutine test_fold_curve(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(curve_type) :: curve
-
-      call curve_of_duffing(0.04_wp, .true., 1, fold, -1, curve, error)
+      call curve_of_duffing(0.04_wp, 1, fold, [0.036906_wp, 14.8348_wp], [1.0e-6_wp, 2.0e-4_wp], &
+                            curve, error)
       if (allocated(error)) return
-      associate (parameters => curve%points(size(curve%points))%orbit%parameters)
-         call expect_close(error, parameters(3), 0.036906_wp, 1.0e-6_wp, "b")
-         call expect_close(error, parameters(1), 14.8348_wp, 2.0e-4_wp, "tau")
-      end associate
       call expect(error, size(curve%cusps) == 0, "no cusp at the generalised Hopf point")
-   end subroutine test_fold_curve
+   end subroutine test_published
 
    !> The curve of folds of cycles sqrt(1 + s) sin t of a cubic towards smaller b. The folds are at
    !> a = -2 s^3, b = 3 s^2, with a cusp at s = 0.
    subroutine curve_of_cubic(first, most_b, longest_step, curve, error)
-      !> s at the first point
-      real(wp), intent(in) :: first
-      !> Greatest b
-      real(wp), intent(in) :: most_b
-      !> Longest step
-      real(wp), intent(in) :: longest_step
-      !> The curve
+      real(wp), intent(in) :: first, most_b, longest_step
       type(curve_type), intent(out) :: curve
       type(error_type), allocatable, intent(inout) :: error
-      integer, parameter :: degree = 5, intervals = 20
-      type(curve_settings_type) :: settings
+      type(follow_settings_type) :: settings
       type(failure_type), allocatable :: failure
       type(special_point_type) :: start
 
       associate (orbit => start%orbit)
-         orbit%basis = collocation_basis_type(degree, gauss_points)
-         orbit%mesh = uniform_mesh(intervals)
-         orbit%period = 2.0_wp*pi
-         orbit%parameters = [-2.0_wp*first**3, 3.0_wp*first**2]
-         orbit%nodes = reshape(sqrt(1.0_wp + first)*sin(2.0_wp*pi*orbit%node_times()), &
-                               [1, intervals*degree + 1])
+         orbit = new_orbit(5, gauss_points, 20, 2.0_wp*pi, [-2.0_wp*first**3, 3.0_wp*first**2])
+         orbit%nodes = reshape(sqrt(1.0_wp + first)*sin(2.0_wp*pi*orbit%node_times()), [1, 101])
       end associate
       start%kind = fold
-      settings%scale = orbit_scale_type([1, 2], [1.0_wp, 1.0_wp])
+      settings%family = free_family_type(known_family(equation=delayed_cubic), [1, 2], &
+                                         [1.0_wp, 1.0_wp])
+      settings%least_amplitude = 0.02_wp
       settings%window = reshape([-1.0_wp, 1.0_wp, -1.0_wp, most_b], [2, 2])
       settings%longest_step = longest_step
-      call follow_curve(known_family(equation=delayed_cubic), settings, start, -1, curve, failure)
+      call follow_curve(settings, start, -1, curve, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
       call expect(error, curve%ending == "window", "the curve turns back to greater b")
@@ -185,7 +143,7 @@ contains
    !> Points of the curve are folds, on both sides of the cusp.
    subroutine test_cusp(error)
       type(error_type), allocatable, intent(out) :: error
-      type(curve_settings_type) :: default
+      type(follow_settings_type) :: default
       type(curve_type) :: curve
       integer :: i
 

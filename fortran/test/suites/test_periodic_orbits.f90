@@ -3,15 +3,15 @@ module test_periodic_orbits
    use block_builder, only: build_block
    use collocation_basis, only: collocation_basis_type, gauss_points, radau_points
    use cycle_families, only: delayed_sine, known_family
-   use dde, only: continuation_type, integrate, integration_result
+   use dde, only: continuation_type
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use floquet_multipliers, only: multipliers_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use orbit_equations, only: newton_type
-   use orbit_mesh, only: adapted_mesh, uniform_mesh
-   use orbit_runs, only: correct, cycle_of_block
+   use orbit_mesh, only: adapted_mesh
+   use orbit_runs, only: advance, correct, cycle_of_block, new_orbit
    use orbit_start, only: orbit_of_trajectory
    use periodic_orbit, only: periodic_orbit_type
    use solving, only: at_tolerance
@@ -31,8 +31,7 @@ contains
       testsuite = [new_unittest("points and weights", test_points), &
                    new_unittest("order of an exact orbit", test_order), &
                    new_unittest("without delay", test_no_delay), &
-                   new_unittest("relaxation cycles", test_relaxation), &
-                   new_unittest("gamma = 1e6", test_stiff), &
+                   new_unittest("stiff cycles on two meshes", test_two_meshes), &
                    new_unittest("adapted meshes", test_meshes), &
                    new_unittest("shorter cycles", test_shorter), &
                    new_unittest("refusals", test_refusals)]
@@ -78,10 +77,7 @@ contains
       do kind = gauss_points, radau_points
          do m = 3, 5
             do i = 1, 2
-               orbit%basis = collocation_basis_type(m, kind)
-               orbit%mesh = uniform_mesh(intervals(i))
-               orbit%parameters = [0.25_wp]
-               orbit%period = 6.3_wp
+               orbit = new_orbit(m, kind, intervals(i), 6.3_wp, [0.25_wp])
                orbit%nodes = reshape(0.51_wp*sin(2.0_wp*pi*orbit%node_times()), &
                                      [1, intervals(i)*m + 1])
                call correct(known_family(equation=delayed_sine), orbit, newton, failure)
@@ -103,7 +99,6 @@ contains
 
    !> Phase of the sine that is nearest to an orbit of one component.
    real(wp) function phase_of(orbit) result(value)
-      !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       real(wp) :: part(2), state(1)
       integer, parameter :: places = 1000
@@ -145,39 +140,39 @@ contains
       call expect(error, multipliers%unstable() == 0, "a stable cycle")
    end subroutine test_no_delay
 
-   !> v over four decades: periods on two meshes agree.
-   subroutine test_relaxation(error)
+   !> A relaxation cycle with v over four decades, and the gamma of stiff faults, where a component
+   !> is in balance: Radau points and an odd number of Gauss points give the same cycle.
+   subroutine test_two_meshes(error)
       type(error_type), allocatable, intent(out) :: error
-      type(multipliers_type) :: multipliers
-      type(periodic_orbit_type) :: fine, orbit
-      type(spring_block_type) :: block
       real(wp) :: range(2)
+      type(periodic_orbit_type) :: orbit
 
-      block = build_block(tau=0.1_wp, epsilon=2.0_wp, xi=0.5_wp, gamma=1.0e4_wp, v=1.1_wp)
-      call cycle_of_block(block, 400.0_wp, 6, radau_points, 120, orbit, multipliers, error)
+      call check(build_block(tau=0.1_wp, epsilon=2.0_wp, xi=0.5_wp, gamma=1.0e4_wp, v=1.1_wp), &
+                 400.0_wp, [120, 150], 1.0e-3_wp, 1.0e-7_wp)
       if (allocated(error)) return
       range = orbit%range_of(index_of_ln_v)
       call expect(error, range(2) - range(1) > log(1.0e4_wp), "four decades of v")
-      call expect_close(error, multipliers%trivial_error, 0.0_wp, 1.0e-3_wp, "trivial multiplier")
-      call cycle_of_block(block, 400.0_wp, 7, gauss_points, 150, fine, multipliers, error)
-      call expect_close(error, orbit%period, fine%period, 1.0e-7_wp, "period")
-   end subroutine test_relaxation
+      call check(build_block(tau=1.0_wp, epsilon=0.9_wp, xi=0.5_wp, gamma=1.0e6_wp, v=1.1_wp), &
+                 1000.0_wp, [40, 41], 1.0e-8_wp, 1.0e-8_wp)
 
-   !> At the gamma of stiff faults a component is in balance: Radau points, and an odd number of
-   !> Gauss points, give the same cycle.
-   subroutine test_stiff(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(multipliers_type) :: multipliers
-      type(periodic_orbit_type) :: gauss, radau
-      type(spring_block_type) :: block
+   contains
 
-      block = build_block(tau=1.0_wp, epsilon=0.9_wp, xi=0.5_wp, gamma=1.0e6_wp, v=1.1_wp)
-      call cycle_of_block(block, 1000.0_wp, 6, radau_points, 40, radau, multipliers, error)
-      if (allocated(error)) return
-      call expect_close(error, multipliers%trivial_error, 0.0_wp, 1.0e-8_wp, "trivial multiplier")
-      call cycle_of_block(block, 1000.0_wp, 7, gauss_points, 41, gauss, multipliers, error)
-      call expect_close(error, radau%period, gauss%period, 1.0e-8_wp, "period")
-   end subroutine test_stiff
+      !> Periods at Radau and at Gauss points.
+      subroutine check(block, t_end, intervals, trivial_error, within)
+         type(spring_block_type), intent(in) :: block
+         real(wp), intent(in) :: t_end, trivial_error, within
+         integer, intent(in) :: intervals(2)
+         type(multipliers_type) :: multipliers
+         type(periodic_orbit_type) :: other
+
+         call cycle_of_block(block, t_end, 6, radau_points, intervals(1), orbit, multipliers, error)
+         if (allocated(error)) return
+         call expect_close(error, multipliers%trivial_error, 0.0_wp, trivial_error, &
+                           "trivial multiplier")
+         call cycle_of_block(block, t_end, 7, gauss_points, intervals(2), other, multipliers, error)
+         call expect_close(error, orbit%period, other%period, within, "period")
+      end subroutine check
+   end subroutine test_two_meshes
 
    !> An adapted mesh follows a front, and its orbit has the same values.
    subroutine test_meshes(error)
@@ -186,10 +181,7 @@ contains
       real(wp) :: mesh(31), place, state(1)
       integer :: interval
 
-      orbit%basis = collocation_basis_type(5, gauss_points)
-      orbit%mesh = uniform_mesh(200)
-      orbit%period = 1.0_wp
-      orbit%parameters = [0.0_wp]
+      orbit = new_orbit(5, gauss_points, 200, 1.0_wp, [0.0_wp])
       orbit%nodes = reshape(tanh(100.0_wp*(orbit%node_times() - 0.3_wp)) &
                             - tanh(100.0_wp*(orbit%node_times() - 0.7_wp)), [1, 1001])
       mesh = adapted_mesh(orbit, 30)
@@ -229,10 +221,7 @@ contains
       !> The part of the whole period, and its shift
       real(wp), intent(in) :: a, shift
 
-      orbit%basis = collocation_basis_type(5, gauss_points)
-      orbit%mesh = uniform_mesh(30)
-      orbit%period = 1.0_wp
-      orbit%parameters = [0.0_wp]
+      orbit = new_orbit(5, gauss_points, 30, 1.0_wp, [0.0_wp])
       associate (s => orbit%node_times())
          orbit%nodes = reshape(cos(6.0_wp*pi*s) + a*cos(2.0_wp*pi*(s + shift)), [1, size(s)])
       end associate
@@ -243,23 +232,17 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(continuation_type) :: arrived
       type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
       type(newton_type) :: newton
       type(periodic_orbit_type) :: orbit
       type(spring_block_type) :: block
 
-      orbit%basis = collocation_basis_type(4, gauss_points)
-      orbit%mesh = uniform_mesh(10)
-      orbit%parameters = [-0.5_wp]
-      orbit%period = 6.0_wp
+      orbit = new_orbit(4, gauss_points, 10, 6.0_wp, [-0.5_wp])
       orbit%nodes = reshape(sin(2.0_wp*pi*orbit%node_times()), [1, 41])
       newton%most_iterations = 4
       call correct(known_family(equation=delayed_sine), orbit, newton, failure)
       call expect_failure(error, failure, "Newton's method")
       block = build_block(tau=0.0_wp, epsilon=0.1_wp, xi=0.5_wp, gamma=0.8_wp, v=1.1_wp)
-      call integrate(block, 0.0_wp, 10.0_wp, at_tolerance(1.0e-9_wp, "auto"), outcome, failure, &
-                     continuation=arrived)
-      call expect_success(error, failure)
+      call advance(block, 0.0_wp, 10.0_wp, arrived, error)
       call orbit_of_trajectory(block, at_tolerance(1.0e-9_wp), arrived, index_of_ln_v, 1.0_wp, &
                                collocation_basis_type(4, gauss_points), 10, orbit, failure)
       call expect_failure(error, failure, "maxima")

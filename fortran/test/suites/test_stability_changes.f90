@@ -20,64 +20,42 @@ contains
    subroutine collect_stability_changes(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("with the delay", test_tau), &
-                   new_unittest("with epsilon", test_epsilon), &
-                   new_unittest("without delay", test_no_delay), &
-                   new_unittest("a state that is always stable", test_always_stable), &
+      testsuite = [new_unittest("with the delay and with epsilon", test_random_blocks), &
+                   new_unittest("known crossings", test_known), &
                    new_unittest("roots of the block", test_roots)]
    end subroutine collect_stability_changes
 
-   !> Between crossings the number of roots is what is said; every crossing has its pair.
-   subroutine test_tau(error)
+   !> Of random blocks, with the delay from 0 and with epsilon from -1: between crossings the number
+   !> of roots is the one found, and every crossing has its pair.
+   subroutine test_random_blocks(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(block_parameters_type) :: p
       type(stability_change_type), allocatable :: changes(:)
-      real(wp), parameter :: most = 25.0_wp
-      integer :: i, total
+      integer :: i, total(2)
 
       total = 0
       do i = 1, 30
-         p = random_block(i)
-         call changes_with_tau(p, most, changes, failure)
+         call changes_with_tau(random_block(i), 25.0_wp, changes, failure)
          call expect_success(error, failure)
          if (allocated(error)) return
-         call check_changes(changes, changes%parameters%tau, [0.0_wp, most], error)
-         total = total + size(changes)
-      end do
-      call expect(error, total > 50, "many crossings")
-   end subroutine test_tau
-
-   !> The same as epsilon grows from -1.
-   subroutine test_epsilon(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(block_parameters_type) :: p
-      type(stability_change_type), allocatable :: changes(:)
-      real(wp), parameter :: most = 2.0_wp
-      integer :: i, total
-
-      total = 0
-      do i = 1, 30
-         p = random_block(i)
-         call changes_with_epsilon(p, most, changes, failure)
+         call check_changes(changes, changes%parameters%tau, [0.0_wp, 25.0_wp], error)
+         total(1) = total(1) + size(changes)
+         call changes_with_epsilon(random_block(i), 2.0_wp, changes, failure)
          call expect_success(error, failure)
          if (allocated(error)) return
-         call check_changes(changes, changes%parameters%epsilon, [-1.0_wp, most], error)
+         call check_changes(changes, changes%parameters%epsilon, [-1.0_wp, 2.0_wp], error)
          call expect(error, all(changes%pairs_after > changes%pairs_before), &
                      "a larger epsilon makes no pair stable")
-         total = total + size(changes)
+         total(2) = total(2) + size(changes)
       end do
-      call expect(error, total > 50, "many crossings")
-   end subroutine test_epsilon
+      call expect(error, all(total > 50), "many crossings")
+   end subroutine test_random_blocks
 
    !> Crossings ascend, join, have their pair on the axis, and the roots between them are counted.
    subroutine check_changes(changes, places, ends, error)
-      !> Crossings
       type(stability_change_type), intent(in) :: changes(:)
       !> Where: tau or epsilon
       real(wp), intent(in) :: places(:)
-      !> Ends of the search
       real(wp), intent(in) :: ends(2)
       type(error_type), allocatable, intent(inout) :: error
       type(block_parameters_type) :: p
@@ -101,7 +79,6 @@ contains
 
       !> Unstable pairs at another place.
       integer function pairs_at(place) result(pairs)
-         !> tau or epsilon
          real(wp), intent(in) :: place
          type(block_parameters_type) :: there
 
@@ -115,8 +92,9 @@ contains
       end function pairs_at
    end subroutine check_changes
 
-   !> At tau = 0 there is one epsilon, that of Routh and Hurwitz.
-   subroutine test_no_delay(error)
+   !> At tau = 0 there is one epsilon, that of Routh and Hurwitz. Below the least epsilon of all
+   !> Hopf curves no delay makes a change.
+   subroutine test_known(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(stability_change_type), allocatable :: changes(:)
@@ -125,19 +103,11 @@ contains
                                 failure)
       call expect_success(error, failure)
       call expect_close(error, changes%parameters%epsilon, [0.32_wp/1.14_wp], 1.0e-14_wp, "epsilon")
-   end subroutine test_no_delay
-
-   !> Below the least epsilon of all Hopf curves no delay matters.
-   subroutine test_always_stable(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(stability_change_type), allocatable :: changes(:)
-
       call changes_with_tau(block_parameters_type(xi=0.5_wp, gamma=0.8_wp, epsilon=0.2_wp), &
                             1.0e3_wp, changes, failure)
       call expect_success(error, failure)
       call expect(error, size(changes) == 0, "no crossing")
-   end subroutine test_always_stable
+   end subroutine test_known
 
    !> The paper's torus has one unstable pair; a bound far away is refused.
    subroutine test_roots(error)
@@ -162,7 +132,6 @@ contains
 
    !> Random parameters; every third gamma is between 1e-2 and 1e12.
    pure type(block_parameters_type) function random_block(i) result(p)
-      !> Number of the block
       integer, intent(in) :: i
       real(wp) :: x(4)
 

@@ -2,6 +2,7 @@
 module test_steady_sliding
    use block_builder, only: build_block
    use block_parameters, only: block_parameters_type
+   use closed_form, only: block_with_pair
    use dde, only: continuation_type, integrate, integration_result
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_close, expect_success
@@ -33,7 +34,6 @@ contains
 
    !> A block at the steady state.
    pure type(spring_block_type) function steady(tau, epsilon, xi, gamma) result(block)
-      !> Parameters
       real(wp), intent(in) :: tau, epsilon, xi, gamma
 
       block = build_block(tau=tau, epsilon=epsilon, xi=xi, gamma=gamma)
@@ -41,10 +41,7 @@ contains
 
    !> An oscillation of ln v that grows at a rate, from an amplitude, in 400 units of time.
    pure function oscillation(amplitude, rate) result(w)
-      !> Amplitude at the start
-      real(wp), intent(in) :: amplitude
-      !> Rate of growth
-      real(wp), intent(in) :: rate
+      real(wp), intent(in) :: amplitude, rate
       real(wp) :: w(4000)
       integer :: i
 
@@ -56,23 +53,24 @@ contains
    subroutine test_signals(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp), parameter :: fifth = -log(0.8_wp)/200.0_wp
-      real(wp) :: constant(100)
+      ! fast decay, a little over a fifth and a little less, decay still far away, none, growth,
+      ! none but very small, not so small
+      real(wp), parameter :: amplitude(8) = [1.0_wp, 0.1_wp, 0.1_wp, 1.0_wp, 0.1_wp, 0.01_wp, &
+                                             0.9e-3_wp, 1.1e-3_wp]
+      real(wp), parameter :: rate(8) = [-0.1_wp, -1.1_wp*fifth, -0.9_wp*fifth, -1.1_wp*fifth, &
+                                        0.0_wp, 0.002_wp, 0.0_wp, 0.0_wp]
+      logical, parameter :: known(8) = [.true., .true., .false., .false., .false., .false., &
+                                        .true., .false.]
+      integer :: i
 
-      call expect(error, settles(oscillation(1.0_wp, -0.1_wp)), "fast decay")
-      call expect(error, settles(oscillation(0.1_wp, -1.1_wp*fifth)), "a little over a fifth")
-      call expect(error, .not. settles(oscillation(0.1_wp, -0.9_wp*fifth)), &
-                  "a little less than a fifth")
-      call expect(error, .not. settles(oscillation(1.0_wp, -1.1_wp*fifth)), &
-                  "still far away")
-      call expect(error, .not. settles(oscillation(0.1_wp, 0.0_wp)), "no decay")
-      call expect(error, .not. settles(oscillation(0.01_wp, 0.002_wp)), "growth")
-      call expect(error, settles(oscillation(0.9e-3_wp, 0.0_wp)), "no decay, very small")
-      call expect(error, .not. settles(oscillation(1.1e-3_wp, 0.0_wp)), "not so small")
-      call expect(error, settles(-oscillation(1.0_wp, -0.1_wp)), "the sign does not matter")
-      constant = 0.1_wp
-      call expect(error, .not. settles(constant), "a constant away from 0")
-      constant = 0.0_wp
-      call expect(error, settles(constant), "always at rest")
+      do i = 1, size(known)
+         call expect(error, settles(oscillation(amplitude(i), rate(i))) .eqv. known(i), &
+                     "oscillation "//text(i))
+         call expect(error, settles(-oscillation(amplitude(i), rate(i))) .eqv. known(i), &
+                     "oscillation of other sign "//text(i))
+      end do
+      call expect(error, .not. settles(spread(0.1_wp, 1, 100)), "a constant away from 0")
+      call expect(error, settles(spread(0.0_wp, 1, 100)), "always at rest")
    end subroutine test_signals
 
    !> Without delay: the eigenvalues of the cubic's companion matrix by LAPACK.
@@ -109,40 +107,35 @@ contains
       end do
    end subroutine test_cubic
 
-   !> The Hopf set in closed form: with B = xi (gamma^2 - omega^2)/(gamma^2 omega),
-   !> 1 + epsilon = sqrt((1 + omega^2) (1 + B^2)), tau = (atan B - atan omega + 2 pi k)/omega, a
-   !> pair of roots is imaginary. At the first of these delays and gamma = 0.8 it is the rightmost.
+   !> On the Hopf set in closed form a pair of roots is imaginary. At the first delay and
+   !> gamma = 0.8 it is the rightmost.
    subroutine test_hopf_points(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(exponent_type), allocatable :: exponents(:)
       real(wp), parameter :: all_omega(3) = [0.3_wp, 0.45_wp, 0.56568542494923802_wp]
-      real(wp), parameter :: all_gamma(3) = [0.8_wp, 1.0e8_wp, 1.0e12_wp], pi = acos(-1.0_wp)
-      real(wp), parameter :: xi = 0.8_wp
+      real(wp), parameter :: all_gamma(3) = [0.8_wp, 1.0e8_wp, 1.0e12_wp]
       type(block_parameters_type) :: p
-      real(wp) :: b, epsilon, tau
       integer :: i, j, k
 
       do j = 1, size(all_gamma)
          do i = 1, size(all_omega)
             do k = 0, 1
                associate (omega => all_omega(i), gamma => all_gamma(j))
-                  b = xi*(1.0_wp - (omega/gamma)**2)/omega
-                  epsilon = sqrt((1.0_wp + omega**2)*(1.0_wp + b**2)) - 1.0_wp
-                  tau = (atan(b) - atan(omega) + 2.0_wp*pi*k)/omega
-                  call sliding_exponents(steady(tau, epsilon, xi, gamma), 30, exponents, failure)
+                  p = block_with_pair(omega, 0.8_wp, gamma, k)
+                  call sliding_exponents(steady(p%tau, p%epsilon, p%xi, p%gamma), 30, exponents, &
+                                         failure)
                   call expect_success(error, failure)
                   if (allocated(error)) return
                   call expect(error, count(abs(exponents%value) <= 1.0e-9_wp) == 2, &
-                              "two zero exponents at tau = "//text(tau)//", epsilon = " &
-                              //text(epsilon)//", gamma = "//text(gamma))
-                  p = block_parameters_type(tau, epsilon, xi, gamma)
+                              "two zero exponents at tau = "//text(p%tau)//", epsilon = " &
+                              //text(p%epsilon)//", gamma = "//text(gamma))
                   call expect(error, count(exponents%value > 1.0e-9_wp) &
                               == 2*pairs_beside(p, [omega]), &
-                              "unstable pairs beside it at tau = "//text(tau))
+                              "unstable pairs beside it at tau = "//text(p%tau))
                   if (j == 1 .and. k == 0) call expect(error, &
                                                        all(exponents(3:)%value < -1.0e-3_wp), &
-                                                       "none at tau = "//text(tau))
+                                                       "none at tau = "//text(p%tau))
                end associate
             end do
          end do

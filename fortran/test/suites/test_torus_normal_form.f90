@@ -1,13 +1,12 @@
 !> Normal form of torus points, against an exact one.
 module test_torus_normal_form
-   use collocation_basis, only: collocation_basis_type, gauss_points, radau_points
+   use collocation_basis, only: gauss_points, radau_points
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_close, expect_success
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use orbit_equations, only: newton_type
-   use orbit_mesh, only: uniform_mesh
-   use orbit_runs, only: correct
+   use orbit_runs, only: correct, fix_parameters, new_orbit
    use periodic_orbit, only: periodic_orbit_type
    use special_points, only: fold, special_point_type, torus_bifurcation
    use torus_normal_form, only: find_torus_coefficient
@@ -42,20 +41,17 @@ contains
 
       do points = gauss_points, radau_points
          family%delayed = points == gauss_points
-         orbit%basis = collocation_basis_type(7, points)
-         orbit%mesh = uniform_mesh(32)
          do i = 1, 2
-            orbit%parameters = [p22(i), omega2(i)]
-            orbit%period = turn/omega1
+            orbit = new_orbit(7, points, 32, turn/omega1, [p22(i), omega2(i)])
             associate (s => orbit%node_times())
                orbit%nodes = reshape([(on_cycle(turn*s(j)), j=1, size(s))], [4, size(s)])
             end associate
             call correct(family, orbit, newton, failure)
             call expect_success(error, failure)
             if (allocated(error)) return
-            call find_torus_coefficient(family, orbit, exp(cmplx(0.0_wp, &
-                                                                 turn*omega2(i)/omega1, kind=wp)), &
-                                        6, coefficient, disturbed, failure)
+            call find_torus_coefficient(fix_parameters(family), orbit, &
+                                        exp(cmplx(0.0_wp, turn*omega2(i)/omega1, kind=wp)), 6, &
+                                        coefficient, disturbed, failure)
             call expect_success(error, failure)
             expected = family%coefficient(orbit%parameters)
             call expect_close(error, coefficient, expected, 1.0e-8_wp, "coefficient "//text(i))
@@ -83,16 +79,23 @@ contains
       point%multiplier = exp(cmplx(0.0_wp, 0.22_wp*turn, kind=wp))
       point%coefficient = -0.1_wp
       call expect(error, point%criticality() == "not determined", "found on one mesh only")
-      point%coefficient_error = 1.0e-6_wp
-      call expect(error, point%criticality() == "supercritical", "stable tori")
-      point%coefficient = 0.1_wp
-      call expect(error, point%criticality() == "subcritical", "unstable tori")
-      point%coefficient_error = 0.05_wp
-      call expect(error, point%criticality() == "not determined", "an uncertain sign")
-      point%coefficient_error = 1.0e-6_wp
-      point%multiplier = exp(cmplx(0.0_wp, turn/3.0_wp, kind=wp))
-      call expect(error, point%criticality() == "not determined", "resonance 1:3")
-      point%multiplier = exp(cmplx(0.0_wp, turn/5.0_wp, kind=wp))
-      call expect(error, point%criticality() == "subcritical", "resonance 1:5")
+      call check(-0.1_wp, 1.0e-6_wp, 0.22_wp, "supercritical")
+      call check(0.1_wp, 1.0e-6_wp, 0.22_wp, "subcritical")
+      call check(0.1_wp, 0.05_wp, 0.22_wp, "not determined")
+      call check(0.1_wp, 1.0e-6_wp, 1.0_wp/3.0_wp, "not determined")
+      call check(0.1_wp, 1.0e-6_wp, 0.2_wp, "subcritical")
+
+   contains
+
+      !> The word for a coefficient with its error at an angle in turns.
+      subroutine check(coefficient, coefficient_error, angle, word)
+         real(wp), intent(in) :: coefficient, coefficient_error, angle
+         character(len=*), intent(in) :: word
+
+         point%coefficient = coefficient
+         point%coefficient_error = coefficient_error
+         point%multiplier = exp(cmplx(0.0_wp, angle*turn, kind=wp))
+         call expect(error, point%criticality() == word, word//" at angle "//text(angle))
+      end subroutine check
    end subroutine test_criticality
 end module test_torus_normal_form

@@ -1,15 +1,16 @@
 !> Planes of Hopf curves as traced, and what is known of them in closed form.
 module traced_planes
+   use block_family, only: along_tau, along_xi
    use closed_form, only: closed_epsilon, closed_tau, closed_xi
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_success
    use hopf_curves, only: curve_point_type, trace_curves
-   use hopf_planes, only: curve_plane_type, tau_plane_type, xi_plane_type
+   use hopf_planes, only: curve_plane_type
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type
    implicit none (type, external)
    private
-   public :: closed_delta, known_point, place_of, planes, root_near, trace, traced_plane
+   public :: closed_delta, known_point, new_plane, place_of, planes, root_near, trace, traced_plane
 
    !> Number of planes.
    integer, parameter :: planes = 7
@@ -17,7 +18,7 @@ module traced_planes
    !> A plane and what was traced in it.
    type :: traced_plane
       !> The plane
-      class(curve_plane_type), allocatable :: plane
+      type(curve_plane_type) :: plane
       !> Points of all pieces
       type(curve_point_type), allocatable :: points(:)
    end type traced_plane
@@ -35,39 +36,44 @@ contains
       !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       type(failure_type), allocatable :: failure
+      integer, parameter :: along(planes) = [along_tau, along_xi, along_tau, along_xi, along_tau, &
+                                             along_tau, along_tau]
+      ! gamma, and xi or tau
+      real(wp), parameter :: fixed(2, planes) = reshape( &
+         [0.8_wp, 0.5_wp, 0.8_wp, 12.0_wp, 0.8_wp, 0.5_wp, 2.0_wp, 3.0_wp, 0.75_wp, 0.5_wp, &
+          1.0_wp, 0.01_wp, 1.0e12_wp, 0.5_wp], [2, planes])
+      ! of epsilon and of the ordinate
+      real(wp), parameter :: windows(4, planes) = reshape( &
+         [0.0_wp, 1.5_wp, 0.0_wp, 30.0_wp, 0.0_wp, 1.5_wp, 1.0e-3_wp, 2.0_wp, &
+          0.3_wp, 1.2_wp, 2.0_wp, 28.0_wp, -0.5_wp, 2.0_wp, 0.1_wp, 3.0_wp, &
+          0.0_wp, 0.25_wp, 0.0_wp, 30.0_wp, 0.0_wp, 1.5_wp, 0.0_wp, 30.0_wp, &
+          0.0_wp, 1.5_wp, 0.0_wp, 30.0_wp], [4, planes])
 
-      select case (i)
-      case (1)
-         traced%plane = tau_plane_type(gamma=0.8_wp, epsilon_window=[0.0_wp, 1.5_wp], &
-                                       ordinate_window=[0.0_wp, 30.0_wp], xi=0.5_wp)
-      case (2)
-         traced%plane = xi_plane_type(gamma=0.8_wp, epsilon_window=[0.0_wp, 1.5_wp], &
-                                      ordinate_window=[1.0e-3_wp, 2.0_wp], tau=12.0_wp)
-      case (3)
-         traced%plane = tau_plane_type(gamma=0.8_wp, epsilon_window=[0.3_wp, 1.2_wp], &
-                                       ordinate_window=[2.0_wp, 28.0_wp], xi=0.5_wp)
-      case (4)
-         traced%plane = xi_plane_type(gamma=2.0_wp, epsilon_window=[-0.5_wp, 2.0_wp], &
-                                      ordinate_window=[0.1_wp, 3.0_wp], tau=3.0_wp)
-      case (5)
-         traced%plane = tau_plane_type(gamma=0.75_wp, epsilon_window=[0.0_wp, 0.25_wp], &
-                                       ordinate_window=[0.0_wp, 30.0_wp], xi=0.5_wp)
-      case (6)
-         traced%plane = tau_plane_type(gamma=1.0_wp, epsilon_window=[0.0_wp, 1.5_wp], &
-                                       ordinate_window=[0.0_wp, 30.0_wp], xi=0.01_wp)
-      case default
-         traced%plane = tau_plane_type(gamma=1.0e12_wp, epsilon_window=[0.0_wp, 1.5_wp], &
-                                       ordinate_window=[0.0_wp, 30.0_wp], xi=0.5_wp)
-      end select
+      traced%plane = new_plane(along(i), fixed(1, i), fixed(2, i), windows(:, i))
       call trace_curves(traced%plane, traced%points, failure)
       call expect_success(error, failure)
       call expect(error, size(traced%points) > 100, "there are points in plane "//text(i))
    end subroutine trace
 
+   !> A plane at a gamma and a fixed xi or tau, with windows on epsilon and the ordinate.
+   pure type(curve_plane_type) function new_plane(along, gamma, fixed, windows) result(plane)
+      !> along_tau or along_xi
+      integer, intent(in) :: along
+      !> gamma, xi or tau, the windows
+      real(wp), intent(in) :: gamma, fixed, windows(4)
+
+      plane%along = along
+      plane%fixed%gamma = gamma
+      if (along == along_tau) plane%fixed%xi = fixed
+      if (along == along_xi) plane%fixed%tau = fixed
+      plane%epsilon_window = windows(:2)
+      plane%ordinate_window = windows(3:)
+   end function new_plane
+
    !> (epsilon, ordinate) of branch k at omega in closed form.
    pure function known_point(plane, omega, k) result(point)
       !> The plane
-      class(curve_plane_type), intent(in) :: plane
+      type(curve_plane_type), intent(in) :: plane
       !> Frequency of the pair
       real(wp), intent(in) :: omega
       !> Branch
@@ -75,20 +81,20 @@ contains
       real(wp) :: point(2)
 
       point = -10.0_wp
-      select type (plane)
-      type is (tau_plane_type)
-         point = [closed_epsilon(omega, plane%xi, plane%gamma), &
-                  closed_tau(omega, plane%xi, plane%gamma, k)]
-      type is (xi_plane_type)
-         point(2) = closed_xi(omega, plane%tau, plane%gamma, k)
-         if (point(2) > 0.0_wp) point(1) = closed_epsilon(omega, point(2), plane%gamma)
-      end select
+      associate (p => plane%fixed)
+         if (plane%along == along_tau) then
+            point = [closed_epsilon(omega, p%xi, p%gamma), closed_tau(omega, p%xi, p%gamma, k)]
+         else
+            point(2) = closed_xi(omega, p%tau, p%gamma, k)
+            if (point(2) > 0.0_wp) point(1) = closed_epsilon(omega, point(2), p%gamma)
+         end if
+      end associate
    end function known_point
 
-   !> The same in units of the window.
+   !> (epsilon, ordinate) in units of the window.
    pure function place_of(plane, point) result(place)
       !> The plane
-      class(curve_plane_type), intent(in) :: plane
+      type(curve_plane_type), intent(in) :: plane
       !> epsilon and ordinate
       real(wp), intent(in) :: point(2)
       real(wp) :: place(2)

@@ -22,13 +22,10 @@ module collocation_basis
       real(wp), allocatable :: weight(:)
       !> Values and slopes of the Lagrange polynomials at the points, shape (m + 1, m)
       real(wp), allocatable :: value(:, :), slope(:, :)
-      !> Their coefficients of the power m, shape (m + 1)
+      !> Coefficients of the power m of the Lagrange polynomials, shape (m + 1)
       real(wp), allocatable :: leading(:)
    contains
-      !> Lagrange polynomials at a place
-      procedure :: values_at
-      !> Their derivatives at a place
-      procedure :: slopes_at
+      procedure :: values_at, slopes_at
    end type collocation_basis_type
 
    interface collocation_basis_type
@@ -67,7 +64,6 @@ contains
 
    !> Lagrange polynomials at a place.
    pure function values_at(self, place) result(values)
-      !> The basis
       class(collocation_basis_type), intent(in) :: self
       !> Place, 0..1 inside the interval
       real(wp), intent(in) :: place
@@ -84,7 +80,6 @@ contains
 
    !> Derivatives of the Lagrange polynomials at a place.
    pure function slopes_at(self, place) result(slopes)
-      !> The basis
       class(collocation_basis_type), intent(in) :: self
       !> Place, 0..1 inside the interval
       real(wp), intent(in) :: place
@@ -107,7 +102,6 @@ contains
    !> Zeros of P_m(x) - share P_{m-1}(x) with x = 2 point - 1, by Newton's method from the right,
    !> where zeros already found are divided out (Maehly).
    pure function points_of(degree, share) result(points)
-      !> Degree m
       integer, intent(in) :: degree
       !> 0 for Gauss points, 1 for those of Radau IIA
       real(wp), intent(in) :: share

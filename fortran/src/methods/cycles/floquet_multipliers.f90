@@ -5,22 +5,21 @@ module floquet_multipliers
    use dde_kinds, only: wp
    use linear_map, only: leading_eigenvalues, linear_map_type
    use orbit_linearisation, only: linearise_orbit
-   use orbit_passes, only: orbit_passes_type, orbit_scale_type
+   use orbit_passes, only: orbit_passes_type
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: problem_family_type
+   use problem_family, only: free_family_type
    implicit none (type, external)
    private
    public :: find_multipliers, multipliers_type
 
    !> Multipliers of an orbit.
    type :: multipliers_type
-      !> All but the trivial one that were asked for, in descending order of modulus; of a pair the
+      !> Those wanted without the trivial one, in descending order of modulus; of a pair the
       !> one with positive imaginary part first
       complex(wp), allocatable :: values(:)
       !> Distance of the trivial multiplier from 1: the accuracy
       real(wp) :: trivial_error = 0.0_wp
    contains
-      !> Number outside of the unit circle
       procedure :: unstable
    end type multipliers_type
 
@@ -31,8 +30,8 @@ module floquet_multipliers
    type, extends(linear_map_type) :: period_map_type
       !> Linear equations about the orbit
       type(orbit_passes_type) :: linear
-      !> Nodes and delayed components of the last vector
-      real(wp), allocatable :: nodes(:), delayed(:, :)
+      !> Nodes that follow from the last vector
+      real(wp), allocatable :: nodes(:)
    contains
       procedure :: apply => past_after_period
    end type period_map_type
@@ -41,8 +40,8 @@ contains
 
    !> Multipliers of greatest modulus.
    subroutine find_multipliers(family, orbit, wanted, found, error, disturbances)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
+      !> Problems and free parameters
+      type(free_family_type), intent(in) :: family
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       !> Number of multipliers
@@ -54,21 +53,15 @@ contains
       !> Disturbances over the period at the nodes of the orbit, shape (n, nodes, multipliers)
       complex(wp), allocatable, intent(out), optional :: disturbances(:, :, :)
       complex(wp), allocatable :: pasts(:, :), values(:)
-      type(orbit_scale_type) :: none
       type(period_map_type) :: map
       integer :: i, kept, trivial
 
-      allocate (none%free(0), none%unit(0))
-      call linearise_orbit(family, orbit, none, .true., map%linear, error)
+      call linearise_orbit(family, orbit, .true., map%linear, error)
       if (allocated(error)) return
-      associate (linear => map%linear)
-         allocate (map%nodes(size(orbit%nodes)))
-         allocate (map%delayed(size(linear%delayed), &
-                               (linear%reach + linear%intervals)*linear%degree + 1))
-         call leading_eigenvalues(map, linear%past_size(), wanted + 1, tolerance, values, pasts, &
-                                  error)
-         if (allocated(error)) return
-      end associate
+      allocate (map%nodes(size(orbit%nodes)))
+      call leading_eigenvalues(map, map%linear%past_size(), wanted + 1, tolerance, values, pasts, &
+                               error)
+      if (allocated(error)) return
       trivial = minloc(abs(values - 1.0_wp), dim=1)
       found%trivial_error = abs(values(trivial) - 1.0_wp)
       found%values = pack(values, [(i /= trivial, i=1, size(values))])
@@ -85,34 +78,26 @@ contains
 
    !> A disturbance over the period.
    function over_period(map, past, orbit) result(disturbance)
-      !> The map
       type(period_map_type), intent(inout) :: map
-      !> Past of the disturbance
       real(wp), intent(in) :: past(:)
-      !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
-      real(wp) :: disturbance(size(orbit%nodes, 1), size(orbit%nodes, 2))
+      real(wp) :: disturbance(size(orbit%nodes, 1), size(orbit%nodes, 2)), later(size(past))
 
-      call map%linear%pass(past, [0.0_wp, 0.0_wp], map%nodes, map%delayed)
+      call map%apply(past, later)
       disturbance = reshape(map%nodes, shape(disturbance))
    end function over_period
 
    !> The past a period later.
    subroutine past_after_period(self, vector, image)
-      !> The map
       class(period_map_type), intent(inout) :: self
-      !> A past
       real(wp), intent(in) :: vector(:)
-      !> The past a period later
       real(wp), intent(out) :: image(:)
 
-      call self%linear%pass(vector, [0.0_wp, 0.0_wp], self%nodes, self%delayed)
-      image = self%linear%later_past(self%nodes, self%delayed)
+      call self%linear%pass(vector, [0.0_wp, 0.0_wp], self%nodes, image)
    end subroutine past_after_period
 
    !> Number of multipliers outside of the unit circle.
    pure integer function unstable(self) result(value)
-      !> The multipliers
       class(multipliers_type), intent(in) :: self
 
       value = count(abs(self%values) > 1.0_wp)

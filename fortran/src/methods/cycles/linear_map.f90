@@ -110,7 +110,7 @@ contains
       integer, intent(in) :: wanted
       !> Norm of the residual of an eigenvector of norm 1, over the modulus of the first eigenvalue
       real(wp), intent(in) :: tolerance
-      !> The eigenvalues; as many as wanted, or a few less or more where pairs would be separated or
+      !> The eigenvalues: the number wanted, or a few less or more where pairs would be separated or
       !> the vectors are shorter
       complex(wp), allocatable, intent(out) :: values(:)
       !> Eigenvectors, shape (n, size(values))
@@ -154,7 +154,6 @@ contains
 
    !> Whether Arnoldi's method checks its eigenvalues after a number of steps.
    pure logical function is_check(steps) result(value)
-      !> Steps
       integer, intent(in) :: steps
 
       value = steps >= first_check .and. mod(steps - first_check, steps_between) == 0
@@ -162,7 +161,6 @@ contains
 
    !> The part of a matrix on and above its first subdiagonal.
    pure function upper_hessenberg(h) result(matrix)
-      !> The matrix
       real(wp), intent(in) :: h(:, :)
       real(wp) :: matrix(size(h, 1), size(h, 2))
       integer :: k
@@ -179,7 +177,6 @@ contains
    pure subroutine extend_basis(basis, k, image, h)
       !> Orthonormal vectors, shape (n, at least k + 1)
       real(wp), intent(inout) :: basis(:, :)
-      !> Their number
       integer, intent(in) :: k
       !> The image, replaced by what is left of it
       real(wp), intent(inout) :: image(:)

@@ -1,16 +1,16 @@
 !> Branches of periodic orbits in one parameter by pseudo-arclength continuation, through folds. The
 !> step is controlled by the effort of Newton's method.
 module orbit_branch
-   use branch_ends, only: branch_settings_type, has_ended, longer_step, shorter
+   use branch_ends, only: follow_settings_type, has_ended, longer_step, most_rounds, shorter
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use floquet_multipliers, only: multipliers_type
-   use orbit_change, only: inner_product, orbit_change_type
+   use floquet_multipliers, only: find_multipliers, multipliers_type
+   use orbit_change, only: amplitude_direction, inner_product, orbit_change_type, &
+                           parameter_direction
    use orbit_equations, only: correct_orbit, newton_type, turn_to_tangent
-   use orbit_passes, only: orbit_scale_type
-   use orbit_refinement, only: make_accurate
+   use orbit_mesh, only: adapted_mesh
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: problem_family_type
+   use problem_family, only: free_family_type
    implicit none (type, external)
    private
    public :: branch_type, follow_branch
@@ -45,11 +45,9 @@ module orbit_branch
 contains
 
    !> Follow a branch from an orbit.
-   subroutine follow_branch(family, settings, start, direction, branch, error, tangent)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
+   subroutine follow_branch(settings, start, direction, branch, error, tangent)
       !> How far and how
-      type(branch_settings_type), intent(in) :: settings
+      type(follow_settings_type), intent(in) :: settings
       !> Approximation of the first orbit
       type(periodic_orbit_type), intent(in) :: start
       !> 1 or -1: towards greater or smaller parameters, or along the tangent or against it
@@ -68,13 +66,14 @@ contains
       integer :: i
       logical :: passed, passes
 
-      associate (scale => settings%scale)
-         call first_orbit(family, scale, start, orbit, along(1), newton, error, tangent)
+      associate (family => settings%family)
+         call first_orbit(family, start, orbit, along(1), newton, error, tangent)
          if (allocated(error)) return
-         associate (p => orbit%parameters(scale%free(1)))
-            if (p < settings%window(1) .or. p > settings%window(2)) then
+         associate (p => orbit%parameters(family%free(1)))
+            if (settings%is_outside(orbit)) then
                call raise(error, "branch: the first orbit is at "//text(p)//"; " &
-                          //text(settings%window(1))//".."//text(settings%window(2))//" expected")
+                          //text(settings%window(1, 1))//".."//text(settings%window(2, 1)) &
+                          //" expected")
                return
             end if
          end associate
@@ -84,22 +83,22 @@ contains
          else if (along(1)%parameters(1)*direction < 0.0_wp) then
             along(1) = along(1)%times(-1.0_wp)
          end if
-         allocate (branch%orbits(settings%most_orbits), branch%tangents(settings%most_orbits), &
-                   branch%multipliers(settings%most_orbits))
+         allocate (branch%orbits(settings%most_points), branch%tangents(settings%most_points), &
+                   branch%multipliers(settings%most_points))
          branch%orbits(1) = orbit
          branch%tangents(1) = along(1)
-         call make_accurate(family, scale, settings%refinement, branch%orbits(1), &
+         call make_accurate(settings, branch%orbits(1), &
                             branch%tangents(1), branch%multipliers(1), .true., error)
          if (allocated(error)) return
          step = settings%first_step
          i = 1
          branch%ending = "orbits"
          passed = .false.
-         do while (i < settings%most_orbits)
-            call take_step(family, settings, branch, i, step, newton, passes, failure)
+         do while (i < settings%most_points)
+            call take_step(settings, branch, i, step, newton, passes, failure)
             branch%iterations = branch%iterations + newton%iterations
             if (.not. allocated(failure)) then
-               call make_accurate(family, scale, settings%refinement, branch%orbits(i + 1), &
+               call make_accurate(settings, branch%orbits(i + 1), &
                                   branch%tangents(i + 1), branch%multipliers(i + 1), &
                                   mod(i, adapt_every) == 0, failure)
             end if
@@ -124,79 +123,60 @@ contains
             end if
          end do
       end associate
-      call cut(branch, i)
-      if (branch%ending == "window") call end_at_window(family, settings, branch)
+      call keep_first(branch, i)
+      if (branch%ending == "window") call end_at_window(settings, branch)
    end subroutine follow_branch
 
    !> The first orbit of a branch and its tangent.
-   subroutine first_orbit(family, scale, start, orbit, along, newton, error, tangent)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> Free parameters
-      type(orbit_scale_type), intent(in) :: scale
-      !> Approximation of the orbit
+   subroutine first_orbit(family, start, orbit, along, newton, error, tangent)
+      type(free_family_type), intent(in) :: family
       type(periodic_orbit_type), intent(in) :: start
-      !> The orbit
       type(periodic_orbit_type), intent(out) :: orbit
-      !> Tangent of the branch at the orbit
       type(orbit_change_type), intent(out) :: along
-      !> Effort
       type(newton_type), intent(out) :: newton
-      !> There is no orbit
       type(error_type), allocatable, intent(out) :: error
-      !> Approximation of the tangent
       type(orbit_change_type), intent(in), optional :: tangent
       type(orbit_change_type) :: directions(1)
 
-      directions(1) = parameter_direction(start)
+      directions(1) = parameter_direction(start, 1)
       if (present(tangent)) directions(1) = tangent
       orbit = start
-      call correct_orbit(family, scale, start, directions, [0.0_wp], orbit, newton, error)
+      call correct_orbit(family, start, directions, [0.0_wp], orbit, newton, error)
       if (allocated(error) .or. orbit%amplitude() < remaining_share*start%amplitude()) then
          ! at these parameters it becomes the stationary state, so its amplitude is kept
-         directions(1)%nodes = start%nodes - spread(sum(start%nodes, dim=2)/size(start%nodes, 2), &
-                                                    2, size(start%nodes, 2))
-         directions(1)%parameters = [0.0_wp]
+         directions(1) = amplitude_direction(start, 1)
          orbit = start
-         call correct_orbit(family, scale, start, directions, [0.0_wp], orbit, newton, error)
+         call correct_orbit(family, start, directions, [0.0_wp], orbit, newton, error)
          if (allocated(error)) return
       end if
       along = directions(1)
-      call turn_to_tangent(family, scale, orbit, along, error)
+      call turn_to_tangent(family, orbit, along, error)
    end subroutine first_orbit
 
    !> The next orbit of a branch.
-   subroutine take_step(family, settings, branch, i, step, newton, passes, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> How far and how
-      type(branch_settings_type), intent(in) :: settings
-      !> The branch
+   subroutine take_step(settings, branch, i, step, newton, passes, error)
+      type(follow_settings_type), intent(in) :: settings
       type(branch_type), intent(inout) :: branch
-      !> Orbits so far
       integer, intent(in) :: i
-      !> Length of the step
       real(wp), intent(in) :: step
-      !> Effort
       type(newton_type), intent(out) :: newton
       !> Whether the branch passes through a shorter cycle
       logical, intent(out) :: passes
-      !> The step is too long
       type(error_type), allocatable, intent(out) :: error
       type(orbit_change_type) :: along(1), move
       type(periodic_orbit_type) :: orbit
 
       passes = .false.
-      associate (before => branch%orbits(i), scale => settings%scale)
+      associate (before => branch%orbits(i), family => settings%family)
          newton%most_iterations = most_iterations
          along(1) = branch%tangents(i)
          orbit = before
          move = along(1)%times(step)
-         call move%add_to(orbit, scale)
-         call correct_orbit(family, scale, before, along, [step], orbit, newton, error)
+         call move%add_to(orbit, family)
+         call correct_orbit(family, before, along, [step], orbit, newton, error)
          if (allocated(error)) return
          move = along(1)
-         call turn_to_tangent(family, scale, orbit, along(1), error)
+         call turn_to_tangent(family, orbit, along(1), error)
          if (allocated(error)) return
          passes = orbit%opposite_parts(before) > 0
          if (passes) then
@@ -211,13 +191,52 @@ contains
       end associate
    end subroutine take_step
 
+   !> Find the multipliers, on an adapted mesh where that is due or where the trivial multiplier is
+   !> not accurate, and on more intervals where that is not enough.
+   subroutine make_accurate(settings, orbit, along, multipliers, due, error)
+      type(follow_settings_type), intent(in) :: settings
+      type(periodic_orbit_type), intent(inout) :: orbit
+      type(orbit_change_type), intent(inout) :: along
+      type(multipliers_type), intent(out) :: multipliers
+      !> Whether the mesh is to be adapted anyway
+      logical, intent(in) :: due
+      type(error_type), allocatable, intent(out) :: error
+      type(error_type), allocatable :: failure
+      type(multipliers_type) :: better
+      type(newton_type) :: newton
+      type(orbit_change_type) :: direction(1)
+      type(periodic_orbit_type) :: adapted, reference
+      integer :: intervals, round
+
+      associate (family => settings%family, refinement => settings%refinement)
+         call find_multipliers(family, orbit, refinement%multipliers, multipliers, error)
+         if (allocated(error)) return
+         intervals = orbit%intervals()
+         do round = 1, most_rounds
+            if (multipliers%trivial_error <= refinement%accuracy) then
+               if (round > 1 .or. .not. due) return
+            end if
+            reference = orbit%on_mesh(adapted_mesh(orbit, intervals))
+            direction(1) = along%on_mesh(orbit, reference%mesh)
+            adapted = reference
+            call correct_orbit(family, reference, direction, [0.0_wp], adapted, newton, &
+                               failure)
+            if (allocated(failure)) return
+            call turn_to_tangent(family, adapted, direction(1), failure)
+            if (allocated(failure)) return
+            call find_multipliers(family, adapted, refinement%multipliers, better, failure)
+            if (allocated(failure)) return
+            orbit = adapted
+            along = direction(1)
+            multipliers = better
+            if (round > 1) intervals = refinement%next_intervals(intervals)
+         end do
+      end associate
+   end subroutine make_accurate
+
    !> Replace the last orbit by that at the edge of the window.
-   subroutine end_at_window(family, settings, branch)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> The window
-      type(branch_settings_type), intent(in) :: settings
-      !> The branch
+   subroutine end_at_window(settings, branch)
+      type(follow_settings_type), intent(in) :: settings
       type(branch_type), intent(inout) :: branch
       type(error_type), allocatable :: error
       type(multipliers_type) :: multipliers
@@ -228,24 +247,24 @@ contains
       integer :: i, last
 
       last = size(branch%orbits)
-      associate (scale => settings%scale, p => settings%scale%free(1))
+      associate (family => settings%family, p => settings%family%free(1))
          orbit = branch%orbits(last)
-         edge = min(max(orbit%parameters(p), settings%window(1)), settings%window(2))
+         edge = min(max(orbit%parameters(p), settings%window(1, 1)), settings%window(2, 1))
          along(1) = branch%tangents(last)
-         move = along(1)%times((edge - orbit%parameters(p))/(along(1)%parameters(1)*scale%unit(1)))
-         call move%add_to(orbit, scale)
+         move = along(1)%times((edge - orbit%parameters(p))/(along(1)%parameters(1)*family%unit(1)))
+         call move%add_to(orbit, family)
          do i = 1, 2
             orbit%parameters(p) = edge
             reference = orbit
-            fixed(1) = parameter_direction(orbit)
-            call correct_orbit(family, scale, reference, fixed, [0.0_wp], orbit, newton, error)
+            fixed(1) = parameter_direction(orbit, 1)
+            call correct_orbit(family, reference, fixed, [0.0_wp], orbit, newton, error)
             if (allocated(error)) return
             orbit%parameters(p) = edge
-            call turn_to_tangent(family, scale, orbit, along(1), error)
+            call turn_to_tangent(family, orbit, along(1), error)
             if (allocated(error)) return
             if (i == 2) exit
             ! a finer mesh changes the parameter a little
-            call make_accurate(family, scale, settings%refinement, orbit, along(1), multipliers, &
+            call make_accurate(settings, orbit, along(1), multipliers, &
                                .false., error)
             if (allocated(error)) return
          end do
@@ -256,32 +275,16 @@ contains
    end subroutine end_at_window
 
    !> Keep the first orbits of a branch.
-   subroutine cut(branch, count)
-      !> The branch
+   subroutine keep_first(branch, count)
       type(branch_type), intent(inout) :: branch
-      !> Their number
       integer, intent(in) :: count
-
       type(branch_type) :: whole
-      integer :: i
 
       call move_alloc(branch%orbits, whole%orbits)
       call move_alloc(branch%tangents, whole%tangents)
       call move_alloc(branch%multipliers, whole%multipliers)
-      allocate (branch%orbits(count), branch%tangents(count), branch%multipliers(count))
-      do i = 1, count
-         branch%orbits(i) = whole%orbits(i)
-         branch%tangents(i) = whole%tangents(i)
-         branch%multipliers(i) = whole%multipliers(i)
-      end do
-   end subroutine cut
-
-   !> The direction in which only the parameter changes.
-   pure type(orbit_change_type) function parameter_direction(orbit) result(direction)
-      !> An orbit
-      type(periodic_orbit_type), intent(in) :: orbit
-
-      allocate (direction%nodes(size(orbit%nodes, 1), size(orbit%nodes, 2)), source=0.0_wp)
-      direction%parameters = [1.0_wp]
-   end function parameter_direction
+      allocate (branch%orbits, source=whole%orbits(:count))
+      allocate (branch%tangents, source=whole%tangents(:count))
+      allocate (branch%multipliers, source=whole%multipliers(:count))
+   end subroutine keep_first
 end module orbit_branch

@@ -1,11 +1,12 @@
 !> Changes of periodic orbits as vectors, with an inner product.
 module orbit_change
    use dde_kinds, only: wp
-   use orbit_passes, only: orbit_scale_type
    use periodic_orbit, only: periodic_orbit_type
+   use problem_family, only: free_family_type
    implicit none (type, external)
    private
-   public :: difference_of, inner_product, orbit_change_type, phase_condition, weights_of
+   public :: amplitude_direction, difference_of, inner_product, orbit_change_type, &
+             parameter_direction, phase_condition, weights_of
 
    !> A change of an orbit, on its mesh.
    type :: orbit_change_type
@@ -16,19 +17,35 @@ module orbit_change
       !> Changes of free parameters in their units
       real(wp), allocatable :: parameters(:)
    contains
-      !> Add it to an orbit
-      procedure :: add_to
-      !> Size of the change against an orbit
-      procedure :: size_against
-      !> A multiple of it
-      procedure :: times
-      !> Sum of the change and a multiple of another one
-      procedure :: plus
-      !> The change interpolated on another mesh
-      procedure :: on_mesh
+      procedure :: add_to, size_against, times, plus, on_mesh
    end type orbit_change_type
 
 contains
+
+   !> The direction in which an orbit grows away from its mean at fixed parameters.
+   pure function amplitude_direction(orbit, free) result(direction)
+      !> The orbit
+      type(periodic_orbit_type), intent(in) :: orbit
+      !> Number of free parameters
+      integer, intent(in) :: free
+      type(orbit_change_type) :: direction
+
+      direction%nodes = orbit%deviations()
+      allocate (direction%parameters(free), source=0.0_wp)
+   end function amplitude_direction
+
+   !> The direction in which only the last free parameter changes.
+   pure function parameter_direction(orbit, free) result(direction)
+      !> The orbit
+      type(periodic_orbit_type), intent(in) :: orbit
+      !> Number of free parameters
+      integer, intent(in) :: free
+      type(orbit_change_type) :: direction
+
+      allocate (direction%nodes(size(orbit%nodes, 1), size(orbit%nodes, 2)), source=0.0_wp)
+      allocate (direction%parameters(free), source=0.0_wp)
+      direction%parameters(free) = 1.0_wp
+   end function parameter_direction
 
    !> The condition that the integral of x . x_ref' over the period is 0, divided by the norm of
    !> x_ref'.
@@ -92,40 +109,38 @@ contains
    end function inner_product
 
    !> Change from one orbit to another on the same mesh.
-   pure function difference_of(orbit, reference, scale) result(change)
+   pure function difference_of(orbit, reference, family) result(change)
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       !> The one it is compared with
       type(periodic_orbit_type), intent(in) :: reference
-      !> Free parameters
-      type(orbit_scale_type), intent(in) :: scale
+      !> The free parameters
+      type(free_family_type), intent(in) :: family
       type(orbit_change_type) :: change
 
       change%nodes = orbit%nodes - reference%nodes
       change%period = (orbit%period - reference%period)/reference%period
-      change%parameters = (orbit%parameters(scale%free) - reference%parameters(scale%free)) &
-                          /scale%unit
+      change%parameters = (orbit%parameters(family%free) - reference%parameters(family%free)) &
+                          /family%unit
    end function difference_of
 
    !> Add a change to an orbit.
-   subroutine add_to(self, orbit, scale)
-      !> The change
+   subroutine add_to(self, orbit, family)
       class(orbit_change_type), intent(in) :: self
       !> The orbit
       type(periodic_orbit_type), intent(inout) :: orbit
-      !> Free parameters
-      type(orbit_scale_type), intent(in) :: scale
+      !> The free parameters
+      type(free_family_type), intent(in) :: family
 
       orbit%nodes = orbit%nodes + self%nodes
       orbit%nodes(:, size(orbit%nodes, 2)) = orbit%nodes(:, 1)
       orbit%period = orbit%period*(1.0_wp + self%period)
-      orbit%parameters(scale%free) = orbit%parameters(scale%free) + self%parameters*scale%unit
+      orbit%parameters(family%free) = orbit%parameters(family%free) + self%parameters*family%unit
    end subroutine add_to
 
    !> The largest change of a component over its greatest value, of the period over the period and
    !> of a parameter in its unit.
    pure real(wp) function size_against(self, orbit) result(value)
-      !> The change
       class(orbit_change_type), intent(in) :: self
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
@@ -138,7 +153,6 @@ contains
 
    !> A multiple of a change.
    pure type(orbit_change_type) function times(self, factor) result(value)
-      !> The change
       class(orbit_change_type), intent(in) :: self
       !> Factor
       real(wp), intent(in) :: factor
@@ -150,7 +164,6 @@ contains
 
    !> A change and a multiple of another one.
    pure type(orbit_change_type) function plus(self, other, factor) result(value)
-      !> The change
       class(orbit_change_type), intent(in) :: self
       !> The other one
       type(orbit_change_type), intent(in) :: other
@@ -164,7 +177,6 @@ contains
 
    !> A change interpolated on another mesh.
    pure type(orbit_change_type) function on_mesh(self, orbit, mesh) result(value)
-      !> The change
       class(orbit_change_type), intent(in) :: self
       !> The orbit it changes
       type(periodic_orbit_type), intent(in) :: orbit

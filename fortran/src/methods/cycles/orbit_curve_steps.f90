@@ -1,37 +1,17 @@
 !> Steps along a curve of special points of periodic orbits: the next point is sought beside the
 !> direction of the curve, by the secant method.
 module orbit_curve_steps
+   use branch_ends, only: follow_settings_type, most_rounds, refinement_type
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use orbit_change, only: orbit_change_type
    use orbit_mesh, only: adapted_mesh
-   use orbit_passes, only: orbit_scale_type
-   use orbit_refinement, only: most_rounds, refinement_type
-   use orbit_surface, only: frame_type, judge_point, test_beside, turn_along
+   use orbit_surface, only: frame_type, test_beside, turn_along
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: problem_family_type
-   use special_points, only: fold, special_point_type
+   use special_points, only: fold, judge_point, special_point_type
    implicit none (type, external)
    private
-   public :: accurate, curve_settings_type, frame_on, take_step
-
-   !> How far a curve is followed, and how.
-   type :: curve_settings_type
-      !> The two free parameters and their units
-      type(orbit_scale_type) :: scale
-      !> Windows on them, shape (2, parameters)
-      real(wp) :: window(2, 2) = reshape([-1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp], [2, 2])
-      !> First and least step, in units of arclength, and longest step over the amplitude
-      real(wp) :: first_step = 0.01_wp, least_step = 1.0e-6_wp, longest_step = 0.05_wp
-      !> Most points
-      integer :: most_points = 200
-      !> The curve ends at a Hopf curve where no component has a larger range.
-      real(wp) :: least_amplitude = 0.02_wp
-      !> The curve ends where the period is longer.
-      real(wp) :: longest_period = huge(1.0_wp)
-      !> Multipliers and their accuracy
-      type(refinement_type) :: refinement
-   end type curve_settings_type
+   public :: frame_on, is_accurate, take_step
 
    !> Evaluations of the test function at one point, and the distance between two at which it is
    !> zero
@@ -45,11 +25,9 @@ module orbit_curve_steps
 contains
 
    !> The next point of a curve, on a mesh that is adapted to it until it is accurate.
-   subroutine take_step(family, settings, step, point, frame, evaluations, passes, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
+   subroutine take_step(settings, step, point, frame, evaluations, passes, error)
       !> How far and how
-      type(curve_settings_type), intent(in) :: settings
+      type(follow_settings_type), intent(in) :: settings
       !> Length of the step
       real(wp), intent(in) :: step
       !> The last point, then this one
@@ -70,12 +48,12 @@ contains
       evaluations = 0
       ahead = step
       most_beside = most_bend*max(step, settings%least_step)
-      associate (scale => settings%scale, refinement => settings%refinement)
+      associate (refinement => settings%refinement)
          intervals = point%orbit%intervals()
          do round = 1, most_rounds
             before = point%orbit%on_mesh(adapted_mesh(point%orbit, intervals))
             frame = frame_on(frame, point%orbit, before)
-            call find_beside(family, settings, before, frame, ahead, most_beside, point, more, &
+            call find_beside(settings, before, frame, ahead, most_beside, point, more, &
                              error)
             if (allocated(error)) return
             if (round == 1) then
@@ -87,36 +65,29 @@ contains
                end if
             end if
             if (point%kind == fold) then
-               call judge_point(family, refinement%multipliers, point, g, error)
+               call judge_point(settings, point, g, error)
                if (allocated(error)) return
             end if
-            if (accurate(point, refinement)) exit
+            if (is_accurate(point, refinement)) exit
             if (round > 1) intervals = refinement%next_intervals(intervals)
             ahead = 0.0_wp
          end do
-         call turn_along(family, scale, refinement%multipliers, point, frame, error)
+         call turn_along(settings, point, frame, error)
       end associate
    end subroutine take_step
 
    !> The root of the test function on the line beside the end of a step, by the secant method.
-   subroutine find_beside(family, settings, before, frame, ahead, most, point, evaluations, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> How far and how
-      type(curve_settings_type), intent(in) :: settings
-      !> The orbit from which the step goes
+   subroutine find_beside(settings, before, frame, ahead, most, point, evaluations, error)
+      type(follow_settings_type), intent(in) :: settings
       type(periodic_orbit_type), intent(in) :: before
       !> Directions there, and the slope of the test function, which is improved
       type(frame_type), intent(inout) :: frame
-      !> Length of the step
       real(wp), intent(in) :: ahead
       !> Most that the root may lie beside it
       real(wp), intent(in) :: most
       !> The point, of known kind
       type(special_point_type), intent(inout) :: point
-      !> Evaluations of the test function
       integer, intent(out) :: evaluations
-      !> There is none
       type(error_type), allocatable, intent(out) :: error
       type(orbit_change_type) :: change
       real(wp) :: at, g, g_before, move
@@ -126,9 +97,8 @@ contains
       at = 0.0_wp
       move = 0.0_wp
       do evaluations = 1, most_evaluations
-         call change%add_to(point%orbit, settings%scale)
-         call test_beside(family, settings%scale, settings%refinement%multipliers, before, &
-                          frame%directions, [ahead, at], point, g, error)
+         call change%add_to(point%orbit, settings%family)
+         call test_beside(settings, before, frame%directions, [ahead, at], point, g, error)
          if (allocated(error)) return
          ! at a shorter distance the difference is one of rounding errors
          if (abs(move) > resolved) frame%slope = (g - g_before)/move
@@ -159,7 +129,7 @@ contains
 
    !> Whether the multipliers of a point are accurate. At a fold the trivial one is double: then its
    !> error is the square root of the other errors.
-   pure logical function accurate(point, refinement) result(value)
+   pure logical function is_accurate(point, refinement) result(value)
       !> The point
       type(special_point_type), intent(in) :: point
       !> What is accurate
@@ -167,5 +137,5 @@ contains
 
       value = point%trivial_error <= refinement%accuracy
       if (point%kind == fold) value = point%trivial_error <= sqrt(refinement%accuracy)
-   end function accurate
+   end function is_accurate
 end module orbit_curve_steps

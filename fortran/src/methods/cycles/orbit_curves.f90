@@ -1,18 +1,17 @@
 !> Curves of special points of periodic orbits in two parameters. The orbits near a point are a
 !> surface over its tangent plane. The curve is where a test function of the point is 0 on it.
 module orbit_curves
-   use branch_ends, only: is_closed, longer_step, shorter
+   use branch_ends, only: follow_settings_type, is_closed, longer_step, shorter
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use orbit_curve_steps, only: accurate, curve_settings_type, frame_on, take_step
+   use orbit_curve_steps, only: frame_on, is_accurate, take_step
    use orbit_mesh, only: adapted_mesh
    use orbit_surface, only: first_plane, frame_type, turn_along
-   use problem_family, only: problem_family_type
    use sign_change, only: sign_change_type
    use special_points, only: cusp, fold, special_point_type, torus_bifurcation
    implicit none (type, external)
    private
-   public :: curve_settings_type, curve_type, follow_curve
+   public :: curve_type, follow_curve
 
    !> A curve.
    type :: curve_type
@@ -39,11 +38,9 @@ module orbit_curves
 contains
 
    !> Follow the curve through a special point in one of its two directions.
-   subroutine follow_curve(family, settings, start, direction, curve, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
+   subroutine follow_curve(settings, start, direction, curve, error)
       !> How far and how
-      type(curve_settings_type), intent(in) :: settings
+      type(follow_settings_type), intent(in) :: settings
       !> The point
       type(special_point_type), intent(in) :: start
       !> 1 or -1: towards greater or smaller values of the second parameter at first
@@ -61,9 +58,9 @@ contains
 
       allocate (curve%points(settings%most_points), curve%cusps(0))
       curve%points(1) = start
-      call first_plane(family, settings%scale, start%orbit, frame%directions, error)
+      call first_plane(settings%family, start%orbit, frame%directions, error)
       if (allocated(error)) return
-      call turn_along(family, settings%scale, settings%refinement%multipliers, start, frame, error)
+      call turn_along(settings, start, frame, error)
       if (allocated(error)) return
       associate (along => frame%directions(1))
          if (along%parameters(2)*direction < 0.0_wp) along = along%times(-1.0_wp)
@@ -75,7 +72,7 @@ contains
       do while (i < settings%most_points)
          next = curve%points(i)
          next_frame = frame
-         call take_step(family, settings, step, next, next_frame, evaluations, passes, failure)
+         call take_step(settings, step, next, next_frame, evaluations, passes, failure)
          if (allocated(failure)) then
             step = shorter*step
             passed = passed .or. passes
@@ -91,41 +88,34 @@ contains
                  < 0.0_wp
          ! at a generalised Hopf point, too, the parameters turn back, with the other phase
          if (start%kind == fold .and. turns .and. curve%ending /= "generalised_hopf") then
-            call find_cusp(family, settings, curve%points(i - 1), frame, step, curve%cusps)
+            call find_cusp(settings, curve%points(i - 1), frame, step, curve%cusps)
          end if
          if (ended) exit
          frame = next_frame
          if (evaluations <= easy) step = longer_step(step, settings%longest_step, next%orbit)
       end do
-      call cut(curve%points, i)
+      curve%points = curve%points(:i)
    end subroutine follow_curve
 
    !> Find the cusp on a curve of folds within a step from a point, on two meshes, and append it.
-   subroutine find_cusp(family, settings, before, frame, step, cusps)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> How far and how
-      type(curve_settings_type), intent(in) :: settings
-      !> The point before it
+   subroutine find_cusp(settings, before, frame, step, cusps)
+      type(follow_settings_type), intent(in) :: settings
       type(special_point_type), intent(in) :: before
-      !> Directions there
       type(frame_type), intent(in) :: frame
-      !> Length of the step
       real(wp), intent(in) :: step
-      !> Cusps
       type(special_point_type), allocatable, intent(inout) :: cusps(:)
       type(error_type), allocatable :: error
       type(special_point_type) :: coarse, fine, first
 
-      call locate_cusp(family, settings, before, frame, step, coarse, error)
+      call locate_cusp(settings, before, frame, step, coarse, error)
       if (allocated(error)) return
       first = before
       first%orbit = before%orbit%on_mesh(adapted_mesh(before%orbit, &
                                                          nint(finer*before%orbit%intervals())))
-      call locate_cusp(family, settings, first, frame_on(frame, before%orbit, first%orbit), step, &
+      call locate_cusp(settings, first, frame_on(frame, before%orbit, first%orbit), step, &
                        fine, error)
       if (allocated(error)) return
-      associate (free => settings%scale%free)
+      associate (free => settings%family%free)
          fine%mesh_error = maxval(abs(fine%orbit%parameters(free) - coarse%orbit%parameters(free)))
       end associate
       fine%kind = cusp
@@ -134,20 +124,12 @@ contains
 
    !> The point within a step at which the direction of a curve of folds has no part along the
    !> parameters.
-   subroutine locate_cusp(family, settings, before, frame, step, point, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> How far and how
-      type(curve_settings_type), intent(in) :: settings
-      !> The point before it
+   subroutine locate_cusp(settings, before, frame, step, point, error)
+      type(follow_settings_type), intent(in) :: settings
       type(special_point_type), intent(in) :: before
-      !> Directions there
       type(frame_type), intent(in) :: frame
-      !> Length of the step
       real(wp), intent(in) :: step
-      !> The cusp
       type(special_point_type), intent(out) :: point
-      !> Error if the cusp was not found
       type(error_type), allocatable, intent(out) :: error
       type(sign_change_type) :: change
       real(wp) :: at, g, moved
@@ -174,7 +156,6 @@ contains
 
       !> The point after a part of the step, and the part of its direction along the parameters.
       subroutine part_along(length, value)
-         !> Length of the part
          real(wp), intent(in) :: length
          !> Inner product of the parameters' parts of the directions
          real(wp), intent(out) :: value
@@ -185,7 +166,7 @@ contains
          value = 0.0_wp
          point = before
          turned = frame
-         call take_step(family, settings, length, point, turned, evaluations, passes, error)
+         call take_step(settings, length, point, turned, evaluations, passes, error)
          if (allocated(error)) return
          value = dot_product(frame%directions(1)%parameters, turned%directions(1)%parameters)
       end subroutine part_along
@@ -193,21 +174,16 @@ contains
 
    !> Whether a curve ends at its last point, and why.
    logical function has_ended(settings, points, last, step, reason) result(value)
-      !> Limits of the curve
-      type(curve_settings_type), intent(in) :: settings
-      !> Points
+      type(follow_settings_type), intent(in) :: settings
       type(special_point_type), intent(in) :: points(:)
-      !> The last of them
       integer, intent(in) :: last
-      !> Length of the last step
       real(wp), intent(in) :: step
       !> Why, where it ends
       character(len=:), allocatable, intent(inout) :: reason
 
       value = .true.
-      associate (point => points(last), free => settings%scale%free)
-         if (any(point%orbit%parameters(free) < settings%window(1, :)) &
-             .or. any(point%orbit%parameters(free) > settings%window(2, :))) then
+      associate (point => points(last))
+         if (settings%is_outside(point%orbit)) then
             reason = "window"
          else if (point%orbit%amplitude() < settings%least_amplitude) then
             reason = trim(merge("generalised_hopf", "double_hopf     ", point%kind == fold))
@@ -217,31 +193,15 @@ contains
             reason = "1:2"
          else if (point%orbit%period > settings%longest_period) then
             reason = "period"
-         else if (.not. accurate(point, settings%refinement)) then
+         else if (.not. is_accurate(point, settings%refinement)) then
             reason = "intervals"
          else if (point%orbit%comes_to_shorter(points(last - 1)%orbit)) then
             reason = "shorter_period"
-         else if (is_closed(settings%scale, points(:last)%orbit, step)) then
+         else if (is_closed(settings%family, points(:last)%orbit, step)) then
             reason = "closed"
          else
             value = .false.
          end if
       end associate
    end function has_ended
-
-   !> Keep the first points.
-   subroutine cut(points, count)
-      !> The points
-      type(special_point_type), allocatable, intent(inout) :: points(:)
-      !> Their number
-      integer, intent(in) :: count
-      type(special_point_type), allocatable :: whole(:)
-      integer :: i
-
-      call move_alloc(points, whole)
-      allocate (points(count))
-      do i = 1, count
-         points(i) = whole(i)
-      end do
-   end subroutine cut
 end module orbit_curves

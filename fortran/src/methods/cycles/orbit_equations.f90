@@ -7,9 +7,9 @@ module orbit_equations
    use orbit_change, only: difference_of, inner_product, orbit_change_type, phase_condition, &
                            weights_of
    use orbit_linearisation, only: linearise_orbit
-   use orbit_passes, only: orbit_passes_type, orbit_scale_type
+   use orbit_passes, only: orbit_passes_type
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: problem_family_type
+   use problem_family, only: free_family_type
    implicit none (type, external)
    private
    public :: correct_orbit, find_tangents, newton_type, turn_to_tangent
@@ -40,8 +40,8 @@ module orbit_equations
       type(orbit_passes_type) :: linear
       !> The phase condition, then a condition for each free parameter
       type(orbit_change_type), allocatable :: conditions(:)
-      !> Nodes and delayed components of the last vector
-      real(wp), allocatable :: nodes(:), delayed(:, :)
+      !> Nodes that follow from the last vector
+      real(wp), allocatable :: nodes(:)
    contains
       procedure :: apply => defect_of_change
    end type orbit_map_type
@@ -51,11 +51,9 @@ contains
    !> Correct an orbit: the collocation equations, the phase of the reference, and for each free
    !> parameter a condition that the inner product of a direction with the change from the reference
    !> is given.
-   subroutine correct_orbit(family, scale, reference, directions, distances, orbit, newton, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> Free parameters
-      type(orbit_scale_type), intent(in) :: scale
+   subroutine correct_orbit(family, reference, directions, distances, orbit, newton, error)
+      !> Problems and free parameters
+      type(free_family_type), intent(in) :: family
       !> An orbit on the same mesh
       type(periodic_orbit_type), intent(in) :: reference
       !> Directions, one for each free parameter
@@ -74,20 +72,20 @@ contains
       integer :: i
 
       allocate (conditions(1 + size(directions)))
-      conditions(1) = phase_condition(reference, size(scale%free))
+      conditions(1) = phase_condition(reference, size(family%free))
       do i = 1, size(directions)
          conditions(i + 1) = weights_of(reference, directions(i))
       end do
       newton%last_change = huge(1.0_wp)
       do i = 1, newton%most_iterations
          newton%iterations = i
-         call remaining(reference, scale, conditions, distances, orbit, target(:, 1))
-         call solve_conditions(family, scale, orbit, conditions, 1.0_wp, target, change, error)
+         call find_targets(reference, family, conditions, distances, orbit, target(:, 1))
+         call solve_conditions(family, orbit, conditions, 1.0_wp, target, change, error)
          if (allocated(error)) return
          before = newton%last_change
          newton%last_change = change(1)%size_against(orbit)
          if (.not. newton%last_change <= divergence) exit
-         call change(1)%add_to(orbit, scale)
+         call change(1)%add_to(orbit, family)
          if (newton%last_change <= newton%tolerance) return
          if (newton%last_change <= rounding .and. newton%last_change >= 0.5_wp*before) return
          if (.not. orbit%period > 0.0_wp) exit
@@ -97,13 +95,11 @@ contains
                  //" iterations; at most "//text(newton%tolerance)//" expected")
    end subroutine correct_orbit
 
-   !> Changes that keep an orbit one: tangents. Each has the inner product 1 with one of as many
-   !> directions and 0 with the others.
-   subroutine find_tangents(family, scale, orbit, directions, tangents, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> Free parameters
-      type(orbit_scale_type), intent(in) :: scale
+   !> Changes that keep an orbit one: tangents. Tangent i has the inner product 1 with
+   !> direction i and 0 with the others.
+   subroutine find_tangents(family, orbit, directions, tangents, error)
+      !> Problems and free parameters
+      type(free_family_type), intent(in) :: family
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       !> Directions, one for each free parameter
@@ -117,21 +113,19 @@ contains
       integer :: i
 
       allocate (conditions(1 + size(directions)))
-      conditions(1) = phase_condition(orbit, size(scale%free))
+      conditions(1) = phase_condition(orbit, size(family%free))
       targets = 0.0_wp
       do i = 1, size(directions)
          conditions(i + 1) = weights_of(orbit, directions(i))
          targets(i + 1, i) = 1.0_wp
       end do
-      call solve_conditions(family, scale, orbit, conditions, 0.0_wp, targets, tangents, error)
+      call solve_conditions(family, orbit, conditions, 0.0_wp, targets, tangents, error)
    end subroutine find_tangents
 
    !> Turn a direction to the tangent of norm 1 whose inner product with it is positive.
-   subroutine turn_to_tangent(family, scale, orbit, direction, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> Free parameters
-      type(orbit_scale_type), intent(in) :: scale
+   subroutine turn_to_tangent(family, orbit, direction, error)
+      !> Problems and free parameters
+      type(free_family_type), intent(in) :: family
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       !> The direction, then the tangent
@@ -140,52 +134,41 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(orbit_change_type) :: tangent(1)
 
-      call find_tangents(family, scale, orbit, [direction], tangent, error)
+      call find_tangents(family, orbit, [direction], tangent, error)
       if (allocated(error)) return
       direction = tangent(1)%times(1.0_wp/sqrt(inner_product(orbit, tangent(1), tangent(1))))
    end subroutine turn_to_tangent
 
    !> Solve the linear equations about an orbit.
-   subroutine solve_conditions(family, scale, orbit, conditions, residual, targets, changes, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> Free parameters
-      type(orbit_scale_type), intent(in) :: scale
-      !> The orbit
+   subroutine solve_conditions(family, orbit, conditions, residual, targets, changes, error)
+      type(free_family_type), intent(in) :: family
       type(periodic_orbit_type), intent(in) :: orbit
-      !> Conditions
       type(orbit_change_type), intent(in) :: conditions(:)
       !> 1 if the change removes the residual of the orbit, 0 if it leaves it
       real(wp), intent(in) :: residual
       !> Values of the conditions, shape (conditions, changes)
       real(wp), intent(in) :: targets(:, :)
-      !> The changes
       type(orbit_change_type), intent(out) :: changes(:)
-      !> No solution
       type(error_type), allocatable, intent(out) :: error
       type(orbit_map_type) :: map
       real(wp), allocatable :: right(:), solution(:)
       integer :: i, past, unknowns
 
-      call linearise_orbit(family, orbit, scale, .false., map%linear, error)
+      call linearise_orbit(family, orbit, .false., map%linear, error)
       if (allocated(error)) return
       map%conditions = conditions
       past = map%linear%past_size()
       unknowns = past + size(conditions)
       allocate (map%nodes(size(orbit%nodes)))
-      associate (linear => map%linear)
-         allocate (map%delayed(size(linear%delayed), &
-                               (linear%reach + linear%intervals)*linear%degree + 1))
-      end associate
       allocate (right(unknowns), solution(unknowns))
       do i = 1, size(changes)
          solution = 0.0_wp
-         call answer(map, solution, residual, right)
+         call find_defects(map, solution, residual, right)
          right = -right
          right(past + 1:) = right(past + 1:) + targets(:, i)
          call solve_by_gmres(map, right, linear_tolerance, solution, error)
          if (allocated(error)) return
-         call answer(map, solution, residual, right)
+         call find_defects(map, solution, residual, right)
          changes(i)%nodes = reshape(map%nodes, shape(orbit%nodes))
          changes(i)%period = solution(past + 1)
          changes(i)%parameters = solution(past + 2:)
@@ -194,31 +177,26 @@ contains
 
    !> The past less the past a period later, and the values of the conditions.
    subroutine defect_of_change(self, vector, image)
-      !> The system
       class(orbit_map_type), intent(inout) :: self
       !> Past, changes of the period and of the free parameters
       real(wp), intent(in) :: vector(:)
-      !> The defects
       real(wp), intent(out) :: image(:)
 
-      call answer(self, vector, 0.0_wp, image)
+      call find_defects(self, vector, 0.0_wp, image)
    end subroutine defect_of_change
 
    !> Defect of a change, plus a multiple of the residual of the orbit.
-   subroutine answer(self, vector, residual, image)
-      !> The system
+   subroutine find_defects(self, vector, residual, image)
       class(orbit_map_type), intent(inout) :: self
       !> Past, changes of the period and of the free parameters
       real(wp), intent(in) :: vector(:)
-      !> Factor of the residual
       real(wp), intent(in) :: residual
-      !> The defects
       real(wp), intent(out) :: image(:)
       integer :: i, past
 
       past = self%linear%past_size()
-      call self%linear%pass(vector(:past), [residual, vector(past + 1:)], self%nodes, self%delayed)
-      image(:past) = vector(:past) - self%linear%later_past(self%nodes, self%delayed)
+      call self%linear%pass(vector(:past), [residual, vector(past + 1:)], self%nodes, image(:past))
+      image(:past) = vector(:past) - image(:past)
       do i = 1, size(self%conditions)
          associate (c => self%conditions(i))
             image(past + i) = dot_product(reshape(c%nodes, [size(c%nodes)]), self%nodes) &
@@ -226,32 +204,27 @@ contains
                               + dot_product(c%parameters, vector(past + 2:))
          end associate
       end do
-   end subroutine answer
+   end subroutine find_defects
 
    !> Values that the conditions must still gain.
-   subroutine remaining(reference, scale, conditions, distances, orbit, target)
-      !> The reference
+   subroutine find_targets(reference, family, conditions, distances, orbit, target)
       type(periodic_orbit_type), intent(in) :: reference
-      !> Free parameters
-      type(orbit_scale_type), intent(in) :: scale
-      !> Conditions
+      type(free_family_type), intent(in) :: family
       type(orbit_change_type), intent(in) :: conditions(:)
       !> Inner products wanted, one less than conditions
       real(wp), intent(in) :: distances(:)
-      !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
-      !> What is left of them
       real(wp), intent(out) :: target(:)
       type(orbit_change_type) :: made
       integer :: i
 
       target = [0.0_wp, distances]
-      made = difference_of(orbit, reference, scale)
+      made = difference_of(orbit, reference, family)
       do i = 1, size(conditions)
          associate (c => conditions(i))
             target(i) = target(i) - sum(c%nodes*made%nodes) - c%period*made%period &
                         - dot_product(c%parameters, made%parameters)
          end associate
       end do
-   end subroutine remaining
+   end subroutine find_targets
 end module orbit_equations

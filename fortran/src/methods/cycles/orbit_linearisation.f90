@@ -5,9 +5,9 @@ module orbit_linearisation
    use dde_errors, only: error_type, raise
    use dde_kinds, only: wp
    use lapack, only: solve
-   use orbit_passes, only: orbit_passes_type, orbit_scale_type
+   use orbit_passes, only: orbit_passes_type
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: problem_family_type
+   use problem_family, only: free_family_type
    implicit none (type, external)
    private
    public :: linearise_orbit
@@ -32,15 +32,13 @@ module orbit_linearisation
 contains
 
    !> The equations about an orbit.
-   subroutine linearise_orbit(family, orbit, scale, whole_past, self, error, further)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
+   subroutine linearise_orbit(family, orbit, whole_past, self, error, further)
+      !> Problems and free parameters
+      type(free_family_type), intent(in) :: family
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
-      !> Free parameters
-      type(orbit_scale_type), intent(in) :: scale
-      !> Whether delays reach back over periods, as is needed for multipliers; otherwise they are
-      !> taken modulo the period
+      !> Whether delays reach back over periods and no parameter is free, as is needed for
+      !> multipliers; otherwise delays are taken modulo the period
       logical, intent(in) :: whole_past
       !> The equations
       type(orbit_passes_type), intent(out) :: self
@@ -50,21 +48,27 @@ contains
       !> those of the parameters
       real(wp), intent(in), optional :: further(:, :, :, :)
       class(dde_problem_type), allocatable :: problem
-      type(member_type) :: beside(2, size(scale%free))
-      real(wp), allocatable :: local(:, :), place(:, :, :), right(:, :)
+      type(member_type), allocatable :: beside(:, :)
+      real(wp), allocatable :: local(:, :), parameters(:), place(:, :, :), right(:, :)
       integer :: first, forcings, i, p
 
-      call family%at(orbit%parameters, problem)
-      do p = 1, size(scale%free)
-         call family%at(changed(orbit%parameters, scale, p, difference), beside(1, p)%problem)
-         call family%at(changed(orbit%parameters, scale, p, -difference), beside(2, p)%problem)
+      call family%problems%at(orbit%parameters, problem)
+      allocate (beside(2, merge(0, size(family%free), whole_past)))
+      do p = 1, size(beside, 2)
+         do i = 1, 2
+            parameters = orbit%parameters
+            associate (moved => parameters(family%free(p)))
+               moved = moved + (3 - 2*i)*difference*family%unit(p)
+            end associate
+            call family%problems%at(parameters, beside(i, p)%problem)
+         end do
       end do
       self%n = problem%n
       self%degree = orbit%basis%degree
       self%intervals = orbit%intervals()
       call find_sources(self, problem, orbit, whole_past, place)
       associate (n => self%n, m => self%degree, delays => size(problem%lag))
-         first = n + delays*m + 2 + size(scale%free) + 1
+         first = n + delays*m + 2 + size(beside, 2) + 1
          forcings = 0
          if (present(further)) forcings = size(further, 4)
          allocate (self%response(n*m, first - 1 + forcings, self%intervals))
@@ -82,31 +86,11 @@ contains
       end if
    end subroutine linearise_orbit
 
-   !> Parameters of which a free one is changed.
-   pure function changed(parameters, scale, p, share) result(moved)
-      !> Parameters
-      real(wp), intent(in) :: parameters(:)
-      !> Free parameters
-      type(orbit_scale_type), intent(in) :: scale
-      !> Which of them
-      integer, intent(in) :: p
-      !> Change in its unit
-      real(wp), intent(in) :: share
-      real(wp) :: moved(size(parameters))
-
-      moved = parameters
-      moved(scale%free(p)) = moved(scale%free(p)) + share*scale%unit(p)
-   end function changed
-
    !> Where delayed values come from.
    subroutine find_sources(self, problem, orbit, whole_past, place)
-      !> The equations
       type(orbit_passes_type), intent(inout) :: self
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
-      !> Whether delays reach back over periods
       logical, intent(in) :: whole_past
       !> Place in the interval of the source, shape (delays, m, intervals)
       real(wp), allocatable, intent(out) :: place(:, :, :)
@@ -148,19 +132,14 @@ contains
    !> Equations of an interval: local x = right (inputs), x all its nodes; the first n columns of
    !> local, those of the left end, are moved to the right.
    subroutine local_system(self, problem, beside, orbit, place, i, local, right)
-      !> The equations
       type(orbit_passes_type), intent(inout) :: self
-      !> The problem of the orbit
       class(dde_problem_type), intent(in) :: problem
       !> Problems with a free parameter above and below
       type(member_type), intent(in) :: beside(:, :)
-      !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       !> Place in the interval of the source of delayed values, shape (delays, m)
       real(wp), intent(in) :: place(:, :)
-      !> Interval
       integer, intent(in) :: i
-      !> Left-hand side
       real(wp), intent(out) :: local(:, :)
       !> Right-hand sides; those of further forcings are given
       real(wp), intent(inout) :: right(:, :)
@@ -175,7 +154,7 @@ contains
       associate (n => self%n, m => self%degree, basis => orbit%basis, period => orbit%period)
          do k = 1, m
             r = (k - 1)*n
-            call evaluate(self, problem, beside, orbit, place(:, k), i, k, point)
+            call evaluate_point(self, problem, beside, orbit, place(:, k), i, k, point)
             do j = 1, m + 1
                column = (j - 1)*n
                local(r + 1:r + n, column + 1:column + n) = -period*basis%value(j, k)*point%by_y
@@ -217,20 +196,15 @@ contains
    end subroutine local_system
 
    !> Derivatives and forcings at a collocation point.
-   subroutine evaluate(self, problem, beside, orbit, place, i, k, point)
-      !> The equations
+   subroutine evaluate_point(self, problem, beside, orbit, place, i, k, point)
       type(orbit_passes_type), intent(in) :: self
-      !> The problem of the orbit
       class(dde_problem_type), intent(in) :: problem
       !> Problems with a free parameter above and below
       type(member_type), intent(in) :: beside(:, :)
-      !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       !> Place of the sources of delayed values, shape (delays)
       real(wp), intent(in) :: place(:)
-      !> Interval and point
       integer, intent(in) :: i, k
-      !> What is found
       type(point_type), intent(inout) :: point
       real(wp) :: slope_z(size(place)), z(size(place))
       real(wp), dimension(self%n) :: f, f_above, f_below, y, y_slope
@@ -267,5 +241,5 @@ contains
             end associate
          end do
       end associate
-   end subroutine evaluate
+   end subroutine evaluate_point
 end module orbit_linearisation

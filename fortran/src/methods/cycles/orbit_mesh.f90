@@ -13,9 +13,9 @@ module orbit_mesh
 
 contains
 
-   !> Intervals of one length.
+   !> A mesh of intervals of one length.
    pure function uniform_mesh(intervals) result(mesh)
-      !> Their number
+      !> Number of intervals
       integer, intent(in) :: intervals
       real(wp) :: mesh(intervals + 1)
       integer :: i
@@ -61,7 +61,6 @@ contains
 
    !> Scaled (m + 1)-th derivative to the power 1/(m + 1) in each interval.
    pure function density_of(orbit) result(density)
-      !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       real(wp) :: density(size(orbit%mesh) - 1)
       real(wp) :: derivative(size(orbit%nodes, 1), 0:size(density) + 1)

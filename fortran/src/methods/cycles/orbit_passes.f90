@@ -4,15 +4,7 @@ module orbit_passes
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: orbit_passes_type, orbit_scale_type
-
-   !> Parameters that may vary, and what is one unit of each.
-   type :: orbit_scale_type
-      !> Their numbers in the family
-      integer, allocatable :: free(:)
-      !> Units, > 0
-      real(wp), allocatable :: unit(:)
-   end type orbit_scale_type
+   public :: orbit_passes_type
 
    !> Linear equations for changes of an orbit. The past has the state at s = 0 and the delayed
    !> components at the nodes of the last `reach` intervals before.
@@ -34,27 +26,20 @@ module orbit_passes
       !> relative change of the period, changes of free parameters in their units.
       real(wp), allocatable :: response(:, :, :)
    contains
-      !> Numbers of a past
-      procedure :: past_size
-      !> Nodes that follow from a past
-      procedure :: pass
-      !> The past a period later
-      procedure :: later_past
+      procedure :: past_size, pass
    end type orbit_passes_type
 
 contains
 
    !> Numbers of a past.
    pure integer function past_size(self) result(value)
-      !> The equations
       class(orbit_passes_type), intent(in) :: self
 
       value = self%n + size(self%delayed)*self%reach*self%degree
    end function past_size
 
-   !> Nodes over a period that follow from a past and forcings.
-   pure subroutine pass(self, past, forcing, nodes, delayed)
-      !> The equations
+   !> Nodes over a period, and the past a period later, that follow from a past and forcings.
+   pure subroutine pass(self, past, forcing, nodes, later)
       class(orbit_passes_type), intent(in) :: self
       !> State at s = 0, delayed components at nodes before, ascending
       real(wp), intent(in) :: past(:)
@@ -62,8 +47,10 @@ contains
       real(wp), intent(in) :: forcing(:)
       !> State at the nodes, shape (n (intervals m + 1)): node by node
       real(wp), intent(out) :: nodes(:)
-      !> Delayed components at all nodes, also of the past, shape (components, all nodes)
-      real(wp), intent(out) :: delayed(:, :)
+      !> The past a period later
+      real(wp), intent(out) :: later(:)
+      ! at all nodes, also of the past
+      real(wp) :: delayed(size(self%delayed), (self%reach + self%intervals)*self%degree + 1)
       real(wp) :: answer(self%n*self%degree), input(size(self%response, 2))
       integer :: column, first, i, k, l, node
 
@@ -98,22 +85,9 @@ contains
                delayed(:, node) = answer((k - 1)*n + self%delayed)
             end do
          end do
+         later(:n) = nodes(size(nodes) - n + 1:)
+         later(n + 1:) = reshape(delayed(:, self%intervals*m + 1:size(delayed, 2) - 1), &
+                                 [size(later) - n])
       end associate
    end subroutine pass
-
-   !> The past a period later.
-   pure function later_past(self, nodes, delayed) result(past)
-      !> The equations
-      class(orbit_passes_type), intent(in) :: self
-      !> State at the nodes
-      real(wp), intent(in) :: nodes(:)
-      !> Delayed components at all nodes
-      real(wp), intent(in) :: delayed(:, :)
-      real(wp) :: past(self%past_size())
-
-      past(:self%n) = nodes(size(nodes) - self%n + 1:)
-      associate (first => self%intervals*self%degree, count => self%reach*self%degree)
-         past(self%n + 1:) = reshape(delayed(:, first + 1:first + count), [count*size(delayed, 1)])
-      end associate
-   end function later_past
 end module orbit_passes

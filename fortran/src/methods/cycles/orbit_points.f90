@@ -2,19 +2,18 @@
 !> points, and points at which another branch crosses. Each is a root of a test function on the
 !> segment between two orbits, and each is found on two meshes.
 module orbit_points
-   use branch_ends, only: branch_settings_type
+   use branch_ends, only: follow_settings_type
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use floquet_multipliers, only: find_multipliers, multipliers_type
    use orbit_branch, only: branch_type
-   use orbit_change, only: orbit_change_type
-   use orbit_equations, only: turn_to_tangent
+   use orbit_change, only: difference_of, inner_product, orbit_change_type
+   use orbit_equations, only: correct_orbit, newton_type, turn_to_tangent
    use orbit_mesh, only: adapted_mesh
-   use orbit_segment, only: orbit_on, segment_between, segment_type
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: problem_family_type
+   use problem_family, only: free_family_type
    use sign_change, only: sign_change_type
-   use special_points, only: branching, fold, period_doubling, special_point_type, test_value, &
+   use special_points, only: branching, fold, judge_point, period_doubling, special_point_type, &
                              torus_bifurcation
    use torus_normal_form, only: find_torus_coefficient
    implicit none (type, external)
@@ -34,14 +33,22 @@ module orbit_points
    !> Halvings of a segment with several special points
    integer, parameter :: most_halvings = 8
 
+   !> The orbits between two of a branch, in the direction from the first to the second.
+   type :: segment_type
+      !> First and second orbit, on one mesh
+      type(periodic_orbit_type) :: ends(2)
+      !> Direction, of norm 1
+      type(orbit_change_type) :: along(1)
+      !> Distance of the two
+      real(wp) :: length = 0.0_wp
+   end type segment_type
+
 contains
 
    !> All special points on a branch.
-   subroutine find_special_points(family, settings, branch, points, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
+   subroutine find_special_points(settings, branch, points, error)
       !> How the branch was followed
-      type(branch_settings_type), intent(in) :: settings
+      type(follow_settings_type), intent(in) :: settings
       !> The branch
       type(branch_type), intent(in) :: branch
       !> The points, in the order of the branch
@@ -52,32 +59,25 @@ contains
 
       allocate (points(0))
       do i = 1, size(branch%orbits) - 1
-         call search(family, settings, branch%orbits(i), branch%orbits(i + 1), &
-                     [sign(1.0_wp, branch%tangents(i)%parameters(1)), &
-                      sign(1.0_wp, branch%tangents(i + 1)%parameters(1))], &
-                     branch%multipliers(i), branch%multipliers(i + 1), most_halvings, points, error)
+         call search_between(settings, branch%orbits(i), branch%orbits(i + 1), &
+                             [sign(1.0_wp, branch%tangents(i)%parameters(1)), &
+                              sign(1.0_wp, branch%tangents(i + 1)%parameters(1))], &
+                             branch%multipliers(i), branch%multipliers(i + 1), most_halvings, &
+                             points, error)
          if (allocated(error)) return
       end do
    end subroutine find_special_points
 
    !> Special points between two orbits.
-   recursive subroutine search(family, settings, first, second, signs, before, behind, halvings, &
-                               points, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> How the branch was followed
-      type(branch_settings_type), intent(in) :: settings
-      !> The orbits
+   recursive subroutine search_between(settings, first, second, signs, before, behind, &
+                                       halvings, points, error)
+      type(follow_settings_type), intent(in) :: settings
       type(periodic_orbit_type), intent(in) :: first, second
       !> Direction of the parameter there, 1 or -1
       real(wp), intent(in) :: signs(2)
-      !> Their multipliers
       type(multipliers_type), intent(in) :: before, behind
-      !> Halvings allowed
       integer, intent(in) :: halvings
-      !> Points so far
       type(special_point_type), allocatable, intent(inout) :: points(:)
-      !> A point was not found
       type(error_type), allocatable, intent(out) :: error
       type(multipliers_type) :: between
       type(orbit_change_type) :: tangent
@@ -100,10 +100,10 @@ contains
             point%kind = period_doubling
          end if
       end if
-      segment = segment_between(first, second, settings%scale)
+      segment = segment_between(first, second, settings%family)
       if (point%kind /= "") then
          point%unstable = [before%unstable(), behind%unstable()]
-         call locate_on_meshes(family, settings, segment, point, error)
+         call locate_on_meshes(settings, segment, point, error)
          if (.not. allocated(error)) then
             points = [points, point]
             return
@@ -115,71 +115,63 @@ contains
          return
       end if
       if (allocated(error)) deallocate (error)
-      call orbit_on(family, settings%scale, segment, 0.5_wp, middle, error)
+      call find_orbit_at(settings%family, segment, 0.5_wp, middle, error)
       if (allocated(error)) return
-      call find_multipliers(family, middle, settings%refinement%multipliers, between, error)
+      call find_multipliers(settings%family, middle, settings%refinement%multipliers, between, &
+                            error)
       if (allocated(error)) return
       tangent = segment%along(1)
-      call turn_to_tangent(family, settings%scale, middle, tangent, error)
+      call turn_to_tangent(settings%family, middle, tangent, error)
       if (allocated(error)) return
       sign_between = sign(1.0_wp, tangent%parameters(1))
-      call search(family, settings, first, middle, [signs(1), sign_between], before, between, &
-                  halvings - 1, points, error)
+      call search_between(settings, first, middle, [signs(1), sign_between], before, between, &
+                          halvings - 1, points, error)
       if (allocated(error)) return
-      call search(family, settings, middle, second, [sign_between, signs(2)], between, behind, &
-                  halvings - 1, points, error)
-   end subroutine search
+      call search_between(settings, middle, second, [sign_between, signs(2)], between, behind, &
+                          halvings - 1, points, error)
+   end subroutine search_between
 
    !> Find a point on the mesh of the segment, then on finer ones until the last two agree.
-   subroutine locate_on_meshes(family, settings, segment, point, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> How the branch was followed
-      type(branch_settings_type), intent(in) :: settings
-      !> The segment
+   subroutine locate_on_meshes(settings, segment, point, error)
+      type(follow_settings_type), intent(in) :: settings
       type(segment_type), intent(in) :: segment
       !> The point, of known kind
       type(special_point_type), intent(inout) :: point
-      !> Error if the point was not found
       type(error_type), allocatable, intent(out) :: error
       real(wp), allocatable :: finer(:)
       real(wp) :: coarse
       integer :: intervals, p
       type(periodic_orbit_type) :: first
 
-      call locate(family, settings, segment, point, error)
+      call locate_point(settings, segment, point, error)
       if (allocated(error)) return
-      call set_coefficient(family, settings, point)
-      p = settings%scale%free(1)
+      call set_coefficient(settings, point)
+      p = settings%family%free(1)
       coarse = point%orbit%parameters(p)
       do
          intervals = nint(refinement*point%orbit%intervals())
          finer = adapted_mesh(point%orbit, intervals)
          first = segment%ends(1)%on_mesh(finer)
-         call locate(family, settings, segment_between(first, segment%ends(2), settings%scale), &
-                     point, error)
+         call locate_point(settings, segment_between(first, segment%ends(2), settings%family), &
+                           point, error)
          if (allocated(error)) return
-         call set_coefficient(family, settings, point)
+         call set_coefficient(settings, point)
          point%mesh_error = abs(point%orbit%parameters(p) - coarse)
          coarse = point%orbit%parameters(p)
-         if (point%mesh_error <= agreement*settings%scale%unit(1)) return
+         if (point%mesh_error <= agreement*settings%family%unit(1)) return
          if (intervals >= settings%refinement%most_intervals) return
       end do
    end subroutine locate_on_meshes
 
    !> Set the coefficient of a torus point on this mesh, and its difference from that before.
-   subroutine set_coefficient(family, settings, point)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> How the branch was followed
-      type(branch_settings_type), intent(in) :: settings
-      !> The point
+   subroutine set_coefficient(settings, point)
+      type(follow_settings_type), intent(in) :: settings
       type(special_point_type), intent(inout) :: point
       type(error_type), allocatable :: failure
       real(wp) :: coefficient, disturbed(size(point%orbit%nodes, 1))
 
       if (point%kind /= torus_bifurcation) return
-      call find_torus_coefficient(family, point%orbit, point%multiplier, &
+      call find_torus_coefficient(settings%family, point%orbit, point%multiplier, &
                                   settings%refinement%multipliers, coefficient, disturbed, failure)
       if (allocated(point%coefficient_error)) deallocate (point%coefficient_error)
       if (allocated(failure)) then
@@ -194,23 +186,18 @@ contains
    end subroutine set_coefficient
 
    !> Find a point on a segment.
-   subroutine locate(family, settings, segment, point, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> How the branch was followed
-      type(branch_settings_type), intent(in) :: settings
-      !> The segment
+   subroutine locate_point(settings, segment, point, error)
+      type(follow_settings_type), intent(in) :: settings
       type(segment_type), intent(in) :: segment
       !> The point, of known kind
       type(special_point_type), intent(inout) :: point
-      !> Error if the point was not found
       type(error_type), allocatable, intent(out) :: error
       type(sign_change_type) :: change
       real(wp) :: at, g, moved
       integer :: i
 
       do i = 1, 2
-         call test_at(family, settings, segment, change%places(i), point, change%values(i), error)
+         call test_at(settings, segment, change%places(i), point, change%values(i), error)
          if (allocated(error)) return
       end do
       if (product(change%values) > 0.0_wp) then
@@ -221,7 +208,7 @@ contains
       end if
       do i = 1, most_iterations
          at = change%next()
-         call test_at(family, settings, segment, at, point, g, error)
+         call test_at(settings, segment, at, point, g, error)
          if (allocated(error)) return
          call change%narrow(at, g, moved)
          if (moved <= share .or. abs(g) <= tiny(g)) exit
@@ -230,21 +217,15 @@ contains
          call raise(error, "special point "//trim(point%kind)//": test function "//text(g) &
                     //" where it changes sign; at most "//text(small)//" expected")
       else if (point%kind == torus_bifurcation) then
-         call set_growth(family, settings, segment, at, point)
+         call set_growth(settings, segment, at, point)
       end if
-   end subroutine locate
+   end subroutine locate_point
 
    !> Set the growth of a torus point by the multipliers on both sides.
-   subroutine set_growth(family, settings, segment, at, point)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> How the branch was followed
-      type(branch_settings_type), intent(in) :: settings
-      !> The segment
+   subroutine set_growth(settings, segment, at, point)
+      type(follow_settings_type), intent(in) :: settings
       type(segment_type), intent(in) :: segment
-      !> Place of the point on it
       real(wp), intent(in) :: at
-      !> The point
       type(special_point_type), intent(inout) :: point
       type(error_type), allocatable :: failure
       type(special_point_type) :: side
@@ -254,45 +235,69 @@ contains
       if (allocated(point%growth)) deallocate (point%growth)
       side%kind = point%kind
       do i = 1, 2
-         call test_at(family, settings, segment, at + merge(-beside, beside, i == 1), side, &
+         call test_at(settings, segment, at + merge(-beside, beside, i == 1), side, &
                       rate(i), failure)
          if (allocated(failure)) return
          rate(i) = log(1.0_wp + rate(i))/side%orbit%period
-         parameter(i) = side%orbit%parameters(settings%scale%free(1))
+         parameter(i) = side%orbit%parameters(settings%family%free(1))
       end do
       point%growth = (rate(2) - rate(1))/(parameter(2) - parameter(1))
    end subroutine set_growth
 
    !> The orbit at a place on a segment, and the test function of the point there.
-   subroutine test_at(family, settings, segment, place, point, g, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> How the branch was followed
-      type(branch_settings_type), intent(in) :: settings
-      !> The segment
+   subroutine test_at(settings, segment, place, point, g, error)
+      type(follow_settings_type), intent(in) :: settings
       type(segment_type), intent(in) :: segment
       !> Place, 0..1
       real(wp), intent(in) :: place
       !> The point, of known kind; its orbit is the one at the place
       type(special_point_type), intent(inout) :: point
-      !> Test function
       real(wp), intent(out) :: g
-      !> There is no orbit
       type(error_type), allocatable, intent(out) :: error
-      type(multipliers_type) :: multipliers
       type(orbit_change_type) :: tangent
 
       g = 0.0_wp
-      call orbit_on(family, settings%scale, segment, place, point%orbit, error)
+      call find_orbit_at(settings%family, segment, place, point%orbit, error)
       if (allocated(error)) return
-      call find_multipliers(family, point%orbit, settings%refinement%multipliers, multipliers, &
-                            error)
-      if (allocated(error)) return
-      call test_value(point%kind, multipliers, point%multiplier, g)
-      point%trivial_error = multipliers%trivial_error
-      if (point%kind /= fold) return
+      call judge_point(settings, point, g, error)
+      if (allocated(error) .or. point%kind /= fold) return
       tangent = segment%along(1)
-      call turn_to_tangent(family, settings%scale, point%orbit, tangent, error)
+      call turn_to_tangent(settings%family, point%orbit, tangent, error)
       g = tangent%parameters(1)
    end subroutine test_at
+   !> The segment between two orbits, on the mesh of the first.
+   type(segment_type) function segment_between(first, second, family) result(segment)
+      type(periodic_orbit_type), intent(in) :: first, second
+      type(free_family_type), intent(in) :: family
+
+      segment%ends(1) = first
+      segment%ends(2) = second%on_mesh(first%mesh)
+      segment%along(1) = difference_of(segment%ends(2), first, family)
+      associate (d => segment%along(1))
+         segment%length = sqrt(inner_product(first, d, d))
+         d%nodes = d%nodes/segment%length
+         d%period = d%period/segment%length
+         d%parameters = d%parameters/segment%length
+      end associate
+   end function segment_between
+
+   !> The orbit at a place on a segment.
+   subroutine find_orbit_at(family, segment, place, orbit, error)
+      type(free_family_type), intent(in) :: family
+      type(segment_type), intent(in) :: segment
+      !> Place, 0..1
+      real(wp), intent(in) :: place
+      type(periodic_orbit_type), intent(out) :: orbit
+      type(error_type), allocatable, intent(out) :: error
+      type(newton_type) :: newton
+
+      associate (first => segment%ends(1), second => segment%ends(2))
+         orbit = first
+         orbit%nodes = (1.0_wp - place)*first%nodes + place*second%nodes
+         orbit%period = (1.0_wp - place)*first%period + place*second%period
+         orbit%parameters = (1.0_wp - place)*first%parameters + place*second%parameters
+         call correct_orbit(family, first, segment%along, [place*segment%length], &
+                            orbit, newton, error)
+      end associate
+   end subroutine find_orbit_at
 end module orbit_points

@@ -1,25 +1,29 @@
-!> First approximations of periodic orbits: from a trajectory that has reached a cycle, and from a
-!> Hopf point.
+!> First approximations of periodic orbits: from a trajectory that has reached a cycle, from a
+!> Hopf point, and from a period doubling.
 module orbit_start
    use collocation_basis, only: collocation_basis_type
-   use dde, only: continuation_type, dde_problem_type, event_table, find_jacobian, integrate, &
+   use dde, only: continuation_type, dde_problem_type, event_table, integrate, &
                   integration_options, integration_result, table_sampler
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use delay_equation, only: linear_system_type
+   use delay_equation, only: linear_part, linear_system_type
+   use floquet_multipliers, only: find_multipliers, multipliers_type
    use lapack, only: null_vectors
    use orbit_change, only: orbit_change_type
    use orbit_mesh, only: adapted_mesh, uniform_mesh
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: problem_family_type
+   use problem_family, only: free_family_type
+   use special_points, only: period_doubling, special_point_type
    implicit none (type, external)
    private
-   public :: orbit_at_hopf_point, orbit_of_trajectory
+   public :: orbit_at_hopf_point, orbit_of_double_period, orbit_of_trajectory
 
    !> Maxima at which the states differ by less than this share of their range are the same.
    real(wp), parameter :: same = 1.0e-3_wp
    !> Rounds in which the mesh follows the samples.
    integer, parameter :: rounds = 5
+   !> Multipliers among which that at -1 is looked for.
+   integer, parameter :: multipliers_wanted = 8
 
 contains
 
@@ -82,7 +86,6 @@ contains
 
    !> Distribute the difference between the ends over the period: the mesh would follow a jump.
    pure subroutine close_orbit(orbit)
-      !> The orbit
       type(periodic_orbit_type), intent(inout) :: orbit
       real(wp) :: gap(size(orbit%nodes, 1)), times(size(orbit%nodes, 2))
       integer :: i
@@ -116,8 +119,8 @@ contains
    !> the null vector of the characteristic matrix at i omega and its greatest component is 1.
    subroutine orbit_at_hopf_point(family, parameters, state, omega, amplitude, basis, intervals, &
                                   orbit, tangent, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
+      !> Problems and free parameters
+      type(free_family_type), intent(in) :: family
       !> Parameters of the Hopf point
       real(wp), intent(in) :: parameters(:)
       !> Stationary state x0
@@ -142,7 +145,7 @@ contains
       real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
       integer :: i
 
-      call family%at(parameters, problem)
+      call family%problems%at(parameters, problem)
       linear = linear_part(problem, state)
       call null_vectors(linear%characteristic_matrix(cmplx(0.0_wp, omega, kind=wp)), q, p, error)
       if (allocated(error)) return
@@ -162,22 +165,49 @@ contains
       orbit%nodes = spread(state, 2, size(tangent%nodes, 2)) + amplitude*tangent%nodes
    end subroutine orbit_at_hopf_point
 
-   !> The linear part of a problem at a stationary state.
-   function linear_part(problem, state) result(linear)
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> Stationary state
-      real(wp), intent(in) :: state(:)
-      type(linear_system_type) :: linear
-      real(wp) :: by_y(size(state), size(state)), by_z(size(state), size(problem%lag))
-      integer :: k
+  !> First approximation of an orbit on the branch of twice the period that starts at a period
+   !> doubling: the orbit passed twice, plus a multiple of the
+   !> disturbance v with v(s + 1) = -v(s).
+   subroutine orbit_of_double_period(family, point, amplitude, orbit, tangent, error)
+      !> Problems and free parameters
+      type(free_family_type), intent(in) :: family
+      !> The period doubling
+      type(special_point_type), intent(in) :: point
+      !> Largest change of a component
+      real(wp), intent(in) :: amplitude
+      !> The orbit
+      type(periodic_orbit_type), intent(out) :: orbit
+      !> Direction of growing amplitude
+      type(orbit_change_type), intent(out) :: tangent
+      !> Error if the point is no period doubling
+      type(error_type), allocatable, intent(out) :: error
+      complex(wp), allocatable :: disturbances(:, :, :)
+      type(multipliers_type) :: multipliers
+      integer :: critical, last
 
-      call find_jacobian(problem, 0.0_wp, state, state(problem%component), by_y, by_z)
-      allocate (linear%a(size(state), size(state), size(problem%lag) + 1), source=0.0_wp)
-      linear%a(:, :, 1) = by_y
-      do k = 1, size(problem%lag)
-         linear%a(:, problem%component(k), k + 1) = by_z(:, k)
-      end do
-      linear%lag = [0.0_wp, problem%lag]
-   end function linear_part
+      if (point%kind /= period_doubling) then
+         call raise(error, "double period: a point of kind "//trim(point%kind)//"; " &
+                    //period_doubling//" expected")
+         return
+      end if
+      call find_multipliers(family, point%orbit, multipliers_wanted, multipliers, error, &
+                            disturbances)
+      if (allocated(error)) return
+      critical = minloc(abs(multipliers%values + 1.0_wp), dim=1)
+      last = size(point%orbit%nodes, 2)
+      allocate (tangent%nodes(size(point%orbit%nodes, 1), 2*last - 1))
+      associate (v => real(disturbances(:, :, critical)))
+         tangent%nodes(:, :last) = v/maxval(abs(v))
+      end associate
+      tangent%nodes(:, last + 1:) = -tangent%nodes(:, 2:last)
+      tangent%nodes(:, 2*last - 1) = tangent%nodes(:, 1)
+      tangent%parameters = [0.0_wp]
+      orbit = point%orbit
+      orbit%period = 2.0_wp*orbit%period
+      associate (mesh => point%orbit%mesh)
+         orbit%mesh = [0.5_wp*mesh, 0.5_wp + 0.5_wp*mesh(2:)]
+      end associate
+      orbit%nodes = reshape([point%orbit%nodes, point%orbit%nodes(:, 2:)], shape(tangent%nodes)) &
+                    + amplitude*tangent%nodes
+   end subroutine orbit_of_double_period
 end module orbit_start

@@ -1,17 +1,17 @@
 !> Periodic orbits near a special point, as a surface over the tangent plane of two parameters.
 module orbit_surface
+   use branch_ends, only: follow_settings_type
    use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use floquet_multipliers, only: find_multipliers, multipliers_type
-   use orbit_change, only: inner_product, orbit_change_type
+   use orbit_change, only: amplitude_direction, inner_product, orbit_change_type, &
+                           parameter_direction
    use orbit_equations, only: correct_orbit, find_tangents, newton_type
-   use orbit_passes, only: orbit_scale_type
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: problem_family_type
-   use special_points, only: fold, special_point_type, test_value
+   use problem_family, only: free_family_type
+   use special_points, only: fold, judge_point, special_point_type
    implicit none (type, external)
    private
-   public :: first_plane, frame_type, judge_point, test_beside, turn_along
+   public :: first_plane, frame_type, test_beside, turn_along
 
    !> Where a curve goes, at a point of it.
    type :: frame_type
@@ -27,13 +27,9 @@ module orbit_surface
 contains
 
    !> Turn the directions at a point: along the first the test function does not change.
-   subroutine turn_along(family, scale, wanted, point, frame, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> The two free parameters
-      type(orbit_scale_type), intent(in) :: scale
-      !> Number of multipliers
-      integer, intent(in) :: wanted
+   subroutine turn_along(settings, point, frame, error)
+      !> Problems and number of multipliers
+      type(follow_settings_type), intent(in) :: settings
       !> The point
       type(special_point_type), intent(in) :: point
       !> Orthonormal directions, near the tangent plane; the first keeps its sense
@@ -44,11 +40,11 @@ contains
       real(wp) :: g(2), slope(2)
       integer :: i, j
 
-      call turn_frame(family, scale, point%orbit, frame%directions, error)
+      call turn_frame(settings%family, point%orbit, frame%directions, error)
       if (allocated(error)) return
       do i = 1, 2
          do j = 1, 2
-            call test_near(family, scale, wanted, point, frame, (3 - 2*j)*beside*[2 - i, i - 1], &
+            call test_near(settings, point, frame, (3 - 2*j)*beside*[2 - i, i - 1], &
                            g(j), error)
             if (allocated(error)) return
          end do
@@ -62,11 +58,9 @@ contains
    end subroutine turn_along
 
    !> Orthonormal directions of the tangent plane at an orbit.
-   subroutine first_plane(family, scale, orbit, plane, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> The two free parameters
-      type(orbit_scale_type), intent(in) :: scale
+   subroutine first_plane(family, orbit, plane, error)
+      !> Problems and free parameters
+      type(free_family_type), intent(in) :: family
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       !> The directions
@@ -76,31 +70,21 @@ contains
       type(orbit_change_type) :: rough(2)
 
       ! at a fold the amplitude determines the orbit, not the parameter
-      rough(1)%nodes = orbit%nodes - spread(sum(orbit%nodes, dim=2)/size(orbit%nodes, 2), 2, &
-                                            size(orbit%nodes, 2))
-      rough(1)%parameters = [0.0_wp, 0.0_wp]
-      allocate (rough(2)%nodes(size(orbit%nodes, 1), size(orbit%nodes, 2)), source=0.0_wp)
-      rough(2)%parameters = [0.0_wp, 1.0_wp]
-      call turn_frame(family, scale, orbit, rough, error)
+      rough = [amplitude_direction(orbit, 2), parameter_direction(orbit, 2)]
+      call turn_frame(family, orbit, rough, error)
       plane = rough
    end subroutine first_plane
 
    !> Turn two directions into orthonormal ones of the tangent plane; the first keeps its direction
    !> in it.
-   subroutine turn_frame(family, scale, orbit, directions, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> Free parameters
-      type(orbit_scale_type), intent(in) :: scale
-      !> The orbit
+   subroutine turn_frame(family, orbit, directions, error)
+      type(free_family_type), intent(in) :: family
       type(periodic_orbit_type), intent(in) :: orbit
-      !> The directions
       type(orbit_change_type), intent(inout) :: directions(2)
-      !> They do not determine the plane
       type(error_type), allocatable, intent(out) :: error
       type(orbit_change_type) :: plane(2)
 
-      call find_tangents(family, scale, orbit, directions, plane, error)
+      call find_tangents(family, orbit, directions, plane, error)
       if (allocated(error)) return
       associate (first => plane(1), second => plane(2))
          first = first%times(1.0_wp/sqrt(inner_product(orbit, first, first)))
@@ -111,40 +95,26 @@ contains
    end subroutine turn_frame
 
    !> The test function at a place of the plane near a point.
-   subroutine test_near(family, scale, wanted, point, frame, place, g, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> The two free parameters
-      type(orbit_scale_type), intent(in) :: scale
-      !> Number of multipliers
-      integer, intent(in) :: wanted
-      !> The point
+   subroutine test_near(settings, point, frame, place, g, error)
+      type(follow_settings_type), intent(in) :: settings
       type(special_point_type), intent(in) :: point
-      !> Directions of the plane
       type(frame_type), intent(in) :: frame
-      !> Place
       real(wp), intent(in) :: place(2)
-      !> The test function
       real(wp), intent(out) :: g
-      !> There is no orbit
       type(error_type), allocatable, intent(out) :: error
       type(orbit_change_type) :: move
       type(special_point_type) :: near
 
       near = point
       move = combination(frame%directions, place)
-      call move%add_to(near%orbit, scale)
-      call test_beside(family, scale, wanted, point%orbit, frame%directions, place, near, g, error)
+      call move%add_to(near%orbit, settings%family)
+      call test_beside(settings, point%orbit, frame%directions, place, near, g, error)
    end subroutine test_near
 
    !> The orbit at a place of the plane about an orbit, and the test function of a point there.
-   subroutine test_beside(family, scale, wanted, before, directions, place, point, g, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> The two free parameters
-      type(orbit_scale_type), intent(in) :: scale
-      !> Number of multipliers
-      integer, intent(in) :: wanted
+   subroutine test_beside(settings, before, directions, place, point, g, error)
+      !> Problems and number of multipliers
+      type(follow_settings_type), intent(in) :: settings
       !> The orbit
       type(periodic_orbit_type), intent(in) :: before
       !> Directions of the plane
@@ -161,45 +131,22 @@ contains
       type(orbit_change_type) :: plane(2)
 
       g = 0.0_wp
-      call correct_orbit(family, scale, before, directions, place, point%orbit, newton, error)
+      call correct_orbit(settings%family, before, directions, place, point%orbit, newton, error)
       if (allocated(error)) return
       if (point%kind /= fold) then
-         call judge_point(family, wanted, point, g, error)
+         call judge_point(settings, point, g, error)
          return
       end if
       ! at a fold there is a tangent along which no parameter changes
-      call find_tangents(family, scale, point%orbit, directions, plane, error)
+      call find_tangents(settings%family, point%orbit, directions, plane, error)
       if (allocated(error)) return
       g = plane(1)%parameters(1)*plane(2)%parameters(2) &
           - plane(1)%parameters(2)*plane(2)%parameters(1)
    end subroutine test_beside
 
-   !> The critical multiplier of a point, its accuracy, and the test function by multipliers.
-   subroutine judge_point(family, wanted, point, g, error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
-      !> Number of multipliers
-      integer, intent(in) :: wanted
-      !> The point, of known kind and orbit
-      type(special_point_type), intent(inout) :: point
-      !> The test function
-      real(wp), intent(out) :: g
-      !> No multipliers
-      type(error_type), allocatable, intent(out) :: error
-      type(multipliers_type) :: multipliers
-
-      g = 0.0_wp
-      call find_multipliers(family, point%orbit, wanted, multipliers, error)
-      if (allocated(error)) return
-      call test_value(point%kind, multipliers, point%multiplier, g)
-      point%trivial_error = multipliers%trivial_error
-   end subroutine judge_point
-
    !> A linear combination of two changes.
    type(orbit_change_type) function combination(changes, factors) result(change)
-      !> The changes
       type(orbit_change_type), intent(in) :: changes(2)
-      !> Their factors
       real(wp), intent(in) :: factors(2)
 
       change = changes(1)%times(factors(1))

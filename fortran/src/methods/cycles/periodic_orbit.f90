@@ -20,26 +20,8 @@ module periodic_orbit
       !> Parameters of the problem family
       real(wp), allocatable :: parameters(:)
    contains
-      !> Number of intervals
-      procedure :: intervals
-      !> Interval and place in it
-      procedure :: locate
-      !> State
-      procedure :: at
-      !> All nodes in s
-      procedure :: node_times
-      !> The orbit on another mesh
-      procedure :: on_mesh
-      !> Largest range of a component
-      procedure :: amplitude
-      !> Whether a part of another orbit on the same mesh is opposite
-      procedure :: opposite_parts
-      !> Whether the orbit is almost one of a part of its period, more so than the orbit before it
-      procedure :: comes_to_shorter
-      !> Least and greatest value of a component, and when it is greatest
-      procedure :: range_of, time_of_highest
-      !> Weights of an inner product
-      procedure :: functional
+      procedure :: intervals, locate, at, node_times, on_mesh, deviations, amplitude
+      procedure :: opposite_parts, comes_to_shorter, range_of, time_of_highest, functional
    end type periodic_orbit_type
 
    !> Most turns of a shorter cycle that an orbit is compared with.
@@ -49,7 +31,6 @@ contains
 
    !> Number of intervals.
    pure integer function intervals(self) result(value)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: self
 
       value = size(self%mesh) - 1
@@ -57,7 +38,6 @@ contains
 
    !> The interval and the place 0..1 in it of a time in [0, 1].
    pure subroutine locate(self, s, interval, place)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: self
       !> Time in periods, 0..1
       real(wp), intent(in) :: s
@@ -84,7 +64,6 @@ contains
 
    !> State at a time of any period.
    pure function at(self, s) result(state)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: self
       !> Time in periods
       real(wp), intent(in) :: s
@@ -99,7 +78,6 @@ contains
 
    !> Times of all nodes, in periods.
    pure function node_times(self) result(times)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: self
       real(wp) :: times((size(self%mesh) - 1)*self%basis%degree + 1)
       integer :: i
@@ -113,18 +91,14 @@ contains
    end function node_times
 
    !> The orbit by its values at the nodes of another mesh.
-   pure function on_mesh(self, mesh, basis) result(orbit)
-      !> The orbit
+   pure function on_mesh(self, mesh) result(orbit)
       class(periodic_orbit_type), intent(in) :: self
       !> Ends of the intervals, from 0 to 1
       real(wp), intent(in) :: mesh(:)
-      !> Polynomials, where they are others
-      type(collocation_basis_type), intent(in), optional :: basis
       type(periodic_orbit_type) :: orbit
       integer :: i
 
       orbit%basis = self%basis
-      if (present(basis)) orbit%basis = basis
       orbit%mesh = mesh
       orbit%period = self%period
       orbit%parameters = self%parameters
@@ -137,9 +111,17 @@ contains
       orbit%nodes(:, size(orbit%nodes, 2)) = orbit%nodes(:, 1)
    end function on_mesh
 
+   !> State at the nodes less the mean of all nodes, shape (n, nodes).
+   pure function deviations(self) result(nodes)
+      class(periodic_orbit_type), intent(in) :: self
+      real(wp) :: nodes(size(self%nodes, 1), size(self%nodes, 2))
+
+      nodes = self%nodes - spread(sum(self%nodes, dim=2)/size(self%nodes, 2), 2, &
+                                  size(self%nodes, 2))
+   end function deviations
+
    !> The largest range of a component, by the nodes.
    pure real(wp) function amplitude(self) result(value)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: self
 
       value = maxval(maxval(self%nodes, dim=2) - minval(self%nodes, dim=2))
@@ -150,7 +132,6 @@ contains
    !> point, otherwise on both sides of a cycle of 1/k of their period, on a branch that passes
    !> through it. There the parts may also be shifted: then they are neither opposite nor alike.
    pure integer function opposite_parts(self, other) result(turns)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: self
       !> The other one
       type(periodic_orbit_type), intent(in) :: other
@@ -167,7 +148,6 @@ contains
 
    !> Whether a branch reaches an orbit of a part of its period.
    pure logical function comes_to_shorter(self, last) result(value)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: self
       !> The orbit before it
       type(periodic_orbit_type), intent(in) :: last
@@ -182,7 +162,6 @@ contains
    !> Least share of an orbit beside its means after 1/k of the period, k > 1: it is 0 where the
    !> orbit is one of 1/k of its period.
    pure real(wp) function part_share(self) result(share)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: self
       integer :: turns
 
@@ -195,20 +174,15 @@ contains
    !> What is left of an orbit at its nodes without its mean or, for k > 1, without the mean of its
    !> values after 0, 1/k, ... of the period.
    pure function part_beside(orbit, turns) result(part)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: orbit
-      !> k
       integer, intent(in) :: turns
       real(wp) :: part(size(orbit%nodes, 1), size(orbit%nodes, 2))
       real(wp) :: times(size(orbit%nodes, 2))
       integer :: i, k
 
-      part = orbit%nodes
-      if (turns == 1) then
-         part = part - spread(sum(part, dim=2)/size(part, 2), 2, size(part, 2))
-         return
-      end if
-      part = part*(1.0_wp - 1.0_wp/turns)
+      part = orbit%deviations()
+      if (turns == 1) return
+      part = orbit%nodes*(1.0_wp - 1.0_wp/turns)
       times = orbit%node_times()
       do i = 1, size(times)
          do k = 1, turns - 1
@@ -220,7 +194,6 @@ contains
    !> Least and greatest value of a component. Each extreme at a node is made better by the extreme
    !> of its polynomial, found by golden section between the neighbouring nodes.
    pure function range_of(self, component) result(range)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: self
       !> Component of the state
       integer, intent(in) :: component
@@ -234,7 +207,6 @@ contains
 
    !> Time at which a component is greatest, in periods.
    pure real(wp) function time_of_highest(self, component) result(time)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: self
       !> Component of the state
       integer, intent(in) :: component
@@ -245,13 +217,10 @@ contains
 
    !> Maximum of a component times a sign.
    pure subroutine find_highest(self, component, sign, value, time)
-      !> The orbit
       class(periodic_orbit_type), intent(in) :: self
-      !> Component of the state
       integer, intent(in) :: component
       !> 1 or -1
       real(wp), intent(in) :: sign
-      !> The maximum
       real(wp), intent(out) :: value
       !> When it is there, in periods
       real(wp), intent(out) :: time
@@ -289,7 +258,6 @@ contains
    !> Weights g of the nodes with sum(g x) = integral of a . x over the period, for a function a and
    !> all piecewise polynomials x.
    pure function functional(self, a) result(g)
-      !> The orbit, whose mesh and polynomials are meant
       class(periodic_orbit_type), intent(in) :: self
       !> Values of a at the collocation points, shape (n, m, intervals)
       real(wp), intent(in) :: a(:, :, :)

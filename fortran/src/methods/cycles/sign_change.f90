@@ -15,17 +15,13 @@ module sign_change
       !> Which of the two places was replaced last; 0 at first
       integer, private :: last = 0
    contains
-      !> Where the function is wanted next
-      procedure :: next
-      !> Replace the place with the same sign
-      procedure :: narrow
+      procedure :: next, narrow
    end type sign_change_type
 
 contains
 
    !> Where the line through both points is zero.
    pure real(wp) function next(self) result(place)
-      !> The change of sign
       class(sign_change_type), intent(in) :: self
 
       associate (x => self%places, f => self%values)
@@ -35,7 +31,6 @@ contains
 
    !> Replace the place with the same sign by a new one.
    pure subroutine narrow(self, place, value, moved)
-      !> The change of sign
       class(sign_change_type), intent(inout) :: self
       !> The new place
       real(wp), intent(in) :: place

@@ -1,12 +1,14 @@
-!> Special points of periodic orbits: what they are, and their test functions.
+!> Special points of periodic orbits with their test functions.
 module special_points
+   use branch_ends, only: follow_settings_type
+   use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use floquet_multipliers, only: multipliers_type
+   use floquet_multipliers, only: find_multipliers, multipliers_type
    use periodic_orbit, only: periodic_orbit_type
    implicit none (type, external)
    private
-   public :: branching, cusp, fold, kind_length, nearest_resonance, period_doubling, &
-             special_point_type, test_value, torus_bifurcation
+   public :: branching, cusp, fold, judge_point, kind_length, nearest_resonance, &
+             period_doubling, special_point_type, torus_bifurcation
 
    !> Kinds of special points.
    character(len=*), parameter :: fold = "fold", period_doubling = "period_doubling", &
@@ -41,19 +43,13 @@ module special_points
       !> Of a torus point: the rate at which q grows along the cycle, by the parameter
       real(wp), allocatable :: growth
    contains
-      !> Share of a turn of the critical pair
-      procedure :: angle
-      !> On which side of a torus point the tori are
-      procedure :: criticality
-      !> Size of these tori
-      procedure :: torus_amplitude
+      procedure :: angle, criticality, torus_amplitude
    end type special_point_type
 
 contains
 
    !> Angle of the multiplier over a full turn.
    pure real(wp) function angle(self) result(value)
-      !> The point
       class(special_point_type), intent(in) :: self
       real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
 
@@ -63,7 +59,6 @@ contains
    !> 'supercritical' where the tori are on the side on which the cycle has two more unstable
    !> multipliers, 'subcritical' on the other side, 'not determined', or '' for other kinds.
    pure function criticality(self) result(word)
-      !> The point
       class(special_point_type), intent(in) :: self
       character(len=kind_length) :: word
 
@@ -77,9 +72,8 @@ contains
    end function criticality
 
    !> Half the range of the maxima of a component on the tori, over the root of the distance of the
-   !> parameter from the point, to first order.
+   !> parameter from the torus point, to first order; coefficient and growth must be known.
    pure real(wp) function torus_amplitude(self, component) result(value)
-      !> The torus point, its coefficient and growth known
       class(special_point_type), intent(in) :: self
       !> Which component
       integer, intent(in) :: component
@@ -90,7 +84,6 @@ contains
    !> Whether an angle in turns is that of a resonance 1:1 to 1:4, where there is another normal
    !> form.
    pure logical function is_strong_resonance(angle) result(value)
-      !> The angle
       real(wp), intent(in) :: angle
       integer :: q
 
@@ -114,17 +107,33 @@ contains
       end do
    end function nearest_resonance
 
+   !> The critical multiplier of a point, its accuracy, and the test function by multipliers.
+   subroutine judge_point(settings, point, g, error)
+      !> Problems and number of multipliers
+      type(follow_settings_type), intent(in) :: settings
+      !> The point, of known kind and orbit
+      type(special_point_type), intent(inout) :: point
+      !> The test function
+      real(wp), intent(out) :: g
+      !> No multipliers
+      type(error_type), allocatable, intent(out) :: error
+      type(multipliers_type) :: multipliers
+
+      g = 0.0_wp
+      call find_multipliers(settings%family, point%orbit, settings%refinement%multipliers, &
+                            multipliers, error)
+      if (allocated(error)) return
+      call test_value(point%kind, multipliers, point%multiplier, g)
+      point%trivial_error = multipliers%trivial_error
+   end subroutine judge_point
+
    !> Test function of a kind of point by multipliers: m - 1 or |m| - 1 for the one nearest to 1, or
    !> to the unit circle off the real axis; for a period doubling the product of all m + 1, of which
    !> those greater than 1 count with modulus 1.
    pure subroutine test_value(kind, multipliers, critical, g)
-      !> Kind of the point
       character(len=*), intent(in) :: kind
-      !> Multipliers
       type(multipliers_type), intent(in) :: multipliers
-      !> The critical one
       complex(wp), intent(out) :: critical
-      !> The test function
       real(wp), intent(out) :: g
       logical :: real_ones(size(multipliers%values))
 

@@ -23,17 +23,12 @@ module torus_expansion
       type(periodic_orbit_type) :: orbit
       !> All terms at the nodes of the orbit, shape (n, nodes, 0:3); 0 before they are known
       complex(wp), allocatable :: nodes(:, :, :)
-      !> Their factors over a period
+      !> Factor of each term over a period
       complex(wp) :: multiplier(0:3) = (1.0_wp, 0.0_wp)
       !> Change of speed
       real(wp) :: a = 0.0_wp
    contains
-      !> Terms at a time
-      procedure :: terms_at
-      !> Fourier components of the right-hand side
-      procedure :: components
-      !> Forcings of the second and of the third order
-      procedure :: second_order, third_order
+      procedure :: terms_at, components, second_order, third_order
       !> The least |z| of the differences
       procedure, private :: least_size
    end type torus_expansion_type
@@ -52,7 +47,6 @@ contains
 
    !> All terms at a time in periods, shape (n, 0:3).
    pure function terms_at(self, s) result(terms)
-      !> The expansion
       class(torus_expansion_type), intent(in) :: self
       !> Time in periods
       real(wp), intent(in) :: s
@@ -74,7 +68,6 @@ contains
    !> Components 0, 1, 2 of the right-hand side T f as a Fourier series in the phase of z, shape
    !> (n, 0:2).
    pure function components(self, s, z) result(parts)
-      !> The expansion
       class(torus_expansion_type), intent(in) :: self
       !> Time in periods
       real(wp), intent(in) :: s
@@ -108,17 +101,16 @@ contains
       end associate
    end function components
 
-   !> The least |z| of the differences.
+   !> The least |z| of the differences; q must be known.
    pure real(wp) function least_size(self) result(z)
-      !> The expansion with q
       class(torus_expansion_type), intent(in) :: self
 
       z = share*self%orbit%amplitude()/(2.0_wp*maxval(abs(self%nodes(:, :, q))))
    end function least_size
 
-   !> Forcings at the collocation points: real and imaginary part of that of h20, and that of h11.
+   !> Forcings at the collocation points: real and imaginary part of that of h20, and that of h11; q
+   !> must be known.
    pure function second_order(self) result(forcing)
-      !> The expansion with q
       class(torus_expansion_type), intent(in) :: self
       real(wp), allocatable :: forcing(:, :, :, :)
       complex(wp) :: parts(size(self%nodes, 1), 0:2), undisturbed(size(self%nodes, 1), 0:2)
@@ -145,9 +137,8 @@ contains
    end function second_order
 
    !> Forcings at the collocation points, each by real and imaginary part: that of h21 without d,
-   !> and that which d multiplies, -q - (lag df/dz) q(s - lag/T).
+   !> and that which d multiplies, -q - (lag df/dz) q(s - lag/T). All terms and `a` must be known.
    pure function third_order(self) result(forcing)
-      !> The expansion with q, h20, h11 and a
       class(torus_expansion_type), intent(in) :: self
       real(wp), allocatable :: forcing(:, :, :, :)
       complex(wp), dimension(size(self%nodes, 1)) :: by_d, cubic, slope

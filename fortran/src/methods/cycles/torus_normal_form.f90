@@ -16,9 +16,9 @@ module torus_normal_form
    use linear_map, only: linear_map_type, solve_by_gmres
    use orbit_change, only: orbit_change_type, phase_condition, weights_of
    use orbit_linearisation, only: linearise_orbit
-   use orbit_passes, only: orbit_passes_type, orbit_scale_type
+   use orbit_passes, only: orbit_passes_type
    use periodic_orbit, only: periodic_orbit_type
-   use problem_family, only: problem_family_type
+   use problem_family, only: free_family_type
    use torus_expansion, only: h11, h20, q, torus_expansion_type, x0
    implicit none (type, external)
    private
@@ -36,8 +36,8 @@ module torus_normal_form
       !> Weights of the nodes in a sum that is 0; where they are not allocated, the further unknown
       !> is 0
       complex(wp), allocatable :: condition(:)
-      !> Real and imaginary part of the nodes for the last vector, and delayed components
-      real(wp), allocatable :: nodes(:, :), delayed(:, :)
+      !> Real and imaginary part of the nodes for the last vector
+      real(wp), allocatable :: nodes(:, :)
    contains
       procedure :: apply => defect_of_term
    end type term_map_type
@@ -52,8 +52,8 @@ contains
    !> The coefficient Re d/T: d|z|/dt = Re d/T |z|^3, where the mean of |q|^2 over the period is 1.
    subroutine find_torus_coefficient(family, orbit, multiplier, wanted, coefficient, disturbed, &
                                      error)
-      !> The problems
-      class(problem_family_type), intent(in) :: family
+      !> Problems and free parameters
+      type(free_family_type), intent(in) :: family
       !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       !> The critical multiplier
@@ -71,7 +71,6 @@ contains
       type(torus_expansion_type) :: x
       type(multipliers_type) :: found
       type(orbit_change_type) :: phase
-      type(orbit_scale_type) :: none
       type(term_map_type) :: map
       integer :: critical, i
 
@@ -80,7 +79,7 @@ contains
       call find_multipliers(family, orbit, wanted, found, error, disturbances)
       if (allocated(error)) return
       critical = minloc(abs(found%values - multiplier), dim=1)
-      call family%at(orbit%parameters, x%problem)
+      call family%problems%at(orbit%parameters, x%problem)
       x%orbit = orbit
       x%multiplier(q:h20) = found%values(critical)**[1, 2]
       allocate (x%nodes(size(orbit%nodes, 1), size(orbit%nodes, 2), 0:3), source=(0.0_wp, 0.0_wp))
@@ -93,8 +92,7 @@ contains
          disturbed(i) = abs(terms(i, q))
       end do
 
-      allocate (none%free(0), none%unit(0))
-      call linearise_orbit(family, orbit, none, .true., map%linear, error, x%second_order())
+      call linearise_orbit(family, orbit, .true., map%linear, error, x%second_order())
       if (allocated(error)) return
       map%multiplier = x%multiplier(h20)
       map%given = further + [1, 2]
@@ -110,7 +108,7 @@ contains
       if (allocated(error)) return
       x%a = -real(a)
 
-      call linearise_orbit(family, orbit, none, .true., map%linear, error, x%third_order())
+      call linearise_orbit(family, orbit, .true., map%linear, error, x%third_order())
       if (allocated(error)) return
       map%multiplier = x%multiplier(q)
       map%given = further + [1, 2]
@@ -124,7 +122,6 @@ contains
 
    !> Weights w of the nodes with sum(w x) = mean of conjg(y) . x over the period.
    function weights_with(orbit, y) result(weights)
-      !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
       !> y at the nodes, shape (n, nodes)
       complex(wp), intent(in) :: y(:, :)
@@ -140,21 +137,16 @@ contains
 
    !> Solve the linear equation of a term.
    subroutine solve_term(map, nodes, unknown, error)
-      !> The equation
       type(term_map_type), intent(inout) :: map
       !> The term at the nodes, shape (n, nodes)
       complex(wp), intent(out) :: nodes(:, :)
-      !> The further unknown
       complex(wp), intent(out) :: unknown
-      !> No solution
       type(error_type), allocatable, intent(out) :: error
       real(wp), allocatable :: right(:), solution(:)
 
       associate (linear => map%linear)
-         if (allocated(map%nodes)) deallocate (map%nodes, map%delayed)
+         if (allocated(map%nodes)) deallocate (map%nodes)
          allocate (map%nodes(size(nodes), 2))
-         allocate (map%delayed(size(linear%delayed), &
-                               (linear%reach + linear%intervals)*linear%degree + 1))
          allocate (right(2*linear%past_size() + 2), solution(2*linear%past_size() + 2))
       end associate
       nodes = 0.0_wp
@@ -171,11 +163,8 @@ contains
 
    !> The past times the multiplier, less the past a period later, and the condition.
    subroutine defect_of_term(self, vector, image)
-      !> The equation
       class(term_map_type), intent(inout) :: self
-      !> Past and further unknown
       real(wp), intent(in) :: vector(:)
-      !> The defects
       real(wp), intent(out) :: image(:)
 
       call defect(self, vector, 0.0_wp, image)
@@ -183,13 +172,8 @@ contains
 
    !> Defect of a term, plus a multiple of the given forcing.
    subroutine defect(self, vector, given, image)
-      !> The equation
       class(term_map_type), intent(inout) :: self
-      !> Past and further unknown
-      real(wp), intent(in) :: vector(:)
-      !> Factor of the given forcing
-      real(wp), intent(in) :: given
-      !> The defects
+      real(wp), intent(in) :: vector(:), given
       real(wp), intent(out) :: image(:)
       complex(wp) :: past(self%linear%past_size()), unknown
       real(wp) :: factor(0:6, 2), later(size(past), 2)
@@ -207,8 +191,7 @@ contains
                 - self%linear%degree*size(self%linear%row)
          do i = 1, 2
             call self%linear%pass(vector((i - 1)*n + 1:i*n), factor(1:last, i), self%nodes(:, i), &
-                                  self%delayed)
-            later(:, i) = self%linear%later_past(self%nodes(:, i), self%delayed)
+                                  later(:, i))
          end do
          past = self%multiplier*past - cmplx(later(:, 1), later(:, 2), kind=wp)
          if (allocated(self%condition)) then

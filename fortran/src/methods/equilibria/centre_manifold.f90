@@ -36,7 +36,6 @@ module centre_manifold
       !> g_jm of the mode j for which m is resonant, or 0, shape (terms)
       complex(wp), allocatable :: flow(:)
    contains
-      !> Position of a multi-index
       procedure :: place
    end type series_type
 
@@ -58,7 +57,7 @@ contains
       integer :: i
 
       coefficient = 0.0_wp
-      call begin(equation, omega, m, series, error)
+      call set_first_order(equation, omega, m, series, error)
       do i = 2, size(series%flow)
          if (allocated(error)) return
          if (sum(series%power(:, i)) > 1) call add_term(equation, series, i, error)
@@ -67,16 +66,11 @@ contains
    end subroutine normal_form_coefficient
 
    !> The terms of first order.
-   subroutine begin(equation, omega, m, series, error)
-      !> The equation
+   subroutine set_first_order(equation, omega, m, series, error)
       class(delay_equation_type), intent(in) :: equation
-      !> Frequencies
       real(wp), intent(in) :: omega(:)
-      !> Last multi-index
       integer, intent(in) :: m(:)
-      !> The series
       type(series_type), intent(out) :: series
-      !> No convergence of the null vectors
       type(error_type), allocatable, intent(out) :: error
       complex(wp), dimension(size(equation%linear%a, 1)) :: p, q
       integer :: i, j, modes, terms, unit_index(size(m))
@@ -105,15 +99,12 @@ contains
          series%history(:, :, j) = values_at_lags(series%polynomial(:, :, j), series%s(i), &
                                                   equation%linear%lag)
       end do
-   end subroutine begin
+   end subroutine set_first_order
 
    !> The term of a multi-index of second or higher order, all lower ones being known.
    subroutine add_term(equation, series, term, error)
-      !> The equation
       class(delay_equation_type), intent(in) :: equation
-      !> The series
       type(series_type), intent(inout) :: series
-      !> Number of the term
       integer, intent(in) :: term
       !> A combination of the frequencies is a root
       type(error_type), allocatable, intent(out) :: error
@@ -171,11 +162,8 @@ contains
 
    !> r_m exp(-s a) without the unknown g_jm.
    pure subroutine find_rest(series, term, rest)
-      !> The series
       type(series_type), intent(in) :: series
-      !> Number of m
       integer, intent(in) :: term
-      !> Coefficients of powers of a
       complex(wp), intent(out) :: rest(:, 0:)
       complex(wp) :: rate
       integer :: i, j, lower(size(series%s))
@@ -196,7 +184,6 @@ contains
 
    !> The mode j with m = e_j plus a product of pairs, or 0.
    pure integer function resonant_mode(m) result(mode)
-      !> Multi-index
       integer, intent(in) :: m(:)
       integer :: surplus(size(m)/2)
 
@@ -210,15 +197,11 @@ contains
    !> Add N_m, the sum of the derivatives of all orders k of k terms with the product z^m, over k!;
    !> of these those that begin with given terms.
    pure recursive subroutine add_products(equation, series, left, terms, total)
-      !> The equation
       class(delay_equation_type), intent(in) :: equation
-      !> The series
       type(series_type), intent(in) :: series
       !> Multi-index of the product of the further terms
       integer, intent(in) :: left(:)
-      !> Numbers of the first terms
       integer, intent(in) :: terms(:)
-      !> The sum
       complex(wp), intent(inout) :: total(:)
       integer :: i
 
@@ -241,7 +224,6 @@ contains
       complex(wp), intent(in) :: right(:)
       !> Solution, shape (n)
       complex(wp), intent(out) :: solution(:)
-      !> The matrix is singular
       type(error_type), allocatable, intent(out) :: error
       complex(wp) :: answer(size(right), 1)
       real(wp) :: row_size(size(right))
@@ -256,9 +238,7 @@ contains
    pure function values_at_lags(polynomial, s, lag) result(values)
       !> Coefficients, shape (n, 0:degree)
       complex(wp), intent(in) :: polynomial(:, 0:)
-      !> Exponent
       complex(wp), intent(in) :: s
-      !> Lags
       real(wp), intent(in) :: lag(:)
       complex(wp) :: values(size(polynomial, 1), size(lag))
       integer :: d, i
@@ -274,7 +254,6 @@ contains
 
    !> Position of a multi-index among the terms.
    pure integer function place(self, m) result(number)
-      !> The series
       class(series_type), intent(in) :: self
       !> Multi-index
       integer, intent(in) :: m(:)

@@ -36,9 +36,9 @@ contains
       real(wp), intent(in) :: bound
       !> The roots
       complex(wp), allocatable, intent(out) :: roots(:)
-      !> Not as many as expected, or not the same with twice as many nodes
+      !> The expected number is not found, or twice the nodes give other roots
       type(error_type), allocatable, intent(out) :: error
-      !> Their number, if it is known
+      !> Number of roots, if it is known
       integer, intent(in), optional :: expected
       complex(wp), allocatable :: approximate(:), before(:)
       integer :: intervals
@@ -53,7 +53,7 @@ contains
       do while (intervals <= most_intervals)
          call approximate_roots(system, intervals, approximate, error)
          if (allocated(error)) return
-         roots = refined(system, bound, approximate)
+         roots = refine_roots(system, bound, approximate)
          if (present(expected)) then
             if (size(roots) == expected) return
          else if (maxval(system%lag) <= 0.0_wp) then
@@ -74,13 +74,9 @@ contains
 
    !> The eigenvalues s of the scaled generator, M s x = G x.
    subroutine approximate_roots(system, intervals, approximate, error)
-      !> The system
       type(linear_system_type), intent(in) :: system
-      !> Intervals between the nodes
       integer, intent(in) :: intervals
-      !> The eigenvalues
       complex(wp), allocatable, intent(out) :: approximate(:)
-      !> They cannot be found
       type(error_type), allocatable, intent(out) :: error
       real(wp), allocatable :: divisor(:), matrix(:, :)
       real(wp) :: unit
@@ -103,9 +99,7 @@ contains
    !> The generator on Chebyshev nodes from 0 back to the longest lag: the system itself at 0,
    !> differentiation of the history elsewhere. Only delayed components have a history.
    pure function generator(system, intervals, unit) result(matrix)
-      !> The system
       type(linear_system_type), intent(in) :: system
-      !> Intervals between the nodes
       integer, intent(in) :: intervals
       !> Unit of time: the longest lag
       real(wp), intent(in) :: unit
@@ -152,7 +146,6 @@ contains
 
    !> Components with a delayed value in the system.
    pure function delayed_components(system) result(components)
-      !> The system
       type(linear_system_type), intent(in) :: system
       integer, allocatable :: components(:)
       integer :: i, k
@@ -164,12 +157,7 @@ contains
 
    !> Coefficients by which values at the nodes give the value between them.
    pure function interpolation(x, weight, at) result(row)
-      !> Nodes
-      real(wp), intent(in) :: x(:)
-      !> Their barycentric weights
-      real(wp), intent(in) :: weight(:)
-      !> Where
-      real(wp), intent(in) :: at
+      real(wp), intent(in) :: x(:), weight(:), at
       real(wp) :: row(size(x))
       integer :: nearest
 
@@ -184,12 +172,9 @@ contains
    end function interpolation
 
    !> The roots that approximate ones lead to, each once.
-   function refined(system, bound, approximate) result(roots)
-      !> The system
+   function refine_roots(system, bound, approximate) result(roots)
       type(linear_system_type), intent(in) :: system
-      !> Least real part
       real(wp), intent(in) :: bound
-      !> Approximations
       complex(wp), intent(in) :: approximate(:)
       complex(wp), allocatable :: roots(:)
       complex(wp) :: s
@@ -206,11 +191,10 @@ contains
          roots = [roots(:after), s, roots(after + 1:)]
       end do
       roots = [(with_partner(roots(i)), i=1, size(roots))]
-   end function refined
+   end function refine_roots
 
    !> A root above the real axis and its conjugate, or a real root alone.
    pure function with_partner(s) result(both)
-      !> The root
       complex(wp), intent(in) :: s
       complex(wp), allocatable :: both(:)
 
@@ -223,7 +207,6 @@ contains
 
    !> Newton's method on det Delta(s), whose logarithm has the derivative trace(Delta^-1 Delta').
    subroutine follow_newton(system, start, s, found)
-      !> The system
       type(linear_system_type), intent(in) :: system
       !> Where to start, on or above the real axis
       complex(wp), intent(in) :: start

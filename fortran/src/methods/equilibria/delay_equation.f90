@@ -4,10 +4,11 @@
 !>
 !> and the higher derivative forms of their right-hand side.
 module delay_equation
+   use dde, only: dde_problem_type, find_jacobian
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: delay_equation_type, linear_system_type
+   public :: delay_equation_type, linear_part, linear_system_type
 
    !> A linear system with constant lags; an instantaneous term has lag 0.
    type :: linear_system_type
@@ -16,10 +17,7 @@ module delay_equation
       !> Lags, each >= 0
       real(wp), allocatable :: lag(:)
    contains
-      !> Delta(s) = s - sum_j A_j exp(-s lag_j)
-      procedure :: characteristic_matrix
-      !> Derivative of Delta(s) by s
-      procedure :: characteristic_slope
+      procedure :: characteristic_matrix, characteristic_slope
    end type linear_system_type
 
    !> A right-hand side by its derivatives at the stationary state. The arguments of the forms are
@@ -51,14 +49,27 @@ module delay_equation
 
 contains
 
-   !> Second derivative.
+   !> The linear part of a problem at a stationary state; lag 1 is 0, those of the problem follow.
+   pure function linear_part(problem, state) result(linear)
+      !> The problem, with constant lags
+      class(dde_problem_type), intent(in) :: problem
+      real(wp), intent(in) :: state(:)
+      type(linear_system_type) :: linear
+      real(wp) :: by_y(size(state), size(state)), by_z(size(state), size(problem%lag))
+      integer :: k
+
+      call find_jacobian(problem, 0.0_wp, state, state(problem%component), by_y, by_z)
+      allocate (linear%a(size(state), size(state), size(problem%lag) + 1), source=0.0_wp)
+      linear%a(:, :, 1) = by_y
+      do k = 1, size(problem%lag)
+         linear%a(:, problem%component(k), k + 1) = by_z(:, k)
+      end do
+      linear%lag = [0.0_wp, problem%lag]
+   end function linear_part
+    !> Second derivative.
    pure function second_form(self, x, y) result(form)
-      !> The equation
       class(delay_equation_type), intent(in) :: self
-      !> First history
-      complex(wp), intent(in) :: x(:, :)
-      !> Second history
-      complex(wp), intent(in) :: y(:, :)
+      complex(wp), intent(in) :: x(:, :), y(:, :)
       complex(wp) :: form(size(x, 1))
 
       form = self%derivative(reshape([x, y], [shape(x), 2]))
@@ -66,14 +77,8 @@ contains
 
    !> Third derivative.
    pure function third_form(self, x, y, z) result(form)
-      !> The equation
       class(delay_equation_type), intent(in) :: self
-      !> First history
-      complex(wp), intent(in) :: x(:, :)
-      !> Second history
-      complex(wp), intent(in) :: y(:, :)
-      !> Third history
-      complex(wp), intent(in) :: z(:, :)
+      complex(wp), intent(in) :: x(:, :), y(:, :), z(:, :)
       complex(wp) :: form(size(x, 1))
 
       form = self%derivative(reshape([x, y, z], [shape(x), 3]))
@@ -81,7 +86,6 @@ contains
 
    !> Delta(s), singular at characteristic roots.
    pure function characteristic_matrix(self, s) result(matrix)
-      !> The system
       class(linear_system_type), intent(in) :: self
       !> Point of the complex plane
       complex(wp), intent(in) :: s
@@ -99,7 +103,6 @@ contains
 
    !> Derivative of Delta(s).
    pure function characteristic_slope(self, s) result(matrix)
-      !> The system
       class(linear_system_type), intent(in) :: self
       !> Point of the complex plane
       complex(wp), intent(in) :: s

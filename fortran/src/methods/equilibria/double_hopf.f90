@@ -27,18 +27,7 @@ module double_hopf
       !> g_jk with eigenvectors of length 1
       complex(wp) :: g(2, 2) = 0.0_wp
    contains
-      !> theta = p_12/p_22, delta = p_21/p_11
-      procedure :: ratios
-      !> Case of the unfolding
-      procedure :: unfolding
-      !> Growth rates at which the torus of a cycle is born
-      procedure :: torus_rates
-      !> Angle of the multipliers there
-      procedure :: torus_angle
-      !> Kind of this bifurcation
-      procedure :: criticality
-      !> Stability of the torus
-      procedure :: torus_stability
+      procedure :: ratios, unfolding, torus_rates, torus_angle, criticality, torus_stability
    end type double_hopf_type
 
 contains
@@ -67,9 +56,8 @@ contains
       end do
    end subroutine find_double_hopf
 
-   !> [theta, delta].
+   !> theta = p_12/p_22 and delta = p_21/p_11.
    pure function ratios(self) result(value)
-      !> The coefficients
       class(double_hopf_type), intent(in) :: self
       real(wp) :: value(2)
 
@@ -82,7 +70,6 @@ contains
    !> in r1' = r1 (mu1 + r1^2 + b r2^2), r2' = r2 (mu2 + c r1^2 + d r2^2). Time is reversed if
    !> p_11 < 0, so that b = d theta and c = delta.
    pure function unfolding(self) result(word)
-      !> The coefficients
       class(double_hopf_type), intent(in) :: self
       character(len=4) :: word
       real(wp) :: b, c, d, ratio(2)
@@ -107,7 +94,6 @@ contains
 
    !> (mu_1, mu_2) of length 1 at which a torus is born from the cycle of a pair.
    pure function torus_rates(self, pair) result(mu)
-      !> The coefficients
       class(double_hopf_type), intent(in) :: self
       !> The pair, 1 or 2
       integer, intent(in) :: pair
@@ -119,7 +105,6 @@ contains
 
    !> Angle of the multipliers with which the other pair turns in one period, 0..pi.
    pure real(wp) function torus_angle(self, pair) result(angle)
-      !> The coefficients
       class(double_hopf_type), intent(in) :: self
       !> The pair of the cycle, 1 or 2
       integer, intent(in) :: pair
@@ -131,7 +116,6 @@ contains
    !> 'supercritical' where the torus lies on the side on which the other pair grows along the
    !> cycle, 'subcritical' on the other side: sign of p_kk - p_kj p_jk/p_jj.
    pure function criticality(self, pair) result(word)
-      !> The coefficients
       class(double_hopf_type), intent(in) :: self
       !> The pair j of the cycle, 1 or 2
       integer, intent(in) :: pair
@@ -143,7 +127,6 @@ contains
 
    !> 'stable', 'saddle' or 'unstable': the torus near its start, on the centre manifold.
    pure function torus_stability(self, pair) result(word)
-      !> The coefficients
       class(double_hopf_type), intent(in) :: self
       !> The pair of the cycle, 1 or 2
       integer, intent(in) :: pair
@@ -160,7 +143,6 @@ contains
 
    !> p_11 p_22 - p_12 p_21.
    pure real(wp) function determinant(form) result(value)
-      !> The coefficients
       type(double_hopf_type), intent(in) :: form
 
       associate (p => real(form%g, wp))

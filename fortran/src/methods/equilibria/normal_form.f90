@@ -38,10 +38,10 @@ contains
          call critical_vectors(linear, s, q, p, error)
          if (allocated(error)) return
          phi = history_of(q, s, linear%lag)
-         call respond(equation, 2.0_wp*s, equation%second(phi, phi), history_20, error)
+         call find_response(equation, 2.0_wp*s, equation%second(phi, phi), history_20, error)
          if (allocated(error)) return
-         call respond(equation, (0.0_wp, 0.0_wp), equation%second(phi, conjg(phi)), history_11, &
-                      error)
+         call find_response(equation, (0.0_wp, 0.0_wp), equation%second(phi, conjg(phi)), &
+                            history_11, error)
          if (allocated(error)) return
       end associate
       l1 = real(0.5_wp*sum(p*(equation%second(conjg(phi), history_20) &
@@ -74,31 +74,25 @@ contains
    end subroutine critical_vectors
 
    !> The answer of the linear system to a forcing exp(s t), as history.
-   subroutine respond(equation, s, forcing, history, error)
-      !> The equation
+   subroutine find_response(equation, s, forcing, history, error)
       class(delay_equation_type), intent(in) :: equation
-      !> Exponent
       complex(wp), intent(in) :: s
       !> Amplitude of the forcing, shape (n)
       complex(wp), intent(in) :: forcing(:)
-      !> The answer at all lags
       complex(wp), intent(out) :: history(:, :)
-      !> s is a root
       type(error_type), allocatable, intent(out) :: error
       complex(wp) :: answer(size(forcing), 1)
 
       call solve(equation%linear%characteristic_matrix(s), reshape(forcing, shape(answer)), &
                  answer, error)
       history = history_of(answer(:, 1), s, equation%linear%lag)
-   end subroutine respond
+   end subroutine find_response
 
    !> amplitude exp(-s lag) for all lags.
    pure function history_of(amplitude, s, lag) result(history)
       !> Amplitude, shape (n)
       complex(wp), intent(in) :: amplitude(:)
-      !> Exponent
       complex(wp), intent(in) :: s
-      !> Lags
       real(wp), intent(in) :: lag(:)
       complex(wp) :: history(size(amplitude), size(lag))
       integer :: i
