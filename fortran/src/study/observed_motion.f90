@@ -5,7 +5,7 @@ module observed_motion
                   integration_options, integration_result, sampler_type
    use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use interval_observer, only: interval_observer_type
+   use lyapunov_spectrum, only: interval_observer_type
    use spring_block, only: index_of_ln_v, index_of_theta, index_of_u, spring_block_type
    implicit none (type, external)
    private

@@ -1,7 +1,6 @@
 !> Sweeps: coexisting motions show, and a sweep goes through a change between delay and none.
 module test_attractor_sweep
-   use attractor_points, only: find_attractors, finding_type, point_type
-   use attractor_sweep, only: sweep_attractors
+   use attractor_points, only: find_attractors, finding_type, point_type, sweep_attractors
    use attractors, only: attractor_settings_type, attractor_type, find_attractor
    use block_builder, only: build_block
    use block_parameters, only: block_history_type, block_parameters_type

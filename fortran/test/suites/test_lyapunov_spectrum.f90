@@ -8,8 +8,8 @@ module test_lyapunov_spectrum
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use exponent_averages, only: average_growth, exponent_type
    use dde_kinds, only: wp
-   use interval_observer, only: interval_observer_type
-   use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, measure_growth
+   use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, &
+                                interval_observer_type, measure_growth
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use steady_sliding, only: sliding_exponents
    use solving, only: at_tolerance

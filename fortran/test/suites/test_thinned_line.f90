@@ -4,7 +4,7 @@ module test_thinned_line
    use dde_kinds, only: wp
    use expectations, only: expect
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use thinned_line, only: kept_points
+   use motion_path, only: find_kept_points
    implicit none (type, external)
    private
    public :: collect_thinned_line
@@ -31,11 +31,11 @@ contains
 
       points = 1.0_wp
       do n = 0, 2
-         associate (kept => kept_points(points(:, :n), 0.1_wp))
+         associate (kept => find_kept_points(points(:, :n), 0.1_wp))
             call expect(error, size(kept) == n .and. all(kept), "all of "//text(n))
          end associate
       end do
-      call expect(error, all(kept_points(points, 0.1_wp) .eqv. [.true., .false., .true.]), &
+      call expect(error, all(find_kept_points(points, 0.1_wp) .eqv. [.true., .false., .true.]), &
                   "three points at one place")
    end subroutine test_few
 
@@ -63,7 +63,7 @@ contains
          integer, allocatable :: numbers(:)
          integer :: i
 
-         numbers = pack([(i, i=1, size(points, 2))], kept_points(points, tolerance))
+         numbers = pack([(i, i=1, size(points, 2))], find_kept_points(points, tolerance))
       end function places
    end subroutine test_corners
 
@@ -74,7 +74,7 @@ contains
       real(wp) :: points(1, 5)
 
       points(1, :) = [0.0_wp, 1.0_wp, 2.0_wp, 1.0_wp, 1.0_wp]
-      call expect(error, all(kept_points(points, 0.1_wp) &
+      call expect(error, all(find_kept_points(points, 0.1_wp) &
                              .eqv. [.true., .false., .true., .false., .true.]), "turning point")
    end subroutine test_way_back
 
@@ -89,7 +89,7 @@ contains
       integer :: chords, first, i, last
 
       angle = [(pi*i/1000.0_wp, i=0, 1000)]
-      kept = kept_points(transpose(reshape([cos(angle), sin(angle)], [1001, 2])), tolerance)
+      kept = find_kept_points(transpose(reshape([cos(angle), sin(angle)], [1001, 2])), tolerance)
       farthest = 0.0_wp
       first = 1
       do i = 2, 1001

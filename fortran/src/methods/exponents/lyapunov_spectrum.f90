@@ -6,13 +6,12 @@ module lyapunov_spectrum
                   integration_result
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: int64, wp
-   use interval_observer, only: interval_observer_type
    use progress_receiver, only: progress_receiver_type
    use tangent_problem, only: tangent_problem_type
    use tangent_vectors, only: orthonormalise, start_vectors
    implicit none (type, external)
    private
-   public :: extend_growth, growth_settings_type, growth_type, measure_growth
+   public :: extend_growth, growth_settings_type, growth_type, interval_observer_type, measure_growth
 
    !> A part smaller than this number of tolerances of the vector it is taken from is noise.
    real(wp), parameter :: noise = 10.0_wp
@@ -71,6 +70,47 @@ module lyapunov_spectrum
       !> Where solution and vectors are
       type(continuation_type) :: continuation
    end type growth_type
+
+   !> Receiver of a solution beside which vectors are integrated, interval by interval. An interval
+   !> counts once it is kept; one that is not is repeated in shorter ones.
+   type, abstract :: interval_observer_type
+   contains
+      !> Integrate an interval and observe it
+      procedure(observe_interval), deferred :: observe_interval
+      !> Keep what was seen in the last interval
+      procedure(keep_interval), deferred :: keep_interval
+   end type interval_observer_type
+
+   abstract interface
+      !> Integrate on up to `time` and observe. Intervals before that are not kept are forgotten.
+      subroutine observe_interval(self, problem, time, options, outcome, error, continuation)
+         import :: continuation_type, dde_problem_type, error_type, integration_options, &
+                   integration_result, interval_observer_type, wp
+         implicit none (type, external)
+         !> The observer
+         class(interval_observer_type), intent(inout) :: self
+         !> The problem, which may have further components after those observed
+         class(dde_problem_type), intent(in) :: problem
+         !> Where to
+         real(wp), intent(in) :: time
+         !> Method and tolerances
+         type(integration_options), intent(in) :: options
+         !> The result
+         type(integration_result), intent(out) :: outcome
+         !> The run ended before its time
+         type(error_type), allocatable, intent(out) :: error
+         !> Where the run stands
+         type(continuation_type), intent(inout) :: continuation
+      end subroutine observe_interval
+
+      !> Keep what was seen in the last interval.
+      subroutine keep_interval(self)
+         import :: interval_observer_type
+         implicit none (type, external)
+         !> The observer
+         class(interval_observer_type), intent(inout) :: self
+      end subroutine keep_interval
+   end interface
 
 contains
 
