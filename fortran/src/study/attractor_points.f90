@@ -1,6 +1,6 @@
-!> Attractors at many points: parameters and histories, shared among threads, or along a sweep, where
-!> each point starts where the one before ended, with all of its past. Then the block stays on its
-!> attractor as long as that exists.
+!> Attractors at many points: parameters and histories. Points are shared among threads, or stand on
+!> a sweep: there each starts where the one before ended, with all of its past, so that the block
+!> stays on its attractor as long as that exists.
 module attractor_points
    use attractors, only: attractor_settings_type, attractor_type, find_attractor
    use block_parameters, only: block_history_type, block_parameters_type

@@ -234,15 +234,11 @@ contains
 
    !> Integrate and note the interval.
    subroutine observe_interval(self, problem, time, options, outcome, error, continuation)
-      !> The witness
       class(witness_type), intent(inout) :: self
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Where to
       real(wp), intent(in) :: time
-      !> Method and tolerances
       type(integration_options), intent(in) :: options
-      !> The result
       type(integration_result), intent(out) :: outcome
       !> The run ended before its time
       type(failure_type), allocatable, intent(out) :: error
@@ -257,7 +253,6 @@ contains
 
    !> Keep the interval.
    subroutine keep_interval(self)
-      !> The witness
       class(witness_type), intent(inout) :: self
 
       if (.not. allocated(self%kept)) allocate (self%kept(2, 0))
@@ -350,7 +345,6 @@ contains
 
       !> The settings are refused in these words.
       subroutine expect_refusal(words)
-         !> The words
          character(len=*), intent(in) :: words
          type(failure_type), allocatable :: failure
          type(growth_type) :: measured

@@ -68,7 +68,6 @@ contains
 
    !> Order 4 with a cubic history and 2 with a linear one.
    subroutine expect_orders(problem, t_end, known, h, error)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Last time
       real(wp), intent(in) :: t_end
@@ -76,7 +75,6 @@ contains
       real(wp), intent(in) :: known
       !> Length of the longer steps
       real(wp), intent(in) :: h
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
 
       call expect_between(error, order_of(problem, .true., t_end, known, h), 3.8_wp, 4.2_wp, &
@@ -87,7 +85,6 @@ contains
 
    !> How the error falls from steps of length h to half of that.
    real(wp) function order_of(problem, cubic, t_end, known, h) result(order)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Cubic history, or linear
       logical, intent(in) :: cubic

@@ -36,13 +36,11 @@ contains
 
    !> Exponents with these values and errors tell this class.
    subroutine expect_class(error, values, errors, class)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       !> Values, descending
       real(wp), intent(in) :: values(:)
       !> Standard errors
       real(wp), intent(in) :: errors(:)
-      !> The class
       integer, intent(in) :: class
       character(len=:), allocatable :: words
       integer :: found, i
@@ -155,7 +153,6 @@ contains
 
    !> Exponents with one error bar must be clear, or not.
    subroutine expect_clear(error, values, bar, time, expected)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       !> Values, descending
       real(wp), intent(in) :: values(:)
@@ -184,7 +181,6 @@ contains
 
    !> Exponents must be those near an unstable cycle, or not.
    subroutine expect_leaving(error, values, expected)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       !> Values, descending
       real(wp), intent(in) :: values(:)

@@ -55,7 +55,6 @@ contains
 
    !> 1, 2, ... of as many as there are.
    subroutine expect_counted(error, receiver, total)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       !> What was told
       type(recorder), intent(in) :: receiver

@@ -53,15 +53,12 @@ contains
    !> State and vectors by several methods. All but the first take as the start of the vectors what
    !> the first takes.
    subroutine compare(problem, vectors, length, methods, error)
-      !> The problem
       type(spring_block_type), intent(in) :: problem
       !> Number of vectors
       integer, intent(in) :: vectors
       !> Time from their start
       real(wp), intent(in) :: length
-      !> The methods
       character(len=8), intent(in) :: methods(:)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       type(continuation_type) :: continuation, start, undisturbed
       type(failure_type), allocatable :: failure
@@ -185,13 +182,11 @@ contains
 
    !> Exponents with vectors across the flow, and with one more vector and none across.
    subroutine compare_across(problem, transient, zeros, error)
-      !> The problem
       type(spring_block_type), intent(in) :: problem
       !> Time at which measuring begins
       real(wp), intent(in) :: transient
       !> Number of exponents that are zero
       integer, intent(in) :: zeros
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       type(exponent_type), allocatable :: across(:), all_directions(:)
       integer :: i
@@ -210,7 +205,6 @@ contains
       subroutine solve(across_flow, exponents)
          !> Whether vectors are across the flow
          logical, intent(in) :: across_flow
-         !> The exponents
          type(exponent_type), allocatable, intent(out) :: exponents(:)
          type(failure_type), allocatable :: failure
          type(growth_type) :: measured

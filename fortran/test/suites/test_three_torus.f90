@@ -169,7 +169,6 @@ contains
    !> Look for a third phase in motion that is a sum of cosines with these frequencies: v is known
    !> by its spectrum, the section is met when the first phase is 0.
    subroutine find_third(error, frequency, amplitude, noise, third, roughness)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       !> Frequencies, of falling amplitude
       real(wp), intent(in) :: frequency(:)
@@ -179,7 +178,6 @@ contains
       real(wp), intent(in) :: noise(:)
       !> Third fundamental frequency
       real(wp), intent(out) :: third
-      !> Roughness
       real(wp), intent(out) :: roughness
       type(bases_type) :: bases
       type(failure_type), allocatable :: failure

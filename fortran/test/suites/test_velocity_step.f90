@@ -135,9 +135,7 @@ contains
 
    !> The response drawn in Figure 8.
    subroutine respond_as_in_figure(response, error)
-      !> The response
       type(friction_response_type), intent(out) :: response
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       type(failure_type), allocatable :: failure
 

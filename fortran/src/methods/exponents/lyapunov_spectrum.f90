@@ -11,7 +11,8 @@ module lyapunov_spectrum
    use tangent_vectors, only: orthonormalise, start_vectors
    implicit none (type, external)
    private
-   public :: extend_growth, growth_settings_type, growth_type, interval_observer_type, measure_growth
+   public :: extend_growth, growth_settings_type, growth_type, interval_observer_type, &
+             measure_growth
 
    !> A part smaller than this number of tolerances of the vector it is taken from is noise.
    real(wp), parameter :: noise = 10.0_wp
