@@ -19,7 +19,7 @@ module attractor_points
    !> is unstable.
    real(wp), parameter :: disturbance = 1.0e-2_wp
 
-   !> Where an attractor is looked for.
+   !> A point at which an attractor is looked for.
    type :: point_type
       !> Parameters, nondimensional
       type(block_parameters_type) :: parameters
@@ -27,28 +27,28 @@ module attractor_points
       type(block_history_type) :: history
    end type point_type
 
-   !> What was found there.
+   !> Result of a search at a point.
    type :: finding_type
       !> Whether the motion was computed; if not, class and period are those of the neighbours
       logical :: computed = .true.
       !> The attractor; its class is `undecided` where `problem` is allocated
       type(attractor_type) :: attractor
-      !> Why there is none
+      !> Why no attractor was found
       type(error_type), allocatable :: problem
    end type finding_type
 
 contains
 
-   !> Find the attractor of each point, or on a grid only where neighbours differ. Each is found by
-   !> itself: the same whatever the number of threads.
+   !> Find the attractor of each point, or on a grid only where neighbours differ. Points do not
+   !> influence each other: the number of threads changes no result.
    subroutine find_attractors(points, settings, options, findings, progress, columns, refinements)
       !> Points; of a grid line by line
       type(point_type), intent(in) :: points(:)
-      !> How
+      !> How attractors are found
       type(attractor_settings_type), intent(in) :: settings
       !> Method, tolerances and limits
       type(integration_options), intent(in) :: options
-      !> What was found, one each
+      !> Results, one for each point
       type(finding_type), allocatable, intent(out) :: findings(:)
       !> Receiver of the number of points whose class is known
       class(progress_receiver_type), intent(inout), optional :: progress
@@ -90,7 +90,7 @@ contains
 
    !> Motions of one kind have the same class, cycles also the same number of points in the section.
    pure integer function kind_of(finding) result(number)
-      !> What was found
+      !> Results
       type(finding_type), intent(in) :: finding
 
       associate (found => finding%attractor)
@@ -104,7 +104,7 @@ contains
    pure subroutine take_over(grid, findings)
       !> The grid
       type(refined_grid_type), intent(in) :: grid
-      !> What was found
+      !> Results
       type(finding_type), intent(inout) :: findings(:)
       integer :: kinds(size(findings))
 
@@ -121,11 +121,11 @@ contains
    subroutine sweep_attractors(points, settings, options, findings, progress)
       !> Points, in the order of the sweep
       type(point_type), intent(in) :: points(:)
-      !> How
+      !> How attractors are found
       type(attractor_settings_type), intent(in) :: settings
       !> Method, tolerances and limits
       type(integration_options), intent(in) :: options
-      !> What was found, one each
+      !> Results, one for each point
       type(finding_type), allocatable, intent(out) :: findings(:)
       !> Receiver of the number of points done
       class(progress_receiver_type), intent(inout), optional :: progress

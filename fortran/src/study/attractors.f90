@@ -24,7 +24,7 @@ module attractors
 
    !> Parts of the approach, after each of which rest and cycles are looked for.
    integer, parameter :: approach_parts = 10
-   !> Exponents that are measured if fewer were asked for and all of them are zero: three zero ones
+   !> Exponents that are measured if fewer are set and all of them are zero: three zero ones
    !> and a negative one are a 3-torus.
    integer, parameter :: most_with_zeros = 4
    !> How close the line that is kept of a path is to it, as a share of its extent: one pixel in a
@@ -52,11 +52,11 @@ contains
    subroutine find_attractor(block_model, settings, options, attractor, error, start, arrived)
       !> The block and its history
       type(spring_block_type), intent(in) :: block_model
-      !> How
+      !> How the attractor is found and judged
       type(attractor_settings_type), intent(in) :: settings
       !> Method and tolerances
       type(integration_options), intent(in) :: options
-      !> What was found
+      !> The attractor
       type(attractor_type), intent(out) :: attractor
       !> The run ended before its time, or exponents cannot be measured
       type(error_type), allocatable, intent(out) :: error
@@ -213,7 +213,7 @@ contains
          call judge_rest(search, attractor, error)
          if (allocated(error) .or. attractor%class == fixed_point) return
          if (reached .neqv. on_cycle(attractor%motion)) then
-            ! what came before was the approach to a cycle, or the stay near an unstable one
+            ! the motion before was the approach to a cycle, or the stay near an unstable one
             if (last .and. turned) then
                attractor%reason = not_stationary
                return

@@ -1,9 +1,9 @@
-!> One measured run: a case by one method at one tolerance or step length, what it gave and what it
+!> One measured run: a case by one method at one tolerance or step length, its results and its
 !> cost.
 module measured_run
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde, only: integrate, integration_options, integration_result, out_of_memory, reached_end, &
-                  sampler_type, step_underflow, too_many_steps, value_not_finite
+                  sampler_type
    use double_numbers, only: as_double
    use dde_errors, only: error_type
    use fixed_step_rk4, only: integrate_rk4
@@ -18,10 +18,16 @@ module measured_run
    !> Methods with steps of one length, which they take instead of a tolerance.
    character(len=10), parameter :: baseline_methods(2) = ["rk4_linear", "rk4_cubic "]
 
+   !> Reasons of the solver, from `reached_end` on, in one word each.
+   character(len=16), parameter :: status_names(reached_end:out_of_memory) = &
+                                   [character(len=16) :: "ok", "refused", "refused", &
+                                    "step_underflow", "too_many_steps", "value_not_finite", &
+                                    "out_of_memory"]
+
    !> CPU seconds above which one run is measure enough.
    real(wp), parameter :: long_run = 0.5_wp
 
-   !> A run asked for, and what it gave.
+   !> A run to measure, and its results.
    type :: run_type
       !> Name of the method
       character(len=10) :: method = ""
@@ -33,7 +39,7 @@ module measured_run
       character(len=:), allocatable :: reason
       !> What the solver did
       type(integration_result) :: outcome = integration_result()
-      !> theta, u, ln v, shape (3, times); not a number where it did not come
+      !> theta, u, ln v, shape (3, times); not a number at times not reached
       real(wp), allocatable :: samples(:, :)
       !> Smallest and largest ln v over a grid eight times as fine as the samples
       real(wp) :: least_ln_v = 0.0_wp, most_ln_v = 0.0_wp
@@ -92,7 +98,7 @@ contains
       call cpu_time(start)
       call solve(block_model, as_double(case%t_end), most_steps, run, error, sampler)
       call cpu_time(now)
-      run%status = status_of(run%outcome%reason)
+      run%status = status_names(run%outcome%reason)
       run%reason = ""
       if (allocated(error)) run%reason = error%message
       run%samples = sampler%values
@@ -160,29 +166,7 @@ contains
       end if
    end subroutine solve
 
-   !> The reason of an end in one word.
-   pure function status_of(reason) result(word)
-      !> Reason of the solver
-      integer, intent(in) :: reason
-      character(len=16) :: word
-
-      select case (reason)
-      case (reached_end)
-         word = "ok"
-      case (step_underflow)
-         word = "step_underflow"
-      case (too_many_steps)
-         word = "too_many_steps"
-      case (value_not_finite)
-         word = "value_not_finite"
-      case (out_of_memory)
-         word = "out_of_memory"
-      case default
-         word = "refused"
-      end select
-   end function status_of
-
-   !> CPU seconds of one run: the mean of as many in a row as fill the shortest time to measure.
+   !> CPU seconds of one run: the mean of several in a row that fill the shortest time to measure.
    real(wp) function time_taken(case, most_steps, least_seconds, run) result(seconds)
       !> The case
       type(case_type), intent(in) :: case
@@ -225,7 +209,7 @@ contains
       value = 0.5_wp*(sorted(middle) + sorted(size(sorted) + 1 - middle))
    end function median
 
-   !> Nothing seen yet.
+   !> A sampler without samples.
    pure function new_sampler(n, time, filling) result(sampler)
       !> Number of equations
       integer, intent(in) :: n

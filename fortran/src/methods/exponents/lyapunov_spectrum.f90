@@ -78,7 +78,7 @@ module lyapunov_spectrum
    contains
       !> Integrate an interval and observe it
       procedure(observe_interval), deferred :: observe_interval
-      !> Keep what was seen in the last interval
+      !> Keep the observations of the last interval
       procedure(keep_interval), deferred :: keep_interval
    end type interval_observer_type
 
@@ -92,7 +92,7 @@ module lyapunov_spectrum
          class(interval_observer_type), intent(inout) :: self
          !> The problem, which may have further components after those observed
          class(dde_problem_type), intent(in) :: problem
-         !> Where to
+         !> Time at which the interval ends
          real(wp), intent(in) :: time
          !> Method and tolerances
          type(integration_options), intent(in) :: options
@@ -104,7 +104,7 @@ module lyapunov_spectrum
          type(continuation_type), intent(inout) :: continuation
       end subroutine observe_interval
 
-      !> Keep what was seen in the last interval.
+      !> Keep the observations of the last interval.
       subroutine keep_interval(self)
          import :: interval_observer_type
          implicit none (type, external)
@@ -128,7 +128,7 @@ contains
    !> measuring begins.
    subroutine measure_growth(problem, settings, options, measured, error, undisturbed, progress, &
                              observer)
-      !> The problem, with derivatives of its own
+      !> The problem, which must give its derivatives
       class(dde_problem_type), intent(in) :: problem
       !> How many exponents, and when
       type(growth_settings_type), intent(in) :: settings
@@ -215,7 +215,7 @@ contains
    end subroutine extend_growth
 
    !> Measure interval by interval. Intervals are of uneven length, so that a period of the motion
-   !> that is nearly a multiple of them looks no slow drift.
+   !> that is nearly a multiple of them does not look like a slow drift.
    subroutine go_on(tangent, settings, options, t_end, intervals, done, measured, error, &
                     progress, observer)
       !> The problem with its tangent vectors
@@ -267,7 +267,7 @@ contains
       value = 0.7_wp*(modulo(golden*real(i, wp)**2, 1.0_wp) - 0.5_wp)
    end function uneven
 
-   !> Number of intervals in so long a time, the same in each block.
+   !> Number of intervals in a time, equal in all blocks.
    pure integer function intervals_in(time, settings) result(intervals)
       !> The time
       real(wp), intent(in) :: time
@@ -289,11 +289,11 @@ contains
       type(growth_settings_type), intent(in) :: settings
       !> Method and tolerances
       type(integration_options), intent(in) :: options
-      !> Where to
+      !> Time at which the interval ends
       real(wp), intent(in) :: time
       !> How often the interval may be halved
       integer, intent(in) :: halvings
-      !> Where the vectors are, and what it took
+      !> Position of the vectors, and work done
       type(growth_type), intent(inout) :: measured
       !> Logarithm of the growth of each vector
       real(wp), intent(out) :: growth(:)
