@@ -13,17 +13,15 @@ module test_attractor_points
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use motion_classes, only: cycle_motion, fixed_point, undecided
    use omp_lib, only: omp_get_max_threads, omp_get_num_threads, omp_set_num_threads
-   use progress_receiver, only: progress_receiver_type
+   use progress_recorder, only: expect_counted, recorder
    use solving, only: at_tolerance
    use spring_block, only: spring_block_type
    implicit none (type, external)
    private
    public :: collect_attractor_points
 
-   !> Keeps what it is told.
-   type, extends(progress_receiver_type) :: memory_type
-      !> Numbers of points done, and of all
-      integer, allocatable :: done(:), total(:)
+   !> Recorder that also keeps the number of threads at work.
+   type, extends(recorder) :: memory_type
       !> Most threads at work at a time
       integer :: threads = 0
    contains
@@ -48,13 +46,12 @@ contains
                    new_unittest("sweep after a failed point", test_failed_point)]
    end subroutine collect_attractor_points
 
-   !> Keep a report.
+   !> Keep a report and the number of threads.
    subroutine keep(self, done, total)
       class(memory_type), intent(inout) :: self
       integer, intent(in) :: done, total
 
-      self%done = [self%done, done]
-      self%total = [self%total, total]
+      call self%recorder%advance(done, total)
       self%threads = max(self%threads, omp_get_num_threads())
    end subroutine keep
 
@@ -86,14 +83,13 @@ contains
       call omp_set_num_threads(1)
       call find_attractors(some_points(), quickly(), at_tolerance(1.0e-6_wp, "auto"), alone)
       do round = 1, 2
-         memory = memory_type(done=[integer ::], total=[integer ::])
+         memory = memory_type()
          call omp_set_num_threads(2)
          call find_attractors(some_points(), quickly(), at_tolerance(1.0e-6_wp, "auto"), &
                               together, memory)
          call omp_set_num_threads(threads)
          call expect(error, memory%threads == 2, "two threads")
-         call expect(error, size(memory%done) == 8 .and. all(memory%done == [(i, i=1, 8)]) &
-                     .and. all(memory%total == 8), "progress point by point")
+         call expect_counted(error, memory%recorder, 8)
          do i = 1, size(alone)
             call expect_success(error, alone(i)%problem)
             call expect_success(error, together(i)%problem)
@@ -129,7 +125,7 @@ contains
       associate (list => reshape(points, [size(points)]))
          call find_attractors(list, quickly(), options, all_computed)
          do i = 1, 2
-            memory = memory_type(done=[integer ::], total=[integer ::])
+            memory = memory_type()
             call omp_set_num_threads(i)
             call find_attractors(list, quickly(), options, findings, memory, columns, 1)
             call omp_set_num_threads(threads)
