@@ -108,9 +108,9 @@ contains
       line = path(:, pack(points, find_kept_points(scaled, closeness)))
    end function thinned
 
-   !> Points of a line that suffice to draw it (Douglas and Peucker 1973, Cartographica 10, 112): the
-   !> first, the last, and those between them without which the line would be further than the
-   !> tolerance from a point.
+   !> Points of a line that suffice to draw it: the first, the last, and those between them without
+   !> which the line would be further than the tolerance from a point (Douglas and Peucker 1973,
+   !> Cartographica 10, 112).
    pure function find_kept_points(points, tolerance) result(kept)
       !> Points in order, shape (dimensions, points)
       real(wp), intent(in) :: points(:, :)

@@ -1,5 +1,5 @@
-!> How tests look for attractors: blocks near steady sliding, and settings as in the configuration or
-!> coarser.
+!> Searches for attractors in tests: blocks near steady sliding, and settings as in the
+!> configuration or coarser.
 module attractor_searches
    use attractors, only: attractor_settings_type, attractor_type, find_attractor
    use block_builder, only: build_block

@@ -291,10 +291,10 @@ contains
       call expect(error, found%by_exponents == cycle_motion, "a cycle by exponents")
    end subroutine test_short_approach
 
-   !> Tori that are reached after another motion, with the settings of the atlas: one, as from other
-   !> histories, whose approach is certain chaos for a while by exponents and spectrum; and one, also
-   !> after 4e5 units of time, which two equal positive exponents and the spectrum would call chaos
-   !> while the motion leaves an unstable cycle.
+   !> Tori that are reached after another motion, with the settings of the atlas. The approach to
+   !> the first is certain chaos for a while by exponents and spectrum. The second is a torus also
+   !> after 4e5 units of time; while the motion leaves an unstable cycle, two equal positive
+   !> exponents and the spectrum would call it chaos.
    subroutine test_late_tori(error)
       type(error_type), allocatable, intent(out) :: error
 

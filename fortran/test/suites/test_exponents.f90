@@ -1,5 +1,5 @@
-!> Lyapunov exponents against characteristic roots, published values, and what must be zero; averages
-!> of growth and the dimension against values by hand.
+!> Lyapunov exponents against characteristic roots, published values, and what must be zero;
+!> averages of growth and the dimension against values by hand.
 module test_exponents
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
    use block_builder, only: build_block
@@ -52,11 +52,8 @@ contains
    !> Derivatives of 0.2 z/(1 + z^10) - 0.1 y.
    pure subroutine mackey_glass_jacobian(self, t, y, z, by_y, by_z)
       class(smooth_mackey_glass), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
-      real(wp), intent(out) :: by_y(self%n, self%n)
-      real(wp), intent(out) :: by_z(self%n, size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: by_y(self%n, self%n), by_z(self%n, size(self%lag))
 
       by_y = -0.1_wp
       by_z = 0.2_wp*(1.0_wp - 9.0_wp*z(1)**10)/(1.0_wp + z(1)**10)**2
@@ -65,11 +62,8 @@ contains
    !> Derivatives of (z1, z1 + z2, y2).
    pure subroutine wille_baker_jacobian(self, t, y, z, by_y, by_z)
       class(smooth_wille_baker), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
-      real(wp), intent(out) :: by_y(self%n, self%n)
-      real(wp), intent(out) :: by_z(self%n, size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: by_y(self%n, self%n), by_z(self%n, size(self%lag))
 
       by_y = 0.0_wp
       by_y(3, 2) = 1.0_wp
@@ -181,8 +175,8 @@ contains
                         "the pair")
    end subroutine test_without_delay
 
-   !> Four exponents of the equation of Mackey and Glass at tau = 17: the well-resolved values of the
-   !> literature, with bounds as wide as their spread.
+   !> Four exponents of the equation of Mackey and Glass at tau = 17: the well-resolved values of
+   !> the literature, with bounds as wide as their spread.
    subroutine test_mackey_glass(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp), parameter :: known(4) = [0.00575_wp, 0.0_wp, -0.039_wp, -0.053_wp]

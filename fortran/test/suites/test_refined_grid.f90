@@ -93,8 +93,7 @@ contains
    !> Every 2**refinements-th line, and the last one if it is not among them.
    pure integer function first_lines(places, refinements) result(lines)
       !> Number of all lines
-      integer, intent(in) :: places
-      integer, intent(in) :: refinements
+      integer, intent(in) :: places, refinements
 
       lines = 1 + (places - 1 + 2**refinements - 1)/2**refinements
    end function first_lines

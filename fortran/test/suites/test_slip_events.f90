@@ -57,9 +57,7 @@ contains
    !> Time derivatives.
    pure subroutine rhs(self, t, y, z, dydt)
       class(prescribed_type), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
       dydt(index_of_theta) = 0.0_wp
@@ -69,8 +67,7 @@ contains
 
    !> Events of the problem up to a time.
    subroutine events_of(a, b, t_transient, t_end, events, error)
-      real(wp), intent(in) :: a, b
-      real(wp), intent(in) :: t_transient, t_end
+      real(wp), intent(in) :: a, b, t_transient, t_end
       type(slip_events_type), intent(out) :: events
       type(error_type), allocatable, intent(inout) :: error
       type(failure_type), allocatable :: failure

@@ -512,8 +512,7 @@ contains
       !> Greatest value of the noise
       real(wp), intent(in) :: noise
       !> Name of the kind
-      character(len=*), intent(in) :: known
-      character(len=*), intent(in) :: what
+      character(len=*), intent(in) :: known, what
       type(analysed_type) :: found
 
       call analyse(error, amplitudes, f*lines, noise, 8, found)
@@ -530,8 +529,7 @@ contains
       type(peak_type), intent(in) :: peaks(:)
       type(bases_type), intent(in) :: bases
       !> Name of the kind
-      character(len=*), intent(in) :: known
-      character(len=*), intent(in) :: what
+      character(len=*), intent(in) :: known, what
       character(len=:), allocatable :: name
 
       name = spectrum_kind_name(spectrum_kind(power, peaks, bases))

@@ -1,5 +1,5 @@
-!> Tangent vectors: their equations, norm and restart; runs by Taylor series beside other methods, for
-!> stiff blocks, and with vectors across the flow.
+!> Tangent vectors: their equations, norm and restart; runs by Taylor series beside other methods,
+!> for stiff blocks, and with vectors across the flow.
 module test_tangent_runs
    use block_builder, only: build_block
    use block_roots, only: roots_of_block

@@ -88,9 +88,7 @@ contains
    !> Their equation.
    pure subroutine rhs(self, t, y, z, dydt)
       class(oscillators_type), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
       complex(wp) :: delayed, now, slope
       integer :: i
@@ -115,11 +113,8 @@ contains
    !> Derivatives of the right-hand side.
    pure subroutine jacobian(self, t, y, z, by_y, by_z)
       class(oscillators_type), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
-      real(wp), intent(out) :: by_y(self%n, self%n)
-      real(wp), intent(out) :: by_z(self%n, size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: by_y(self%n, self%n), by_z(self%n, size(self%lag))
       complex(wp) :: delay
       integer :: i
 
@@ -177,8 +172,7 @@ contains
       !> A part of the section that is chaotic, shape (points)
       real(wp), intent(in) :: noise(:)
       !> Third fundamental frequency
-      real(wp), intent(out) :: third
-      real(wp), intent(out) :: roughness
+      real(wp), intent(out) :: third, roughness
       type(bases_type) :: bases
       type(failure_type), allocatable :: failure
       type(peak_type), allocatable :: peaks(:)
