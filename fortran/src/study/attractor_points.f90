@@ -1,18 +1,25 @@
-!> Attractors at many points: parameters and histories, shared out among threads.
+!> Attractors at many points: parameters and histories. Points are shared among threads, or stand on
+!> a sweep: there each starts where the one before ended, with all of its past, so that the block
+!> stays on its attractor as long as that exists.
 module attractor_points
    use attractors, only: attractor_settings_type, attractor_type, find_attractor
    use block_parameters, only: block_history_type, block_parameters_type
-   use dde, only: integration_options
+   use dde, only: continuation_type, integrate, integration_options, integration_result
    use dde_errors, only: error_type
+   use dde_kinds, only: wp
    use motion_classes, only: class_names, cycle_motion, undecided
    use progress_receiver, only: progress_receiver_type
    use refined_grid, only: refined_grid_type, uncertain
-   use spring_block, only: spring_block_type
+   use spring_block, only: index_of_ln_v, index_of_theta, index_of_u, spring_block_type
    implicit none (type, external)
    private
-   public :: finding_type, find_attractors, point_type
+   public :: finding_type, find_attractors, point_type, sweep_attractors
 
-   !> Where an attractor is looked for.
+   !> Change of u from point to point. Without it the block would stay in steady sliding where that
+   !> is unstable.
+   real(wp), parameter :: disturbance = 1.0e-2_wp
+
+   !> A point at which an attractor is looked for.
    type :: point_type
       !> Parameters, nondimensional
       type(block_parameters_type) :: parameters
@@ -20,28 +27,28 @@ module attractor_points
       type(block_history_type) :: history
    end type point_type
 
-   !> What was found there.
+   !> Result of a search at a point.
    type :: finding_type
       !> Whether the motion was computed; if not, class and period are those of the neighbours
       logical :: computed = .true.
       !> The attractor; its class is `undecided` where `problem` is allocated
       type(attractor_type) :: attractor
-      !> Why there is none
+      !> Why no attractor was found
       type(error_type), allocatable :: problem
    end type finding_type
 
 contains
 
-   !> Find the attractor of each point, or on a grid only where neighbours differ. Each is found by
-   !> itself: the same whatever the number of threads.
+   !> Find the attractor of each point, or on a grid only where neighbours differ. Points do not
+   !> influence each other: the number of threads changes no result.
    subroutine find_attractors(points, settings, options, findings, progress, columns, refinements)
       !> Points; of a grid line by line
       type(point_type), intent(in) :: points(:)
-      !> How
+      !> How attractors are found
       type(attractor_settings_type), intent(in) :: settings
       !> Method, tolerances and limits
       type(integration_options), intent(in) :: options
-      !> What was found, one each
+      !> Results, one for each point
       type(finding_type), allocatable, intent(out) :: findings(:)
       !> Receiver of the number of points whose class is known
       class(progress_receiver_type), intent(inout), optional :: progress
@@ -51,7 +58,7 @@ contains
       integer, intent(in), optional :: refinements
       integer, allocatable :: wanted(:)
       type(refined_grid_type) :: grid
-      integer :: k
+      integer :: done, k
 
       allocate (findings(size(points)))
       grid = refined_grid_type(size(points), 1, refinements=0)
@@ -59,51 +66,31 @@ contains
       do
          call grid%next(wanted)
          if (size(wanted) == 0) exit
-         call find_wanted(points, wanted, settings, options, grid, findings, progress)
+         done = grid%settled()
+         !$omp parallel do schedule(dynamic)
+         do k = 1, size(wanted)
+            associate (point => points(wanted(k)), finding => findings(wanted(k)))
+               call find_attractor(spring_block_type(point%parameters, point%history), settings, &
+                                   options, finding%attractor, finding%problem)
+            end associate
+            !$omp critical (points_done)
+            if (.not. grid%knows(wanted(k))) done = done + 1
+            ! the last point is reported when all classes are known
+            if (present(progress) .and. done < size(points)) then
+               call progress%advance(done, size(points))
+            end if
+            !$omp end critical (points_done)
+         end do
+         !$omp end parallel do
          call grid%put(wanted, [(kind_of(findings(wanted(k))), k=1, size(wanted))])
       end do
       call take_over(grid, findings)
       if (present(progress)) call progress%advance(size(points), size(points))
    end subroutine find_attractors
 
-   !> Find the attractors of some points.
-   subroutine find_wanted(points, wanted, settings, options, grid, findings, progress)
-      !> All points
-      type(point_type), intent(in) :: points(:)
-      !> Numbers of those that are looked for
-      integer, intent(in) :: wanted(:)
-      !> How
-      type(attractor_settings_type), intent(in) :: settings
-      !> Method, tolerances and limits
-      type(integration_options), intent(in) :: options
-      !> What was known before
-      type(refined_grid_type), intent(in) :: grid
-      !> What was found, one for each of all points
-      type(finding_type), intent(inout) :: findings(:)
-      !> Receiver of the number of points whose class is known; the last point is not reported
-      class(progress_receiver_type), intent(inout), optional :: progress
-      integer :: done, k
-
-      done = grid%settled()
-      !$omp parallel do schedule(dynamic)
-      do k = 1, size(wanted)
-         associate (point => points(wanted(k)), finding => findings(wanted(k)))
-            call find_attractor(spring_block_type(point%parameters, point%history), settings, &
-                                options, finding%attractor, finding%problem)
-         end associate
-         !$omp critical (points_done)
-         if (.not. grid%knows(wanted(k))) done = done + 1
-         if (present(progress) .and. done < size(points)) then
-            call progress%advance(done, size(points))
-         end if
-         !$omp end critical (points_done)
-      end do
-      !$omp end parallel do
-   end subroutine find_wanted
-
    !> Motions of one kind have the same class, cycles also the same number of points in the section.
    pure integer function kind_of(finding) result(number)
-      !> What was found
+      !> Results
       type(finding_type), intent(in) :: finding
 
       associate (found => finding%attractor)
@@ -117,7 +104,7 @@ contains
    pure subroutine take_over(grid, findings)
       !> The grid
       type(refined_grid_type), intent(in) :: grid
-      !> What was found
+      !> Results
       type(finding_type), intent(inout) :: findings(:)
       integer :: kinds(size(findings))
 
@@ -128,4 +115,79 @@ contains
          findings%attractor%period = kinds/size(class_names)
       end where
    end subroutine take_over
+
+   !> Find the attractors of points in turn. The first point starts from its history. After a point
+   !> whose run fails, the next starts from where that one did.
+   subroutine sweep_attractors(points, settings, options, findings, progress)
+      !> Points, in the order of the sweep
+      type(point_type), intent(in) :: points(:)
+      !> How attractors are found
+      type(attractor_settings_type), intent(in) :: settings
+      !> Method, tolerances and limits
+      type(integration_options), intent(in) :: options
+      !> Results, one for each point
+      type(finding_type), allocatable, intent(out) :: findings(:)
+      !> Receiver of the number of points done
+      class(progress_receiver_type), intent(inout), optional :: progress
+      type(block_history_type) :: history
+      type(continuation_type) :: arrived, start
+      type(spring_block_type) :: block_model
+      integer :: i
+
+      allocate (findings(size(points)))
+      history = points(1)%history
+      do i = 1, size(points)
+         block_model = spring_block_type(points(i)%parameters, history)
+         call find_attractor(block_model, settings, options, findings(i)%attractor, &
+                             findings(i)%problem, start, arrived)
+         if (i < size(points) .and. .not. allocated(findings(i)%problem)) then
+            call hand_over(block_model, points(i + 1), maxval(points%parameters%tau), options, &
+                           arrived, history, start)
+         end if
+         if (present(progress)) call progress%advance(i, size(points))
+      end do
+   end subroutine sweep_attractors
+
+   !> Where the next point starts. A run on at the old parameters makes the past as long as the
+   !> longest delay of the sweep. There is no past to hand over between a block without delay and
+   !> one with a delay: then the last state holds for t <= 0.
+   subroutine hand_over(block_model, next, longest_delay, options, arrived, history, start)
+      !> The block of this point
+      type(spring_block_type), intent(in) :: block_model
+      !> The next point
+      type(point_type), intent(in) :: next
+      !> Longest delay of the sweep
+      real(wp), intent(in) :: longest_delay
+      !> Method, tolerances and limits
+      type(integration_options), intent(in) :: options
+      !> Where this point ended
+      type(continuation_type), intent(in) :: arrived
+      !> Values for t <= 0 of the next point, used if `start` is empty
+      type(block_history_type), intent(inout) :: history
+      !> Where the next point starts
+      type(continuation_type), intent(inout) :: start
+      type(continuation_type) :: onward
+      type(error_type), allocatable :: error
+      type(integration_options) :: keeping
+      type(integration_result) :: outcome
+      real(wp) :: y(block_model%n)
+
+      if ((size(block_model%lag) > 0) .neqv. (next%parameters%tau > 0.0_wp)) then
+         start = continuation_type()
+         history = block_history_type(theta=arrived%y(index_of_theta), &
+                                      u=arrived%y(index_of_u) + disturbance, &
+                                      v=exp(arrived%y(index_of_ln_v)))
+         return
+      end if
+      keeping = options
+      keeping%past_kept = longest_delay
+      onward = arrived
+      call integrate(block_model, onward%time(1), onward%time(1) + longest_delay, keeping, &
+                     outcome, error, continuation=onward)
+      if (allocated(error)) return
+      y = onward%y
+      y(index_of_u) = y(index_of_u) + disturbance
+      call onward%change_state(y, error)
+      if (.not. allocated(error)) start = onward
+   end subroutine hand_over
 end module attractor_points

@@ -1,4 +1,4 @@
-!> The class of an attractor by what was seen of it: by Lyapunov exponents, confirmed by a Poincare
+!> The class of an attractor by its observation: by Lyapunov exponents, confirmed by a Poincare
 !> section and by the spectrum of v.
 module attractor_verdict
    use base_frequencies, only: bases_type, descending, label_peaks
@@ -53,7 +53,7 @@ module attractor_verdict
       real(wp) :: peak_floor = 0.0_wp, peak_prominence = 1.0_wp
    end type attractor_settings_type
 
-   !> What was found.
+   !> An attractor.
    type :: attractor_type
       !> Classes, of `motion_classes`
       integer :: class = undecided, by_exponents = undecided, by_section = undecided
@@ -64,16 +64,16 @@ module attractor_verdict
       real(wp) :: time = 0.0_wp
       !> Leading exponents, descending
       type(exponent_type), allocatable :: exponents(:)
-      !> Points after which a cycle repeats in the section, 0 where none
+      !> Points after which a cycle repeats in the section, 0 if none
       integer :: period = 0
       !> Roughness of the section as a function of two phases, of three on a 3-torus, see
       !> `section_roughness`
       real(wp) :: roughness = not_measured
-      !> Fundamental frequencies of v, 0 where none
+      !> Fundamental frequencies of v, 0 if none
       real(wp) :: bases(3) = 0.0_wp
       !> Share of the power of v in the lines of these, or `not_measured`
       real(wp) :: line_share = not_measured
-      !> What was seen of it
+      !> Observation of the motion
       type(observed_motion_type) :: motion
       !> A piece of it to be drawn, see `follow_path`; none of steady sliding
       real(wp), allocatable :: path(:, :)
@@ -81,9 +81,9 @@ module attractor_verdict
 
 contains
 
-   !> The class by what was seen so far. The spectrum is computed where it matters.
+   !> The class by the observation so far. The spectrum is computed where it matters.
    subroutine judge(settings, measured, last, attractor, error)
-      !> How
+      !> How an attractor is judged
       type(attractor_settings_type), intent(in) :: settings
       !> Growth of the vectors
       type(growth_type), intent(in) :: measured
@@ -135,11 +135,11 @@ contains
    subroutine judge_spectrum(v, settings, attractor, peaks, error)
       !> Samples of v
       real(wp), intent(in) :: v(:)
-      !> How
+      !> How an attractor is judged
       type(attractor_settings_type), intent(in) :: settings
       !> The attractor
       type(attractor_type), intent(inout) :: attractor
-      !> Its peaks
+      !> Peaks of the spectrum
       type(peak_type), allocatable, intent(out) :: peaks(:)
       !> Too few samples
       type(error_type), allocatable, intent(out) :: error

@@ -24,12 +24,27 @@ module attractors
 
    !> Parts of the approach, after each of which rest and cycles are looked for.
    integer, parameter :: approach_parts = 10
-   !> Exponents that are measured if fewer were asked for and all of them are zero: three zero ones
+   !> Exponents that are measured if fewer are set and all of them are zero: three zero ones
    !> and a negative one are a 3-torus.
    integer, parameter :: most_with_zeros = 4
    !> How close the line that is kept of a path is to it, as a share of its extent: one pixel in a
    !> plot of 250 pixels, and of 500 for a cycle.
    real(wp), parameter :: closeness_of_path = 1.0_wp/250.0_wp, closeness_of_cycle = 1.0_wp/500.0_wp
+
+   !> A block whose attractor is looked for.
+   type :: search_type
+      !> The block and its history
+      type(spring_block_type) :: block_model
+      !> How the attractor is found and judged
+      type(attractor_settings_type) :: settings
+      !> Method and tolerances
+      type(integration_options) :: options
+   contains
+      !> Longest time of an observation
+      procedure :: longest_time
+      !> Number of exponents that exist, at most a given one
+      procedure :: most_exponents
+   end type search_type
 
 contains
 
@@ -37,11 +52,11 @@ contains
    subroutine find_attractor(block_model, settings, options, attractor, error, start, arrived)
       !> The block and its history
       type(spring_block_type), intent(in) :: block_model
-      !> How
+      !> How the attractor is found and judged
       type(attractor_settings_type), intent(in) :: settings
       !> Method and tolerances
       type(integration_options), intent(in) :: options
-      !> What was found
+      !> The attractor
       type(attractor_type), intent(out) :: attractor
       !> The run ended before its time, or exponents cannot be measured
       type(error_type), allocatable, intent(out) :: error
@@ -50,7 +65,9 @@ contains
       !> Where the motion was left; empty on an error
       type(continuation_type), intent(out), optional :: arrived
       type(integration_result) :: outcome
+      type(search_type) :: search
 
+      search = search_type(block_model, settings, options)
       if (present(start)) attractor%motion%continuation = start
       if (.not. allocated(attractor%motion%continuation%y)) then
          call integrate(block_model, 0.0_wp, 0.0_wp, options, outcome, error, &
@@ -60,35 +77,31 @@ contains
       attractor%motion%sample_interval = settings%sample_interval
       associate (now => attractor%motion%continuation%time)
          attractor%time = now(1)
-         call approach(block_model, settings, options, attractor, error)
+         call approach(search, attractor, error)
          if (allocated(error)) return
          if (attractor%class == undecided .and. attractor%reason /= unstable_rest) then
-            call judge_motion(block_model, settings, options, attractor, error)
+            call judge_motion(search, attractor, error)
             if (allocated(error)) return
          end if
          attractor%time = now(1) - attractor%time
       end associate
       if (settings%t_path > 0.0_wp .and. attractor%class /= fixed_point) then
-         call keep_path(block_model, settings, options, attractor)
+         call keep_path(search, attractor)
       end if
       if (present(arrived)) arrived = attractor%motion%continuation
       call attractor%motion%forget_path()
    end subroutine find_attractor
 
    !> Keep the path to be drawn, of a cycle no more than one period, but with more points.
-   subroutine keep_path(block_model, settings, options, attractor)
-      !> The block
-      type(spring_block_type), intent(in) :: block_model
-      !> How
-      type(attractor_settings_type), intent(in) :: settings
-      !> Method and tolerances
-      type(integration_options), intent(in) :: options
+   subroutine keep_path(search, attractor)
+      !> What is run, and how
+      type(search_type), intent(in) :: search
       !> The attractor
       type(attractor_type), intent(inout) :: attractor
       real(wp) :: closeness, time
 
       closeness = closeness_of_path
-      time = settings%t_path
+      time = search%settings%t_path
       associate (passage => attractor%motion%section_time, &
                  n => size(attractor%motion%section_time), turns => attractor%period)
          if (attractor%class == cycle_motion .and. turns > 0 .and. n > turns) then
@@ -96,33 +109,30 @@ contains
             time = min(time, passage(n) - passage(n - turns))
          end if
       end associate
-      call follow_path(block_model, attractor%motion%continuation, time, closeness, options, &
-                       attractor%path)
+      call follow_path(search%block_model, attractor%motion%continuation, time, closeness, &
+                       search%options, attractor%path)
    end subroutine keep_path
 
    !> Wait until the block is at rest or on a cycle, but not longer than the approach may take. Near
    !> unstable steady sliding wait as long as a motion may be observed.
-   subroutine approach(block_model, settings, options, attractor, error)
-      !> The block
-      type(spring_block_type), intent(in) :: block_model
-      !> How
-      type(attractor_settings_type), intent(in) :: settings
-      !> Method and tolerances
-      type(integration_options), intent(in) :: options
+   subroutine approach(search, attractor, error)
+      !> What is run, and how
+      type(search_type), intent(in) :: search
       !> The attractor
       type(attractor_type), intent(inout) :: attractor
       !> The run ended before its time
       type(error_type), allocatable, intent(out) :: error
       integer :: most_parts, part
 
-      most_parts = max(approach_parts, ceiling(approach_parts*longest_time(settings) &
-                                               /settings%t_transient))
+      most_parts = max(approach_parts, ceiling(approach_parts*search%longest_time() &
+                                               /search%settings%t_transient))
       do part = 1, most_parts
          call attractor%motion%clear()
-         call attractor%motion%observe(block_model, settings%t_transient/approach_parts, &
-                                       options, error)
+         call attractor%motion%observe(search%block_model, &
+                                       search%settings%t_transient/approach_parts, &
+                                       search%options, error)
          if (allocated(error)) return
-         call judge_rest(block_model, settings, attractor, error)
+         call judge_rest(search, attractor, error)
          if (allocated(error) .or. attractor%class == fixed_point) return
          if (on_cycle(attractor%motion)) return
          if (part < approach_parts) cycle
@@ -132,20 +142,29 @@ contains
    end subroutine approach
 
    !> Longest time of an observation.
-   pure real(wp) function longest_time(settings) result(time)
-      !> How
-      type(attractor_settings_type), intent(in) :: settings
+   pure real(wp) function longest_time(self) result(time)
+      !> How an attractor is looked for
+      class(search_type), intent(in) :: self
 
-      time = settings%t_observed*2**settings%doublings
+      time = self%settings%t_observed*2**self%settings%doublings
    end function longest_time
+
+   !> Number of exponents: without delay there are no more than equations.
+   pure integer function most_exponents(self, wanted) result(exponents)
+      !> The block
+      class(search_type), intent(in) :: self
+      !> Number of exponents wanted
+      integer, intent(in) :: wanted
+
+      exponents = wanted
+      if (size(self%block_model%lag) == 0) exponents = min(exponents, self%block_model%n)
+   end function most_exponents
 
    !> Whether the block is at rest: it stays close to steady sliding or approaches it, and
    !> steady sliding is stable.
-   subroutine judge_rest(block_model, settings, attractor, error)
-      !> The block
-      type(spring_block_type), intent(in) :: block_model
-      !> How
-      type(attractor_settings_type), intent(in) :: settings
+   subroutine judge_rest(search, attractor, error)
+      !> What is run, and how
+      type(search_type), intent(in) :: search
       !> The attractor
       type(attractor_type), intent(inout) :: attractor
       !> The roots of (5) cannot be found
@@ -153,7 +172,7 @@ contains
       type(exponent_type), allocatable :: exponents(:)
 
       if (.not. settles(attractor%motion%samples(index_of_ln_v))) return
-      call sliding_exponents(block_model, exponents_of(block_model, settings%exponents), &
+      call sliding_exponents(search%block_model, search%most_exponents(search%settings%exponents), &
                              exponents, error)
       if (allocated(error)) return
       if (.not. all(exponents%value < 0.0_wp)) return
@@ -165,25 +184,10 @@ contains
       attractor%by_spectrum = fixed_point
    end subroutine judge_rest
 
-   !> Number of exponents: without delay there are no more than equations.
-   pure integer function exponents_of(block_model, wanted) result(exponents)
-      !> The block
-      type(spring_block_type), intent(in) :: block_model
-      !> How many are wanted
-      integer, intent(in) :: wanted
-
-      exponents = wanted
-      if (size(block_model%lag) == 0) exponents = min(exponents, block_model%n)
-   end function exponents_of
-
    !> A block in motion: observe it until its class is certain.
-   subroutine judge_motion(block_model, settings, options, attractor, error)
-      !> The block
-      type(spring_block_type), intent(in) :: block_model
-      !> How
-      type(attractor_settings_type), intent(in) :: settings
-      !> Method and tolerances
-      type(integration_options), intent(in) :: options
+   subroutine judge_motion(search, attractor, error)
+      !> What is run, and how
+      type(search_type), intent(in) :: search
       !> The attractor
       type(attractor_type), intent(inout) :: attractor
       !> Exponents cannot be measured
@@ -197,20 +201,19 @@ contains
       reached = on_cycle(attractor%motion)
       surviving = .false.
       turned = .false.
-      exponents = exponents_of(block_model, settings%exponents)
+      exponents = search%most_exponents(search%settings%exponents)
       spent = 0.0_wp
-      time = settings%t_observed
+      time = search%settings%t_observed
       if (.not. reached) call attractor%motion%clear()
       do
-         call go_on(block_model, settings, exponents, options, time, attractor%motion, measured, &
-                    error)
+         call go_on(search, exponents, time, attractor%motion, measured, error)
          if (allocated(error)) return
          spent = spent + time
-         last = spent >= longest_time(settings)
-         call judge_rest(block_model, settings, attractor, error)
+         last = spent >= search%longest_time()
+         call judge_rest(search, attractor, error)
          if (allocated(error) .or. attractor%class == fixed_point) return
          if (reached .neqv. on_cycle(attractor%motion)) then
-            ! what came before was the approach to a cycle, or the stay near an unstable one
+            ! the motion before was the approach to a cycle, or the stay near an unstable one
             if (last .and. turned) then
                attractor%reason = not_stationary
                return
@@ -219,17 +222,17 @@ contains
             if (.not. turned) spent = 0.0_wp
             turned = .true.
             reached = .not. reached
-            time = settings%t_observed
+            time = search%settings%t_observed
             deallocate (measured%growth)
             cycle
          end if
-         call judge(settings, measured, last, attractor, error)
+         call judge(search%settings, measured, last, attractor, error)
          if (allocated(error)) return
-         if (last .and. exponents < exponents_of(block_model, most_with_zeros) &
-             .and. all(without_sign(attractor%exponents, settings%zero_level))) then
-            exponents = exponents_of(block_model, most_with_zeros)
+         if (last .and. exponents < search%most_exponents(most_with_zeros) &
+             .and. all(without_sign(attractor%exponents, search%settings%zero_level))) then
+            exponents = search%most_exponents(most_with_zeros)
             call attractor%motion%clear()
-            time = longest_time(settings)
+            time = search%longest_time()
             deallocate (measured%growth)
             cycle
          end if
@@ -245,22 +248,22 @@ contains
          end if
          if (attractor%class == chaos .and. .not. surviving) then
             surviving = .true.
-            call outlive(block_model, settings, options, attractor, error)
+            call outlive(search, attractor, error)
             if (allocated(error)) then
                attractor%class = undecided
                return
             end if
-            call judge_rest(block_model, settings, attractor, error)
+            call judge_rest(search, attractor, error)
             if (allocated(error) .or. attractor%class == fixed_point) return
             later = attractor
-            call judge(settings, measured, last, later, error)
+            call judge(search%settings, measured, last, later, error)
             if (allocated(error)) return
             if (later%reason == contradicted) then
                ! it was the approach to another motion
                attractor%class = undecided
                reached = on_cycle(attractor%motion)
                spent = 0.0_wp
-               time = settings%t_observed
+               time = search%settings%t_observed
                deallocate (measured%growth)
                cycle
             end if
@@ -271,15 +274,11 @@ contains
    end subroutine judge_motion
 
    !> Observe the block for a time, and measure exponents: go on, or begin if nothing was measured.
-   subroutine go_on(block_model, settings, exponents, options, time, motion, measured, error)
-      !> The block
-      type(spring_block_type), intent(in) :: block_model
-      !> How
-      type(attractor_settings_type), intent(in) :: settings
+   subroutine go_on(search, exponents, time, motion, measured, error)
+      !> What is run, and how
+      type(search_type), intent(in) :: search
       !> Number of exponents
       integer, intent(in) :: exponents
-      !> Method and tolerances
-      type(integration_options), intent(in) :: options
       !> How long
       real(wp), intent(in) :: time
       !> The motion
@@ -291,28 +290,27 @@ contains
       type(continuation_type) :: now
       type(growth_settings_type) :: wanted
 
-      now = motion%continuation
-      wanted = growth_settings_type(exponents=exponents, &
-                                    t_turning=settings%t_turning, &
-                                    t_end=now%time(1) + settings%t_turning + time, &
-                                    interval=settings%interval, bounds=.true., across_flow=.true.)
-      if (allocated(measured%growth)) then
-         call extend_growth(block_model, wanted, options, measured, error, motion)
-      else
-         call measure_growth(block_model, wanted, options, measured, error, now, observer=motion)
-      end if
-      if (allocated(error)) return
-      call motion%arrive(undisturbed_part(measured%continuation, block_model%n))
+      associate (block_model => search%block_model, settings => search%settings)
+         now = motion%continuation
+         wanted = growth_settings_type(exponents=exponents, t_turning=settings%t_turning, &
+                                       t_end=now%time(1) + settings%t_turning + time, &
+                                       interval=settings%interval, bounds=.true., &
+                                       across_flow=.true.)
+         if (allocated(measured%growth)) then
+            call extend_growth(block_model, wanted, search%options, measured, error, motion)
+         else
+            call measure_growth(block_model, wanted, search%options, measured, error, now, &
+                                observer=motion)
+         end if
+         if (allocated(error)) return
+         call motion%arrive(undisturbed_part(measured%continuation, block_model%n))
+      end associate
    end subroutine go_on
 
    !> Chaos may be transient: see what the block does after some more time.
-   subroutine outlive(block_model, settings, options, attractor, error)
-      !> The block
-      type(spring_block_type), intent(in) :: block_model
-      !> How
-      type(attractor_settings_type), intent(in) :: settings
-      !> Method and tolerances
-      type(integration_options), intent(in) :: options
+   subroutine outlive(search, attractor, error)
+      !> What is run, and how
+      type(search_type), intent(in) :: search
       !> The attractor
       type(attractor_type), intent(inout) :: attractor
       !> The run ended before its time
@@ -320,11 +318,12 @@ contains
       type(integration_result) :: outcome
 
       associate (now => attractor%motion%continuation)
-         call integrate(block_model, now%time(1), now%time(1) + settings%t_lasting, options, &
-                        outcome, error, continuation=now)
+         call integrate(search%block_model, now%time(1), now%time(1) + search%settings%t_lasting, &
+                        search%options, outcome, error, continuation=now)
       end associate
       if (allocated(error)) return
       call attractor%motion%clear()
-      call attractor%motion%observe(block_model, settings%t_observed, options, error)
+      call attractor%motion%observe(search%block_model, search%settings%t_observed, &
+                                    search%options, error)
    end subroutine outlive
 end module attractors

@@ -1,17 +1,16 @@
-!> One measured run: a case by one method at one tolerance or step length, what it gave and what it
+!> One measured run: a case by one method at one tolerance or step length, its results and its
 !> cost.
 module measured_run
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde, only: integrate, integration_options, integration_result, out_of_memory, reached_end, &
-                  step_underflow, too_many_steps, value_not_finite
+                  sampler_type
    use double_numbers, only: as_double
    use dde_errors, only: error_type
    use fixed_step_rk4, only: integrate_rk4
    use dde_kinds, only: int64, wp
    use measured_case, only: case_type
    use progress_receiver, only: progress_receiver_type
-   use spring_block, only: spring_block_type
-   use extremes_sampler, only: extremes_sampler_type
+   use spring_block, only: index_of_ln_v, spring_block_type
    implicit none (type, external)
    private
    public :: baseline_methods, measure_run, run_type, time_runs
@@ -19,10 +18,16 @@ module measured_run
    !> Methods with steps of one length, which they take instead of a tolerance.
    character(len=10), parameter :: baseline_methods(2) = ["rk4_linear", "rk4_cubic "]
 
+   !> Reasons of the solver, from `reached_end` on, in one word each.
+   character(len=16), parameter :: status_names(reached_end:out_of_memory) = &
+                                   [character(len=16) :: "ok", "refused", "refused", &
+                                    "step_underflow", "too_many_steps", "value_not_finite", &
+                                    "out_of_memory"]
+
    !> CPU seconds above which one run is measure enough.
    real(wp), parameter :: long_run = 0.5_wp
 
-   !> A run asked for, and what it gave.
+   !> A run to measure, and its results.
    type :: run_type
       !> Name of the method
       character(len=10) :: method = ""
@@ -34,13 +39,38 @@ module measured_run
       character(len=:), allocatable :: reason
       !> What the solver did
       type(integration_result) :: outcome = integration_result()
-      !> theta, u, ln v, shape (3, times); not a number where it did not come
+      !> theta, u, ln v, shape (3, times); not a number at times not reached
       real(wp), allocatable :: samples(:, :)
       !> Smallest and largest ln v over a grid eight times as fine as the samples
       real(wp) :: least_ln_v = 0.0_wp, most_ln_v = 0.0_wp
       !> CPU seconds; with its samples where the run was not repeated
       real(wp) :: seconds = 0.0_wp
    end type run_type
+
+   !> Looks at the state from one sample to the next.
+   integer, parameter :: looks = 8
+
+   !> Sampler that keeps every eighth state and the extremes of all.
+   type, extends(sampler_type) :: extremes_sampler_type
+      !> Times of samples, ascending from the initial time
+      real(wp), allocatable :: time(:)
+      !> Samples, shape (n, times); those not reached are what they were filled with
+      real(wp), allocatable :: values(:, :)
+      !> Number of samples received
+      integer :: received = 0
+      !> Smallest and largest ln v
+      real(wp) :: least = huge(1.0_wp), most = -huge(1.0_wp)
+      !> Receiver of the number of samples received, if any
+      class(progress_receiver_type), pointer :: progress => null()
+      !> Looks since the last sample
+      integer, private :: looked = 0
+   contains
+      procedure :: take
+   end type extremes_sampler_type
+
+   interface extremes_sampler_type
+      module procedure :: new_sampler
+   end interface extremes_sampler_type
 
 contains
 
@@ -68,7 +98,7 @@ contains
       call cpu_time(start)
       call solve(block_model, as_double(case%t_end), most_steps, run, error, sampler)
       call cpu_time(now)
-      run%status = status_of(run%outcome%reason)
+      run%status = status_names(run%outcome%reason)
       run%reason = ""
       if (allocated(error)) run%reason = error%message
       run%samples = sampler%values
@@ -136,29 +166,7 @@ contains
       end if
    end subroutine solve
 
-   !> The reason of an end in one word.
-   pure function status_of(reason) result(word)
-      !> Reason of the solver
-      integer, intent(in) :: reason
-      character(len=16) :: word
-
-      select case (reason)
-      case (reached_end)
-         word = "ok"
-      case (step_underflow)
-         word = "step_underflow"
-      case (too_many_steps)
-         word = "too_many_steps"
-      case (value_not_finite)
-         word = "value_not_finite"
-      case (out_of_memory)
-         word = "out_of_memory"
-      case default
-         word = "refused"
-      end select
-   end function status_of
-
-   !> CPU seconds of one run: the mean of as many in a row as fill the shortest time to measure.
+   !> CPU seconds of one run: the mean of several in a row that fill the shortest time to measure.
    real(wp) function time_taken(case, most_steps, least_seconds, run) result(seconds)
       !> The case
       type(case_type), intent(in) :: case
@@ -200,4 +208,50 @@ contains
       middle = (size(sorted) + 1)/2
       value = 0.5_wp*(sorted(middle) + sorted(size(sorted) + 1 - middle))
    end function median
+
+   !> A sampler without samples.
+   pure function new_sampler(n, time, filling) result(sampler)
+      !> Number of equations
+      integer, intent(in) :: n
+      !> Times of samples, ascending from the initial time
+      real(wp), intent(in) :: time(:)
+      !> What a sample not reached holds
+      real(wp), intent(in) :: filling
+      type(extremes_sampler_type) :: sampler
+      integer :: i
+
+      sampler%wanted = [(i, i=1, n)]
+      sampler%time = time
+      allocate (sampler%values(n, size(time)), source=filling)
+      sampler%next = time(1)
+   end function new_sampler
+
+   !> Look at the state; keep it where a sample is due.
+   subroutine take(self, y)
+      !> The sampler
+      class(extremes_sampler_type), intent(inout) :: self
+      !> The state
+      real(wp), intent(in) :: y(:)
+
+      self%least = min(self%least, y(index_of_ln_v))
+      self%most = max(self%most, y(index_of_ln_v))
+      if (self%looked == 0) then
+         self%received = self%received + 1
+         self%values(:, self%received) = y
+         if (associated(self%progress)) then
+            call self%progress%advance(self%received, size(self%time))
+         end if
+      end if
+      self%looked = modulo(self%looked + 1, looks)
+      associate (last => self%received)
+         if (last == size(self%time)) then
+            self%next = huge(1.0_wp)
+         else if (self%looked == 0) then
+            self%next = self%time(last + 1)
+         else
+            self%next = self%time(last) + (self%time(last + 1) - self%time(last)) &
+                        *self%looked/looks
+         end if
+      end associate
+   end subroutine take
 end module measured_run

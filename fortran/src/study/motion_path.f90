@@ -5,10 +5,9 @@ module motion_path
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use spring_block, only: index_of_ln_v, index_of_u, spring_block_type
-   use thinned_line, only: kept_points
    implicit none (type, external)
    private
-   public :: follow_path
+   public :: find_kept_points, follow_path
 
    !> Longest time and longest slip between two samples. The mean of v is one: there are about as
    !> many samples by time as by slip, and slip events of any speed are resolved.
@@ -106,6 +105,52 @@ contains
       end do
       scaled(1, :) = 2.0_wp*scaled(1, :)
       points = [(i, i=1, size(path, 2))]
-      line = path(:, pack(points, kept_points(scaled, closeness)))
+      line = path(:, pack(points, find_kept_points(scaled, closeness)))
    end function thinned
+
+   !> Points of a line that suffice to draw it: the first, the last, and those between them without
+   !> which the line would be further than the tolerance from a point (Douglas and Peucker 1973,
+   !> Cartographica 10, 112).
+   pure function find_kept_points(points, tolerance) result(kept)
+      !> Points in order, shape (dimensions, points)
+      real(wp), intent(in) :: points(:, :)
+      !> Largest distance of a point from the line
+      real(wp), intent(in) :: tolerance
+      logical :: kept(size(points, 2))
+      real(wp) :: distance(size(points, 2))
+      integer :: farthest, first, i, last
+
+      kept = .false.
+      if (size(kept) == 0) return
+      kept([1, size(kept)]) = .true.
+      first = 1
+      do while (first < size(kept))
+         last = first + findloc(kept(first + 1:), .true., dim=1)
+         do i = first + 1, last - 1
+            distance(i) = distance_from(points(:, i), points(:, first), points(:, last))
+         end do
+         farthest = first + maxloc(distance(first + 1:last - 1), dim=1)
+         if (last - first > 1) kept(farthest) = distance(farthest) > tolerance
+         ! a point that was kept parts the line: look again at its first part
+         if (.not. any(kept(first + 1:last - 1))) first = last
+      end do
+   end function find_kept_points
+
+   !> Distance of a point from a straight line between two others.
+   pure real(wp) function distance_from(point, first, last) result(distance)
+      !> The point
+      real(wp), intent(in) :: point(:)
+      !> One end of the line
+      real(wp), intent(in) :: first(:)
+      !> The other end
+      real(wp), intent(in) :: last(:)
+      real(wp) :: length, share
+
+      associate (line => last - first)
+         length = dot_product(line, line)
+         share = 0.0_wp
+         if (length > 0.0_wp) share = dot_product(point - first, line)/length
+         distance = norm2(point - first - max(0.0_wp, min(1.0_wp, share))*line)
+      end associate
+   end function distance_from
 end module motion_path

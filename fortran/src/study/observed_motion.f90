@@ -5,7 +5,7 @@ module observed_motion
                   integration_options, integration_result, sampler_type
    use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use interval_observer, only: interval_observer_type
+   use lyapunov_spectrum, only: interval_observer_type
    use spring_block, only: index_of_ln_v, index_of_theta, index_of_u, spring_block_type
    implicit none (type, external)
    private
@@ -44,7 +44,7 @@ module observed_motion
       real(wp), allocatable :: maxima(:)
       !> Points (theta, u) of the section, shape (2, points)
       real(wp), allocatable :: section(:, :)
-      !> When it was at each, shape (points)
+      !> Times of these points, shape (points)
       real(wp), allocatable :: section_time(:)
       !> Least ln v since the last maximum
       real(wp), private :: lowest = huge(1.0_wp)
@@ -56,7 +56,7 @@ module observed_motion
       !> Where the motion is; empty at its beginning
       type(continuation_type) :: continuation
    contains
-      !> Forget what was seen
+      !> Forget the observations
       procedure :: clear
       !> Forget the samples and where the motion is
       procedure :: forget_path
@@ -64,7 +64,7 @@ module observed_motion
       procedure :: observe
       !> Observe a run with further components
       procedure :: observe_interval, keep_interval
-      !> Take over what was observed so
+      !> Take over the maxima and the section of what was kept
       procedure :: arrive
       !> theta, u or ln v at even times
       procedure :: samples
@@ -74,7 +74,7 @@ module observed_motion
 
 contains
 
-   !> Forget what was seen, not where the motion is.
+   !> Forget the observations, not where the motion is.
    pure subroutine clear(self)
       !> The motion
       class(observed_motion_type), intent(inout) :: self
@@ -131,7 +131,7 @@ contains
       class(observed_motion_type), intent(inout) :: self
       !> The block, maybe with tangent vectors
       class(dde_problem_type), intent(in) :: problem
-      !> Where to
+      !> Time at which the interval ends
       real(wp), intent(in) :: time
       !> Method and tolerances
       type(integration_options), intent(in) :: options
@@ -148,7 +148,7 @@ contains
                      sampler=self%sampler, watcher=self%events, continuation=continuation)
    end subroutine observe_interval
 
-   !> Keep what was seen in the last interval.
+   !> Keep the observations of the last interval.
    subroutine keep_interval(self)
       !> The motion
       class(observed_motion_type), intent(inout) :: self

@@ -34,7 +34,7 @@ module refined_grid
       procedure :: put
       !> Whether a point has a kind
       procedure :: knows
-      !> Number of points that have one
+      !> Number of points that have a kind
       procedure :: settled
       procedure, private :: fill, due
    end type refined_grid_type
@@ -61,7 +61,7 @@ contains
 
    !> Numbers of the points to compute next, the first axis runs fastest; none when all have a kind.
    pure subroutine next(self, numbers)
-      !> The grid, with the kinds of all points that it asked for before
+      !> The grid, with the kinds of all points that were to be computed before
       class(refined_grid_type), intent(inout) :: self
       !> Numbers of the points
       integer, allocatable, intent(out) :: numbers(:)
@@ -126,7 +126,7 @@ contains
       class(refined_grid_type), intent(inout) :: self
       !> Numbers of the points
       integer, intent(in) :: numbers(:)
-      !> Their kinds, positive or `uncertain`
+      !> Kinds of the points, positive or `uncertain`
       integer, intent(in) :: kinds(:)
       integer :: k
 
@@ -186,7 +186,7 @@ contains
       end if
    end function beside
 
-   !> Whether two points have kinds, and not the same.
+   !> Whether two points have different kinds.
    elemental logical function differ(a, b) result(value)
       !> Kind of one
       integer, intent(in) :: a

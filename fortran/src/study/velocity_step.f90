@@ -24,7 +24,7 @@ module velocity_step
       real(wp) :: tolerance = 0.0_wp
    end type step_protocol_type
 
-   !> What is seen; all arrays of shape (3 samples), the ends of two phases at the same slip.
+   !> The response; all arrays of shape (3 samples), the ends of two phases at the same slip.
    type :: friction_response_type
       !> Time, s
       real(wp), allocatable :: time(:)
@@ -44,7 +44,7 @@ contains
    subroutine respond(protocol, response, error)
       !> What is imposed
       type(step_protocol_type), intent(in) :: protocol
-      !> What is seen
+      !> The response
       type(friction_response_type), intent(out) :: response
       !> The integration failed
       type(error_type), allocatable, intent(out) :: error

@@ -74,9 +74,7 @@ contains
    !> y1' = -rate (y1 - cos t), y2' = y1(t - 1).
    pure subroutine follower_rhs(self, t, y, z, dydt)
       class(follower), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
       dydt = [-self%rate*(y(1) - cos(t)), z(1)]
@@ -118,8 +116,7 @@ contains
    !> Rate.
    pure function follower_rate(self, t, y) result(rate)
       class(follower), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
+      real(wp), intent(in) :: t, y(self%n)
       real(wp) :: rate
 
       rate = self%rate
@@ -159,9 +156,7 @@ contains
    !> The quadrature, and y2' = y1(t - 1).
    pure subroutine pulse_rhs(self, t, y, z, dydt)
       class(pulse), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
       associate (x => (t - 0.5_wp)/self%width)
@@ -192,8 +187,7 @@ contains
    !> None.
    pure function no_rate(self, t, y) result(rate)
       class(plain_block), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
+      real(wp), intent(in) :: t, y(self%n)
       real(wp) :: rate
 
       rate = 0.0_wp

@@ -1,26 +1,27 @@
 !> Attractors at many points: the same in any number of threads, and trouble at one is none of the
-!> others'.
+!> others'. On sweeps coexisting motions show, and a sweep goes through a change between delay and
+!> none.
 module test_attractor_points
-   use attractor_points, only: find_attractors, finding_type, point_type
-   use attractors, only: attractor_settings_type
+   use attractor_points, only: find_attractors, finding_type, point_type, sweep_attractors
+   use attractor_searches, only: coarse_settings, disturbed_block
+   use attractors, only: attractor_settings_type, attractor_type, find_attractor
    use block_parameters, only: block_history_type, block_parameters_type
-   use dde, only: integration_options
-   use dde_errors, only: text
-   use expectations, only: expect, expect_failure, expect_success
+   use dde, only: continuation_type, integrate, integration_options, integration_result
+   use dde_errors, only: failure_type => error_type, text
+   use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use dde_kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use motion_classes, only: fixed_point, undecided
+   use motion_classes, only: cycle_motion, fixed_point, undecided
    use omp_lib, only: omp_get_max_threads, omp_get_num_threads, omp_set_num_threads
-   use progress_receiver, only: progress_receiver_type
+   use progress_recorder, only: expect_counted, recorder
    use solving, only: at_tolerance
+   use spring_block, only: spring_block_type
    implicit none (type, external)
    private
    public :: collect_attractor_points
 
-   !> Keeps what it is told.
-   type, extends(progress_receiver_type) :: memory_type
-      !> Numbers of points done, and of all
-      integer, allocatable :: done(:), total(:)
+   !> Recorder that also keeps the number of threads at work.
+   type, extends(recorder) :: memory_type
       !> Most threads at work at a time
       integer :: threads = 0
    contains
@@ -36,16 +37,21 @@ contains
       testsuite = [new_unittest("in threads", test_threads), &
                    new_unittest("on a grid", test_grid), &
                    new_unittest("a point that cannot be run", test_problem), &
-                   new_unittest("no run can be finished", test_all_problems)]
+                   new_unittest("no run can be finished", test_all_problems), &
+                   new_unittest("hysteresis on a sweep", test_hysteresis), &
+                   new_unittest("sweep of the delay up and down", test_delay), &
+                   new_unittest("sweep from and to no delay", test_no_delay), &
+                   new_unittest("sweep of one point", test_one_point), &
+                   new_unittest("a longer run", test_longer_run), &
+                   new_unittest("sweep after a failed point", test_failed_point)]
    end subroutine collect_attractor_points
 
-   !> Keep a report.
+   !> Keep a report and the number of threads.
    subroutine keep(self, done, total)
       class(memory_type), intent(inout) :: self
       integer, intent(in) :: done, total
 
-      self%done = [self%done, done]
-      self%total = [self%total, total]
+      call self%recorder%advance(done, total)
       self%threads = max(self%threads, omp_get_num_threads())
    end subroutine keep
 
@@ -61,11 +67,9 @@ contains
 
    !> How attractors are found here.
    pure type(attractor_settings_type) function quickly() result(settings)
-      settings = attractor_settings_type(t_transient=200.0_wp, t_observed=500.0_wp, &
-                                    t_turning=50.0_wp, interval=5.0_wp, exponents=3, &
-                                         zero_level=1.0e-3_wp, longest_bar=1.0e-2_wp, doublings=1, &
-                                         sample_interval=0.1_wp, window="hann", segments=2, &
-                                    overlap=0.5_wp, peak_floor=1.0e-6_wp, peak_prominence=10.0_wp)
+      settings = coarse_settings(200.0_wp)
+      settings%exponents = 3
+      settings%doublings = 1
    end function quickly
 
    !> One thread and two, twice over: the same to the last bit.
@@ -79,14 +83,13 @@ contains
       call omp_set_num_threads(1)
       call find_attractors(some_points(), quickly(), at_tolerance(1.0e-6_wp, "auto"), alone)
       do round = 1, 2
-         memory = memory_type(done=[integer ::], total=[integer ::])
+         memory = memory_type()
          call omp_set_num_threads(2)
          call find_attractors(some_points(), quickly(), at_tolerance(1.0e-6_wp, "auto"), &
                               together, memory)
          call omp_set_num_threads(threads)
          call expect(error, memory%threads == 2, "two threads")
-         call expect(error, size(memory%done) == 8 .and. all(memory%done == [(i, i=1, 8)]) &
-                     .and. all(memory%total == 8), "progress point by point")
+         call expect_counted(error, memory%recorder, 8)
          do i = 1, size(alone)
             call expect_success(error, alone(i)%problem)
             call expect_success(error, together(i)%problem)
@@ -122,7 +125,7 @@ contains
       associate (list => reshape(points, [size(points)]))
          call find_attractors(list, quickly(), options, all_computed)
          do i = 1, 2
-            memory = memory_type(done=[integer ::], total=[integer ::])
+            memory = memory_type()
             call omp_set_num_threads(i)
             call find_attractors(list, quickly(), options, findings, memory, columns, 1)
             call omp_set_num_threads(threads)
@@ -147,7 +150,6 @@ contains
 
    !> All numbers of a finding.
    pure function all_of(finding) result(numbers)
-      !> The finding
       type(finding_type), intent(in) :: finding
       real(wp), allocatable :: numbers(:)
 
@@ -209,4 +211,159 @@ contains
          call expect(error, findings(i)%attractor%class == undecided, "undecided")
       end do
    end subroutine test_all_problems
+
+   !> A point that starts near steady sliding, gamma = 0.8.
+   elemental type(point_type) function near_sliding(tau, epsilon, xi) result(point)
+      !> Parameters
+      real(wp), intent(in) :: tau, epsilon, xi
+
+      point = point_type(block_parameters_type(tau=tau, epsilon=epsilon, xi=xi, gamma=0.8_wp), &
+                         block_history_type(v=1.1_wp))
+   end function near_sliding
+
+   !> Largest maximum of v at each point.
+   subroutine largest_maxima(error, points, settings, largest)
+      type(error_type), allocatable, intent(inout) :: error
+      !> The points in the order of the sweep
+      type(point_type), intent(in) :: points(:)
+      type(attractor_settings_type), intent(in) :: settings
+      !> The maxima
+      real(wp), intent(out) :: largest(:)
+      type(finding_type), allocatable :: findings(:)
+      integer :: i
+
+      largest = 0.0_wp
+      call sweep_attractors(points, settings, at_tolerance(1.0e-7_wp, "auto"), findings)
+      do i = 1, size(points)
+         call expect_success(error, findings(i)%problem)
+         if (allocated(error)) return
+         largest(i) = maxval(findings(i)%attractor%motion%maxima)
+      end do
+   end subroutine largest_maxima
+
+   !> At tau = 7, xi = 0.5 the small cycle vanishes in a saddle-node at epsilon = 0.331. Beyond it
+   !> there is a large cycle, which exists below, too.
+   subroutine test_hysteresis(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(point_type) :: points(4)
+      real(wp) :: down(4), up(4)
+
+      points = near_sliding(7.0_wp, [0.31_wp, 0.32_wp, 0.325_wp, 0.337_wp], 0.5_wp)
+      call largest_maxima(error, points, coarse_settings(3000.0_wp), up)
+      call largest_maxima(error, points(4:1:-1), coarse_settings(3000.0_wp), down)
+      call expect_between(error, maxval(up(:3)), 1.5_wp, 2.0_wp, "small cycle on the way up")
+      call expect_between(error, up(4), 4.0_wp, 5.5_wp, "large cycle beyond")
+      call expect_between(error, minval(down), 4.0_wp, 5.5_wp, "large cycle on the way down")
+   end subroutine test_hysteresis
+
+   !> The cycle through the paper's torus, with a longer delay from point to point and back: the
+   !> same maxima, those of runs from the history.
+   subroutine test_delay(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(finding_type), allocatable :: alone(:)
+      type(point_type) :: points(3)
+      real(wp) :: down(3), up(3)
+      integer :: i
+
+      points = near_sliding([9.5_wp, 10.0_wp, 11.0_wp], 0.5_wp, 0.8_wp)
+      call largest_maxima(error, points, coarse_settings(1500.0_wp), up)
+      call largest_maxima(error, points(3:1:-1), coarse_settings(1500.0_wp), down)
+      call find_attractors(points, coarse_settings(1500.0_wp), at_tolerance(1.0e-7_wp, "auto"), &
+                           alone)
+      do i = 1, 3
+         call expect_success(error, alone(i)%problem)
+         if (allocated(error)) return
+         associate (known => maxval(alone(i)%attractor%motion%maxima))
+            call expect_close(error, [up(i), down(4 - i)], [known, known], 1.0e-4_wp, "maxima")
+         end associate
+      end do
+   end subroutine test_delay
+
+   !> A cycle without delay, steady sliding with a short one, and back.
+   subroutine test_no_delay(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(finding_type), allocatable :: findings(:)
+      type(point_type) :: points(3)
+      integer :: i
+
+      points = near_sliding([0.0_wp, 2.0_wp, 0.0_wp], 0.5_wp, 0.8_wp)
+      call sweep_attractors(points, coarse_settings(1000.0_wp), at_tolerance(1.0e-7_wp, "auto"), &
+                            findings)
+      do i = 1, 3
+         call expect_success(error, findings(i)%problem)
+      end do
+      if (allocated(error)) return
+      call expect(error, all(findings%attractor%by_exponents &
+                             == [cycle_motion, fixed_point, cycle_motion]), "classes")
+      call expect_close(error, maxval(findings(3)%attractor%motion%maxima), &
+                        maxval(findings(1)%attractor%motion%maxima), 1.0e-4_wp, "the same cycle")
+   end subroutine test_no_delay
+
+   !> A sweep of one point is a run from the history.
+   subroutine test_one_point(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(attractor_type) :: alone
+      type(failure_type), allocatable :: failure
+      type(finding_type), allocatable :: findings(:)
+
+      call sweep_attractors([near_sliding(10.0_wp, 0.5_wp, 0.8_wp)], coarse_settings(200.0_wp), &
+                            at_tolerance(1.0e-7_wp, "auto"), findings)
+      call expect_success(error, findings(1)%problem)
+      call find_attractor(disturbed_block(10.0_wp, 0.5_wp, 0.8_wp), coarse_settings(200.0_wp), &
+                          at_tolerance(1.0e-7_wp, "auto"), alone, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect_close(error, findings(1)%attractor%motion%maxima, alone%motion%maxima, 0.0_wp, &
+                        "maxima")
+   end subroutine test_one_point
+
+   !> An attractor found from where a run ended has the maxima of one longer run, and ends where
+   !> that one ends.
+   subroutine test_longer_run(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(attractor_type) :: in_parts, whole
+      type(continuation_type) :: end_in_parts, end_of_whole, start
+      type(failure_type), allocatable :: failure
+      type(integration_options) :: options
+      type(integration_result) :: outcome
+      type(spring_block_type) :: block_model
+
+      options = at_tolerance(1.0e-9_wp, "auto")
+      block_model = disturbed_block(10.0_wp, 0.5_wp, 0.8_wp)
+      call integrate(block_model, 0.0_wp, 300.0_wp, options, outcome, failure, continuation=start)
+      call expect_success(error, failure)
+      call find_attractor(block_model, coarse_settings(200.0_wp), options, in_parts, failure, &
+                          start, end_in_parts)
+      call expect_success(error, failure)
+      call find_attractor(block_model, coarse_settings(500.0_wp), options, whole, failure, &
+                          arrived=end_of_whole)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect_close(error, in_parts%motion%maxima, whole%motion%maxima, 1.0e-6_wp, "maxima")
+      call expect_close(error, in_parts%motion%section_time, &
+                        whole%motion%section_time, 1.0e-4_wp, "times")
+      call expect_close(error, end_in_parts%time, [1050.0_wp, 0.0_wp], 0.0_wp, "end")
+      call expect_close(error, end_in_parts%y, end_of_whole%y, 1.0e-5_wp, "last state")
+   end subroutine test_longer_run
+
+   !> A point that cannot be run gives its reason; the next starts from where it started. Explicit
+   !> steps are no longer than the delay.
+   subroutine test_failed_point(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(finding_type), allocatable :: findings(:)
+      type(integration_options) :: options
+      type(point_type) :: points(3)
+
+      options = at_tolerance(1.0e-7_wp, "explicit")
+      options%most_steps = 20000
+      points = near_sliding([10.0_wp, 1.0e-3_wp, 10.0_wp], 0.5_wp, 0.8_wp)
+      call sweep_attractors(points, coarse_settings(1500.0_wp), options, findings)
+      call expect_success(error, findings(1)%problem)
+      call expect_failure(error, findings(2)%problem, "20000 steps (most_steps) were used up")
+      call expect_success(error, findings(3)%problem)
+      if (allocated(error)) return
+      call expect(error, findings(2)%attractor%class == undecided, "no class")
+      call expect_close(error, maxval(findings(3)%attractor%motion%maxima), &
+                        maxval(findings(1)%attractor%motion%maxima), 1.0e-4_wp, "the same cycle")
+   end subroutine test_failed_point
 end module test_attractor_points

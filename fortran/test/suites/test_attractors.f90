@@ -2,6 +2,7 @@
 module test_attractors
    use block_builder, only: build_block
    use attractor_verdict, only: judge
+   use attractor_searches, only: disturbed => disturbed_block, after => fine_settings, search
    use attractors, only: attractor_settings_type, attractor_type, find_attractor
    use dde, only: integrate, integration_options, integration_result
    use dde_errors, only: failure_type => error_type
@@ -26,16 +27,13 @@ contains
 
       testsuite = [new_unittest("fixed point of the paper", test_fixed_point), &
                    new_unittest("rest that comes late", test_late_rest), &
-                   new_unittest("oscillation of the paper", test_oscillation), &
-                   new_unittest("torus of the paper is a cycle", test_paper_torus), &
+                   new_unittest("cycles", test_cycles), &
                    new_unittest("chaos of the paper", test_chaos), &
                    new_unittest("chaos that becomes clear", test_clear_chaos), &
                    new_unittest("a true torus", test_true_torus), &
                    new_unittest("another torus, time doubled", test_doublings), &
                    new_unittest("a 3-torus", test_three_torus), &
-                   new_unittest("chaos on the way to a torus", test_passing_chaos), &
-                   new_unittest("late departure from a cycle", test_late_departure), &
-                   new_unittest("cycle without delay", test_without_delay), &
+                   new_unittest("tori after another motion", test_late_tori), &
                    new_unittest("unstable steady sliding", test_unstable), &
                    new_unittest("approach shorter than the delay", test_short_approach), &
                    new_unittest("a run that ends early", test_failed_run), &
@@ -43,45 +41,16 @@ contains
                    new_unittest("maxima of a stuck block", test_stuck)]
    end subroutine collect_attractors
 
-   !> Settings as in the configuration, with times of a scene's own.
-   pure type(attractor_settings_type) function after(t_transient, t_observed) result(settings)
-      !> Time left out
-      real(wp), intent(in) :: t_transient
-      !> Time observed
-      real(wp), intent(in) :: t_observed
-
-      settings = attractor_settings_type(t_transient=t_transient, t_observed=t_observed, &
-                                         t_turning=0.5_wp*t_observed, interval=5.0_wp, &
-                                         exponents=4, zero_level=3.0e-5_wp, longest_bar=1.0e-3_wp, &
-                                         doublings=0, sample_interval=0.1_wp, window="hann", &
-                                         segments=8, overlap=0.5_wp, peak_floor=1.0e-6_wp, &
-                                         peak_prominence=10.0_wp)
-   end function after
-
-   !> A block that starts near steady sliding, gamma = 0.8.
-   pure type(spring_block_type) function disturbed(tau, epsilon, xi) result(block)
-      !> Parameters
-      real(wp), intent(in) :: tau, epsilon, xi
-
-      block = build_block(tau=tau, epsilon=epsilon, xi=xi, gamma=0.8_wp, v=1.1_wp)
-   end function disturbed
-
    !> The attractor of a block and its four classes.
    subroutine find(block, settings, class, found, error)
-      !> The block
       type(spring_block_type), intent(in) :: block
-      !> How
       type(attractor_settings_type), intent(in) :: settings
       !> Its class, that none of its indicators contradicts
       integer, intent(in) :: class
-      !> What was found
       type(attractor_type), intent(out) :: found
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
-      type(failure_type), allocatable :: failure
 
-      call find_attractor(block, settings, at_tolerance(1.0e-8_wp, "auto"), found, failure)
-      call expect_success(error, failure)
+      call search(block, settings, found, error)
       if (allocated(error)) return
       associate (classes => [found%class, found%by_exponents, found%by_section, found%by_spectrum])
          call expect(error, all(classes(:2) == class) .and. &
@@ -95,9 +64,7 @@ contains
    !> A cycle that meets the section once a turn: its maxima are one, and its frequency is that at
    !> which the section is met.
    subroutine expect_simple_cycle(error, found)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
-      !> The attractor
       type(attractor_type), intent(in) :: found
 
       if (allocated(error)) return
@@ -149,25 +116,24 @@ contains
       call expect(error, found%reason == none, "no reason to be undecided")
    end subroutine test_late_rest
 
-   !> Fig. 4b.
-   subroutine test_oscillation(error)
+   !> Fig. 4b; Fig. 5a and 6b, where another computation (see the README) found a cycle; and without
+   !> delay, where there are three exponents, however many are wanted.
+   subroutine test_cycles(error)
       type(error_type), allocatable, intent(out) :: error
       type(attractor_type) :: found
 
       call find(disturbed(10.0_wp, 0.35_wp, 0.8_wp), after(7000.0_wp, 3000.0_wp), cycle_motion, &
                 found, error)
       call expect_simple_cycle(error, found)
-   end subroutine test_oscillation
-
-   !> Fig. 5a and 6b: another computation (see the README) found a cycle there.
-   subroutine test_paper_torus(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(attractor_type) :: found
-
       call find(disturbed(10.0_wp, 0.5_wp, 0.8_wp), after(2000.0_wp, 3000.0_wp), cycle_motion, &
                 found, error)
       call expect_simple_cycle(error, found)
-   end subroutine test_paper_torus
+      call find(disturbed(0.0_wp, 0.6_wp, 0.8_wp), after(500.0_wp, 2000.0_wp), cycle_motion, &
+                found, error)
+      call expect_simple_cycle(error, found)
+      if (allocated(error)) return
+      call expect(error, size(found%exponents) == 3, "three exponents without delay")
+   end subroutine test_cycles
 
    !> Fig. 5b and 7.
    subroutine test_chaos(error)
@@ -229,9 +195,7 @@ contains
 
    !> Two zero exponents, two bases and a smooth section.
    subroutine expect_torus(error, found)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
-      !> The attractor
       type(attractor_type), intent(in) :: found
 
       if (allocated(error)) return
@@ -248,15 +212,12 @@ contains
    !> four times that they can.
    subroutine test_doublings(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(attractor_settings_type) :: settings
       type(attractor_type) :: found, longer
 
       settings = after(3000.0_wp, 1500.0_wp)
       settings%segments = 4
-      call find_attractor(disturbed(15.0_wp, 0.8_wp, 0.8_wp), settings, &
-                          at_tolerance(1.0e-8_wp, "auto"), found, failure)
-      call expect_success(error, failure)
+      call search(disturbed(15.0_wp, 0.8_wp, 0.8_wp), settings, found, error)
       if (allocated(error)) return
       call expect(error, found%by_exponents == undecided .and. found%class == undecided, &
                   "undecided at first")
@@ -306,18 +267,6 @@ contains
       end do
    end subroutine test_three_torus
 
-   !> Without delay there are three exponents, however many are wanted.
-   subroutine test_without_delay(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(attractor_type) :: found
-
-      call find(disturbed(0.0_wp, 0.6_wp, 0.8_wp), after(500.0_wp, 2000.0_wp), cycle_motion, &
-                found, error)
-      call expect_simple_cycle(error, found)
-      if (allocated(error)) return
-      call expect(error, size(found%exponents) == 3, "three exponents")
-   end subroutine test_without_delay
-
    !> A block that slides steadily without end, though unstably, comes to no class and to no points.
    subroutine test_unstable(error)
       type(error_type), allocatable, intent(out) :: error
@@ -334,46 +283,35 @@ contains
    !> then, the exponents tell it, and nothing says that it is anything else.
    subroutine test_short_approach(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(attractor_type) :: found
 
-      call find_attractor(disturbed(10.0_wp, 0.5_wp, 0.8_wp), after(4.0_wp, 3000.0_wp), &
-                          at_tolerance(1.0e-8_wp, "auto"), found, failure)
-      call expect_success(error, failure)
+      call search(disturbed(10.0_wp, 0.5_wp, 0.8_wp), after(4.0_wp, 3000.0_wp), found, error)
       if (allocated(error)) return
       call expect(error, size(found%exponents) == 4, "four exponents")
       call expect(error, found%by_exponents == cycle_motion, "a cycle by exponents")
    end subroutine test_short_approach
 
-   !> A torus, as from other histories, whose approach is certain chaos for a while by exponents
-   !> and spectrum.
-   subroutine test_passing_chaos(error)
+   !> Tori that are reached after another motion, with the settings of the atlas. The approach to
+   !> the first is certain chaos for a while by exponents and spectrum. The second is a torus also
+   !> after 4e5 units of time; while the motion leaves an unstable cycle, two equal positive
+   !> exponents and the spectrum would call it chaos.
+   subroutine test_late_tori(error)
       type(error_type), allocatable, intent(out) :: error
 
       call find_late_torus(disturbed(12.75_wp, 0.5_wp, 0.8_wp), 3.0e4_wp, error)
-   end subroutine test_passing_chaos
-
-   !> A torus, also after 4e5 units of time, which two equal positive exponents and the spectrum
-   !> would call chaos while the motion leaves an unstable cycle.
-   subroutine test_late_departure(error)
-      type(error_type), allocatable, intent(out) :: error
-
       call find_late_torus(build_block(tau=0.4_wp + 19.6_wp*19.0_wp/24.0_wp, xi=0.5_wp, &
                                        epsilon=0.05_wp + 1.45_wp/3.0_wp, gamma=1.0e8_wp, &
                                        v=1.5_wp), 4.0e4_wp, error)
-   end subroutine test_late_departure
+   end subroutine test_late_tori
 
-   !> A torus that the motion reaches after another one, with the settings of the atlas.
+   !> A torus that is certain late, but not later than a given time.
    subroutine find_late_torus(block, latest, error)
-      !> The block
       type(spring_block_type), intent(in) :: block
       !> Latest time at which it is certain
       real(wp), intent(in) :: latest
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       type(attractor_settings_type) :: settings
       type(attractor_type) :: found
-      type(failure_type), allocatable :: failure
 
       settings = after(2000.0_wp, 800.0_wp)
       settings%t_lasting = 4000.0_wp
@@ -381,8 +319,7 @@ contains
       settings%interval = 20.0_wp
       settings%exponents = 3
       settings%doublings = 6
-      call find_attractor(block, settings, at_tolerance(1.0e-8_wp, "auto"), found, failure)
-      call expect_success(error, failure)
+      call search(block, settings, found, error)
       if (allocated(error)) return
       call expect(error, found%class == torus, "a torus")
       call expect_between(error, found%time, 1.5e4_wp, latest, "time: another motion came before")

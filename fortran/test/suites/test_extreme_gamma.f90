@@ -70,7 +70,6 @@ contains
 
    !> The root near a start in quadruple precision, rounded.
    pure complex(wp) function quadruple_root(p, start) result(root)
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
       !> Where to start
       complex(wp), intent(in) :: start

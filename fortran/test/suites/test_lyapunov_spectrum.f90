@@ -8,12 +8,14 @@ module test_lyapunov_spectrum
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use exponent_averages, only: average_growth, exponent_type
    use dde_kinds, only: wp
-   use interval_observer, only: interval_observer_type
-   use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, measure_growth
+   use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, &
+                                interval_observer_type, measure_growth
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use progress_recorder, only: expect_counted, recorder
    use steady_sliding, only: sliding_exponents
    use solving, only: at_tolerance
    use spring_block, only: index_of_ln_v, spring_block_type
+   use test_problems, only: linear
    implicit none (type, external)
    private
    public :: collect_lyapunov_spectrum
@@ -42,7 +44,8 @@ contains
                    new_unittest("halved intervals, divergence of the flow", test_divergence), &
                    new_unittest("vectors lost give a bound or an error", test_lost), &
                    new_unittest("an observer", test_observed), &
-                   new_unittest("refusals", test_refusals)]
+                   new_unittest("refusals", test_refusals), &
+                   new_unittest("progress", test_progress)]
    end subroutine collect_lyapunov_spectrum
 
    !> The oscillation of the paper.
@@ -234,15 +237,11 @@ contains
 
    !> Integrate and note the interval.
    subroutine observe_interval(self, problem, time, options, outcome, error, continuation)
-      !> The witness
       class(witness_type), intent(inout) :: self
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Where to
       real(wp), intent(in) :: time
-      !> Method and tolerances
       type(integration_options), intent(in) :: options
-      !> The result
       type(integration_result), intent(out) :: outcome
       !> The run ended before its time
       type(failure_type), allocatable, intent(out) :: error
@@ -257,7 +256,6 @@ contains
 
    !> Keep the interval.
    subroutine keep_interval(self)
-      !> The witness
       class(witness_type), intent(inout) :: self
 
       if (.not. allocated(self%kept)) allocate (self%kept(2, 0))
@@ -350,7 +348,6 @@ contains
 
       !> The settings are refused in these words.
       subroutine expect_refusal(words)
-         !> The words
          character(len=*), intent(in) :: words
          type(failure_type), allocatable :: failure
          type(growth_type) :: measured
@@ -360,4 +357,27 @@ contains
          call expect_failure(error, failure, words)
       end subroutine expect_refusal
    end subroutine test_refusals
+
+   !> 10 intervals in which vectors turn, 40 that are measured; the growth is that without receiver.
+   subroutine test_progress(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(growth_settings_type) :: settings
+      type(growth_type) :: alone, watched
+      type(linear) :: problem
+      type(recorder) :: receiver
+
+      problem = linear(n=1, lag=[1.0_wp], component=[1], past=[1.0_wp], first=[1.0_wp])
+      settings = growth_settings_type(exponents=2, t_begin=6.0_wp, t_end=26.0_wp, &
+                                      t_turning=5.0_wp, interval=0.5_wp, blocks=4)
+      call measure_growth(problem, settings, at_tolerance(1.0e-6_wp), watched, failure, &
+                          progress=receiver)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect_counted(error, receiver, 50)
+      call measure_growth(problem, settings, at_tolerance(1.0e-6_wp), alone, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call expect(error, all(.not. abs(alone%growth - watched%growth) > 0.0_wp), "the same growth")
+   end subroutine test_progress
 end module test_lyapunov_spectrum

@@ -11,6 +11,7 @@ module test_measured_run
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use measured_case, only: case_type
    use measured_run, only: measure_run, run_type, time_runs
+   use progress_recorder, only: expect_counted, recorder
    use test_problems, only: linear, sine
    use undelayed_problems, only: falls_out, oscillator, without_delays
    implicit none (type, external)
@@ -33,7 +34,8 @@ contains
                    new_unittest("double numbers", test_double_numbers), &
                    new_unittest("sample times", test_sample_times), &
                    new_unittest("measured run", test_one_run), &
-                   new_unittest("measured run that stops", test_stopped_run)]
+                   new_unittest("measured run that stops", test_stopped_run), &
+                   new_unittest("progress of runs", test_progress)]
    end subroutine collect_measured_run
 
    !> y' = -y(t-1), y = 1 up to t = 0, at t = 10.
@@ -68,7 +70,6 @@ contains
 
    !> Order 4 with a cubic history and 2 with a linear one.
    subroutine expect_orders(problem, t_end, known, h, error)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Last time
       real(wp), intent(in) :: t_end
@@ -76,7 +77,6 @@ contains
       real(wp), intent(in) :: known
       !> Length of the longer steps
       real(wp), intent(in) :: h
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
 
       call expect_between(error, order_of(problem, .true., t_end, known, h), 3.8_wp, 4.2_wp, &
@@ -87,7 +87,6 @@ contains
 
    !> How the error falls from steps of length h to half of that.
    real(wp) function order_of(problem, cubic, t_end, known, h) result(order)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Cubic history, or linear
       logical, intent(in) :: cubic
@@ -217,4 +216,22 @@ contains
       call time_runs(case, 500_int64, 3, 0.0_wp, run)
       call expect_close(error, run%seconds, [-1.0_wp], 0.0_wp, "seconds of a run that stopped")
    end subroutine test_stopped_run
+
+   !> 21 samples of a run, and three turns of two runs.
+   subroutine test_progress(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_type) :: case
+      type(recorder) :: samples, turns
+      type(run_type) :: runs(2)
+
+      case = case_type(name="short", parameters=block_parameters_type(tau=1.0_wp, epsilon=0.5_wp), &
+                       history=block_history_type(v=1.1_wp), t_end=10.0_wp, sample_interval=0.5_wp)
+      runs = run_type("explicit", 1.0e-6_wp)
+      call measure_run(case, 0.0_wp, 100000_int64, runs(1))
+      call measure_run(case, 0.0_wp, 100000_int64, runs(2), samples)
+      call expect(error, all(runs%status == "ok"), "status")
+      call expect_counted(error, samples, 21)
+      call time_runs(case, 100000_int64, 3, 0.0_wp, runs, turns)
+      call expect_counted(error, turns, 3)
+   end subroutine test_progress
 end module test_measured_run

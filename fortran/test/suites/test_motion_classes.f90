@@ -22,27 +22,21 @@ contains
    subroutine collect_motion_classes(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("fixed point", test_fixed_point), &
-                   new_unittest("cycle", test_cycle), &
-                   new_unittest("torus", test_torus), &
+      testsuite = [new_unittest("classes by exponents", test_classes), &
                    new_unittest("3-torus", test_three_torus), &
-                   new_unittest("chaos", test_chaos), &
                    new_unittest("undecided", test_undecided), &
                    new_unittest("clear exponents", test_clear), &
                    new_unittest("near an unstable cycle", test_leaving), &
-                   new_unittest("verdict of three", test_agreement), &
-                   new_unittest("names", test_names)]
+                   new_unittest("verdict of three", test_agreement)]
    end subroutine collect_motion_classes
 
    !> Exponents with these values and errors tell this class.
    subroutine expect_class(error, values, errors, class)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       !> Values, descending
       real(wp), intent(in) :: values(:)
       !> Standard errors
       real(wp), intent(in) :: errors(:)
-      !> The class
       integer, intent(in) :: class
       character(len=:), allocatable :: words
       integer :: found, i
@@ -68,34 +62,29 @@ contains
       exponents%error = errors
    end function exponents_of
 
-   !> All negative.
-   subroutine test_fixed_point(error)
+   !> All negative; one zero; two zeros; positive ones with a zero, however long its bar, or nothing
+   !> but positive ones.
+   subroutine test_classes(error)
       type(error_type), allocatable, intent(out) :: error
 
       call expect_class(error, [-0.1_wp, -0.1_wp, -2.0_wp], [0.0_wp, 0.0_wp, 0.0_wp], fixed_point)
       call expect_class(error, [-0.1_wp], [0.01_wp], fixed_point)
       call expect_class(error, [-1.01e-4_wp, -0.3_wp], [3.3e-5_wp, 0.0_wp], fixed_point)
-   end subroutine test_fixed_point
-
-   !> One zero, the others negative.
-   subroutine test_cycle(error)
-      type(error_type), allocatable, intent(out) :: error
-
       call expect_class(error, [0.0_wp, -0.1_wp, -0.2_wp], [0.0_wp, 0.0_wp, 0.0_wp], cycle_motion)
       call expect_class(error, [9.9e-5_wp, -0.1_wp], [0.0_wp, 0.0_wp], cycle_motion)
       call expect_class(error, [-9.9e-5_wp, -0.1_wp], [0.0_wp, 0.0_wp], cycle_motion)
       call expect_class(error, [9.9e-5_wp, -0.1_wp], [3.3e-4_wp, 0.0_wp], cycle_motion)
       call expect_class(error, [1.0e-5_wp, -1.1e-4_wp], [1.0e-6_wp, 1.0e-6_wp], cycle_motion)
-   end subroutine test_cycle
-
-   !> Two zeros, the others negative.
-   subroutine test_torus(error)
-      type(error_type), allocatable, intent(out) :: error
-
       call expect_class(error, [1.0e-5_wp, -1.0e-5_wp, -0.1_wp], [0.0_wp, 0.0_wp, 0.0_wp], torus)
       call expect_class(error, [9.9e-5_wp, -9.9e-5_wp, -0.1_wp], [3.3e-4_wp, 3.3e-4_wp, 0.0_wp], &
                         torus)
-   end subroutine test_torus
+      call expect_class(error, [0.05_wp, 1.0e-5_wp, -0.3_wp], [1.0e-3_wp, 0.0_wp, 0.0_wp], chaos)
+      call expect_class(error, [0.05_wp, 2.0e-3_wp, -0.3_wp], [1.0e-3_wp, 1.0e-3_wp, 0.0_wp], chaos)
+      call expect_class(error, [0.05_wp, 0.02_wp, 1.0e-5_wp], [1.0e-3_wp, 1.0e-3_wp, 0.0_wp], chaos)
+      call expect_class(error, [0.05_wp, 1.0e-5_wp], [1.0e-3_wp, 0.0_wp], chaos)
+      call expect_class(error, [0.05_wp, 0.02_wp], [1.0e-3_wp, 1.0e-3_wp], chaos)
+      call expect_class(error, [0.05_wp], [1.0e-3_wp], chaos)
+   end subroutine test_classes
 
    !> Three zeros, the fourth at least six standard errors below zero.
    subroutine test_three_torus(error)
@@ -110,18 +99,6 @@ contains
       call expect_class(error, [1.1e-4_wp, values(2:)], bars, chaos)
       call expect_class(error, values, [3.4e-4_wp, bars(2:)], undecided)
    end subroutine test_three_torus
-
-   !> Positive ones with a zero, however long its bar, or nothing but positive ones.
-   subroutine test_chaos(error)
-      type(error_type), allocatable, intent(out) :: error
-
-      call expect_class(error, [0.05_wp, 1.0e-5_wp, -0.3_wp], [1.0e-3_wp, 0.0_wp, 0.0_wp], chaos)
-      call expect_class(error, [0.05_wp, 2.0e-3_wp, -0.3_wp], [1.0e-3_wp, 1.0e-3_wp, 0.0_wp], chaos)
-      call expect_class(error, [0.05_wp, 0.02_wp, 1.0e-5_wp], [1.0e-3_wp, 1.0e-3_wp, 0.0_wp], chaos)
-      call expect_class(error, [0.05_wp, 1.0e-5_wp], [1.0e-3_wp, 0.0_wp], chaos)
-      call expect_class(error, [0.05_wp, 0.02_wp], [1.0e-3_wp, 1.0e-3_wp], chaos)
-      call expect_class(error, [0.05_wp], [1.0e-3_wp], chaos)
-   end subroutine test_chaos
 
    !> A zero missed, one with a long bar, one without sign that is not zero, too many zeros, or
    !> nothing but zeros.
@@ -155,7 +132,6 @@ contains
 
    !> Exponents with one error bar must be clear, or not.
    subroutine expect_clear(error, values, bar, time, expected)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       !> Values, descending
       real(wp), intent(in) :: values(:)
@@ -184,7 +160,6 @@ contains
 
    !> Exponents must be those near an unstable cycle, or not.
    subroutine expect_leaving(error, values, expected)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       !> Values, descending
       real(wp), intent(in) :: values(:)
@@ -229,14 +204,4 @@ contains
       call agree(torus, .false., undecided, undecided, found, reason)
       call expect(error, reason == not_confirmed, "not confirmed")
    end subroutine test_agreement
-
-   !> Each number has its name.
-   subroutine test_names(error)
-      type(error_type), allocatable, intent(out) :: error
-
-      call expect(error, all(class_names([undecided, fixed_point, cycle_motion, torus, &
-                                          three_torus, chaos]) == &
-                             ["undecided  ", "fixed point", "cycle      ", "torus      ", &
-                              "3-torus    ", "chaos      "]), "names of classes")
-   end subroutine test_names
 end module test_motion_classes

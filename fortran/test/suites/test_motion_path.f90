@@ -1,6 +1,8 @@
-!> The path of a motion that is drawn: it is the solution, and it shows the fastest slip events.
+!> The path of a motion that is drawn: it is the solution, it shows the fastest slip events, and the
+!> points left out are as close to its line as is asked.
 module test_motion_path
-   use attractors, only: attractor_settings_type, attractor_type, find_attractor
+   use attractor_searches, only: disturbed_block, fine_settings, search
+   use attractors, only: attractor_settings_type, attractor_type
    use block_builder, only: build_block
    use dde, only: continuation_type, event_table, integrate, integration_options, &
                   integration_result, table_sampler
@@ -9,7 +11,7 @@ module test_motion_path
    use expectations, only: expect, expect_between, expect_close, expect_success
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use motion_classes, only: cycle_motion, fixed_point
-   use motion_path, only: follow_path
+   use motion_path, only: find_kept_points, follow_path
    use solving, only: at_tolerance
    use spring_block, only: index_of_ln_v, index_of_u, spring_block_type
    implicit none (type, external)
@@ -20,19 +22,21 @@ contains
 
    !> All tests of this suite.
    subroutine collect_motion_path(testsuite)
-      !> The tests
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("solution", test_solution), &
                    new_unittest("fast slip events", test_slip_events), &
                    new_unittest("path of an attractor", test_attractor), &
-                   new_unittest("no path", test_none)]
+                   new_unittest("no path", test_none), &
+                   new_unittest("line of few points", test_few), &
+                   new_unittest("line of corners", test_corners), &
+                   new_unittest("line on its way back", test_way_back), &
+                   new_unittest("line of circle", test_circle)]
    end subroutine collect_motion_path
 
    !> The chaos of the paper from t = 30: the path begins where v rises through 1, its points are
    !> those of a run of its own at these times, and it ends 40 later.
    subroutine test_solution(error)
-      !> The first failure of the test
       type(error_type), allocatable, intent(out) :: error
       type(continuation_type) :: from
       type(event_table) :: passages
@@ -73,7 +77,6 @@ contains
    !> A real fault, gamma = 1e8, where v comes up to 1e3 and more: the largest v of the path is that
    !> of the maxima, and between two points u changes by what a line in the plot can show.
    subroutine test_slip_events(error)
-      !> The first failure of the test
       type(error_type), allocatable, intent(out) :: error
       type(continuation_type) :: from
       type(event_table) :: maxima
@@ -107,15 +110,10 @@ contains
    !> The path of the paper's torus, a cycle, comes back to its beginning after one period, and its
    !> largest v is the maximum.
    subroutine test_attractor(error)
-      !> The first failure of the test
       type(error_type), allocatable, intent(out) :: error
       type(attractor_type) :: found
-      type(failure_type), allocatable :: failure
 
-      call find_attractor(build_block(tau=10.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, &
-                                      v=1.1_wp), observed(50.0_wp), &
-                          at_tolerance(1.0e-8_wp, "auto"), found, failure)
-      call expect_success(error, failure)
+      call search(disturbed_block(10.0_wp, 0.5_wp, 0.8_wp), observed(50.0_wp), found, error)
       if (allocated(error)) return
       call expect(error, found%class == cycle_motion .and. found%period == 1, "a cycle")
       call expect(error, allocated(found%path), "a path")
@@ -131,21 +129,13 @@ contains
 
    !> Steady sliding has no path, and neither has a motion of which none is asked for.
    subroutine test_none(error)
-      !> The first failure of the test
       type(error_type), allocatable, intent(out) :: error
       type(attractor_type) :: found
-      type(failure_type), allocatable :: failure
 
-      call find_attractor(build_block(tau=0.0_wp, epsilon=0.3_wp, xi=0.8_wp, gamma=0.8_wp, &
-                                      v=1.1_wp), observed(50.0_wp), &
-                          at_tolerance(1.0e-8_wp, "auto"), found, failure)
-      call expect_success(error, failure)
+      call search(disturbed_block(0.0_wp, 0.3_wp, 0.8_wp), observed(50.0_wp), found, error)
       call expect(error, found%class == fixed_point .and. .not. allocated(found%path), &
                   "steady sliding")
-      call find_attractor(build_block(tau=0.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, &
-                                      v=1.1_wp), observed(0.0_wp), &
-                          at_tolerance(1.0e-8_wp, "auto"), found, failure)
-      call expect_success(error, failure)
+      call search(disturbed_block(0.0_wp, 0.5_wp, 0.8_wp), observed(0.0_wp), found, error)
       call expect(error, found%class /= fixed_point .and. .not. allocated(found%path), "not asked")
    end subroutine test_none
 
@@ -154,11 +144,87 @@ contains
       !> Time of the path
       real(wp), intent(in) :: t_path
 
-      settings = attractor_settings_type(t_transient=2000.0_wp, t_observed=1000.0_wp, &
-                                         t_turning=500.0_wp, t_path=t_path, interval=5.0_wp, &
-                                         exponents=3, zero_level=3.0e-5_wp, longest_bar=1.0e-3_wp, &
-                                         doublings=0, sample_interval=0.1_wp, window="hann", &
-                                         segments=8, overlap=0.5_wp, peak_floor=1.0e-6_wp, &
-                                         peak_prominence=10.0_wp)
+      settings = fine_settings(2000.0_wp, 1000.0_wp)
+      settings%t_path = t_path
+      settings%exponents = 3
    end function observed
+
+   !> None, one and two points, the last two at one place.
+   subroutine test_few(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer :: n
+      real(wp) :: points(2, 3)
+
+      points = 1.0_wp
+      do n = 0, 2
+         associate (kept => find_kept_points(points(:, :n), 0.1_wp))
+            call expect(error, size(kept) == n .and. all(kept), "all of "//text(n))
+         end associate
+      end do
+      call expect(error, all(find_kept_points(points, 0.1_wp) .eqv. [.true., .false., .true.]), &
+                  "three points at one place")
+   end subroutine test_few
+
+   !> Of a line with two corners and points between them the ends and the corners are kept, and a
+   !> point beside the line if it is further away than the tolerance.
+   subroutine test_corners(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: points(2, 9)
+
+      points(1, :) = [0.0_wp, 1.0_wp, 2.0_wp, 3.0_wp, 3.0_wp, 3.0_wp, 4.0_wp, 5.0_wp, 6.0_wp]
+      points(2, :) = [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 2.0_wp, 2.0_wp, 2.0_wp, 2.0_wp]
+      call expect(error, all(places(0.1_wp) == [1, 4, 6, 9]), "ends and corners")
+      points(2, 8) = 2.09_wp
+      call expect(error, all(places(0.1_wp) == [1, 4, 6, 9]), "within the tolerance")
+      points(2, 8) = 2.11_wp
+      call expect(error, all(places(0.1_wp) == [1, 4, 6, 8, 9]), "beyond the tolerance")
+
+   contains
+
+      !> Numbers of the points that are kept.
+      function places(tolerance) result(numbers)
+         real(wp), intent(in) :: tolerance
+         integer, allocatable :: numbers(:)
+         integer :: i
+
+         numbers = pack([(i, i=1, size(points, 2))], find_kept_points(points, tolerance))
+      end function places
+   end subroutine test_corners
+
+   !> A line that turns back on itself keeps its end, although the line through it is straight.
+   subroutine test_way_back(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: points(1, 5)
+
+      points(1, :) = [0.0_wp, 1.0_wp, 2.0_wp, 1.0_wp, 1.0_wp]
+      call expect(error, all(find_kept_points(points, 0.1_wp) &
+                             .eqv. [.true., .false., .true., .false., .true.]), "turning point")
+   end subroutine test_way_back
+
+   !> Of 1001 points on half a circle those left out are within the tolerance of the line, and there
+   !> are about pi/sqrt(8 tolerance) chords: a chord over the angle a is a**2/8 from the circle.
+   subroutine test_circle(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: pi = acos(-1.0_wp), tolerance = 1.0e-3_wp
+      logical :: kept(1001)
+      real(wp) :: angle(1001), farthest
+      integer :: chords, first, i, last
+
+      angle = [(pi*i/1000.0_wp, i=0, 1000)]
+      kept = find_kept_points(transpose(reshape([cos(angle), sin(angle)], [1001, 2])), tolerance)
+      farthest = 0.0_wp
+      first = 1
+      do i = 2, 1001
+         if (.not. kept(i)) cycle
+         last = i
+         farthest = max(farthest, 1.0_wp - cos(0.5_wp*(angle(last) - angle(first))))
+         first = last
+      end do
+      call expect(error, farthest <= tolerance, "within the tolerance")
+      chords = count(kept) - 1
+      associate (fewest => pi/sqrt(8.0_wp*tolerance))
+         call expect(error, chords >= fewest - 1.0_wp .and. chords <= 2.0_wp*fewest, &
+                     text(chords)//" chords")
+      end associate
+   end subroutine test_circle
 end module test_motion_path

@@ -12,7 +12,6 @@ contains
 
    !> All tests of this suite.
    subroutine collect_refined_grid(testsuite)
-      !> The tests
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
@@ -27,13 +26,11 @@ contains
 
    !> Refine a map. No point is asked for twice, and more and more of them have a kind.
    subroutine refine(error, map, refinements, grid)
-      !> First failure
       type(error_type), allocatable, intent(inout) :: error
       !> Kinds of all points
       integer, intent(in) :: map(:, :)
       !> How often
       integer, intent(in) :: refinements
-      !> What was found
       type(refined_grid_type), intent(out) :: grid
       integer, allocatable :: wanted(:)
       integer :: asked(size(map)), kinds(size(map)), settled
@@ -57,7 +54,6 @@ contains
 
    !> All points at once.
    subroutine test_no_refinement(error)
-      !> The first failure
       type(error_type), allocatable, intent(out) :: error
       type(refined_grid_type) :: grid
       integer, allocatable :: wanted(:)
@@ -74,7 +70,6 @@ contains
 
    !> Lines, single points, and numbers of lines that the distance does not divide.
    subroutine test_sizes(error)
-      !> The first failure
       type(error_type), allocatable, intent(out) :: error
       type(refined_grid_type) :: grid
       integer, allocatable :: map(:, :)
@@ -98,16 +93,13 @@ contains
    !> Every 2**refinements-th line, and the last one if it is not among them.
    pure integer function first_lines(places, refinements) result(lines)
       !> Number of all lines
-      integer, intent(in) :: places
-      !> Refinements
-      integer, intent(in) :: refinements
+      integer, intent(in) :: places, refinements
 
       lines = 1 + (places - 1 + 2**refinements - 1)/2**refinements
    end function first_lines
 
    !> Which points are computed first.
    subroutine test_first_lines(error)
-      !> The first failure
       type(error_type), allocatable, intent(out) :: error
       type(refined_grid_type) :: grid
       integer, allocatable :: wanted(:)
@@ -121,7 +113,6 @@ contains
 
    !> Regions larger than the first distance are found exactly, at less cost.
    subroutine test_borders(error)
-      !> The first failure
       type(error_type), allocatable, intent(out) :: error
       type(refined_grid_type) :: grid
       integer :: disc(74, 51), half(74, 51), i, j, refinements, several(74, 51)
@@ -147,7 +138,6 @@ contains
 
    !> A region of any shape is followed from a single point of the first lines.
    subroutine test_snake(error)
-      !> The first failure
       type(error_type), allocatable, intent(out) :: error
       type(refined_grid_type) :: grid
       integer :: map(33, 33), refinements
@@ -170,7 +160,6 @@ contains
 
    !> An island of one point is found if it is on the first lines, and only then.
    subroutine test_islands(error)
-      !> The first failure
       type(error_type), allocatable, intent(out) :: error
       type(refined_grid_type) :: grid
       integer :: i, j, map(9, 9)
@@ -191,7 +180,6 @@ contains
 
    !> A point whose kind is uncertain says nothing of those beside it.
    subroutine test_uncertain(error)
-      !> The first failure
       type(error_type), allocatable, intent(out) :: error
       type(refined_grid_type) :: grid
       integer :: map(9, 9)

@@ -76,7 +76,6 @@ contains
 
    !> A closed curve that is no circle, by its phase in turns.
    pure function loop(phase) result(points)
-      !> Phases
       real(wp), intent(in) :: phase(:)
       real(wp) :: points(2, size(phase))
 
@@ -86,7 +85,6 @@ contains
 
    !> Two numbers in each point, even around zero.
    pure function noise(seed, most, n) result(points)
-      !> Which
       integer, intent(in) :: seed
       !> Largest
       real(wp), intent(in) :: most

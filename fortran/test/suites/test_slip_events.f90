@@ -39,9 +39,7 @@ contains
 
    !> At t = 0.
    pure subroutine initial(self, y)
-      !> The problem
       class(prescribed_type), intent(in) :: self
-      !> State
       real(wp), intent(out) :: y(self%n)
 
       y = 0.0_wp
@@ -49,11 +47,8 @@ contains
 
    !> Before, without influence.
    pure real(wp) function history(self, t, component) result(value)
-      !> The problem
       class(prescribed_type), intent(in) :: self
-      !> Time
       real(wp), intent(in) :: t
-      !> Index into the state
       integer, intent(in) :: component
 
       value = 0.0_wp
@@ -61,15 +56,8 @@ contains
 
    !> Time derivatives.
    pure subroutine rhs(self, t, y, z, dydt)
-      !> The problem
       class(prescribed_type), intent(in) :: self
-      !> Time
-      real(wp), intent(in) :: t
-      !> State
-      real(wp), intent(in) :: y(self%n)
-      !> Nothing
-      real(wp), intent(in) :: z(size(self%lag))
-      !> Derivatives
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
       dydt(index_of_theta) = 0.0_wp
@@ -79,13 +67,8 @@ contains
 
    !> Events of the problem up to a time.
    subroutine events_of(a, b, t_transient, t_end, events, error)
-      !> Amplitudes
-      real(wp), intent(in) :: a, b
-      !> Ends
-      real(wp), intent(in) :: t_transient, t_end
-      !> The events
+      real(wp), intent(in) :: a, b, t_transient, t_end
       type(slip_events_type), intent(out) :: events
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       type(failure_type), allocatable :: failure
       type(prescribed_type) :: problem

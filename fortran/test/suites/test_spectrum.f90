@@ -184,13 +184,11 @@ contains
 
    !> Level and scatter of a spectrum of white noise.
    subroutine expect_noise(error, signal, interval, window_name, segments, overlap, scatter)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       !> The noise
       real(wp), intent(in) :: signal(:)
       !> Time between samples
       real(wp), intent(in) :: interval
-      !> Window
       character(len=*), intent(in) :: window_name
       !> Number of segments
       integer, intent(in) :: segments
@@ -268,19 +266,16 @@ contains
 
    !> A spectrum that must not fail.
    subroutine spectrum_of(error, signal, interval, window_name, segments, overlap, frequency, power)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       !> Samples
       real(wp), intent(in) :: signal(:)
       !> Time between samples
       real(wp), intent(in) :: interval
-      !> Window
       character(len=*), intent(in) :: window_name
       !> Number of segments
       integer, intent(in) :: segments
       !> Share of a segment that the next one repeats
       real(wp), intent(in) :: overlap
-      !> Frequencies
       real(wp), allocatable, intent(out) :: frequency(:)
       !> Power spectral density
       real(wp), allocatable, intent(out) :: power(:)

@@ -88,9 +88,7 @@ contains
    !> Their equation.
    pure subroutine rhs(self, t, y, z, dydt)
       class(oscillators_type), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
       complex(wp) :: delayed, now, slope
       integer :: i
@@ -115,11 +113,8 @@ contains
    !> Derivatives of the right-hand side.
    pure subroutine jacobian(self, t, y, z, by_y, by_z)
       class(oscillators_type), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
-      real(wp), intent(out) :: by_y(self%n, self%n)
-      real(wp), intent(out) :: by_z(self%n, size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: by_y(self%n, self%n), by_z(self%n, size(self%lag))
       complex(wp) :: delay
       integer :: i
 
@@ -169,7 +164,6 @@ contains
    !> Look for a third phase in motion that is a sum of cosines with these frequencies: v is known
    !> by its spectrum, the section is met when the first phase is 0.
    subroutine find_third(error, frequency, amplitude, noise, third, roughness)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       !> Frequencies, of falling amplitude
       real(wp), intent(in) :: frequency(:)
@@ -178,9 +172,7 @@ contains
       !> A part of the section that is chaotic, shape (points)
       real(wp), intent(in) :: noise(:)
       !> Third fundamental frequency
-      real(wp), intent(out) :: third
-      !> Roughness
-      real(wp), intent(out) :: roughness
+      real(wp), intent(out) :: third, roughness
       type(bases_type) :: bases
       type(failure_type), allocatable :: failure
       type(peak_type), allocatable :: peaks(:)

@@ -213,9 +213,7 @@ contains
    !> The equations.
    pure subroutine rhs(self, t, y, z, dydt)
       class(twin_waves_type), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
       dydt = real(slope_of(self, cmplx(y, kind=wp), cmplx(z, kind=wp)))
@@ -224,11 +222,8 @@ contains
    !> Their derivatives.
    pure subroutine jacobian(self, t, y, z, by_y, by_z)
       class(twin_waves_type), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
-      real(wp), intent(out) :: by_y(self%n, self%n)
-      real(wp), intent(out) :: by_z(self%n, size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: by_y(self%n, self%n), by_z(self%n, size(self%lag))
       complex(wp) :: step(4)
       integer :: j
 

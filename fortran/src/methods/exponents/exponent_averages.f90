@@ -36,7 +36,7 @@ contains
    !> once the ends are longer than the periods (Das, Saiki, Sander and Yorke 2017, Nonlinearity 30,
    !> 4111), and in chaos it is hardly larger than that of the plain mean.
    !>
-   !> The variance of such a mean is the spectral density of the growth at frequency 0, seen through
+   !> The variance of such a mean is the spectral density of the growth at frequency 0, filtered by
    !> the weights (Heidelberger and Welch 1981, Communications of the ACM 24, 233). It is estimated
    !> by the lowest frequencies above 0: slow variations make it large, fast ones do not count.
    !> Student's distribution enlarges the error, so that three of it cover as much as three standard
@@ -167,7 +167,7 @@ contains
    elemental logical function without_sign(exponent, zero_level) result(value)
       !> The exponent
       type(exponent_type), intent(in) :: exponent
-      !> What is as good as zero, whatever the error bar
+      !> Absolute value up to which an exponent is zero, whatever the error bar
       real(wp), intent(in) :: zero_level
 
       value = abs(exponent%value) <= sign_bound(exponent, zero_level)
@@ -177,7 +177,7 @@ contains
    elemental real(wp) function sign_bound(exponent, zero_level) result(value)
       !> The exponent
       type(exponent_type), intent(in) :: exponent
-      !> What is as good as zero, whatever the error bar
+      !> Absolute value up to which an exponent is zero, whatever the error bar
       real(wp), intent(in) :: zero_level
 
       value = max(zero_level, error_bars*exponent%error)
@@ -185,11 +185,11 @@ contains
 
    !> Dimension of Kaplan and Yorke, k + (lambda_1 + ... + lambda_k)/|lambda_(k+1)|, k the most
    !> exponents whose sum is not negative; those without sign count as 0. Not a number where more
-   !> exponents would be needed. Its error: from leaving out one block at a time.
+   !> exponents would be needed. The error follows from leaving out one block at a time.
    pure subroutine dimension_of(exponents, zero_level, dimension, error)
       !> Exponents, descending
       type(exponent_type), intent(in) :: exponents(:)
-      !> What is as good as zero
+      !> Absolute value up to which an exponent is zero
       real(wp), intent(in) :: zero_level
       !> The dimension
       real(wp), intent(out) :: dimension

@@ -6,13 +6,13 @@ module lyapunov_spectrum
                   integration_result
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: int64, wp
-   use interval_observer, only: interval_observer_type
    use progress_receiver, only: progress_receiver_type
    use tangent_problem, only: tangent_problem_type
    use tangent_vectors, only: orthonormalise, start_vectors
    implicit none (type, external)
    private
-   public :: extend_growth, growth_settings_type, growth_type, measure_growth
+   public :: extend_growth, growth_settings_type, growth_type, interval_observer_type, &
+             measure_growth
 
    !> A part smaller than this number of tolerances of the vector it is taken from is noise.
    real(wp), parameter :: noise = 10.0_wp
@@ -72,6 +72,47 @@ module lyapunov_spectrum
       type(continuation_type) :: continuation
    end type growth_type
 
+   !> Receiver of a solution beside which vectors are integrated, interval by interval. An interval
+   !> counts once it is kept; one that is not is repeated in shorter ones.
+   type, abstract :: interval_observer_type
+   contains
+      !> Integrate an interval and observe it
+      procedure(observe_interval), deferred :: observe_interval
+      !> Keep the observations of the last interval
+      procedure(keep_interval), deferred :: keep_interval
+   end type interval_observer_type
+
+   abstract interface
+      !> Integrate on up to `time` and observe. Intervals before that are not kept are forgotten.
+      subroutine observe_interval(self, problem, time, options, outcome, error, continuation)
+         import :: continuation_type, dde_problem_type, error_type, integration_options, &
+                   integration_result, interval_observer_type, wp
+         implicit none (type, external)
+         !> The observer
+         class(interval_observer_type), intent(inout) :: self
+         !> The problem, which may have further components after those observed
+         class(dde_problem_type), intent(in) :: problem
+         !> Time at which the interval ends
+         real(wp), intent(in) :: time
+         !> Method and tolerances
+         type(integration_options), intent(in) :: options
+         !> The result
+         type(integration_result), intent(out) :: outcome
+         !> The run ended before its time
+         type(error_type), allocatable, intent(out) :: error
+         !> Where the run stands
+         type(continuation_type), intent(inout) :: continuation
+      end subroutine observe_interval
+
+      !> Keep the observations of the last interval.
+      subroutine keep_interval(self)
+         import :: interval_observer_type
+         implicit none (type, external)
+         !> The observer
+         class(interval_observer_type), intent(inout) :: self
+      end subroutine keep_interval
+   end interface
+
 contains
 
    !> Number of vectors: that of exponents, less that of the flow.
@@ -87,7 +128,7 @@ contains
    !> measuring begins.
    subroutine measure_growth(problem, settings, options, measured, error, undisturbed, progress, &
                              observer)
-      !> The problem, with derivatives of its own
+      !> The problem, which must give its derivatives
       class(dde_problem_type), intent(in) :: problem
       !> How many exponents, and when
       type(growth_settings_type), intent(in) :: settings
@@ -174,7 +215,7 @@ contains
    end subroutine extend_growth
 
    !> Measure interval by interval. Intervals are of uneven length, so that a period of the motion
-   !> that is nearly a multiple of them looks no slow drift.
+   !> that is nearly a multiple of them does not look like a slow drift.
    subroutine go_on(tangent, settings, options, t_end, intervals, done, measured, error, &
                     progress, observer)
       !> The problem with its tangent vectors
@@ -226,7 +267,7 @@ contains
       value = 0.7_wp*(modulo(golden*real(i, wp)**2, 1.0_wp) - 0.5_wp)
    end function uneven
 
-   !> Number of intervals in so long a time, the same in each block.
+   !> Number of intervals in a time, equal in all blocks.
    pure integer function intervals_in(time, settings) result(intervals)
       !> The time
       real(wp), intent(in) :: time
@@ -248,11 +289,11 @@ contains
       type(growth_settings_type), intent(in) :: settings
       !> Method and tolerances
       type(integration_options), intent(in) :: options
-      !> Where to
+      !> Time at which the interval ends
       real(wp), intent(in) :: time
       !> How often the interval may be halved
       integer, intent(in) :: halvings
-      !> Where the vectors are, and what it took
+      !> Position of the vectors, and work done
       type(growth_type), intent(inout) :: measured
       !> Logarithm of the growth of each vector
       real(wp), intent(out) :: growth(:)

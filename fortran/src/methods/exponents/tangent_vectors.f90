@@ -151,9 +151,10 @@ contains
       real(wp), allocatable :: column(:, :)
       !> The new vectors in terms of the flow and the old ones
       real(wp) :: combination(0:size(norm), 0:size(norm))
+      !> Time derivatives of the undisturbed past: Newton coefficients over the same nodes
       real(wp), allocatable :: flow(:, :, :)
       real(wp) :: whole
-      integer :: first, i, j, kept, pass, steps
+      integer :: first, i, j, k, kept, pass, steps
 
       associate (n => problem%base%n, m => problem%vectors, now => continuation)
          kept = size(now%kept)/(m + 1)
@@ -162,7 +163,12 @@ contains
          allocate (flow(size(now%coefficients, 1), kept, steps))
          first = merge(0, 1, across_flow)
          if (across_flow) then
-            call derivatives(now, kept, flow)
+            do k = 1, steps
+               do i = 1, kept
+                  flow(:, i, k) = derivative(now%nodes(:, k), now%coefficients(:, i, k)) &
+                                  /now%step_length(k)
+               end do
+            end do
             column(:, 0) = [state_weight*now%slope(:n), &
                           past_values(problem%base, now, kept, flow)]
          end if
@@ -233,24 +239,6 @@ contains
          end do
       end do
    end subroutine combine
-
-   !> Time derivatives of the undisturbed past: Newton coefficients over the same nodes.
-   pure subroutine derivatives(now, kept, flow)
-      !> Where the run stands
-      type(continuation_type), intent(in) :: now
-      !> Number of kept components of the undisturbed problem
-      integer, intent(in) :: kept
-      !> Coefficients, shape (1 + degree, kept, steps)
-      real(wp), intent(out) :: flow(:, :, :)
-      integer :: i, k
-
-      do k = 1, size(flow, 3)
-         do i = 1, kept
-            flow(:, i, k) = derivative(now%nodes(:, k), now%coefficients(:, i, k)) &
-                            /now%step_length(k)
-         end do
-      end do
-   end subroutine derivatives
 
    !> Newton coefficients of p' from those of p = a(0) + (s - x(1)) [a(1) + (s - x(2)) [...]], by
    !> the derivative of each bracket, from the inside.

@@ -14,7 +14,7 @@ module motion_classes
       enumerator :: undecided, fixed_point, cycle_motion, torus, three_torus, chaos
    end enum
 
-   !> Their names, from `undecided` on.
+   !> Names of the classes, from `undecided` on.
    character(len=11), parameter :: class_names(0:5) = ["undecided  ", "fixed point", &
                                                        "cycle      ", "torus      ", &
                                                        "3-torus    ", "chaos      "]
@@ -25,7 +25,7 @@ module motion_classes
                     not_stationary
    end enum
 
-   !> These reasons in words, from `none` on.
+   !> Names of the reasons, from `none` on.
    character(len=21), parameter :: reason_names(0:5) = ["none                 ", &
                                                         "no class by exponents", &
                                                         "contradicted         ", &

@@ -30,7 +30,7 @@ module section_motion
    !> differ by the share `least_drift`.
    integer, parameter :: drift_blocks = 12, least_score = 48
    real(wp), parameter :: least_drift = 1.0e-3_wp
-   !> Where the roughness is not measured.
+   !> Roughness that was not measured.
    real(wp), parameter :: not_measured = -1.0_wp
    !> Largest roughness of a torus.
    real(wp), parameter :: torus_roughness = 0.05_wp
@@ -47,7 +47,7 @@ contains
       real(wp), intent(in) :: times(:)
       !> Scale of the motion in each coordinate, > 0
       real(wp), intent(in) :: scale(:)
-      !> Fundamental frequencies, 0 where there is none
+      !> Fundamental frequencies, 0 for one that is missing
       real(wp), intent(in) :: bases(:)
       real(wp), allocatable :: scaled(:, :)
       integer :: first, i
@@ -76,7 +76,7 @@ contains
       real(wp), intent(in) :: bases(2)
       !> Frequencies of lines that these do not explain, the highest line first
       real(wp), intent(in) :: lines(:)
-      !> Third fundamental frequency, 0 where there is none
+      !> Third fundamental frequency, 0 if there is none
       real(wp), intent(out) :: third
       !> Roughness with it
       real(wp), intent(out) :: roughness

@@ -30,14 +30,14 @@ module base_frequencies
 
    !> The fundamental frequencies behind the labels.
    type :: bases_type
-      !> f1 and f2; 0 where there is none
+      !> f1 and f2; 0 if it does not exist
       real(wp) :: frequency(2) = 0.0_wp
       !> Largest |m| + |n| of a combination
       integer :: order = 0
-      !> p and q of the simplest fraction that f2/f1 equals within the accuracy; 0 where there is
-      !> no f2
+      !> p and q of the simplest fraction that f2/f1 equals within the accuracy; 0 without an
+      !> f2
       integer :: ratio(2) = 0
-      !> Whether f2 is seen to be neither a simple fraction of f1 nor merged with a multiple of it
+      !> Whether f2 is certainly neither a simple fraction of f1 nor merged with a multiple of it
       logical :: told_apart = .true.
    end type bases_type
 
@@ -60,7 +60,7 @@ contains
       type(peak_type), intent(inout) :: peaks(:)
       !> Width of a bin
       real(wp), intent(in) :: resolution
-      !> Their fundamental frequencies
+      !> Fundamental frequencies of the peaks
       type(bases_type), intent(out) :: bases
       type(known_type) :: lines(size(peaks)), first, second
       integer :: ranked(size(peaks)), i, m
@@ -127,6 +127,7 @@ contains
       type(known_type), intent(out) :: second
       !> What is known of it
       type(bases_type), intent(inout) :: bases
+      real(wp) :: misfit
       integer :: explained, i, most_explained, order, q, tried
 
       most_explained = -least_gain
@@ -146,8 +147,11 @@ contains
       bases%frequency(2) = second%frequency
       q = denominator(second, first, highest_denominator)
       if (q > 0) bases%ratio = [nint(q*second%frequency/first%frequency), q]
+      ! distance from the nearest multiple of the first base
+      misfit = abs(second%frequency &
+                   - max(1, nint(second%frequency/first%frequency))*first%frequency)
       bases%told_apart = denominator(second, first, most_parts(second, first, chance_open)) == 0 &
-                         .and. distance_to_multiple(second, first) >= bins_apart*resolution
+                         .and. misfit >= bins_apart*resolution
    end subroutine find_second
 
    !> How many lines two bases explain.
@@ -183,17 +187,6 @@ contains
       if (abs(line%frequency - m*base%frequency) > line%accuracy + m*base%accuracy) m = 0
    end function multiple_of
 
-   !> Distance of a line from the nearest multiple of the base, from m = 1.
-   pure real(wp) function distance_to_multiple(line, base) result(distance)
-      !> Line in question
-      type(known_type), intent(in) :: line
-      !> Base
-      type(known_type), intent(in) :: base
-
-      distance = abs(line%frequency &
-                     - max(1, nint(line%frequency/base%frequency))*base%frequency)
-   end function distance_to_multiple
-
    !> Smallest q for which the line lies at p/q times the base with a whole p, 0 if q > `most`.
    pure integer function denominator(line, base, most) result(q)
       !> Line in question
@@ -225,7 +218,7 @@ contains
 
       width = 2.0_wp*(line%accuracy/base%frequency &
                       + line%frequency*base%accuracy/base%frequency**2)
-      ! whether it is a multiple is always asked
+      ! at the least a multiple is recognised
       q = max(1, min(highest_denominator, int(pi*sqrt(chance/(3.0_wp*width)))))
    end function most_parts
 

@@ -18,9 +18,9 @@ contains
    pure function smoothed_slope(t, u, slope, h) result(means)
       !> Times, ascending
       real(wp), intent(in) :: t(:)
-      !> u there
+      !> u at these times
       real(wp), intent(in) :: u(:)
-      !> Its time derivative there
+      !> du/dt at these times
       real(wp), intent(in) :: slope(:)
       !> Time between the means
       real(wp), intent(in) :: h

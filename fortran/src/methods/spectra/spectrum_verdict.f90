@@ -9,7 +9,7 @@ module spectrum_verdict
    public :: continuum, continuum_share, line_share, no_spectrum, one_base, spectrum_kind
    public :: spectrum_kind_name, two_bases, undecided_spectrum
 
-   !> What a spectrum is.
+   !> Kinds of spectra.
    enum, bind(c)
       enumerator :: one_base, two_bases, continuum, undecided_spectrum, no_spectrum
    end enum
@@ -37,7 +37,7 @@ contains
       real(wp), intent(in) :: power(:)
       !> Labelled peaks, frequency ascending
       type(peak_type), intent(in) :: peaks(:)
-      !> Their bases
+      !> Fundamental frequencies of the peaks
       type(bases_type), intent(in) :: bases
       real(wp) :: first, others, second
 
@@ -58,7 +58,7 @@ contains
       end if
    end function spectrum_kind
 
-   !> What a kind is called.
+   !> Name of a kind.
    pure function spectrum_kind_name(kind) result(name)
       !> one_base, two_bases, continuum, undecided_spectrum or no_spectrum
       integer, intent(in) :: kind

@@ -1,0 +1,538 @@
+!> Lines in spectra of sums of sines and noise: where the peaks are, how high, and above what; their
+!> labels by one or two fundamental frequencies; and whether the spectrum is one of lines or of a
+!> continuum.
+module test_spectral_lines
+   use base_frequencies, only: bases_type, label_peaks
+   use dde_errors, only: failure_type => error_type, text
+   use expectations, only: expect, expect_between, expect_close, expect_success
+   use dde_kinds, only: wp
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use pseudo_random, only: uniform
+   use spectral_peaks, only: base_peak, combination_peak, find_peaks, harmonic_peak, other_peak, &
+                             peak_type, second_base_peak
+   use spectrum, only: power_spectrum
+   use spectrum_verdict, only: continuum_share, line_share, spectrum_kind, spectrum_kind_name
+   implicit none (type, external)
+   private
+   public :: collect_spectral_lines
+
+   !> Samples in a segment and time between them: a bin is 1/200.
+   integer, parameter :: length = 4000
+   real(wp), parameter :: interval = 0.05_wp, width = 1.0_wp/(length*interval)
+   !> One turn.
+   real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
+   !> Fundamental frequency, between two bins.
+   real(wp), parameter :: f = 0.4017_wp
+   !> Ratios to the base that are far from simple fractions: the golden mean's inverse and 2**(1/3).
+   real(wp), parameter :: golden = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp), cubic = 2.0_wp**(1.0_wp/3)
+   !> The lines of a torus over f.
+   real(wp), parameter :: torus(5) = [1.0_wp, golden, 2.0_wp, 1.0_wp + golden, 1.0_wp - golden]
+
+   !> A spectrum with its labelled peaks and their bases.
+   type :: analysed_type
+      real(wp), allocatable :: frequency(:), power(:)
+      type(peak_type), allocatable :: peaks(:)
+      type(bases_type) :: bases
+   end type analysed_type
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_spectral_lines(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("frequency and height of a peak", test_interpolation), &
+                   new_unittest("background of a peak", test_background), &
+                   new_unittest("floor of peaks", test_floor), &
+                   new_unittest("prominence of peaks", test_prominence), &
+                   new_unittest("plateau and edges", test_plateau), &
+                   new_unittest("harmonics", test_harmonics), &
+                   new_unittest("doubled period", test_doubled), &
+                   new_unittest("two bases", test_two_bases), &
+                   new_unittest("a combination as second base", test_choice_of_bases), &
+                   new_unittest("a third base", test_three_bases), &
+                   new_unittest("simple fraction or not", test_fractions), &
+                   new_unittest("too near to tell", test_too_near), &
+                   new_unittest("accuracy of a multiple", test_accuracy), &
+                   new_unittest("random frequencies", test_random), &
+                   new_unittest("share of the lines", test_shares), &
+                   new_unittest("broad peaks are no lines", test_broad_peaks), &
+                   new_unittest("periodic", test_periodic), &
+                   new_unittest("quasiperiodic", test_quasiperiodic), &
+                   new_unittest("undecided", test_undecided), &
+                   new_unittest("continuum", test_continuum), &
+                   new_unittest("lines in noise", test_lines_in_noise), &
+                   new_unittest("no power and no peaks", test_nothing)]
+   end subroutine collect_spectral_lines
+
+   !> Labelled peaks of a sum of sines and noise, over segments that overlap by half. A peak must
+   !> exceed what the default configuration asks for.
+   subroutine analyse(error, amplitudes, lines, noise, segments, found)
+      type(error_type), allocatable, intent(inout) :: error
+      !> Amplitudes and frequencies of the sines
+      real(wp), intent(in) :: amplitudes(:), lines(:)
+      !> Greatest value of the noise
+      real(wp), intent(in) :: noise
+      !> Number of segments
+      integer, intent(in) :: segments
+      type(analysed_type), intent(out) :: found
+      type(failure_type), allocatable :: failure
+      real(wp), allocatable :: signal(:)
+      integer :: i, n
+
+      n = length*(segments + 1)/2
+      signal = [(sum(amplitudes*cos(turn*lines*i*interval + amplitudes)), i=1, n)] &
+               + uniform(7, n, -noise, noise)
+      call power_spectrum(signal, interval, "hann", segments, 0.5_wp, found%frequency, &
+                          found%power, failure)
+      call expect_success(error, failure)
+      found%peaks = find_peaks(found%frequency, found%power, 1.0e-6_wp, 10.0_wp)
+      call label_peaks(found%peaks, width, found%bases)
+   end subroutine analyse
+
+   !> Wherever a line lies between two bins, its frequency is found to 1e-5 of a bin and its height,
+   !> A^2/2 times 2/3 of the length, to 1e-5 (the line at minus the frequency is what is left).
+   subroutine test_interpolation(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: amplitude = 0.7_wp
+      type(analysed_type) :: found
+      real(wp) :: known
+      integer :: i
+
+      do i = 0, 20
+         known = (80.0_wp + 0.05_wp*i)*width
+         call analyse(error, [amplitude], [known], 0.0_wp, 1, found)
+         call expect(error, size(found%peaks) == 1, "one peak for one line, but " &
+                     //text(size(found%peaks)))
+         if (allocated(error)) return
+         call expect_close(error, (found%peaks(1)%frequency - known)/width, 0.0_wp, 1.0e-5_wp, &
+                           "misfit of the frequency in bins")
+         call expect_close(error, found%peaks(1)%power/(amplitude**2/3.0_wp*length*interval), &
+                           1.0_wp, 1.0e-5_wp, "height over the known one")
+         call expect_close(error, found%frequency(found%peaks(1)%bin)/width, known/width, &
+                           0.5001_wp, "bin")
+      end do
+   end subroutine test_interpolation
+
+   !> The lowest of bins 3 to 8 away, on the side where that is higher.
+   subroutine test_background(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(analysed_type) :: found
+      real(wp) :: by_hand(25)
+      integer :: i
+
+      by_hand = [(0.01_wp + abs(i - 12)*1.0e-6_wp, i=1, 25)]
+      by_hand(12) = 100.0_wp
+      by_hand([3, 10, 21]) = 1.0e-9_wp
+      by_hand(4:9) = by_hand(4:9)*2.0_wp
+      by_hand(6) = 0.015_wp
+      found%peaks = find_peaks([(real(i, wp), i=1, 25)], by_hand, 1.0e-2_wp, 10.0_wp)
+      call expect(error, size(found%peaks) == 1, "one peak by hand")
+      if (allocated(error)) return
+      call expect_close(error, found%peaks(1)%background, 0.015_wp/found%peaks(1)%power, &
+                        1.0e-12_wp, "background by hand")
+      ! density of the noise: variance 1/3 over 10 cycles per unit of time
+      call analyse(error, [3.0_wp], [f], 1.0_wp, 15, found)
+      i = maxloc(found%peaks%power, dim=1)
+      call expect_close(error, found%peaks(i)%background*found%peaks(i)%power/(1.0_wp/30.0_wp), &
+                        0.6_wp, 0.3_wp, "background in noise over the noise")
+   end subroutine test_background
+
+   !> Peaks below the floor are left out.
+   subroutine test_floor(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: power(11) = [0.0_wp, 0.0_wp, 1.0_wp, 100.0_wp, 1.0_wp, &
+         2.0e-3_wp, 0.5_wp, 2.0e-3_wp, 0.0_wp, 7.0_wp, 0.0_wp]
+
+      call expect_bins(error, power, 1.0e-3_wp, 10.0_wp, [4, 7, 10])
+      call expect_bins(error, power, 1.0e-2_wp, 10.0_wp, [4, 10])
+      call expect_bins(error, power, 0.5_wp, 10.0_wp, [4])
+   end subroutine test_floor
+
+   !> A shoulder of 45 beside a peak of 100, behind a valley of 40, is a peak at a prominence of 1.1
+   !> but not of 1.2; what lies beyond higher ground does not count.
+   subroutine test_prominence(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: power(14) = [0.0_wp, 0.1_wp, 1.0_wp, 10.0_wp, 100.0_wp, 50.0_wp, &
+         40.0_wp, 45.0_wp, 10.0_wp, 30.0_wp, 1.0_wp, 0.1_wp, 0.01_wp, 0.001_wp]
+
+      call expect_bins(error, power, 1.0e-6_wp, 1.1_wp, [5, 8, 10])
+      call expect_bins(error, power, 1.0e-6_wp, 1.2_wp, [5, 10])
+      call expect_bins(error, power, 1.0e-6_wp, 3.5_wp, [5])
+      ! the shoulder on the other side
+      call expect_bins(error, [0.0_wp, power(14:2:-1)], 1.0e-6_wp, 1.2_wp, [6, 11])
+   end subroutine test_prominence
+
+   !> A plateau is one peak, a slope to either end none; zero frequency and the bin beside it, where
+   !> the mean was, do not count.
+   subroutine test_plateau(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call expect_bins(error, [9.0_wp, 1.0_wp, 2.0_wp, 7.0_wp, 7.0_wp, 2.0_wp, 0.1_wp, 3.0_wp], &
+                       1.0e-6_wp, 2.0_wp, [4])
+      call expect_bins(error, [0.0_wp, 5.0_wp, 1.0_wp, 9.0_wp, 1.0_wp, 0.5_wp], 1.0e-6_wp, 1.0_wp, &
+                       [4])
+      call expect_bins(error, [9.0_wp, 8.0_wp, 3.0_wp, 2.0_wp, 1.0_wp, 0.5_wp], 1.0e-6_wp, 2.0_wp, &
+                       [integer ::])
+   end subroutine test_plateau
+
+   !> The peaks of a spectrum are in these bins.
+   subroutine expect_bins(error, power, floor, prominence, bins)
+      type(error_type), allocatable, intent(inout) :: error
+      !> Spectrum
+      real(wp), intent(in) :: power(:)
+      !> Least height over the highest peak's
+      real(wp), intent(in) :: floor
+      !> Least height over the higher of the two valleys
+      real(wp), intent(in) :: prominence
+      integer, intent(in) :: bins(:)
+      type(peak_type), allocatable :: peaks(:)
+      integer :: i
+
+      allocate (peaks, source=find_peaks([(real(i, wp), i=1, size(power))], power, floor, &
+                                         prominence))
+      call expect_close(error, real(peaks%bin, wp), real(bins, wp), 0.0_wp, "bins of peaks")
+   end subroutine expect_bins
+
+   !> f, 2 f, 3 f; f although 2 f is the highest peak; f although it is no peak.
+   subroutine test_harmonics(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call expect_labels(error, [1.0_wp, 0.1_wp, 0.05_wp], [1.0_wp, 2.0_wp, 3.0_wp], &
+                         [base_peak, harmonic_peak, harmonic_peak], [1, 2, 3], [0, 0, 0], &
+                         [1.0_wp, 0.0_wp])
+      call expect_labels(error, [0.1_wp, 1.0_wp, 0.1_wp, 0.3_wp], &
+                         [1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp], &
+                         [base_peak, harmonic_peak, harmonic_peak, harmonic_peak], [1, 2, 3, 4], &
+                         [0, 0, 0, 0], [1.0_wp, 0.0_wp])
+      call expect_labels(error, [1.0_wp, 0.5_wp], [2.0_wp, 3.0_wp], &
+                         [harmonic_peak, harmonic_peak], [2, 3], [0, 0], [1.0_wp, 0.0_wp])
+   end subroutine test_harmonics
+
+   !> A period doubled twice has a quarter of the highest peak's frequency as base, whichever of the
+   !> others is the highest.
+   subroutine test_doubled(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: others(5) = [0.5_wp, 0.1_wp, 0.03_wp, 0.2_wp, 0.01_wp]
+      real(wp) :: turned(5)
+      integer :: i
+
+      do i = 0, 4
+         turned = cshift(others, i)
+         call expect_labels(error, [turned(:3), 1.0_wp, turned(4:)], [(0.25_wp*i, i=1, 6)], &
+                            [base_peak, spread(harmonic_peak, 1, 5)], [1, 2, 3, 4, 5, 6], &
+                            [0, 0, 0, 0, 0, 0], [0.25_wp, 0.0_wp])
+      end do
+   end subroutine test_doubled
+
+   !> Lines of a torus; the second base strong or weak, combinations of either sign.
+   subroutine test_two_bases(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: weak
+      integer :: i
+
+      do i = 0, 2
+         weak = 0.1_wp**i
+         call expect_labels(error, [0.1_wp, 0.5_wp, 1.0_wp, 0.1_wp, 0.2_wp]*[weak, weak, 1.0_wp, &
+                                                                            weak, 1.0_wp], &
+                            [1.0_wp - golden, golden, 1.0_wp, 1.0_wp + golden, 2.0_wp], &
+                            [combination_peak, second_base_peak, base_peak, combination_peak, &
+                             harmonic_peak], &
+                            [1, 0, 1, 1, 2], [-1, 1, 0, 1, 0], [1.0_wp, golden])
+      end do
+   end subroutine test_two_bases
+
+   !> f + 2 s, f + s and f + 3 s: with f + 2 s, the higher, as second base f + s would be nothing.
+   subroutine test_choice_of_bases(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: s = 0.25_wp*golden
+
+      call expect_labels(error, [1.0_wp, 0.2_wp, 0.3_wp, 0.1_wp], &
+                         [1.0_wp, 1.0_wp + s, 1.0_wp + 2*s, 1.0_wp + 3*s], &
+                         [base_peak, second_base_peak, combination_peak, combination_peak], &
+                         [1, 0, -1, -2], [0, 1, 2, 3], [1.0_wp, 1.0_wp + s])
+   end subroutine test_choice_of_bases
+
+   !> A third frequency is no combination of the two higher ones.
+   subroutine test_three_bases(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call expect_labels(error, [0.5_wp, 1.0_wp, 0.2_wp, 0.1_wp], &
+                         [golden, 1.0_wp, cubic, 1.0_wp + golden], &
+                         [second_base_peak, base_peak, other_peak, combination_peak], &
+                         [0, 1, 0, 1], [1, 0, 0, 1], [1.0_wp, golden])
+   end subroutine test_three_bases
+
+   !> 3/4 is a fraction; 0.05 of a bin beside it is none, and is told apart; 13/23 might be chance.
+   subroutine test_fractions(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(analysed_type) :: found
+
+      call analyse(error, [0.5_wp, 1.0_wp], f*[0.75_wp, 1.0_wp], 0.0_wp, 1, found)
+      call expect_close(error, found%bases%frequency, f*[0.25_wp, 0.0_wp], 0.005_wp*width, &
+                        "bases of 3/4")
+      call analyse(error, [0.5_wp, 1.0_wp], [0.75_wp*f + 0.05_wp*width, f], 0.0_wp, 1, found)
+      call expect_close(error, found%bases%frequency, [f, 0.75_wp*f + 0.05_wp*width], &
+                        0.005_wp*width, "bases beside 3/4")
+      call expect(error, found%bases%told_apart, "told apart from 3/4")
+      call analyse(error, [0.5_wp, 1.0_wp], f*[13.0_wp/23, 1.0_wp], 0.0_wp, 1, found)
+      call expect_close(error, found%bases%frequency, f*[1.0_wp, 13.0_wp/23], 0.005_wp*width, &
+                        "bases of 13/23")
+      call expect(error, .not. found%bases%told_apart, "not told apart from 13/23")
+      call expect(error, all(found%bases%ratio == [13, 23]), "ratio "//text(found%bases%ratio(1)) &
+                  //"/"//text(found%bases%ratio(2)))
+   end subroutine test_fractions
+
+   !> A second line half a bin off 2 f is neither a harmonic nor seen to be none; two bins off it is
+   !> a second base.
+   subroutine test_too_near(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(analysed_type) :: found
+
+      call analyse(error, [0.5_wp, 1.0_wp], [2*f + 0.5_wp*width, f], 0.0_wp, 1, found)
+      call expect(error, found%peaks(2)%kind == second_base_peak, "half a bin off is no harmonic")
+      call expect(error, .not. found%bases%told_apart, "half a bin off is not told apart")
+      call analyse(error, [0.5_wp, 1.0_wp], [2*f + 2.0_wp*width, f], 0.0_wp, 1, found)
+      call expect(error, found%peaks(2)%kind == second_base_peak .and. found%bases%told_apart, &
+                  "two bins off is a second base")
+   end subroutine test_too_near
+
+   !> 0.05 of a bin off 3 f is no multiple unless the background makes it uncertain.
+   subroutine test_accuracy(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(peak_type) :: peaks(2)
+      type(bases_type) :: bases
+
+      peaks%frequency = [0.5_wp, 1.5005_wp]
+      peaks%power = [9.0_wp, 1.0_wp]
+      call label_peaks(peaks, 0.01_wp, bases)
+      call expect(error, peaks(2)%kind == second_base_peak, "0.05 of a bin off 3 f is no multiple")
+      peaks(2)%background = 0.0025_wp
+      call label_peaks(peaks, 0.01_wp, bases)
+      call expect(error, peaks(2)%kind == harmonic_peak .and. peaks(2)%multiple(1) == 3, &
+                  "with a twentieth of its amplitude beside it, it is")
+   end subroutine test_accuracy
+
+   !> Of pairs of frequencies drawn at random beside a base, as few as stated have a common base
+   !> with it or leave that open, and few explain each other.
+   subroutine test_random(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: trials = 2000
+      type(peak_type) :: peaks(4)
+      type(bases_type) :: bases
+      real(wp) :: drawn(2*trials)
+      integer :: shared, explained, i, open
+
+      shared = 0
+      open = 0
+      explained = 0
+      drawn = uniform(3, 2*trials, 0.1_wp, 3.0_wp)
+      do i = 1, trials
+         peaks%frequency = [1.0_wp, drawn(2*i - 1), drawn(2*i), 3.0_wp]
+         peaks%power = [9.0_wp, 5.0_wp, 1.0_wp, 0.1_wp]
+         call label_peaks(peaks, 0.01_wp, bases)
+         if (peaks(2)%multiple(2) == 0) then
+            shared = shared + 1
+         else if (.not. any(peaks%kind == other_peak)) then
+            explained = explained + 1
+         end if
+         if (.not. bases%told_apart) open = open + 1
+      end do
+      ! 2 % and 10 %, and what lies within a bin of a multiple
+      call expect_between(error, 100.0_wp*shared/trials, 0.5_wp, 3.0_wp, "% with a common base")
+      call expect_between(error, 100.0_wp*open/trials, 5.0_wp, 13.0_wp, "% left open")
+      ! 3 %
+      call expect_between(error, 100.0_wp*explained/trials, 1.0_wp, 5.0_wp, "% explained")
+   end subroutine test_random
+
+   !> Lines at multiples of f have these labels and bases.
+   subroutine expect_labels(error, amplitudes, lines, kinds, multiples, second_multiples, known)
+      type(error_type), allocatable, intent(inout) :: error
+      real(wp), intent(in) :: amplitudes(:)
+      !> Frequencies over f
+      real(wp), intent(in) :: lines(:)
+      integer, intent(in) :: kinds(:)
+      !> Multiples of the first base known
+      integer, intent(in) :: multiples(:)
+      !> Multiples of the second base known
+      integer, intent(in) :: second_multiples(:)
+      !> Bases known, over f
+      real(wp), intent(in) :: known(2)
+      type(analysed_type) :: found
+
+      call analyse(error, amplitudes, f*lines, 0.0_wp, 1, found)
+      call expect_close(error, real(found%peaks%kind, wp), real(kinds, wp), 0.0_wp, &
+                        "kinds of peaks")
+      call expect_close(error, real(found%peaks%multiple(1), wp), real(multiples, wp), 0.0_wp, &
+                        "multiples")
+      call expect_close(error, real(found%peaks%multiple(2), wp), real(second_multiples, wp), &
+                        0.0_wp, "multiples of the second base")
+      call expect_close(error, found%bases%frequency/f, known, 0.005_wp*width/f, "bases over f")
+   end subroutine expect_labels
+
+   !> By hand: a line in bin 20 that holds 3/2 of its height, one in bin 40 that finds less than
+   !> that in its 9 bins, two at 70 and 75 that share 14 bins, and 1 in every other bin.
+   subroutine test_shares(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(peak_type) :: peaks(4)
+      real(wp) :: power(100)
+
+      power = 1.0_wp
+      power(16:24) = [1.0_wp, 1.0_wp, 1.0_wp, 20.0_wp, 80.0_wp, 20.0_wp, 1.0_wp, 1.0_wp, 1.0_wp]
+      power([40, 70, 75]) = [64.0_wp, 40.0_wp, 18.0_wp]
+      peaks%bin = [20, 40, 70, 75]
+      peaks%power = [80.0_wp, 64.0_wp, 40.0_wp, 20.0_wp]
+      peaks%kind = [base_peak, harmonic_peak, other_peak, harmonic_peak]
+      ! 120 of 126; 72 of 72; 70 of 90 wanted, a third of it to the labelled one
+      call expect_close(error, sum(power), 336.0_wp, 0.0_wp, "all")
+      call expect_close(error, line_share(power, peaks), (120.0_wp + 72.0_wp + 70.0_wp/3)/336, &
+                        1.0e-15_wp, "share of the lines")
+      call expect_close(error, continuum_share(power, peaks), &
+                        1.0_wp - (120.0_wp + 72.0_wp + 70.0_wp)/336, 1.0e-15_wp, &
+                        "share outside the lines")
+   end subroutine test_shares
+
+   !> Peaks that fall to a half within five bins are a continuum although all power is near peaks
+   !> at f, 2 f and 3 f.
+   subroutine test_broad_peaks(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(peak_type) :: peaks(3)
+      type(bases_type) :: bases
+      real(wp) :: power(400)
+      integer :: i
+
+      power = [(sum(1.0_wp/(1.0_wp + ((i - [100, 200, 300])/5.0_wp)**2)), i=1, 400)]
+      peaks%bin = [100, 200, 300]
+      peaks%power = power(peaks%bin)
+      peaks%kind = [base_peak, harmonic_peak, harmonic_peak]
+      call expect_kind(error, power, peaks, bases, "continuum", "broad peaks")
+   end subroutine test_broad_peaks
+
+   !> Harmonics, also of a doubled period; a second base of 2e-6 of the power does not count, one of
+   !> ten times that does.
+   subroutine test_periodic(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call expect_sines(error, [1.0_wp, 0.3_wp, 0.1_wp], [1.0_wp, 2.0_wp, 3.0_wp], 0.0_wp, &
+                        "periodic", "f, 2 f, 3 f")
+      call expect_sines(error, [1.0_wp, 0.3_wp, 0.1_wp], [1.0_wp, 0.5_wp, 1.5_wp], 0.0_wp, &
+                        "periodic", "f, f/2, 3 f/2")
+      call expect_sines(error, [1.0_wp, 0.7_wp], [1.0_wp, 0.75_wp], 0.0_wp, "periodic", "f, 3 f/4")
+      call expect_sines(error, [1.0_wp, 0.0014_wp], [1.0_wp, golden], 0.0_wp, "periodic", &
+                        "f and a trace")
+      call expect_sines(error, [1.0_wp, 0.0045_wp], [1.0_wp, golden], 0.0_wp, "quasiperiodic", &
+                        "f and more than a trace")
+   end subroutine test_periodic
+
+   !> A torus, its second base strong, weak or the highest; 0.05 of a bin off 3/4 f; a third base of
+   !> 2e-5 of the power does not count.
+   subroutine test_quasiperiodic(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call expect_sines(error, [1.0_wp, 0.5_wp, 0.3_wp, 0.1_wp, 0.1_wp], torus, 0.0_wp, &
+                        "quasiperiodic", "a torus")
+      call expect_sines(error, [1.0_wp, 0.02_wp, 0.3_wp, 0.01_wp, 0.01_wp], torus, 0.0_wp, &
+                        "quasiperiodic", "a torus, weak")
+      call expect_sines(error, [1.0_wp, 2.0_wp, 0.3_wp, 0.1_wp, 0.1_wp], torus, 0.0_wp, &
+                        "quasiperiodic", "a torus, strong")
+      call expect_sines(error, [1.0_wp, 0.2_wp, 0.2_wp], [1.0_wp, 1.0_wp + 0.1_wp*golden, &
+                                                          1.0_wp - 0.1_wp*golden], 0.0_wp, &
+                        "quasiperiodic", "sidebands")
+      call expect_sines(error, [1.0_wp, 0.5_wp], [1.0_wp, 0.75_wp + 0.05_wp*width/f], 0.0_wp, &
+                        "quasiperiodic", "0.05 of a bin off 3/4 f")
+      call expect_sines(error, [1.0_wp, 0.5_wp, 0.005_wp], [1.0_wp, golden, cubic], 0.0_wp, &
+                        "quasiperiodic", "two and a trace")
+   end subroutine test_quasiperiodic
+
+   !> Three frequencies are not two, and no continuum either. Half a bin off 2 f and at 13/23 f it
+   !> cannot be told.
+   subroutine test_undecided(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call expect_sines(error, [1.0_wp, 0.5_wp, 0.4_wp], [1.0_wp, golden, cubic], 0.0_wp, &
+                        "undecided", "three bases")
+      call expect_sines(error, [1.0_wp, 0.5_wp, 0.02_wp], [1.0_wp, golden, cubic], 0.0_wp, &
+                        "undecided", "three bases, one weak")
+      call expect_sines(error, [1.0_wp, 0.5_wp, 0.016_wp], [1.0_wp, golden, cubic], 0.0_wp, &
+                        "undecided", "two and more than a trace")
+      call expect_sines(error, [1.0_wp, 0.5_wp], [1.0_wp, 2.0_wp + 0.5_wp*width/f], 0.0_wp, &
+                        "undecided", "half a bin off 2 f")
+      call expect_sines(error, [1.0_wp, 0.5_wp], [1.0_wp, 13.0_wp/23], 0.0_wp, "undecided", &
+                        "13/23 f")
+   end subroutine test_undecided
+
+   !> Noise, alone and with lines that hold less than 98 %.
+   subroutine test_continuum(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call expect_sines(error, [0.0_wp], [1.0_wp], 1.0_wp, "continuum", "noise")
+      call expect_sines(error, [1.0_wp, 0.3_wp], [1.0_wp, 2.0_wp], 0.25_wp, "continuum", &
+                        "two lines in noise of 4 % of the power")
+      call expect_sines(error, [1.0_wp, 0.3_wp], [1.0_wp, 2.0_wp], 0.15_wp, "undecided", &
+                        "two lines in noise of 1.4 % of the power")
+   end subroutine test_continuum
+
+   !> Noise of 2.5e-4 of the power changes no verdict; the shares are the known ones.
+   subroutine test_lines_in_noise(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(analysed_type) :: found
+
+      call expect_sines(error, [1.0_wp, 0.3_wp, 0.1_wp], [1.0_wp, 2.0_wp, 3.0_wp], 0.02_wp, &
+                        "periodic", "f, 2 f, 3 f in noise")
+      call expect_sines(error, [1.0_wp, 0.5_wp, 0.3_wp, 0.1_wp, 0.1_wp], torus, 0.02_wp, &
+                        "quasiperiodic", "a torus in noise")
+      call analyse(error, [1.0_wp, 0.3_wp, 0.1_wp], f*[1.0_wp, 2.0_wp, 3.0_wp], 1.0_wp, 8, found)
+      ! 0.55 of the power in the lines, 1/3 in the noise
+      call expect_close(error, line_share(found%power, found%peaks), 0.55_wp/(0.55_wp + 1.0_wp/3), &
+                        0.03_wp, "share of the lines")
+      call expect_close(error, continuum_share(found%power, found%peaks), (1.0_wp/3)/(0.55_wp &
+                        + 1.0_wp/3), 0.03_wp, "share of the noise")
+   end subroutine test_lines_in_noise
+
+   !> Without power there is no spectrum; power without a peak is a continuum.
+   subroutine test_nothing(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(peak_type) :: peaks(0)
+      type(bases_type) :: bases
+      real(wp) :: power(20)
+
+      power = 0.0_wp
+      call expect_kind(error, power, peaks, bases, "none", "no power")
+      call expect_close(error, continuum_share(power, peaks), 0.0_wp, 0.0_wp, "share of no power")
+      power = 1.0_wp
+      call expect_kind(error, power, peaks, bases, "continuum", "no peaks")
+   end subroutine test_nothing
+
+   !> Sines at multiples of f, and noise, make a spectrum of this kind.
+   subroutine expect_sines(error, amplitudes, lines, noise, known, what)
+      type(error_type), allocatable, intent(inout) :: error
+      real(wp), intent(in) :: amplitudes(:)
+      !> Frequencies over f
+      real(wp), intent(in) :: lines(:)
+      !> Greatest value of the noise
+      real(wp), intent(in) :: noise
+      !> Name of the kind
+      character(len=*), intent(in) :: known, what
+      type(analysed_type) :: found
+
+      call analyse(error, amplitudes, f*lines, noise, 8, found)
+      if (allocated(error)) return
+      call expect_kind(error, found%power, found%peaks, found%bases, known, what)
+   end subroutine expect_sines
+
+   !> A spectrum is of this kind.
+   subroutine expect_kind(error, power, peaks, bases, known, what)
+      type(error_type), allocatable, intent(inout) :: error
+      !> Power spectral density
+      real(wp), intent(in) :: power(:)
+      !> Labelled peaks
+      type(peak_type), intent(in) :: peaks(:)
+      type(bases_type), intent(in) :: bases
+      !> Name of the kind
+      character(len=*), intent(in) :: known, what
+      character(len=:), allocatable :: name
+
+      name = spectrum_kind_name(spectrum_kind(power, peaks, bases))
+      call expect(error, name == known, what//": "//known//", not "//name)
+   end subroutine expect_kind
+end module test_spectral_lines
