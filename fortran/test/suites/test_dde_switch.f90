@@ -3,14 +3,11 @@
 module test_dde_switch
    use block_builder, only: build_block
    use dde, only: continuation_type, integrate, integration_result
-   use dde_cursor, only: cursor_type
-   use dde_history, only: history_type
    use dde_methods, only: price_of_trial
    use dde_problem, only: dde_problem_type
+   use dde_step_context, only: step_context
    use dde_taylor_step, only: taylor_step_type
    use dde_tolerance, only: tolerance_type
-   use dde_time, only: instant_at
-   use dde_work, only: work_type
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_success
    use fast_problems, only: plain_block
@@ -19,6 +16,7 @@ module test_dde_switch
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use piecewise_problems, only: switching, switching_kinds
    use published_problems, only: enzyme, infection, mackey_glass
+   use single_step, only: new_context
    use solving, only: at_tolerance
    use spring_block, only: spring_block_type
    use test_problems, only: fill
@@ -240,28 +238,22 @@ contains
    !> Whether a step from the start is held back.
    function held_back(problem, tolerance, share) result(value)
       !> The problem, without delays
-      class(dde_problem_type), intent(in) :: problem
+      class(dde_problem_type), intent(in), target :: problem
       !> Absolute tolerance
       real(wp), intent(in) :: tolerance
       !> Its length over that which the series allows
       real(wp), intent(in) :: share
       logical :: value
-      type(cursor_type) :: cursor
-      type(history_type) :: past
+      type(step_context) :: context
       type(taylor_step_type) :: step
-      type(work_type) :: work
       real(wp) :: estimate, length
 
-      past = history_type(problem, instant_at(0.0_wp))
       step = taylor_step_type(problem, tolerance)
-      cursor = cursor_type(problem)
+      context = new_context(problem, 0.0_wp, 1.0e3_wp, 0.0_wp, tolerance)
       length = 1.0e-6_wp
-      call cursor%set(problem, past, instant_at(0.0_wp), 1.0e3_wp)
-      call step%propose(problem, past, cursor, tolerance_type(problem%n, 0.0_wp, tolerance), &
-                        work, length)
-      cursor%h = share*length
-      call step%attempt(problem, past, cursor, tolerance_type(problem%n, 0.0_wp, tolerance), &
-                        work, estimate)
+      call step%propose(context, length)
+      context%cursor%h = share*length
+      call step%attempt(context, estimate)
       value = step%stiff()
    end function held_back
 

@@ -5,19 +5,15 @@ module test_dde_taylor
    use block_builder, only: build_block
    use dde, only: continuation_type, integrate, integration_options, integration_result, &
                   step_underflow, value_not_finite
-   use dde_cursor, only: cursor_type
-   use dde_history, only: history_type
+   use dde_step_context, only: step_context
    use dde_taylor_series, only: taylor_series
    use dde_taylor_step, only: taylor_step_type
-   use dde_tolerance, only: tolerance_type
-   use dde_time, only: instant_at
-   use dde_work, only: work_type
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use published_problems, only: enzyme, mackey_glass
-   use single_step, only: interpolated
+   use single_step, only: interpolated, new_context
    use solving, only: at_tolerance, solve
    use spring_block, only: spring_block_type
    use test_problems, only: linear, sine, wille_baker
@@ -113,26 +109,20 @@ contains
       type(taylor_step_type), intent(out) :: step
       !> How long it might have been
       real(wp), intent(out), optional :: allowed
-      type(blow_up) :: problem
-      type(cursor_type) :: cursor
-      type(history_type) :: past
-      type(work_type) :: work
+      type(blow_up), target :: problem
+      type(step_context) :: context
       real(wp) :: estimate, length
 
       problem = blow_up(n=1, past=[1.0_wp], first=[1.0_wp])
       call without_delays(problem)
-      past = history_type(problem, instant_at(0.0_wp))
       step = taylor_step_type(problem, tolerance)
-      cursor = cursor_type(problem)
+      context = new_context(problem, 0.0_wp, 1.0_wp, 0.0_wp, tolerance)
       length = 0.5_wp*h
-      call cursor%set(problem, past, instant_at(0.0_wp), 1.0_wp)
-      call step%propose(problem, past, cursor, tolerance_type(problem%n, 0.0_wp, tolerance), &
-                        work, length)
+      call step%propose(context, length)
       if (present(allowed)) allowed = length
-      cursor%h = h
-      call step%attempt(problem, past, cursor, tolerance_type(problem%n, 0.0_wp, tolerance), &
-                        work, estimate)
-      call step%extend(problem, past, cursor, work)
+      context%cursor%h = h
+      call step%attempt(context, estimate)
+      call step%extend(context)
    end subroutine take_step
 
    !> The series of the block, with a delayed value that is a polynomial, solves its equations: its
