@@ -7,12 +7,13 @@ module single_step
    use dde_step, only: step_type
    use dde_step_context, only: step_context
    use dde_time, only: instant_at
+   use dde_taylor_step, only: taylor_step_type
    use dde_tolerance, only: tolerance_type
    use dde_work, only: work_type
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: interpolated, new_context, take_step
+   public :: held_back, interpolated, new_context, take_step
 
 contains
 
@@ -65,6 +66,28 @@ contains
       call step%complete(context)
       call step%extend(context)
    end subroutine take_step
+
+   !> Whether a step from the start is held back.
+   function held_back(problem, tolerance, share) result(value)
+      !> The problem, without delays
+      class(dde_problem_type), intent(in), target :: problem
+      !> Absolute tolerance
+      real(wp), intent(in) :: tolerance
+      !> Its length over that which the series allows
+      real(wp), intent(in) :: share
+      logical :: value
+      type(step_context) :: context
+      type(taylor_step_type) :: step
+      real(wp) :: estimate, length
+
+      step = taylor_step_type(problem, tolerance)
+      context = new_context(problem, 0.0_wp, 1.0e3_wp, 0.0_wp, tolerance)
+      length = 1.0e-6_wp
+      call step%propose(context, length)
+      context%cursor%h = share*length
+      call step%attempt(context, estimate)
+      value = step%stiff()
+   end function held_back
 
    !> Dense output of all components at place s of the step, 0..1.
    pure function interpolated(step, s) result(y)
