@@ -3,7 +3,7 @@ module test_block_auto
    use block_builder, only: build_block
    use dde, only: continuation_type, integrate, integration_result
    use dde_errors, only: failure_type => error_type, text
-   use dde_kinds, only: wp
+   use dde_kinds, only: int64, wp
    use expectations, only: expect, expect_success
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use plain_blocks, only: plain_block

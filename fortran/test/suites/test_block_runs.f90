@@ -1,4 +1,4 @@
-!> Runs of the block by Taylor series: accuracy, steps and evaluations, with and without slow series.
+!> Runs of the block by Taylor series, with and without slow ones: accuracy, steps and evaluations.
 module test_block_runs
    use block_builder, only: build_block
    use dde, only: integrate, integration_options, integration_result, too_many_steps, &

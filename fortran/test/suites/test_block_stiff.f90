@@ -1,5 +1,5 @@
-!> Stiff runs of the block: slips, the fall of v after them, a quantity that is conserved at infinite
-!> gamma, events and continuations.
+!> Stiff runs of the block: slips, the fall of v after them, a quantity that is conserved at
+!> infinite gamma, events and continuations.
 module test_block_stiff
    use block_builder, only: build_block
    use block_state, only: index_of_ln_v

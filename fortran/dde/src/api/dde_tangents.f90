@@ -1,7 +1,7 @@
-!> A problem that gives Taylor series of small disturbances of its solution. The solver does not call
-!> them: they serve methods that combine a problem and its disturbances into one problem, for
-!> instance for Lyapunov exponents. The type is here because models and methods both extend it or
-!> call it and do not know each other.
+!> A problem that gives Taylor series of small disturbances of its solution. The solver does not
+!> call them: they serve methods that combine a problem and its disturbances into one problem, for
+!> instance for Lyapunov exponents. The type is here because models extend it and methods call it,
+!> and these do not know each other.
 module dde_tangents
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde_problem, only: dde_problem_type

@@ -136,8 +136,10 @@ contains
          first = kink_type(start)
          do k = 1, size(problem%lag)
             associate (component => problem%component(k))
-               if (abs(problem%history(start%hi, component) - self%step%y(component)) > 0.0_wp) &
+               if (abs(problem%history(start%hi, component) - self%step%y(component)) &
+                   > 0.0_wp) then
                   first%passages = -1
+               end if
             end associate
          end do
          call self%points%begin([first, causes(options, start)], start, start, finish, &

@@ -1,5 +1,5 @@
-!> Stiff runs of the implicit methods and of `auto`: accuracy at and between the ends of steps, events,
-!> and steps longer than the delay.
+!> Stiff runs of the implicit methods and of `auto`: accuracy at and between the ends of steps,
+!> events, and steps longer than the delay.
 module test_dde_stiff
    use dde, only: event_table, integrate, integration_result
    use dde_errors, only: failure_type => error_type
