@@ -24,7 +24,7 @@ module dde_problem
       integer :: n = 0
       !> Delay of each delayed value z(k), > 0
       real(wp), allocatable :: lag(:)
-      !> Which component of y each delayed value z(k) is, 1..n
+      !> Number of the component of y that each delayed value z(k) is, 1..n
       integer, allocatable :: component(:)
       !> Diagonals of a banded Jacobian by y below and above the main one. If they are given, it is
       !> found by differences.

@@ -96,7 +96,7 @@ contains
 
    !> Copy n numbers. Either side may be stored in lanes.
    pure subroutine copy(n, from, to)
-      !> How many
+      !> Number of elements
       integer, intent(in) :: n
       !> Source
       real(wp), intent(in) :: from(n)
@@ -163,7 +163,7 @@ contains
    pure subroutine interpolant(self, i, a)
       !> The step
       class(explicit_step_type), intent(in) :: self
-      !> Which component
+      !> Number of the component
       integer, intent(in) :: i
       !> Newton coefficients over `nodes`
       real(wp), contiguous, intent(out) :: a(0:)

@@ -310,7 +310,7 @@ contains
       real(wp), intent(out) :: length
       !> Time from `start` for which its polynomial is valid
       real(wp), intent(out) :: valid_for
-      !> Newton nodes of its polynomial, as many as its degree at least
+      !> Newton nodes of its polynomial, at least as many as its degree
       real(wp), intent(out) :: nodes(:)
       !> Newton coefficients of the kept components, shape (0:size(nodes), kept)
       real(wp), intent(out) :: coefficients(0:, :)

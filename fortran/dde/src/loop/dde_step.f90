@@ -84,7 +84,7 @@ module dde_step
          implicit none (type, external)
          !> The step
          class(step_type), intent(in) :: self
-         !> Which component
+         !> Number of the component
          integer, intent(in) :: i
          !> Newton coefficients over `nodes`
          real(wp), contiguous, intent(out) :: a(0:)

@@ -290,7 +290,7 @@ contains
    pure subroutine interpolant(self, i, a)
       !> The step
       class(implicit_step_type), intent(in) :: self
-      !> Which component
+      !> Number of the component
       integer, intent(in) :: i
       !> Newton coefficients over `nodes`
       real(wp), contiguous, intent(out) :: a(0:)

@@ -36,7 +36,7 @@ module dde_jacobian
       !> Moved arguments, shapes (n) and (delayed values)
       real(wp), allocatable, private :: moved_y(:), moved_z(:)
    contains
-      !> Evaluate it
+      !> Evaluate the Jacobian at a place
       procedure :: evaluate
       !> Norm of the Jacobian: the largest sum of a row
       procedure :: find_norm
@@ -179,7 +179,7 @@ contains
    pure real(wp) function size_of(tolerance, i, value) result(size)
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
-      !> Which component
+      !> Number of the component
       integer, intent(in) :: i
       !> Value of the component
       real(wp), intent(in) :: value

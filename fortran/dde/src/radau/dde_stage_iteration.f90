@@ -57,7 +57,7 @@ module dde_stage_iteration
       procedure :: start
       !> Delayed values that lie in this step
       procedure :: expect_delayed
-      !> Find them
+      !> Find the increments
       procedure :: iterate
       !> Slope of the solution at the end of the step
       procedure :: slope_at_end

@@ -53,7 +53,7 @@ contains
       class(slow_series), intent(inout) :: self
       !> How far the series of the state reaches, times the relaxation rate
       real(wp), intent(in) :: measure
-      !> The answer
+      !> Whether to search
       logical, intent(out) :: value
 
       value = .false.
@@ -124,7 +124,7 @@ contains
    pure real(wp) function largest_term(degree, n, coefficients, scale, s) result(largest)
       !> Degree
       integer, intent(in) :: degree
-      !> How many
+      !> Number of series
       integer, intent(in) :: n
       !> Coefficients
       real(wp), intent(in) :: coefficients(0:degree, n)

@@ -151,7 +151,7 @@ contains
    pure subroutine interpolant(self, i, a)
       !> The step
       class(taylor_step_type), intent(in) :: self
-      !> Which component
+      !> Number of the component
       integer, intent(in) :: i
       !> Newton coefficients over `nodes`, which are all 0
       real(wp), contiguous, intent(out) :: a(0:)
