@@ -264,7 +264,8 @@ def test_disturbances_of_the_manual(run_of):
     """The equation is linear: with the solution's state and delayed value, a disturbance is the
     solution. The other is worked out by hand."""
     blocks = blocks_of(MANUAL, "fortran")
-    module = with_procedures(blocks[1], blocks[3], blocks[5]).partition("\nprogram mine")[0]
+    source = blocks[1].replace("dde_problem_type", "problem_with_tangents")
+    module = with_procedures(source, blocks[3], blocks[5]).partition("\nprogram mine")[0]
     y, same, ramp = (
         [float(n) for n in line.split()] for line in run_of(module + CALL_OF_TANGENT_SERIES)
     )

@@ -6,14 +6,14 @@ module spring_block
    use block_series, only: series_of_block, slow_series_of_block
    use block_tangent_series, only: slow_tangent_series_of_block, tangent_series_of_block
    use block_state, only: index_of_ln_v, index_of_theta, index_of_u, largest_ln_v, least_ln_v
-   use dde, only: dde_problem_type
+   use dde, only: problem_with_tangents
    use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: index_of_ln_v, index_of_theta, index_of_u, spring_block_type
 
    !> The block with its parameters; all nondimensional.
-   type, extends(dde_problem_type) :: spring_block_type
+   type, extends(problem_with_tangents) :: spring_block_type
       !> Parameters of the block
       type(block_parameters_type) :: parameters
       !> State theta, u, ln v for t <= 0

@@ -1,7 +1,7 @@
 !> Taylor series of small disturbances: they are the derivatives of the series of solutions.
 module test_tangent_series
    use block_builder, only: build_block
-   use dde, only: dde_problem_type
+   use dde, only: problem_with_tangents
    use dde_errors, only: text
    use dde_kinds, only: wp
    use expectations, only: expect_close
@@ -90,7 +90,7 @@ contains
    !> by degree.
    subroutine compare(problem, unit, degree, state, vectors, iterations, what, error)
       !> The problem
-      class(dde_problem_type), intent(in) :: problem
+      class(problem_with_tangents), intent(in) :: problem
       !> Unit of time of the powers
       real(wp), intent(in) :: unit
       !> Degree of the series

@@ -11,11 +11,12 @@ module dde
    use dde_problem, only: dde_problem_type
    use dde_request, only: integration_options, methods
    use dde_sampler, only: sampler_type, table_sampler
+   use dde_tangents, only: problem_with_tangents
    use dde_time, only: elapsed, instant
    implicit none (type, external)
    private
    public :: error_type, wp
-   public :: dde_problem_type, find_jacobian
+   public :: dde_problem_type, find_jacobian, problem_with_tangents
    public :: elapsed, instant
    public :: continuation_type
    public :: event_table, event_watcher_type

@@ -33,7 +33,7 @@ contains
       error%message = message
    end subroutine raise
 
-   !> A real number, filled up with blanks: 15 digits, as many as any decimal keeps in double
+   !> A real number, filled up with blanks: 15 digits, which any decimal keeps in double
    !> precision, without the zeros at their end.
    pure function written_real(value) result(words)
       !> Number to write

@@ -14,16 +14,16 @@ contains
 
    !> Bytes of some real numbers; their count may be larger than the largest integer.
    pure real(wp) function bytes_of(reals) result(bytes)
-      !> How many
+      !> Number of real numbers
       real(wp), intent(in) :: reals
 
       bytes = bytes_of_real*reals
    end function bytes_of
 
-   !> Whether these bytes cannot be allocated now. Where the system promises more memory than it
+   !> Whether memory cannot be allocated now. Where the system promises more memory than it
    !> has, it may still end the program when the memory is filled.
    logical function lacks(bytes) result(value)
-      !> How many
+      !> Bytes needed
       real(wp), intent(in) :: bytes
       ! volatile, or the compiler leaves out memory that nobody reads
       integer(int8), allocatable, volatile :: memory(:)

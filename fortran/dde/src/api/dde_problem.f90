@@ -7,9 +7,7 @@
 !>
 !> Optional are - for implicit methods: `jacobian`, or `lower` and `upper` of a banded one, - for
 !> the method `taylor`: `series` and `past_series`, with `analytic` true, - for long Taylor steps
-!> where fast components are in balance: `relaxation_rate` and `slow_series`, - for Taylor steps of
-!> small disturbances of a solution: `tangent_series`, with `analytic_tangents` true, and
-!> `slow_tangent_series`. The solver itself does not call the last two.
+!> where fast components are in balance: `relaxation_rate` and `slow_series`.
 module dde_problem
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde_kinds, only: wp
@@ -26,15 +24,13 @@ module dde_problem
       integer :: n = 0
       !> Delay of each delayed value z(k), > 0
       real(wp), allocatable :: lag(:)
-      !> Which component of y each delayed value z(k) is, 1..n
+      !> Number of the component of y that each delayed value z(k) is, 1..n
       integer, allocatable :: component(:)
       !> Diagonals of a banded Jacobian by y below and above the main one. If they are given, it is
       !> found by differences.
       integer :: lower = -1, upper = -1
       !> Whether the extension gives `series` and `past_series`
       logical :: analytic = .false.
-      !> Whether the extension gives `tangent_series`, and `slow_tangent_series` with `slow_series`
-      logical :: analytic_tangents = .false.
    contains
       !> y at the initial time; may differ from the history there (a jump)
       procedure(initial_state), deferred :: initial
@@ -52,10 +48,6 @@ module dde_problem
       procedure :: relaxation_rate => no_relaxation
       !> Taylor series of the solution on which they are in balance
       procedure :: slow_series => no_slow_series
-      !> Taylor series of small disturbances of the solution
-      procedure :: tangent_series => no_tangent_series
-      !> Taylor series of small disturbances of the solution of `slow_series`
-      procedure :: slow_tangent_series => no_slow_tangent_series
    end type dde_problem_type
 
    abstract interface
@@ -192,54 +184,4 @@ contains
 
       y = ieee_value(1.0_wp, ieee_quiet_nan)
    end subroutine no_slow_series
-
-   !> Taylor series of disturbances of the solution: the derivative of `series`. Not a number unless
-   !> the extension gives it.
-   pure subroutine no_tangent_series(self, t, unit, degree, z, y, vectors, dz, dy)
-      !> The problem
-      class(dde_problem_type), intent(in) :: self
-      !> Time
-      real(wp), intent(in) :: t
-      !> Unit of time of the powers
-      real(wp), intent(in) :: unit
-      !> Degree of the series
-      integer, intent(in) :: degree
-      !> Coefficients of the delayed values
-      real(wp), intent(in) :: z(0:degree, size(self%lag))
-      !> Coefficients of the solution, all known
-      real(wp), intent(in) :: y(0:degree, self%n)
-      !> Number of disturbances
-      integer, intent(in) :: vectors
-      !> Coefficients of the disturbances of the delayed values
-      real(wp), intent(in) :: dz(0:degree, size(self%lag), vectors)
-      !> Coefficients of the disturbances; dy(0, :, :) is given
-      real(wp), intent(inout) :: dy(0:degree, self%n, vectors)
-
-      dy(1:, :, :) = ieee_value(1.0_wp, ieee_quiet_nan)
-   end subroutine no_tangent_series
-
-   !> A better series of disturbances of the slow solution: the derivative of one iteration of
-   !> `slow_series`. Not a number unless the extension gives it.
-   pure subroutine no_slow_tangent_series(self, t, unit, degree, z, before, y, vectors, dz, dy)
-      !> The problem
-      class(dde_problem_type), intent(in) :: self
-      !> Time
-      real(wp), intent(in) :: t
-      !> Unit of time of the powers
-      real(wp), intent(in) :: unit
-      !> Degree of the series
-      integer, intent(in) :: degree
-      !> Coefficients of the delayed values
-      real(wp), intent(in) :: z(0:degree, size(self%lag))
-      !> Coefficients of the solution before the iteration of `slow_series`, and after it
-      real(wp), intent(in) :: before(0:degree, self%n), y(0:degree, self%n)
-      !> Number of disturbances
-      integer, intent(in) :: vectors
-      !> Coefficients of the disturbances of the delayed values
-      real(wp), intent(in) :: dz(0:degree, size(self%lag), vectors)
-      !> Coefficients of the disturbances before the iteration, then after it
-      real(wp), intent(inout) :: dy(0:degree, self%n, vectors)
-
-      dy = ieee_value(1.0_wp, ieee_quiet_nan)
-   end subroutine no_slow_tangent_series
 end module dde_problem

@@ -70,7 +70,7 @@ contains
    pure real(wp) function of_component(self, i, value) result(tolerance)
       !> The tolerance
       class(tolerance_type), intent(in) :: self
-      !> Which component
+      !> Number of the component
       integer, intent(in) :: i
       !> Value of the component
       real(wp), intent(in) :: value
@@ -81,7 +81,7 @@ contains
    !> The largest |x|/scale. It is huge if an element is above `hopeless` scales and not a number if
    !> one is not finite.
    pure function scaled_norm(n, x, scale) result(norm)
-      !> How many
+      !> Number of elements
       integer, intent(in) :: n
       !> Elements
       real(wp), intent(in) :: x(n)

@@ -5,9 +5,8 @@
 module dde_explicit_stages
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_dop853_tableau
-   use dde_problem, only: dde_problem_type
+   use dde_step_context, only: step_context
    use dde_tolerance, only: scaled_norm
-   use dde_work, only: work_type
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -29,72 +28,65 @@ module dde_explicit_stages
 contains
 
    !> Stages 2 to 12 and the state at the end of the step.
-   pure subroutine take_stages(problem, t, h, t_end, blocks, y, z, k, stage, last_stage, y_new, &
-                               work, finite)
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> Start of the step
-      real(wp), intent(in) :: t
+   pure subroutine take_stages(context, h, blocks, y, z, k, stage, last_stage, y_new, finite)
+      !> The context of the step
+      type(step_context), intent(inout) :: context
       !> Length of the step
       real(wp), intent(in) :: h
-      !> End of the step
-      real(wp), intent(in) :: t_end
       !> Number of blocks of lanes
       integer, intent(in) :: blocks
       !> State at the start
       real(wp), intent(in) :: y(lanes, blocks)
       !> Delayed values at `places`
-      real(wp), intent(in) :: z(size(problem%lag), size(places))
+      real(wp), intent(in) :: z(size(context%problem%lag), size(places))
       !> Slopes, the first known
       real(wp), intent(inout) :: k(lanes, blocks, slope_count)
       !> Arguments of the current and of the last stage
       real(wp), intent(inout) :: stage(lanes, blocks), last_stage(lanes, blocks)
       !> State at the end
       real(wp), intent(inout) :: y_new(lanes, blocks)
-      !> Work so far
-      type(work_type), intent(inout) :: work
       !> Whether all slopes are finite
       logical, intent(inout) :: finite
+      real(wp) :: t, t_end
 
+      t = context%cursor%inside(context%cursor%t)
+      t_end = context%cursor%inside(context%cursor%t + h)
       stage = y
-      call add(problem, t + c2*h, stage, h*a21, k(:, :, 1), z(:, 1), k(:, :, 2), work, finite)
+      call add(context, t + c2*h, stage, h*a21, k(:, :, 1), z(:, 1), k(:, :, 2), finite)
       stage = y + h*(a31*k(:, :, 1))
-      call add(problem, t + c3*h, stage, h*a32, k(:, :, 2), z(:, 2), k(:, :, 3), work, finite)
+      call add(context, t + c3*h, stage, h*a32, k(:, :, 2), z(:, 2), k(:, :, 3), finite)
       stage = y + h*(a41*k(:, :, 1))
-      call add(problem, t + c4*h, stage, h*a43, k(:, :, 3), z(:, 3), k(:, :, 4), work, finite)
+      call add(context, t + c4*h, stage, h*a43, k(:, :, 3), z(:, 3), k(:, :, 4), finite)
       stage = y + h*(a51*k(:, :, 1) + a53*k(:, :, 3))
-      call add(problem, t + c5*h, stage, h*a54, k(:, :, 4), z(:, 5), k(:, :, 5), work, finite)
+      call add(context, t + c5*h, stage, h*a54, k(:, :, 4), z(:, 5), k(:, :, 5), finite)
       stage = y + h*(a61*k(:, :, 1) + a64*k(:, :, 4))
-      call add(problem, t + c6*h, stage, h*a65, k(:, :, 5), z(:, 7), k(:, :, 6), work, finite)
+      call add(context, t + c6*h, stage, h*a65, k(:, :, 5), z(:, 7), k(:, :, 6), finite)
       stage = y + h*(a71*k(:, :, 1) + a74*k(:, :, 4) + a75*k(:, :, 5))
-      call add(problem, t + c7*h, stage, h*a76, k(:, :, 6), z(:, 4), k(:, :, 7), work, finite)
+      call add(context, t + c7*h, stage, h*a76, k(:, :, 6), z(:, 4), k(:, :, 7), finite)
       stage = y + h*(a81*k(:, :, 1) + a84*k(:, :, 4) + a85*k(:, :, 5) + a86*k(:, :, 6))
-      call add(problem, t + c8*h, stage, h*a87, k(:, :, 7), z(:, 6), k(:, :, 8), work, finite)
+      call add(context, t + c8*h, stage, h*a87, k(:, :, 7), z(:, 6), k(:, :, 8), finite)
       stage = y + h*(a91*k(:, :, 1) + a94*k(:, :, 4) + a95*k(:, :, 5) + a96*k(:, :, 6) &
                      + a97*k(:, :, 7))
-      call add(problem, t + c9*h, stage, h*a98, k(:, :, 8), z(:, 9), k(:, :, 9), work, finite)
+      call add(context, t + c9*h, stage, h*a98, k(:, :, 8), z(:, 9), k(:, :, 9), finite)
       stage = y + h*(a10_1*k(:, :, 1) + a10_4*k(:, :, 4) + a10_5*k(:, :, 5) + a10_6*k(:, :, 6) &
                      + a10_7*k(:, :, 7) + a10_8*k(:, :, 8))
-      call add(problem, t + c10*h, stage, h*a10_9, k(:, :, 9), z(:, 8), k(:, :, 10), work, finite)
+      call add(context, t + c10*h, stage, h*a10_9, k(:, :, 9), z(:, 8), k(:, :, 10), finite)
       stage = y + h*(a11_1*k(:, :, 1) + a11_4*k(:, :, 4) + a11_5*k(:, :, 5) + a11_6*k(:, :, 6) &
                      + a11_7*k(:, :, 7) + a11_8*k(:, :, 8) + a11_9*k(:, :, 9))
-      call add(problem, t + c11*h, stage, h*a11_10, k(:, :, 10), z(:, 10), k(:, :, 11), &
-               work, finite)
+      call add(context, t + c11*h, stage, h*a11_10, k(:, :, 10), z(:, 10), k(:, :, 11), finite)
       stage = y + h*(a12_1*k(:, :, 1) + a12_4*k(:, :, 4) + a12_5*k(:, :, 5) + a12_6*k(:, :, 6) &
                      + a12_7*k(:, :, 7) + a12_8*k(:, :, 8) + a12_9*k(:, :, 9) &
                      + a12_10*k(:, :, 10))
-      call add(problem, t_end, stage, h*a12_11, k(:, :, 11), z(:, 11), k(:, :, 12), work, finite)
+      call add(context, t_end, stage, h*a12_11, k(:, :, 11), z(:, 11), k(:, :, 12), finite)
       last_stage = stage
       y_new = y + h*(b1*k(:, :, 1) + b6*k(:, :, 6) + b7*k(:, :, 7) + b8*k(:, :, 8) &
                      + b9*k(:, :, 9) + b10*k(:, :, 10) + b11*k(:, :, 11) + b12*k(:, :, 12))
    end subroutine take_stages
 
    !> Slopes 14 to 16, for the dense output of an accepted step.
-   pure subroutine dense_stages(problem, t, h, blocks, y, z, k, stage, work, finite)
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> Start of the step
-      real(wp), intent(in) :: t
+   pure subroutine dense_stages(context, h, blocks, y, z, k, stage, finite)
+      !> The context of the step
+      type(step_context), intent(inout) :: context
       !> Length of the step
       real(wp), intent(in) :: h
       !> Number of blocks of lanes
@@ -102,74 +94,69 @@ contains
       !> State at the start
       real(wp), intent(in) :: y(lanes, blocks)
       !> Delayed values at `dense_places`
-      real(wp), intent(in) :: z(size(problem%lag), size(dense_places))
+      real(wp), intent(in) :: z(size(context%problem%lag), size(dense_places))
       !> Slopes, the first 13 known
       real(wp), intent(inout) :: k(lanes, blocks, slope_count)
       !> Argument of the current stage
       real(wp), intent(inout) :: stage(lanes, blocks)
-      !> Work so far
-      type(work_type), intent(inout) :: work
       !> Whether all slopes are finite
       logical, intent(inout) :: finite
+      real(wp) :: t
 
+      t = context%cursor%t
       stage = y + h*(a14_1*k(:, :, 1) + a14_7*k(:, :, 7) + a14_8*k(:, :, 8) + a14_9*k(:, :, 9) &
                      + a14_10*k(:, :, 10) + a14_11*k(:, :, 11) + a14_12*k(:, :, 12))
-      call add(problem, t + c14*h, stage, h*a14_13, k(:, :, 13), z(:, 1), k(:, :, 14), work, finite)
+      call add(context, t + c14*h, stage, h*a14_13, k(:, :, 13), z(:, 1), k(:, :, 14), finite)
       stage = y + h*(a15_1*k(:, :, 1) + a15_6*k(:, :, 6) + a15_7*k(:, :, 7) + a15_8*k(:, :, 8) &
                      + a15_11*k(:, :, 11) + a15_12*k(:, :, 12) + a15_13*k(:, :, 13))
-      call add(problem, t + c15*h, stage, h*a15_14, k(:, :, 14), z(:, 2), k(:, :, 15), work, finite)
+      call add(context, t + c15*h, stage, h*a15_14, k(:, :, 14), z(:, 2), k(:, :, 15), finite)
       stage = y + h*(a16_1*k(:, :, 1) + a16_6*k(:, :, 6) + a16_7*k(:, :, 7) + a16_8*k(:, :, 8) &
                      + a16_9*k(:, :, 9) + a16_13*k(:, :, 13) + a16_14*k(:, :, 14))
-      call add(problem, t + c16*h, stage, h*a16_15, k(:, :, 15), z(:, 3), k(:, :, 16), work, finite)
+      call add(context, t + c16*h, stage, h*a16_15, k(:, :, 15), z(:, 3), k(:, :, 16), finite)
    end subroutine dense_stages
 
    !> Add `weight` times the newest slope to a stage and evaluate it, unless an earlier slope was
    !> not finite. The addition is scalar: the evaluation has just stored the slope number by number,
    !> and a vector load would wait until all of them are in the cache.
-   pure subroutine add(problem, t, stage, weight, newest, z, slope, work, finite)
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
+   pure subroutine add(context, t, stage, weight, newest, z, slope, finite)
+      !> The context of the step
+      type(step_context), intent(inout) :: context
       !> Time of the stage
       real(wp), intent(in) :: t
       !> State of the stage, completed here
-      real(wp), intent(inout) :: stage(problem%n)
+      real(wp), intent(inout) :: stage(context%problem%n)
       !> Weight of the newest slope
       real(wp), intent(in) :: weight
       !> The newest slope
-      real(wp), intent(in) :: newest(problem%n)
+      real(wp), intent(in) :: newest(context%problem%n)
       !> Delayed values
-      real(wp), intent(in) :: z(size(problem%lag))
+      real(wp), intent(in) :: z(size(context%problem%lag))
       !> Slope of the stage
-      real(wp), intent(inout) :: slope(problem%n)
-      !> Work so far
-      type(work_type), intent(inout) :: work
+      real(wp), intent(inout) :: slope(context%problem%n)
       !> Whether all slopes so far are finite
       logical, intent(inout) :: finite
 
       stage = stage + weight*newest
-      call evaluate(problem, t, stage, z, slope, work, finite)
+      call evaluate(context, t, stage, z, slope, finite)
    end subroutine add
 
    !> Slope at time `t` in state `y`, unless an earlier slope of this step was not finite.
-   pure subroutine evaluate(problem, t, y, z, slope, work, finite)
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
+   pure subroutine evaluate(context, t, y, z, slope, finite)
+      !> The context of the step
+      type(step_context), intent(inout) :: context
       !> Time
       real(wp), intent(in) :: t
       !> State
-      real(wp), intent(in) :: y(problem%n)
+      real(wp), intent(in) :: y(context%problem%n)
       !> Delayed values
-      real(wp), intent(in) :: z(size(problem%lag))
+      real(wp), intent(in) :: z(size(context%problem%lag))
       !> Slope
-      real(wp), intent(inout) :: slope(problem%n)
-      !> Work so far
-      type(work_type), intent(inout) :: work
+      real(wp), intent(inout) :: slope(context%problem%n)
       !> Whether all slopes so far are finite
       logical, intent(inout) :: finite
 
       if (.not. finite) return
-      call problem%rhs(t, y, z, slope)
-      work%evaluations = work%evaluations + 1
+      call context%evaluate(t, y, z, slope)
       finite = all(ieee_is_finite(slope))
    end subroutine evaluate
 

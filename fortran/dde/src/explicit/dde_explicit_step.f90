@@ -4,13 +4,10 @@ module dde_explicit_step
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use dde_explicit_stages, only: dense_coefficients, dense_places, dense_stages, error_853, &
                                   evaluate, lanes, places, slope_count, take_stages
-   use dde_cursor, only: cursor_type
-   use dde_history, only: history_type
    use dde_method_constants, only: method_constants
    use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
-   use dde_tolerance, only: tolerance_type
-   use dde_work, only: work_type
+   use dde_step_context, only: step_context
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -69,45 +66,37 @@ contains
 
    !> Attempt a step. `error` is the 853 estimate in units of the tolerance, or not finite if an
    !> evaluation was not.
-   pure subroutine attempt(self, problem, past, cursor, tolerance, work, error)
+   pure subroutine attempt(self, context, error)
       !> The step
       class(explicit_step_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> The past
-      type(history_type), intent(in) :: past
-      !> The cursor, on this step
-      type(cursor_type), intent(inout) :: cursor
-      !> Tolerance of each component
-      type(tolerance_type), intent(in) :: tolerance
-      !> Work so far
-      type(work_type), intent(inout) :: work
+      !> The context of the step
+      type(step_context), intent(inout) :: context
       !> Estimated error in units of the tolerance
       real(wp), intent(out) :: error
 
-      self%t = cursor%t
-      self%h = cursor%h
-      call copy(problem%n, self%y, self%start)
-      call copy(problem%n, self%slope, self%k)
-      call cursor%values(problem, past, self%h*places, self%delayed)
+      self%t = context%cursor%t
+      self%h = context%cursor%h
+      call copy(size(self%y), self%y, self%start)
+      call copy(size(self%y), self%slope, self%k)
+      call context%delayed_values(self%h*places, self%delayed)
       self%finite = all(ieee_is_finite(self%slope))
       if (self%finite) then
-         call take_stages(problem, cursor%inside(self%t), self%h, &
-                          cursor%inside(self%t + self%h), size(self%k, 2), self%start, &
-                          self%delayed, self%k, self%stage, self%last_stage, self%finish, work, &
-                          self%finite)
+         call take_stages(context, self%h, size(self%k, 2), self%start, self%delayed, self%k, &
+                          self%stage, self%last_stage, self%finish, self%finite)
       end if
-      call copy(problem%n, self%finish, self%y_new)
+      call copy(size(self%y), self%finish, self%y_new)
       error = ieee_value(1.0_wp, ieee_quiet_nan)
       if (.not. (self%finite .and. all(ieee_is_finite(self%y_new)))) return
-      self%scale = tolerance%absolute + tolerance%relative*max(abs(self%y), abs(self%y_new))
-      call error_853(problem%n, size(self%k, 2), self%k, self%h, self%scale, tolerance%level, &
-                     self%e3, self%e5, error)
+      associate (tolerance => context%tolerance)
+         self%scale = tolerance%absolute + tolerance%relative*max(abs(self%y), abs(self%y_new))
+         call error_853(size(self%y), size(self%k, 2), self%k, self%h, self%scale, &
+                        tolerance%level, self%e3, self%e5, error)
+      end associate
    end subroutine attempt
 
    !> Copy n numbers. Either side may be stored in lanes.
    pure subroutine copy(n, from, to)
-      !> How many
+      !> Number of elements
       integer, intent(in) :: n
       !> Source
       real(wp), intent(in) :: from(n)
@@ -118,20 +107,14 @@ contains
    end subroutine copy
 
    !> Slope 13, at the end of an accepted step.
-   pure subroutine complete(self, problem, past, cursor, work)
+   pure subroutine complete(self, context)
       !> The step
       class(explicit_step_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> The past
-      type(history_type), intent(in) :: past
-      !> The cursor, on this step
-      type(cursor_type), intent(inout) :: cursor
-      !> Work so far
-      type(work_type), intent(inout) :: work
+      !> The context of the step
+      type(step_context), intent(inout) :: context
 
-      call evaluate(problem, cursor%inside(self%t + self%h), self%y_new, &
-                    self%delayed(:, size(places)), self%k(:, :, 13), work, self%finite)
+      call evaluate(context, context%cursor%inside(self%t + self%h), self%y_new, &
+                    self%delayed(:, size(places)), self%k(:, :, 13), self%finite)
    end subroutine complete
 
    !> Whether stability limits the step: its length times |k13 - k12| over the distance of their
@@ -165,28 +148,22 @@ contains
    end subroutine advance
 
    !> Slopes 14 to 16 of an accepted step.
-   pure subroutine extend(self, problem, past, cursor, work)
+   pure subroutine extend(self, context)
       !> The step
       class(explicit_step_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> The past
-      type(history_type), intent(in) :: past
-      !> The cursor, on this step
-      type(cursor_type), intent(inout) :: cursor
-      !> Work so far
-      type(work_type), intent(inout) :: work
+      !> The context of the step
+      type(step_context), intent(inout) :: context
 
-      call cursor%values(problem, past, self%h*dense_places, self%dense_delayed)
-      call dense_stages(problem, self%t, self%h, size(self%k, 2), self%start, self%dense_delayed, &
-                        self%k, self%stage, work, self%finite)
+      call context%delayed_values(self%h*dense_places, self%dense_delayed)
+      call dense_stages(context, self%h, size(self%k, 2), self%start, self%dense_delayed, self%k, &
+                        self%stage, self%finite)
    end subroutine extend
 
    !> Dense output of component `i` over an accepted and extended step, before `advance`.
    pure subroutine interpolant(self, i, a)
       !> The step
       class(explicit_step_type), intent(in) :: self
-      !> Which component
+      !> Number of the component
       integer, intent(in) :: i
       !> Newton coefficients over `nodes`
       real(wp), contiguous, intent(out) :: a(0:)

@@ -2,7 +2,6 @@
 !> polynomial to polynomial of the past.
 module dde_cursor
    use dde_history, only: history_type
-   use dde_interpolant, only: newton_values
    use dde_problem, only: dde_problem_type
    use dde_time, only: elapsed, instant, later
    use dde_kinds, only: int64, wp
@@ -28,8 +27,6 @@ module dde_cursor
       real(wp) :: earliest = -huge(1.0_wp), latest = huge(1.0_wp)
       !> Number of the past step that each delayed value reads
       integer(int64), allocatable :: step(:)
-      !> Slot of that step
-      integer, allocatable :: slot(:)
       !> Start of the current step less the delay, for each delayed value
       type(instant), allocatable :: delayed_start(:)
       !> Start of the current step less the delay, measured from the start of the past step
@@ -45,8 +42,8 @@ module dde_cursor
       procedure :: values
       !> A time in the problem's history
       procedure :: time_before
-      !> Let one delayed value read a given past step
-      procedure :: read_from
+      !> Let one delayed value read the past step at a place, or a given past step
+      procedure :: walk_to, read_from
    end type cursor_type
 
    interface cursor_type
@@ -63,7 +60,6 @@ contains
 
       associate (terms => size(problem%lag))
          allocate (cursor%step(terms), source=0_int64)
-         allocate (cursor%slot(terms), source=0)
          allocate (cursor%delayed_start(terms), cursor%offset(terms), cursor%before_origin(terms))
       end associate
    end function new_cursor
@@ -156,35 +152,46 @@ contains
       type(cursor_type), intent(inout) :: self
       !> The past
       type(history_type), intent(in) :: past
-      !> Which delayed value
+      !> Number of the delayed value
       integer, intent(in) :: k
       !> Times since the start of the step, ascending
       real(wp), contiguous, intent(in) :: ahead(:)
       !> The delayed value there
       real(wp), intent(inout) :: z(most_places)
-      real(wp) :: first_place, limit, margin
-      integer :: first, slot
+      real(wp) :: limit, margin
+      integer :: first
 
       margin = overlap*self%h
-      first_place = max(ahead(1), margin)
-      do while (self%offset(k) + first_place < 0.0_wp .and. self%step(k) > past%oldest)
-         call self%read_from(past, k, self%step(k) - 1)
-      end do
-      do while (self%offset(k) + first_place > past%length(self%slot(k)) &
-                .and. self%step(k) < past%newest)
-         call self%read_from(past, k, self%step(k) + 1)
-      end do
+      call self%walk_to(past, k, max(ahead(1), margin))
       first = 1
       do
-         slot = self%slot(k)
-         limit = merge(huge(1.0_wp), past%length(slot) + margin, self%step(k) == past%newest)
-         call newton_values(past%degree(slot), past%nodes(:, slot), &
-                            past%coefficients(:, past%row(k), slot), self%offset(k), &
-                            past%length(slot), limit, size(ahead), ahead, first, z)
+         limit = huge(1.0_wp)
+         if (self%step(k) < past%newest) limit = past%length_of(self%step(k)) + margin
+         call past%values(self%step(k), k, self%offset(k), limit, ahead, first, z)
          if (first > size(ahead)) exit
          call self%read_from(past, k, self%step(k) + 1)
       end do
    end subroutine look_up
+
+   !> Let delayed value k read the past step that holds a place of the current step.
+   pure subroutine walk_to(self, past, k, ahead)
+      !> The cursor
+      class(cursor_type), intent(inout) :: self
+      !> The past
+      type(history_type), intent(in) :: past
+      !> Number of the delayed value
+      integer, intent(in) :: k
+      !> Time since the start of the current step
+      real(wp), intent(in) :: ahead
+
+      do while (self%offset(k) + ahead < 0.0_wp .and. self%step(k) > past%oldest)
+         call self%read_from(past, k, self%step(k) - 1)
+      end do
+      do while (self%offset(k) + ahead > past%length_of(self%step(k)) &
+                .and. self%step(k) < past%newest)
+         call self%read_from(past, k, self%step(k) + 1)
+      end do
+   end subroutine walk_to
 
    !> Let delayed value k read past step number `step`.
    pure subroutine read_from(self, past, k, step)
@@ -192,13 +199,12 @@ contains
       class(cursor_type), intent(inout) :: self
       !> The past
       type(history_type), intent(in) :: past
-      !> Which delayed value
+      !> Number of the delayed value
       integer, intent(in) :: k
       !> Number of the step
       integer(int64), intent(in) :: step
 
       self%step(k) = step
-      self%slot(k) = past%slot_of(step)
-      self%offset(k) = elapsed(past%start(self%slot(k)), self%delayed_start(k))
+      self%offset(k) = elapsed(past%start_of(step), self%delayed_start(k))
    end subroutine read_from
 end module dde_cursor

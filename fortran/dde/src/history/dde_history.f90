@@ -1,8 +1,10 @@
-!> The past of one integration: a store of the polynomials of accepted steps, for the delayed
-!> components only. It is a ring of slots. It drops the oldest steps on request and doubles when it
-!> is full. Before the initial time the problem's own history holds.
+!> The past of one integration: the polynomials of accepted steps, for the delayed components only.
+!> It is a ring of slots. It drops the oldest steps on request and doubles when it is full. Other
+!> modules ask it for values: steps have numbers, times in a step are counted from its start. Before
+!> the initial time the problem's own history holds.
 module dde_history
-   use dde_interpolant, only: highest_degree, usual_degree
+   use dde_interpolant, only: highest_degree, newton_value, newton_values, taylor_coefficients, &
+                              usual_degree
    use dde_memory, only: bytes_of, lacks
    use dde_problem, only: dde_problem_type
    use dde_time, only: elapsed, instant
@@ -13,6 +15,8 @@ module dde_history
 
    !> Slots of a new ring. It is a power of two, as are its doubles.
    integer, parameter :: first_capacity = 64
+   !> Share of a step that rounding may hide.
+   real(wp), parameter :: hidden = 4.0_wp*epsilon(1.0_wp)
 
    !> Steps kept, number `oldest` to number `newest`.
    type :: history_type
@@ -27,36 +31,38 @@ module dde_history
       !> Numbers of the oldest and the newest step kept
       integer(int64) :: oldest = 0, newest = -1
       !> Start of each step, per slot
-      type(instant), allocatable :: start(:)
+      type(instant), allocatable, private :: start(:)
       !> Length of each step, per slot
-      real(wp), allocatable :: length(:)
+      real(wp), allocatable, private :: length(:)
       !> Time from the start of the step for which its polynomial is valid, >= its length, per slot
-      real(wp), allocatable :: valid_for(:)
+      real(wp), allocatable, private :: valid_for(:)
       !> Degree of the polynomial, per slot
-      integer, allocatable :: degree(:)
+      integer, allocatable, private :: degree(:)
       !> Whether all Newton nodes are 0, so that the polynomial is in powers, per slot
-      logical, allocatable :: powers(:)
+      logical, allocatable, private :: powers(:)
       !> Newton nodes, shape (highest degree, slot), unused ones last
-      real(wp), allocatable :: nodes(:, :)
+      real(wp), allocatable, private :: nodes(:, :)
       !> Newton coefficients, shape (0:highest degree, kept component, slot); those between the
       !> degree and the usual degree are 0
-      real(wp), allocatable :: coefficients(:, :, :)
+      real(wp), allocatable, private :: coefficients(:, :, :)
    contains
-      !> Slot of a step
-      procedure :: slot_of
-      !> Store the polynomial of an accepted step
-      procedure :: append
-      !> See that one more step finds memory
+      !> Start, length and validity of a step
+      procedure :: start_of, length_of, validity_of
+      !> One delayed value at one time, and at several
+      procedure :: value, values
+      !> Taylor series of one delayed value
+      procedure :: series
+      !> Store the polynomials of an accepted step, all at once or one by one
+      procedure :: append, open_step, fill
+      !> Double a full ring, if there is memory for it
       procedure :: make_room
-      !> Make a slot for it
-      procedure :: open_slot
       !> Read a stored step
       procedure :: recall
       !> Drop the steps that ended before a given time
       procedure :: forget
       !> Highest degree of the polynomials kept
       procedure :: degree_in_use
-      procedure, private :: allocate_slots, double_capacity, is_full
+      procedure, private :: double_capacity, is_full, slot_of
    end type history_type
 
    interface history_type
@@ -81,21 +87,12 @@ contains
       past%kept = pack([(i, i=1, problem%n)], row_of > 0)
       row_of(past%kept) = [(i, i=1, size(past%kept))]
       past%row = [(row_of(problem%component(k)), k=1, size(problem%lag))]
-      call past%allocate_slots(first_capacity)
+      allocate (past%start(first_capacity), past%length(first_capacity))
+      allocate (past%valid_for(first_capacity), past%degree(first_capacity))
+      allocate (past%powers(first_capacity))
+      allocate (past%nodes(highest_degree, first_capacity), source=0.0_wp)
+      allocate (past%coefficients(0:highest_degree, size(past%kept), first_capacity))
    end function new_history
-
-   !> Empty slots.
-   pure subroutine allocate_slots(self, slots)
-      !> The past
-      class(history_type), intent(inout) :: self
-      !> Number of slots, a power of two
-      integer, intent(in) :: slots
-
-      allocate (self%start(0:slots - 1), self%length(0:slots - 1))
-      allocate (self%valid_for(0:slots - 1), self%degree(0:slots - 1), self%powers(0:slots - 1))
-      allocate (self%nodes(highest_degree, 0:slots - 1), source=0.0_wp)
-      allocate (self%coefficients(0:highest_degree, size(self%kept), 0:slots - 1))
-   end subroutine allocate_slots
 
    !> Slot of step number `step`.
    pure integer function slot_of(self, step) result(slot)
@@ -104,10 +101,108 @@ contains
       !> Number of the step
       integer(int64), intent(in) :: step
 
-      slot = int(iand(step, size(self%start, kind=int64) - 1_int64))
+      slot = 1 + int(iand(step, size(self%start, kind=int64) - 1_int64))
    end function slot_of
 
-   !> Store the polynomial of the step from `start`, `length` long.
+   !> Start of a step.
+   pure type(instant) function start_of(self, step) result(start)
+      !> The past
+      class(history_type), intent(in) :: self
+      !> Number of the step
+      integer(int64), intent(in) :: step
+
+      start = self%start(self%slot_of(step))
+   end function start_of
+
+   !> Length of a step.
+   pure real(wp) function length_of(self, step) result(length)
+      !> The past
+      class(history_type), intent(in) :: self
+      !> Number of the step
+      integer(int64), intent(in) :: step
+
+      length = self%length(self%slot_of(step))
+   end function length_of
+
+   !> Time from the start of a step for which its polynomial is valid, >= its length.
+   pure real(wp) function validity_of(self, step) result(time)
+      !> The past
+      class(history_type), intent(in) :: self
+      !> Number of the step
+      integer(int64), intent(in) :: step
+
+      time = self%valid_for(self%slot_of(step))
+   end function validity_of
+
+   !> Delayed value number k by the polynomial of a step, at a time since the start of that step.
+   pure real(wp) function value(self, step, k, time) result(z)
+      !> The past
+      class(history_type), intent(in) :: self
+      !> Number of the step
+      integer(int64), intent(in) :: step
+      !> Number of the delayed value
+      integer, intent(in) :: k
+      !> Time since the start of the step
+      real(wp), intent(in) :: time
+      integer :: slot
+
+      slot = self%slot_of(step)
+      z = newton_value(self%degree(slot), self%nodes(:, slot), &
+                       self%coefficients(:, self%row(k), slot), time/self%length(slot))
+   end function value
+
+   !> Delayed value number k by the polynomial of a step, at ascending times up to a limit.
+   pure subroutine values(self, step, k, offset, limit, ahead, first, z)
+      !> The past
+      class(history_type), intent(in) :: self
+      !> Number of the step
+      integer(int64), intent(in) :: step
+      !> Number of the delayed value
+      integer, intent(in) :: k
+      !> Time from the start of the step to the origin of `ahead`
+      real(wp), intent(in) :: offset
+      !> Time since the start of the step up to which its polynomial is read
+      real(wp), intent(in) :: limit
+      !> Times, ascending
+      real(wp), contiguous, intent(in) :: ahead(:)
+      !> First time to read; on return the first that lies beyond the limit
+      integer, intent(inout) :: first
+      !> The delayed value at all times, shape (size(ahead))
+      real(wp), contiguous, intent(inout) :: z(:)
+      integer :: slot
+
+      slot = self%slot_of(step)
+      call newton_values(self%degree(slot), self%nodes(:, slot), &
+                         self%coefficients(:, self%row(k), slot), offset, self%length(slot), &
+                         limit, size(ahead), ahead, first, z)
+   end subroutine values
+
+   !> Delayed value number k as a series in powers of a unit of time, by the polynomial of a step.
+   pure subroutine series(self, step, k, time, unit, coefficients)
+      !> The past
+      class(history_type), intent(in) :: self
+      !> Number of the step
+      integer(int64), intent(in) :: step
+      !> Number of the delayed value
+      integer, intent(in) :: k
+      !> Where the series begins, as time since the start of the step
+      real(wp), intent(in) :: time
+      !> The unit of time
+      real(wp), intent(in) :: unit
+      !> Coefficients; higher ones than its size are left out
+      real(wp), contiguous, intent(out) :: coefficients(0:)
+      real(wp) :: place
+      integer :: slot
+
+      slot = self%slot_of(step)
+      place = time/self%length(slot)
+      if (abs(place) < hidden) place = 0.0_wp
+      call taylor_coefficients(self%degree(slot), self%nodes(:, slot), self%powers(slot), &
+                               self%coefficients(:, self%row(k), slot), place, &
+                               unit/self%length(slot), coefficients)
+   end subroutine series
+
+   !> Store the polynomials of the step from `start`, `length` long.
    pure subroutine append(self, start, length, nodes, coefficients, valid_for)
       !> The past
       class(history_type), intent(inout) :: self
@@ -115,16 +210,18 @@ contains
       type(instant), intent(in) :: start
       !> Length of the step
       real(wp), intent(in) :: length
-      !> Newton nodes of its polynomial
+      !> Newton nodes of its polynomials
       real(wp), contiguous, intent(in) :: nodes(:)
       !> Newton coefficients of the kept components, shape (0:degree, kept)
       real(wp), contiguous, intent(in) :: coefficients(0:, :)
-      !> Time from `start` for which it is valid; the length if that is longer
+      !> Time from `start` for which they are valid; the length if that is longer
       real(wp), intent(in) :: valid_for
-      integer :: slot
+      integer :: i
 
-      call self%open_slot(start, length, nodes, .not. any(abs(nodes) > 0.0_wp), valid_for, slot)
-      self%coefficients(:size(nodes), :, slot) = coefficients
+      call self%open_step(start, length, nodes, .not. any(abs(nodes) > 0.0_wp), valid_for)
+      do i = 1, size(coefficients, 2)
+         call self%fill(i, coefficients(:, i))
+      end do
    end subroutine append
 
    !> Bytes of a ring of slots.
@@ -161,22 +258,21 @@ contains
       full = self%newest - self%oldest + 1 == size(self%start)
    end function is_full
 
-   !> Make a slot for the step from `start`, `length` long. The caller fills in its coefficients.
-   pure subroutine open_slot(self, start, length, nodes, powers, valid_for, slot)
+   !> Store the step from `start`, `length` long. The caller fills in its coefficients.
+   pure subroutine open_step(self, start, length, nodes, powers, valid_for)
       !> The past
       class(history_type), intent(inout) :: self
       !> Start of the step
       type(instant), intent(in) :: start
       !> Length of the step
       real(wp), intent(in) :: length
-      !> Newton nodes of its polynomial
+      !> Newton nodes of its polynomials
       real(wp), contiguous, intent(in) :: nodes(:)
       !> Whether all of them are 0
       logical, intent(in) :: powers
-      !> Time from `start` for which it is valid; the length if that is longer
+      !> Time from `start` for which they are valid; the length if that is longer
       real(wp), intent(in) :: valid_for
-      !> The slot
-      integer, intent(out) :: slot
+      integer :: slot
 
       if (self%is_full()) call self%double_capacity()
       self%newest = self%newest + 1
@@ -188,7 +284,19 @@ contains
       self%powers(slot) = powers
       self%nodes(:size(nodes), slot) = nodes
       self%coefficients(size(nodes) + 1:usual_degree, :, slot) = 0.0_wp
-   end subroutine open_slot
+   end subroutine open_step
+
+   !> Fill in one polynomial of the newest step.
+   pure subroutine fill(self, i, coefficients)
+      !> The past
+      class(history_type), intent(inout) :: self
+      !> Number of the component among those kept
+      integer, intent(in) :: i
+      !> Newton coefficients, shape (0:degree)
+      real(wp), contiguous, intent(in) :: coefficients(0:)
+
+      self%coefficients(:ubound(coefficients, 1), i, self%slot_of(self%newest)) = coefficients
+   end subroutine fill
 
    !> Step number `step`, oldest..newest, as it was stored.
    pure subroutine recall(self, step, start, length, valid_for, nodes, coefficients)
@@ -202,7 +310,7 @@ contains
       real(wp), intent(out) :: length
       !> Time from `start` for which its polynomial is valid
       real(wp), intent(out) :: valid_for
-      !> Newton nodes of its polynomial, as many as its degree at least
+      !> Newton nodes of its polynomial, at least as many as its degree
       real(wp), intent(out) :: nodes(:)
       !> Newton coefficients of the kept components, shape (0:size(nodes), kept)
       real(wp), intent(out) :: coefficients(0:, :)
@@ -243,33 +351,27 @@ contains
       end do
    end function degree_in_use
 
-   !> Twice the slots, the same steps.
+   !> Twice the slots of a full ring. Each step is in its old slot and, a copy, in the same slot of
+   !> the second half: its number gives one of these two.
    pure subroutine double_capacity(self)
       !> The past
       class(history_type), intent(inout) :: self
-      type(history_type) :: wider
-      integer :: from, to
-      integer(int64) :: step
+      real(wp), allocatable :: coefficients(:, :, :), nodes(:, :)
+      integer :: slots
 
-      wider%kept = self%kept
-      call wider%allocate_slots(2*size(self%start))
-      do step = self%oldest, self%newest
-         from = self%slot_of(step)
-         to = wider%slot_of(step)
-         wider%start(to) = self%start(from)
-         wider%length(to) = self%length(from)
-         wider%valid_for(to) = self%valid_for(from)
-         wider%degree(to) = self%degree(from)
-         wider%powers(to) = self%powers(from)
-         wider%nodes(:, to) = self%nodes(:, from)
-         wider%coefficients(:, :, to) = self%coefficients(:, :, from)
-      end do
-      call move_alloc(wider%start, self%start)
-      call move_alloc(wider%length, self%length)
-      call move_alloc(wider%valid_for, self%valid_for)
-      call move_alloc(wider%degree, self%degree)
-      call move_alloc(wider%powers, self%powers)
-      call move_alloc(wider%nodes, self%nodes)
-      call move_alloc(wider%coefficients, self%coefficients)
+      slots = size(self%start)
+      self%start = [self%start, self%start]
+      self%length = [self%length, self%length]
+      self%valid_for = [self%valid_for, self%valid_for]
+      self%degree = [self%degree, self%degree]
+      self%powers = [self%powers, self%powers]
+      allocate (nodes(highest_degree, 2*slots))
+      nodes(:, :slots) = self%nodes
+      nodes(:, slots + 1:) = self%nodes
+      call move_alloc(nodes, self%nodes)
+      allocate (coefficients(0:highest_degree, size(self%kept), 2*slots))
+      coefficients(:, :, :slots) = self%coefficients
+      coefficients(:, :, slots + 1:) = self%coefficients
+      call move_alloc(coefficients, self%coefficients)
    end subroutine double_capacity
 end module dde_history

@@ -1,7 +1,6 @@
 !> The cause of a run that could not continue.
 module dde_diagnosis
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use dde_problem, only: dde_problem_type
    use dde_run, only: run_type
    use dde_errors, only: text
    use dde_kinds, only: wp
@@ -12,11 +11,9 @@ module dde_diagnosis
 contains
 
    !> Which value is not finite in a step of length `h` from here.
-   function not_finite(run, problem, h) result(words)
+   function not_finite(run, h) result(words)
       !> The run at the start of the step
       class(run_type), intent(inout) :: run
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
       !> Length of the step
       real(wp), intent(in) :: h
       character(len=:), allocatable :: words
@@ -24,28 +21,30 @@ contains
       integer :: i, place
       real(wp) :: t
 
-      allocate (z(size(problem%lag), 2), slope(problem%n))
       y = run%step%y
-      call run%cursor%set(problem, run%past, run%now, h)
-      call run%cursor%values(problem, run%past, [0.0_wp, h], z)
-      do place = 1, 2
-         t = run%now%hi + (place - 1)*h
-         do i = 1, size(problem%lag)
-            if (ieee_is_finite(z(i, place))) cycle
-            words = "component "//text(problem%component(i))//" is "//text(z(i, place)) &
-                    //" at t = "//text(t - problem%lag(i))
-            if (run%cursor%before_origin(i)) words = "the history of "//words
-            return
+      call run%context%go_to(run%now, h)
+      associate (problem => run%context%problem, cursor => run%context%cursor)
+         allocate (z(size(problem%lag), 2), slope(problem%n))
+         call run%context%delayed_values([0.0_wp, h], z)
+         do place = 1, 2
+            t = run%now%hi + (place - 1)*h
+            do i = 1, size(problem%lag)
+               if (ieee_is_finite(z(i, place))) cycle
+               words = "component "//text(problem%component(i))//" is "//text(z(i, place)) &
+                       //" at t = "//text(t - problem%lag(i))
+               if (cursor%before_origin(i)) words = "the history of "//words
+               return
+            end do
+            call problem%rhs(cursor%inside(t), y, z(:, place), slope)
+            do i = 1, problem%n
+               if (ieee_is_finite(slope(i))) cycle
+               words = "f("//text(i)//") is "//text(slope(i))//" at t = "//text(t)//", where y(" &
+                       //text(i)//") = "//text(y(i))
+               return
+            end do
+            y = y + h*slope
          end do
-         call problem%rhs(run%cursor%inside(t), y, z(:, place), slope)
-         do i = 1, problem%n
-            if (ieee_is_finite(slope(i))) cycle
-            words = "f("//text(i)//") is "//text(slope(i))//" at t = "//text(t)//", where y(" &
-                    //text(i)//") = "//text(y(i))
-            return
-         end do
-         y = y + h*slope
-      end do
+      end associate
       words = "f at a stage of the step"
    end function not_finite
 end module dde_diagnosis

@@ -1,12 +1,9 @@
 !> Length of the first step.
 module dde_first_step
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use dde_cursor, only: cursor_type
-   use dde_history, only: history_type
-   use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
-   use dde_tolerance, only: hopeless, scaled_norm, tolerance_type
-   use dde_work, only: work_type
+   use dde_step_context, only: step_context
+   use dde_tolerance, only: hopeless, scaled_norm
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -16,28 +13,20 @@ contains
 
    !> First step length: about a hundredth of |y|/|y'|, refined by the second derivative (Hairer,
    !> Norsett and Wanner 1993, sec. II.4).
-   pure subroutine choose_first_step(problem, past, cursor, step, longest, tolerance, work, h)
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> The past
-      type(history_type), intent(in) :: past
-      !> The cursor, on the first step
-      type(cursor_type), intent(inout) :: cursor
+   pure subroutine choose_first_step(context, step, longest, h)
+      !> The context of the first step
+      type(step_context), intent(inout) :: context
       !> The step, its first slope known
       class(step_type), intent(inout) :: step
       !> Time to the end of the run, or the longest step allowed, the shorter
       real(wp), intent(in) :: longest
-      !> Tolerance of each component
-      type(tolerance_type), intent(in) :: tolerance
-      !> Work so far
-      type(work_type), intent(inout) :: work
       !> Length of the first step
       real(wp), intent(out) :: h
       real(wp), allocatable :: scale(:), slope_ahead(:)
       real(wp) :: bend, slope
 
-      allocate (scale(problem%n), slope_ahead(problem%n))
-      call tolerance%scale(step%y, scale)
+      allocate (scale(size(step%y)), slope_ahead(size(step%y)))
+      call context%tolerance%scale(step%y, scale)
       h = 1.0e-6_wp*longest
       slope = length_of(step%slope, scale)
       if (slope > hopeless) return
@@ -45,11 +34,9 @@ contains
       if (slope > 1.0e-5_wp .and. length_of(step%y, scale) > 1.0e-5_wp) then
          h = 0.01_wp*length_of(step%y, scale)/slope
       end if
-      h = min(h, longest)
-      if (size(problem%lag) > 0) h = min(h, minval(problem%lag))
-      call cursor%values(problem, past, [h], step%z)
-      call problem%rhs(cursor%t + h, step%y + h*step%slope, step%z, slope_ahead)
-      work%evaluations = work%evaluations + 1
+      h = minval([h, longest, context%problem%lag])
+      call context%delayed_values([h], step%z)
+      call context%evaluate(context%cursor%t + h, step%y + h*step%slope, step%z, slope_ahead)
       bend = length_of(slope_ahead - step%slope, scale)
       if (bend > hopeless) return
       bend = bend/h

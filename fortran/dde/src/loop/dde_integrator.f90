@@ -29,7 +29,7 @@ contains
    subroutine integrate(problem, t_start, t_end, options, outcome, error, sampler, watcher, &
                         continuation)
       !> The problem
-      class(dde_problem_type), intent(in) :: problem
+      class(dde_problem_type), intent(in), target :: problem
       !> Initial time
       real(wp), intent(in) :: t_start
       !> Final time
@@ -71,25 +71,25 @@ contains
       end if
       longest = longest_step(problem, run%step, longest_of_all)
       automatic = options%method == "auto"
-      if (automatic) switch%price = price_of_trial(problem, run%tolerance)
+      if (automatic) switch%price = price_of_trial(problem, run%context%tolerance)
       shortest_delay = limiting_delay(problem)
       error_estimate = 0.0_wp
 
       outcome%reason = reached_end
       last = .not. run%points%time_to_end(run%now) > 0.0_wp
       do while (.not. last)
-         call run%past%make_room(lacking)
+         call run%context%past%make_room(lacking)
          if (lacking > 0.0_wp) then
             outcome%reason = out_of_memory
             exit
          end if
-         call run%plan(problem, longest, h, goal, landing)
+         call run%plan(longest, h, goal, landing)
          outcome%reason = limit_met(outcome, error_estimate, options, h, &
                                     max(abs(t_start), abs(t_end)))
          if (outcome%reason /= reached_end) exit
-         if (run%fresh) call run%restart(problem)
-         call run%step%attempt(problem, run%past, run%cursor, run%tolerance, run%work, &
-                               error_estimate)
+         if (run%fresh) call run%step%restart(run%context)
+         run%fresh = .false.
+         call run%step%attempt(run%context, error_estimate)
          if (.not. accepted(error_estimate)) then
             outcome%rejected = outcome%rejected + 1
             run%h = h
@@ -99,11 +99,11 @@ contains
 
          outcome%accepted = outcome%accepted + 1
          if (run%step%constants%implicit) outcome%implicit_steps = outcome%implicit_steps + 1
-         call run%step%complete(problem, run%past, run%cursor, run%work)
+         call run%step%complete(run%context)
          step_end = later(run%now, h)
          if (landing) step_end = run%points%at(goal)
          if (.not. run%now%hi + h > run%now%hi) outcome%unresolved = outcome%unresolved + 1
-         call deliver(run, problem, step_end, ended, sampler, watcher)
+         call deliver(run, step_end, ended, sampler, watcher)
          if (ended) then
             call run%arrive(goal, .false., step_end)
             run%step%y = run%search%event%y
@@ -116,7 +116,8 @@ contains
             ! a run that may be continued has no end yet
             left = huge(1.0_wp)
             if (.not. present(continuation)) left = run%points%time_to_end(step_end)
-            call switch%judge(problem, run%step, run%work%total(), shortest_delay, h, left, other)
+            call switch%judge(problem, run%step, run%context%work%total(), shortest_delay, h, &
+                              left, other)
          end if
          call run%step%advance()
          last = landing .and. run%points%is_end(goal)
@@ -125,7 +126,7 @@ contains
          run%h = merge(max(run%h, h), h, landing)
          if (landing .and. .not. last) outcome%breaking_points = outcome%breaking_points + 1
          if (other) then
-            call run%change_to_other(problem, lacking)
+            call run%change_to_other(lacking)
             if (lacking > 0.0_wp) then
                outcome%reason = out_of_memory
                exit
@@ -138,15 +139,15 @@ contains
       outcome%t = run%now%hi
       outcome%y = run%step%y
       if (present(continuation) .and. outcome%reason /= out_of_memory) then
-         call run%keep(problem, options, continuation)
+         call run%keep(options, continuation)
       end if
-      outcome%evaluations = run%work%evaluations
-      outcome%work = run%work%total()
-      outcome%factorisations = run%work%factorisations
+      outcome%evaluations = run%context%work%evaluations
+      outcome%work = run%context%work%total()
+      outcome%factorisations = run%context%work%factorisations
       if (all(outcome%reason /= [reached_end, event_met])) then
          culprit = ""
          if (outcome%reason == value_not_finite) then
-            culprit = not_finite(run, problem, h)
+            culprit = not_finite(run, h)
          end if
          call explain(outcome, t_end, h, options, culprit, lacking, error)
       end if

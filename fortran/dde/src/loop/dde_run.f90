@@ -14,8 +14,8 @@ module dde_run
    use dde_problem, only: dde_problem_type
    use dde_request, only: causes, implicit_methods, integration_options, tolerance_of
    use dde_step, only: step_type
+   use dde_step_context, only: step_context
    use dde_time, only: elapsed, instant, instant_at
-   use dde_tolerance, only: tolerance_type
    use dde_work, only: work_type
    use dde_kinds, only: wp
    implicit none (type, external)
@@ -30,11 +30,8 @@ module dde_run
    type :: run_type
       !> The step, of the method in use
       class(step_type), allocatable :: step
-      !> The past, and the cursor of the step in it
-      type(history_type) :: past
-      type(cursor_type) :: cursor
-      !> Work so far
-      type(work_type) :: work
+      !> The context of its steps: problem, past, tolerance and work
+      type(step_context) :: context
       !> Step control
       type(controller_type) :: control
       !> The search for events, begun if there is a watcher
@@ -47,8 +44,6 @@ module dde_run
       logical :: fresh = .false.
       !> Breaking points and the end
       type(breaking_points) :: points
-      !> Tolerance of each component
-      type(tolerance_type) :: tolerance
       !> Time that the past reaches back
       real(wp) :: reach = 0.0_wp
       !> Whether the right-hand side may jump somewhere, and now
@@ -60,8 +55,6 @@ module dde_run
       procedure :: begin
       !> Plan the next step
       procedure :: plan
-      !> Evaluate the slope at its start
-      procedure :: restart
       !> Continue by the other method of `auto`
       procedure :: change_to_other
       !> Keep what a later run needs to continue
@@ -77,8 +70,8 @@ contains
    subroutine begin(self, problem, t_start, t_end, options, lacking, continuation)
       !> The run
       class(run_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
+      !> The problem, which lives as long as the run
+      class(dde_problem_type), intent(in), target :: problem
       !> Initial time
       real(wp), intent(in) :: t_start
       !> Final time
@@ -99,32 +92,30 @@ contains
       ! the state and its tolerances, and a ring of up to twice as many slots as steps
       lacking = bytes_of(16.0_wp*problem%n) + memory_of_past(2*steps, size(problem%lag))
       if (lacks(lacking)) return
-      self%tolerance = tolerance_of(problem, options)
+      self%context%problem => problem
+      self%context%tolerance = tolerance_of(problem, options)
+      self%context%cursor = cursor_type(problem)
+      self%context%work = work_type(problem%n)
       self%reach = maxval([problem%lag, options%past_kept])
-      self%cursor = cursor_type(problem)
-      self%work = work_type(problem%n)
       if (continued) then
-         call self%continue_run(problem, instant_at(t_end), options, lacking, continuation)
+         call self%continue_run(instant_at(t_end), options, lacking, continuation)
       else
-         call self%start_anew(problem, instant_at(t_start), instant_at(t_end), options, lacking)
+         call self%start_anew(instant_at(t_start), instant_at(t_end), options, lacking)
       end if
       if (lacking > 0.0_wp) return
       if (options%first_step > 0.0_wp) then
          self%h = options%first_step
       else if (.not. self%h > 0.0_wp .and. t_end > t_start) then
-         call choose_first_step(problem, self%past, self%cursor, self%step, &
-                                min(t_end - t_start, options%longest_step), self%tolerance, &
-                                self%work, self%h)
+         call choose_first_step(self%context, self%step, &
+                                min(t_end - t_start, options%longest_step), self%h)
       end if
    end subroutine begin
 
    !> The first run. Its initial time is a kink, or a jump if a delayed component differs from its
    !> history there.
-   subroutine start_anew(self, problem, start, finish, options, lacking)
+   subroutine start_anew(self, start, finish, options, lacking)
       !> The run
       class(run_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
       !> Initial time
       type(instant), intent(in) :: start
       !> Final time
@@ -137,31 +128,32 @@ contains
       integer :: k
 
       self%now = start
-      call choose_method(problem, options%method, self%tolerance, self%step, lacking)
-      if (lacking > 0.0_wp) return
-      call self%work%set_cost(self%step%constants%evaluation_cost)
-      self%past = history_type(problem, start)
-      first = kink_type(start)
-      do k = 1, size(problem%lag)
-         associate (component => problem%component(k))
-            if (abs(problem%history(start%hi, component) - self%step%y(component)) > 0.0_wp) then
-               first%passages = -1
-            end if
-         end associate
-      end do
-      call self%points%begin([first, causes(options, start)], start, start, finish, problem%lag, &
-                             self%step%constants%order - 1)
-      call prepare_start(self, problem, options)
+      associate (context => self%context, problem => self%context%problem)
+         call choose_method(problem, options%method, context%tolerance, self%step, lacking)
+         if (lacking > 0.0_wp) return
+         call context%work%set_cost(self%step%constants%evaluation_cost)
+         context%past = history_type(problem, start)
+         first = kink_type(start)
+         do k = 1, size(problem%lag)
+            associate (component => problem%component(k))
+               if (abs(problem%history(start%hi, component) - self%step%y(component)) &
+                   > 0.0_wp) then
+                  first%passages = -1
+               end if
+            end associate
+         end do
+         call self%points%begin([first, causes(options, start)], start, start, finish, &
+                                problem%lag, self%step%constants%order - 1)
+      end associate
+      call prepare_start(self, options)
       self%first_slope = self%step%slope
    end subroutine start_anew
 
    !> Another run, with the past of the one before. If the right-hand side differs from that at the
    !> end of the earlier run, there is a kink here.
-   subroutine continue_run(self, problem, finish, options, lacking, continuation)
+   subroutine continue_run(self, finish, options, lacking, continuation)
       !> The run
       class(run_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
       !> Final time
       type(instant), intent(in) :: finish
       !> Method, tolerances and limits
@@ -176,22 +168,23 @@ contains
       self%now = instant(continuation%time(1), continuation%time(2))
       self%h = continuation%next_step
       method = options%method
-      if (method == "auto") then
-         method = matching_method(problem, self%tolerance, &
-                                  implicit=any(continuation%method == implicit_methods))
-      end if
-      call choose_method(problem, method, self%tolerance, self%step, lacking)
-      if (lacking > 0.0_wp) return
-      call self%work%set_cost(self%step%constants%evaluation_cost)
-      self%step%y = continuation%y
-      self%first_slope = continuation%slope
-      self%past = history_type(problem, instant(continuation%origin(1), continuation%origin(2)))
-      call continuation%restore(self%past, kinks)
-      associate (origin => self%past%origin)
+      associate (context => self%context, problem => self%context%problem, &
+                 origin => instant(continuation%origin(1), continuation%origin(2)))
+         if (method == "auto") then
+            method = matching_method(problem, context%tolerance, &
+                                     implicit=any(continuation%method == implicit_methods))
+         end if
+         call choose_method(problem, method, context%tolerance, self%step, lacking)
+         if (lacking > 0.0_wp) return
+         call context%work%set_cost(self%step%constants%evaluation_cost)
+         self%step%y = continuation%y
+         self%first_slope = continuation%slope
+         context%past = history_type(problem, origin)
+         call continuation%restore(context%past, kinks)
          call self%points%begin([kinks, causes(options, origin)], origin, self%now, finish, &
                                 problem%lag, self%step%constants%order - 1)
       end associate
-      call prepare_start(self, problem, options)
+      call prepare_start(self, options)
       if (size(self%first_slope) == 0) self%first_slope = self%step%slope
       if (.not. continuation%has_rate(self%step%slope)) then
          call self%points%add(kink_type(self%now))
@@ -199,24 +192,26 @@ contains
    end subroutine continue_run
 
    !> Evaluate the slope at the start of the next step.
-   subroutine prepare_start(self, problem, options)
+   subroutine prepare_start(self, options)
       !> The run
       class(run_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
       !> Limits
       type(integration_options), intent(in) :: options
 
       self%may_jump = allocated(options%break_at)
       if (self%may_jump) then
-         self%past%history_jumps = any(options%break_at < self%past%origin%hi)
+         associate (past => self%context%past)
+            past%history_jumps = any(options%break_at < past%origin%hi)
+         end associate
          self%at_cause = any(.not. abs(elapsed(self%now, instant_at(options%break_at))) > 0.0_wp)
       end if
-      call self%cursor%set(problem, self%past, self%now, &
-                           minval([longest_step(problem, self%step, options%longest_step), &
-                                   problem%lag, self%points%time_to_next(self%now)]))
+      associate (problem => self%context%problem)
+         call self%context%go_to(self%now, &
+                                 minval([longest_step(problem, self%step, options%longest_step), &
+                                         problem%lag, self%points%time_to_next(self%now)]))
+      end associate
       call bound_times(self)
-      call self%step%restart(problem, self%past, self%cursor, self%work)
+      call self%step%restart(self%context)
    end subroutine prepare_start
 
    !> The right-hand side is evaluated beside a time where it may jump, not there.
@@ -228,22 +223,22 @@ contains
       real(wp) :: time
 
       if (.not. self%may_jump) return
-      self%cursor%earliest = -huge(1.0_wp)
-      self%cursor%latest = huge(1.0_wp)
-      if (self%at_cause) self%cursor%earliest = self%now%hi + beside*spacing(self%now%hi)
-      if (.not. present(goal)) return
-      if (.not. self%points%is_cause(goal)) return
-      time = self%now%hi + elapsed(self%now, self%points%at(goal))
-      self%cursor%latest = time - beside*spacing(time)
+      associate (cursor => self%context%cursor)
+         cursor%earliest = -huge(1.0_wp)
+         cursor%latest = huge(1.0_wp)
+         if (self%at_cause) cursor%earliest = self%now%hi + beside*spacing(self%now%hi)
+         if (.not. present(goal)) return
+         if (.not. self%points%is_cause(goal)) return
+         time = self%now%hi + elapsed(self%now, self%points%at(goal))
+         cursor%latest = time - beside*spacing(time)
+      end associate
    end subroutine bound_times
 
    !> Plan the next step. The method proposes a length. If the next breaking point is near, one step
    !> or two equal steps end there. On return the cursor is on the step.
-   pure subroutine plan(self, problem, longest, h, goal, landing)
+   pure subroutine plan(self, longest, h, goal, landing)
       !> The run
       class(run_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
       !> Longest step allowed
       real(wp), intent(in) :: longest
       !> Length of the step
@@ -256,39 +251,26 @@ contains
 
       goal = self%points%goal(self%now, min(self%h, longest))
       gap = elapsed(self%now, self%points%at(goal))
-      call self%cursor%set(problem, self%past, self%now, min(longest, gap))
+      call self%context%go_to(self%now, min(longest, gap))
       call bound_times(self)
-      call self%step%propose(problem, self%past, self%cursor, self%tolerance, self%work, self%h)
+      call self%step%propose(self%context, self%h)
       self%h = min(self%h, longest)
       landing = stretch*self%h >= gap .and. gap <= longest
       h = merge(gap, merge(0.5_wp*gap, self%h, 2.0_wp*self%h > gap), landing)
-      self%cursor%h = h
+      self%context%cursor%h = h
       if (landing) call bound_times(self, goal)
    end subroutine plan
 
-   !> Evaluate the slope at the start of the planned step, after a kink.
-   pure subroutine restart(self, problem)
-      !> The run
-      class(run_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-
-      call self%step%restart(problem, self%past, self%cursor, self%work)
-      self%fresh = .false.
-   end subroutine restart
-
    !> Continue by the other method of `auto`.
-   subroutine change_to_other(self, problem, lacking)
+   subroutine change_to_other(self, lacking)
       !> The run, between two steps
       class(run_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
       !> Bytes that could not be allocated, or 0
       real(wp), intent(out) :: lacking
 
-      call change_method(problem, self%tolerance, self%step, lacking)
+      call change_method(self%context%problem, self%context%tolerance, self%step, lacking)
       if (lacking > 0.0_wp) return
-      call self%work%set_cost(self%step%constants%evaluation_cost)
+      call self%context%work%set_cost(self%step%constants%evaluation_cost)
       self%control = controller_type()
    end subroutine change_to_other
 
@@ -313,31 +295,33 @@ contains
       self%at_cause = self%points%is_cause(goal)
       self%fresh = .true.
       call self%points%land(goal, self%h, self%step%h)
-      if (self%past%newest < self%past%oldest) return
-      horizon = self%past%start(self%past%slot_of(self%past%oldest))
-      if (elapsed(self%past%origin, horizon) > 0.0_wp) call self%points%forget(horizon)
+      associate (past => self%context%past)
+         if (past%newest < past%oldest) return
+         horizon = past%start_of(past%oldest)
+         if (elapsed(past%origin, horizon) > 0.0_wp) call self%points%forget(horizon)
+      end associate
    end subroutine arrive
 
    !> Keep what a later run needs to continue from here.
-   subroutine keep(self, problem, options, continuation)
+   subroutine keep(self, options, continuation)
       !> The run, ended
       class(run_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
       !> Limits
       type(integration_options), intent(in) :: options
       !> What is kept
       type(continuation_type), intent(out) :: continuation
 
       continuation%time = [self%now%hi, self%now%lo]
-      continuation%origin = [self%past%origin%hi, self%past%origin%lo]
+      associate (origin => self%context%past%origin)
+         continuation%origin = [origin%hi, origin%lo]
+      end associate
       continuation%y = self%step%y
       continuation%slope = self%step%slope_here()
       call self%search%read_slope(continuation%slope)
-      call prepare_start(self, problem, options)
+      call prepare_start(self, options)
       continuation%rate = self%step%slope
       continuation%next_step = self%h
       continuation%method = self%step%constants%name
-      call continuation%store(self%past, self%points%met)
+      call continuation%store(self%context%past, self%points%met)
    end subroutine keep
 end module dde_run

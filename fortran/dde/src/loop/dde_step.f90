@@ -3,12 +3,9 @@
 !> steps and stores the polynomials. METHODS.md tells how to write a method.
 module dde_step
    use dde_controller, only: controller_type
-   use dde_cursor, only: cursor_type
-   use dde_history, only: history_type
    use dde_method_constants, only: method_constants
    use dde_problem, only: dde_problem_type
-   use dde_tolerance, only: tolerance_type
-   use dde_work, only: work_type
+   use dde_step_context, only: step_context
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -70,22 +67,13 @@ module dde_step
       !> Attempt the step on which the cursor stands. `error` is the estimate in units of the
       !> tolerance: the step is accepted if it is at most 1. It is huge if an iteration failed and
       !> not finite if an evaluation was not.
-      pure subroutine attempt_step(self, problem, past, cursor, tolerance, work, error)
-         import :: cursor_type, dde_problem_type, history_type, step_type, tolerance_type, &
-            work_type, wp
+      pure subroutine attempt_step(self, context, error)
+         import :: step_context, step_type, wp
          implicit none (type, external)
          !> The step
          class(step_type), intent(inout) :: self
-         !> The problem
-         class(dde_problem_type), intent(in) :: problem
-         !> The past
-         type(history_type), intent(in) :: past
-         !> The cursor, on this step
-         type(cursor_type), intent(inout) :: cursor
-         !> Tolerance of each component
-         type(tolerance_type), intent(in) :: tolerance
-         !> Work so far
-         type(work_type), intent(inout) :: work
+         !> The context of the step
+         type(step_context), intent(inout) :: context
          !> Estimated error in units of the tolerance
          real(wp), intent(out) :: error
       end subroutine attempt_step
@@ -96,7 +84,7 @@ module dde_step
          implicit none (type, external)
          !> The step
          class(step_type), intent(in) :: self
-         !> Which component
+         !> Number of the component
          integer, intent(in) :: i
          !> Newton coefficients over `nodes`
          real(wp), contiguous, intent(out) :: a(0:)
@@ -127,21 +115,14 @@ contains
    end subroutine allocate_state
 
    !> Evaluate the slope at the start of the step on which the cursor stands.
-   pure subroutine restart(self, problem, past, cursor, work)
+   pure subroutine restart(self, context)
       !> The step
       class(step_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> The past
-      type(history_type), intent(in) :: past
-      !> The cursor, on this step
-      type(cursor_type), intent(inout) :: cursor
-      !> Work so far
-      type(work_type), intent(inout) :: work
+      !> The context of the step
+      type(step_context), intent(inout) :: context
 
-      call cursor%values(problem, past, [0.0_wp], self%z)
-      call problem%rhs(cursor%inside(cursor%t), self%y, self%z, self%slope)
-      work%evaluations = work%evaluations + 1
+      call context%delayed_values([0.0_wp], self%z)
+      call context%evaluate(context%cursor%inside(context%cursor%t), self%y, self%z, self%slope)
       call self%reset()
    end subroutine restart
 
@@ -152,49 +133,29 @@ contains
    end subroutine reset
 
    !> The step size remains as it is unless a method knows better before it attempts the step.
-   pure subroutine propose(self, problem, past, cursor, tolerance, work, h)
+   pure subroutine propose(self, context, h)
       !> The step
       class(step_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> The past
-      type(history_type), intent(in) :: past
-      !> The cursor, on the longest step that is possible
-      type(cursor_type), intent(inout) :: cursor
-      !> Tolerance of each component
-      type(tolerance_type), intent(in) :: tolerance
-      !> Work so far
-      type(work_type), intent(inout) :: work
+      !> The context of the step
+      type(step_context), intent(inout) :: context
       !> Step size: proposed so far, then by the method
       real(wp), intent(inout) :: h
    end subroutine propose
 
    !> An accepted step is finished unless a method says otherwise.
-   pure subroutine complete(self, problem, past, cursor, work)
+   pure subroutine complete(self, context)
       !> The step
       class(step_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> The past
-      type(history_type), intent(in) :: past
-      !> The cursor, on this step
-      type(cursor_type), intent(inout) :: cursor
-      !> Work so far
-      type(work_type), intent(inout) :: work
+      !> The context of the step
+      type(step_context), intent(inout) :: context
    end subroutine complete
 
    !> The polynomial needs no preparation unless a method says so.
-   pure subroutine extend(self, problem, past, cursor, work)
+   pure subroutine extend(self, context)
       !> The step
       class(step_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> The past
-      type(history_type), intent(in) :: past
-      !> The cursor, on this step
-      type(cursor_type), intent(inout) :: cursor
-      !> Work so far
-      type(work_type), intent(inout) :: work
+      !> The context of the step
+      type(step_context), intent(inout) :: context
    end subroutine extend
 
    !> Step control proposes the next step size from the error, unless a method knows better.

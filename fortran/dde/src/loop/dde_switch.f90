@@ -18,7 +18,7 @@ module dde_switch
    !> A visit was worth it if its pace was this times the pace of the method before.
    real(wp), parameter :: worth = 2.0_wp
    !> Steps of a trial, at least and at most; in between it ends where steps no longer grow. The
-   !> pace of a settled implicit method is taken over as many as the latter.
+   !> pace of a settled implicit method is taken over the latter number of steps.
    integer, parameter :: least_trial = 3, longest_trial = 6
    !> Steps no longer grow once the next is no longer than this times the step.
    real(wp), parameter :: growing = 1.2_wp
@@ -101,7 +101,7 @@ contains
       real(wp), intent(in) :: h_next
       !> Time left to the end of the run, as far as there is one
       real(wp), intent(in) :: left
-      !> The answer
+      !> Whether the other method takes over
       logical, intent(out) :: other
       logical :: limited, pace_is_known
       real(wp) :: pace, work

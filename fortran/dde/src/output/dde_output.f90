@@ -4,7 +4,6 @@ module dde_output
    use dde_events, only: event_watcher_type
    use dde_history, only: history_type
    use dde_interpolant, only: highest_degree, newton_value
-   use dde_problem, only: dde_problem_type
    use dde_run, only: run_type
    use dde_sampler, only: sampler_type
    use dde_step, only: step_type
@@ -17,11 +16,9 @@ module dde_output
 contains
 
    !> Pass on the dense output of an accepted step. It is made only if it is read.
-   subroutine deliver(run, problem, step_end, ended, sampler, watcher)
+   subroutine deliver(run, step_end, ended, sampler, watcher)
       !> The run at the start of the step, its step accepted and complete
       class(run_type), intent(inout) :: run
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
       !> End of the step; the event that ends the run, if one does
       type(instant), intent(inout) :: step_end
       !> Whether an event ends the run
@@ -33,14 +30,14 @@ contains
       logical :: delayed, sampled
       real(wp) :: share
 
-      delayed = size(problem%lag) > 0
+      delayed = size(run%context%problem%lag) > 0
       sampled = .false.
       if (present(sampler)) then
          call limit_next(sampler, run%now%hi, run%step%h)
          sampled = elapsed(instant_at(sampler%next), step_end) >= 0.0_wp
       end if
       if (delayed .or. sampled .or. present(watcher)) then
-         call run%step%extend(problem, run%past, run%cursor, run%work)
+         call run%step%extend(run%context)
       end if
       ended = .false.
       share = 1.0_wp
@@ -50,8 +47,8 @@ contains
       if (sampled) call sample(sampler, run%step, run%now, step_end)
       if (delayed .and. share > 0.0_wp) then
          ! no polynomial is valid beyond the next kink
-         call remember(run%past, run%step, run%now, run%points%time_to_next(run%now), share)
-         call run%past%forget(later(step_end, -run%reach))
+         call remember(run%context%past, run%step, run%now, run%points%time_to_next(run%now), share)
+         call run%context%past%forget(later(step_end, -run%reach))
       end if
    end subroutine deliver
 
@@ -67,23 +64,21 @@ contains
       real(wp), intent(in) :: smooth
       !> Share of the step that belongs to the run, > 0
       real(wp), intent(in) :: share
-      integer :: i, j, slot
+      real(wp) :: a(0:highest_degree)
+      integer :: degree, i, j
 
+      degree = size(step%nodes)
       if (share < 1.0_wp) then
          ! the same polynomial over a shorter step
-         call past%open_slot(start, share*step%h, step%nodes/share, step%powers, 0.0_wp, slot)
+         call past%open_step(start, share*step%h, step%nodes/share, step%powers, 0.0_wp)
       else
-         call past%open_slot(start, step%h, step%nodes, step%powers, min(step%valid_for, smooth), &
-                             slot)
+         call past%open_step(start, step%h, step%nodes, step%powers, min(step%valid_for, smooth))
       end if
       do i = 1, size(past%kept)
-         call step%interpolant(past%kept(i), past%coefficients(:size(step%nodes), i, slot))
+         call step%interpolant(past%kept(i), a(:degree))
+         if (share < 1.0_wp) a(1:degree) = [(share**j*a(j), j=1, degree)]
+         call past%fill(i, a(:degree))
       end do
-      if (share < 1.0_wp) then
-         do j = 1, size(step%nodes)
-            past%coefficients(j, :, slot) = share**j*past%coefficients(j, :, slot)
-         end do
-      end if
    end subroutine remember
 
    !> The first samples: those at (or before) the initial time.

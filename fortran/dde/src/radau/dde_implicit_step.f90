@@ -5,17 +5,15 @@
 module dde_implicit_step
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use dde_collocation, only: add_up, difference_increments, shape_bump
-   use dde_cursor, only: cursor_type
-   use dde_history, only: history_type
    use dde_jacobian, only: jacobian_type
    use dde_method_constants, only: method_constants
    use dde_problem, only: dde_problem_type
    use dde_radau_tableau, only: radau_iia, radau_tableau
    use dde_stage_iteration, only: stage_iteration
    use dde_step, only: step_type
+   use dde_step_context, only: step_context
    use dde_systems, only: real_system
-   use dde_tolerance, only: hopeless, scaled_norm, tolerance_type
-   use dde_work, only: work_type
+   use dde_tolerance, only: hopeless, scaled_norm
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -104,56 +102,46 @@ contains
    end subroutine reset
 
    !> Attempt a step: iterate, check the result, estimate its error.
-   pure subroutine attempt(self, problem, past, cursor, tolerance, work, error)
+   pure subroutine attempt(self, context, error)
       !> The step
       class(implicit_step_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> The past
-      type(history_type), intent(in) :: past
-      !> The cursor, on this step
-      type(cursor_type), intent(inout) :: cursor
-      !> Tolerance of each component
-      type(tolerance_type), intent(in) :: tolerance
-      !> Work so far
-      type(work_type), intent(inout) :: work
+      !> The context of the step
+      type(step_context), intent(inout) :: context
       !> Estimated error in units of the tolerance
       real(wp), intent(out) :: error
-      real(wp) :: asked, inside
+      real(wp) :: asked, inside, level
       logical :: converged, finite, singular
 
-      self%t = cursor%t
-      self%h = cursor%h
+      self%t = context%cursor%t
+      self%h = context%cursor%h
+      level = context%tolerance%level
       ! the estimate has order s, the polynomial s + 1, the ends more: with this tolerance of the
       ! estimate, errors are near the tolerance of the step, as with the explicit method
-      asked = tolerance%level**((self%method%stages + 1.0_wp)/(self%method%stages + 2.0_wp))
-      call tolerance%scale(self%y, self%scale)
-      self%scale = asked/tolerance%level*self%scale
-      call self%stages%place_delays(problem, past, cursor, self%method)
+      asked = level**((self%method%stages + 1.0_wp)/(self%method%stages + 2.0_wp))
+      call context%tolerance%scale(self%y, self%scale)
+      self%scale = asked/level*self%scale
+      call self%stages%place_delays(context, self%method)
       error = ieee_value(1.0_wp, ieee_quiet_nan)
       do
-         if (.not. self%last_h > 0.0_wp) call cursor%values(problem, past, [0.0_wp], self%z)
+         if (.not. self%last_h > 0.0_wp) call context%delayed_values([0.0_wp], self%z)
          call self%stages%start(self%method, self%last_differences, self%last_h, self%h)
-         call self%prepare(problem, tolerance, work, singular)
+         call self%prepare(context, singular)
          converged = .false.
          if (.not. singular) then
-            call self%stages%iterate(problem, self%method, cursor%inside(self%t), self%h, &
-                                     cursor%inside(self%t + self%h), self%y, self%scale, asked, &
-                                     self%safety, work, converged, finite)
+            call self%stages%iterate(context, self%method, self%y, self%scale, asked, &
+                                     self%safety, converged, finite)
          end if
-         if (converged) then
-            call self%confirm(problem, cursor%inside(self%t + self%h), tolerance, work, converged)
-         end if
+         if (converged) call self%confirm(context, converged)
          if (converged .or. .not. self%last_h > 0.0_wp) exit
          ! the extrapolated polynomial may be too far off or the Jacobian too old: start again
          self%last_h = 0.0_wp
          self%jacobian_is_good = .false.
       end do
       if (converged) then
-         call self%estimate(problem, cursor%inside(self%t), work, error)
+         call self%estimate(context, error)
          call difference_increments(self%stages%x, self%stages%increments, self%differences)
          if (ieee_is_finite(error)) then
-            call self%find_error_inside(asked, tolerance%level, inside)
+            call self%find_error_inside(asked, level, inside)
             error = max(error, inside)
             if (error <= 1.0_wp) return
          end if
@@ -165,15 +153,11 @@ contains
 
    !> Jacobian and factors, where the last ones cannot be used. The Jacobian is evaluated at the
    !> expected middle stage, which is nearer to all stages than the start of the step.
-   pure subroutine prepare(self, problem, tolerance, work, singular)
+   pure subroutine prepare(self, context, singular)
       !> The step
       class(implicit_step_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> Tolerance of each component
-      type(tolerance_type), intent(in) :: tolerance
-      !> Work so far
-      type(work_type), intent(inout) :: work
+      !> The context of the step
+      type(step_context), intent(inout) :: context
       !> Whether there is no Jacobian or a system has no solution
       logical, intent(out) :: singular
       logical :: coupled, finite
@@ -181,12 +165,12 @@ contains
       singular = .false.
       coupled = any(self%stages%own_place > 0.0_wp)
       if (.not. self%jacobian_is_good .or. coupled .and. .not. self%jacobian%knows_delays) then
-         call self%stages%expect_delayed(problem, self%y)
+         call self%stages%expect_delayed(context%problem%component, self%y)
          associate (middle => (self%method%stages + 1)/2)
-            call self%jacobian%evaluate(problem, self%t + self%method%c(middle)*self%h, &
+            call self%jacobian%evaluate(context%problem, context%tolerance, context%work, &
+                                        self%t + self%method%c(middle)*self%h, &
                                         self%y + self%stages%increments(:, middle), &
-                                        self%stages%delayed(:, middle), tolerance, coupled, &
-                                        work, finite)
+                                        self%stages%delayed(:, middle), coupled, finite)
          end associate
          self%stages%systems%h = 0.0_wp
          singular = .not. finite
@@ -195,91 +179,82 @@ contains
          self%jacobian_is_good = .true.
       end if
       if (.not. abs(self%stages%systems%h - self%h) > 0.0_wp) return
-      call self%stages%systems%prepare(self%method, self%h, self%jacobian, problem%component, &
-                                       self%stages%own_place, self%stages%own_weights, work, &
-                                       singular)
+      call self%stages%systems%prepare(self%method, self%h, self%jacobian, &
+                                       context%problem%component, self%stages%own_place, &
+                                       self%stages%own_weights, context%work, singular)
    end subroutine prepare
 
    !> Whether the last stage solves its equation by the Jacobian there too. If the Jacobian of the
    !> iteration is far too large, corrections are small without a solution.
-   pure subroutine confirm(self, problem, t_end, tolerance, work, confirmed)
+   pure subroutine confirm(self, context, confirmed)
       !> The step, its iteration converged
       class(implicit_step_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> End of the step
-      real(wp), intent(in) :: t_end
-      !> Tolerance of each component
-      type(tolerance_type), intent(in) :: tolerance
-      !> Work so far
-      type(work_type), intent(inout) :: work
+      !> The context of the step
+      type(step_context), intent(inout) :: context
       !> Whether the step is confirmed
       logical, intent(out) :: confirmed
-      real(wp) :: allowed
+      real(wp) :: allowed, t_end
       logical :: finite, singular
 
       confirmed = .false.
+      t_end = context%cursor%inside(self%t + self%h)
       associate (stages => self%stages, y_end => self%stages%argument, &
                  slope => self%stages%slope_at, misfit => self%unfiltered, &
                  last => self%method%stages)
          y_end = self%y + stages%increments(:, last)
          call stages%slope_at_end(self%h, slope)
-         call problem%rhs(t_end, y_end, stages%delayed(:, last), misfit)
-         work%evaluations = work%evaluations + 1
+         call context%evaluate(t_end, y_end, stages%delayed(:, last), misfit)
          if (.not. all(ieee_is_finite(misfit))) return
          misfit = misfit - slope
          ! a part of the tolerance, and what rounding does to the slope
          allowed = 0.1_wp + 4.0_wp*epsilon(1.0_wp)*maxval(abs(y_end)/self%scale) &
                    *sum(abs(stages%systems%a_inverse(last, :)))
-         confirmed = self%h*scaled_norm(problem%n, misfit, self%scale) &
+         confirmed = self%h*scaled_norm(size(misfit), misfit, self%scale) &
                      <= self%method%real_eigenvalue*allowed
          if (confirmed) return
-         call self%jacobian_at_end%evaluate(problem, t_end, y_end, stages%delayed(:, last), &
-                                            tolerance, .false., work, finite)
+         call self%jacobian_at_end%evaluate(context%problem, context%tolerance, context%work, &
+                                            t_end, y_end, stages%delayed(:, last), .false., finite)
          if (.not. finite) return
          call self%system_at_end%prepare(self%jacobian_at_end, self%method%real_eigenvalue/self%h, &
                                          singular)
-         work%operations = work%operations + self%system_at_end%factor_operations
+         context%work%operations = context%work%operations &
+                                   + self%system_at_end%factor_operations
          if (singular) return
          call self%system_at_end%solve(misfit)
-         confirmed = scaled_norm(problem%n, misfit, self%scale) <= allowed
+         confirmed = scaled_norm(size(misfit), misfit, self%scale) <= allowed
       end associate
    end subroutine confirm
 
    !> Error of the embedded method of order s. The real system filters it: otherwise stiff
    !> components would dominate it (Hairer and Wanner 1996, eq. (IV.8.20)).
-   pure subroutine estimate(self, problem, t_start, work, error)
+   pure subroutine estimate(self, context, error)
       !> The step
       class(implicit_step_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> Start of the step
-      real(wp), intent(in) :: t_start
-      !> Work so far
-      type(work_type), intent(inout) :: work
+      !> The context of the step
+      type(step_context), intent(inout) :: context
       !> Estimated error in units of the tolerance
       real(wp), intent(out) :: error
       real(wp), allocatable :: slope(:)
+      real(wp) :: t
 
       call add_up(self%method%e, self%stages%increments, self%raw)
       self%raw = self%raw/self%h
       self%error_vector = self%slope + self%raw
       self%unfiltered = self%error_vector
       call self%stages%systems%filter(self%error_vector)
-      error = scaled_norm(problem%n, self%error_vector, self%scale)
+      error = scaled_norm(size(self%y), self%error_vector, self%scale)
       if (error >= 1.0_wp .and. .not. self%last_h > 0.0_wp) then
          ! at a start it is filtered again. The slope at the start may be that of an
          ! earlier polynomial, so that only the change of the right-hand side by the error is added
-         allocate (slope(problem%n))
-         call problem%rhs(t_start, self%y, self%z, slope)
-         call problem%rhs(t_start, self%y + self%error_vector, self%z, &
-                          self%error_vector)
-         work%evaluations = work%evaluations + 2
+         allocate (slope(size(self%y)))
+         t = context%cursor%inside(self%t)
+         call context%evaluate(t, self%y, self%z, slope)
+         call context%evaluate(t, self%y + self%error_vector, self%z, self%error_vector)
          if (all(ieee_is_finite(self%error_vector)) .and. all(ieee_is_finite(slope))) then
             self%error_vector = (self%error_vector - slope) + (self%slope + self%raw)
             self%unfiltered = self%error_vector
             call self%stages%systems%filter(self%error_vector)
-            error = scaled_norm(problem%n, self%error_vector, self%scale)
+            error = scaled_norm(size(self%y), self%error_vector, self%scale)
          end if
       end if
       self%y_new = self%y + self%stages%increments(:, self%method%stages)
@@ -315,7 +290,7 @@ contains
    pure subroutine interpolant(self, i, a)
       !> The step
       class(implicit_step_type), intent(in) :: self
-      !> Which component
+      !> Number of the component
       integer, intent(in) :: i
       !> Newton coefficients over `nodes`
       real(wp), contiguous, intent(out) :: a(0:)

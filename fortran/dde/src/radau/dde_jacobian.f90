@@ -36,35 +36,36 @@ module dde_jacobian
       !> Moved arguments, shapes (n) and (delayed values)
       real(wp), allocatable, private :: moved_y(:), moved_z(:)
    contains
-      !> Evaluate it
+      !> Evaluate the Jacobian at a place
       procedure :: evaluate
       !> Norm of the Jacobian: the largest sum of a row
       procedure :: find_norm
-      procedure, private :: prepare, differences_by_y, differences_by_z
+      procedure, private :: prepare, find_rows
    end type jacobian_type
 
 contains
 
-   !> Evaluate it at a place.
-   pure subroutine evaluate(self, problem, t, y, z, tolerance, with_delays, work, finite)
+   !> The Jacobian at a place, as the problem gives it or by forward differences.
+   pure subroutine evaluate(self, problem, tolerance, work, t, y, z, with_delays, finite)
       !> The Jacobian
       class(jacobian_type), intent(inout) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
+      !> Tolerance of each component
+      type(tolerance_type), intent(in) :: tolerance
+      !> Work so far
+      type(work_type), intent(inout) :: work
       !> Time
       real(wp), intent(in) :: t
       !> State, shape (n)
       real(wp), intent(in) :: y(:)
       !> Delayed values, shape (delayed values)
       real(wp), intent(in) :: z(:)
-      !> Tolerance of each component
-      type(tolerance_type), intent(in) :: tolerance
       !> Whether `by_z` is needed
       logical, intent(in) :: with_delays
-      !> Work so far
-      type(work_type), intent(inout) :: work
       !> Whether the Jacobian is finite
       logical, intent(out) :: finite
+      integer :: apart, first, group, j, k, last, shift
 
       call self%prepare(problem, with_delays)
       if (self%given) then
@@ -75,14 +76,50 @@ contains
       if (.not. self%given) then
          call problem%rhs(t, y, z, self%here)
          work%evaluations = work%evaluations + 1
-         call self%differences_by_y(problem, t, y, z, tolerance, work)
-         if (with_delays) then
-            call self%differences_by_z(problem, t, y, z, tolerance, work)
-         end if
+         ! columns that share no equation are moved together
+         apart = merge(1 + self%lower + self%upper, problem%n, self%banded)
+         do group = 1, min(apart, problem%n)
+            self%moved_y = y
+            do j = group, problem%n, apart
+               self%moved_y(j) = y(j) + difference*size_of(tolerance, j, y(j))
+            end do
+            call problem%rhs(t, self%moved_y, z, self%beside)
+            work%evaluations = work%evaluations + 1
+            do j = group, problem%n, apart
+               call self%find_rows(j, first, last, shift)
+               self%by_y(shift + first:shift + last, j) &
+                  = (self%beside(first:last) - self%here(first:last))/(self%moved_y(j) - y(j))
+            end do
+         end do
+         do k = 1, merge(size(z), 0, with_delays)
+            self%moved_z = z
+            self%moved_z(k) = z(k) + difference*size_of(tolerance, problem%component(k), z(k))
+            call problem%rhs(t, y, self%moved_z, self%beside)
+            work%evaluations = work%evaluations + 1
+            self%by_z(:, k) = (self%beside - self%here)/(self%moved_z(k) - z(k))
+         end do
       end if
       finite = all(ieee_is_finite(self%by_y))
       if (finite .and. with_delays) finite = all(ieee_is_finite(self%by_z))
    end subroutine evaluate
+
+   !> Rows of a column that may differ from 0: row i is at (shift + i, j).
+   pure subroutine find_rows(self, j, first, last, shift)
+      !> The Jacobian
+      class(jacobian_type), intent(in) :: self
+      !> Number of the column
+      integer, intent(in) :: j
+      !> First and last row, and the shift of all rows
+      integer, intent(out) :: first, last, shift
+
+      first = 1
+      last = size(self%by_y, 2)
+      shift = 0
+      if (.not. self%banded) return
+      first = max(1, j - self%upper)
+      last = min(last, j + self%lower)
+      shift = 1 + self%upper - j
+   end subroutine find_rows
 
    !> The Jacobian of a problem outside of a run, as the problem gives it or by differences.
    pure subroutine find_jacobian(problem, t, y, z, by_y, by_z)
@@ -105,8 +142,8 @@ contains
       call problem%jacobian(t, y, z, by_y, by_z)
       if (any(by_y > not_given)) return
       here%given = .false.
-      call here%evaluate(problem, t, y, z, tolerance_type(problem%n, 1.0_wp, 1.0_wp), .true., &
-                         work, finite)
+      call here%evaluate(problem, tolerance_type(problem%n, 1.0_wp, 1.0_wp), work, t, y, z, &
+                         .true., finite)
       by_y = here%by_y
       by_z = here%by_z
    end subroutine find_jacobian
@@ -138,79 +175,11 @@ contains
       end if
    end subroutine prepare
 
-   !> By forward differences of y. Columns that share no equation are moved together.
-   pure subroutine differences_by_y(self, problem, t, y, z, tolerance, work)
-      !> The Jacobian, `here` known
-      class(jacobian_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> Time
-      real(wp), intent(in) :: t
-      !> State
-      real(wp), intent(in) :: y(:)
-      !> Delayed values
-      real(wp), intent(in) :: z(:)
-      !> Tolerance of each component
-      type(tolerance_type), intent(in) :: tolerance
-      !> Work so far
-      type(work_type), intent(inout) :: work
-      integer :: apart, first, group, j, last, shift
-
-      apart = merge(1 + self%lower + self%upper, problem%n, self%banded)
-      do group = 1, min(apart, problem%n)
-         self%moved_y = y
-         do j = group, problem%n, apart
-            self%moved_y(j) = y(j) + difference*size_of(tolerance, j, y(j))
-         end do
-         call problem%rhs(t, self%moved_y, z, self%beside)
-         work%evaluations = work%evaluations + 1
-         do j = group, problem%n, apart
-            first = 1
-            last = problem%n
-            shift = 0
-            if (self%banded) then
-               first = max(1, j - self%upper)
-               last = min(problem%n, j + self%lower)
-               shift = 1 + self%upper - j
-            end if
-            self%by_y(shift + first:shift + last, j) &
-               = (self%beside(first:last) - self%here(first:last))/(self%moved_y(j) - y(j))
-         end do
-      end do
-   end subroutine differences_by_y
-
-   !> By forward differences of the delayed values.
-   pure subroutine differences_by_z(self, problem, t, y, z, tolerance, work)
-      !> The Jacobian, `here` known
-      class(jacobian_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> Time
-      real(wp), intent(in) :: t
-      !> State
-      real(wp), intent(in) :: y(:)
-      !> Delayed values
-      real(wp), intent(in) :: z(:)
-      !> Tolerance of each component
-      type(tolerance_type), intent(in) :: tolerance
-      !> Work so far
-      type(work_type), intent(inout) :: work
-      integer :: k
-
-      do k = 1, size(z)
-         self%moved_z = z
-         self%moved_z(k) = z(k) + difference*size_of(tolerance, problem%component(k), z(k))
-         call problem%rhs(t, y, self%moved_z, self%beside)
-         work%evaluations = work%evaluations + 1
-         self%by_z(:, k) = (self%beside - self%here)/(self%moved_z(k) - z(k))
-      end do
-   end subroutine differences_by_z
-
    !> Size of a component, to which its difference is proportional.
    pure real(wp) function size_of(tolerance, i, value) result(size)
       !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
-      !> Which component
+      !> Number of the component
       integer, intent(in) :: i
       !> Value of the component
       real(wp), intent(in) :: value
@@ -230,14 +199,7 @@ contains
       associate (sums => self%beside)
          sums = 0.0_wp
          do j = 1, size(sums)
-            first = 1
-            last = size(sums)
-            shift = 0
-            if (self%banded) then
-               first = max(1, j - self%upper)
-               last = min(size(sums), j + self%lower)
-               shift = 1 + self%upper - j
-            end if
+            call self%find_rows(j, first, last, shift)
             sums(first:last) = sums(first:last) + abs(self%by_y(shift + first:shift + last, j))
          end do
          norm = maxval(sums)

@@ -3,14 +3,11 @@
 module dde_stage_iteration
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use dde_collocation, only: add_up, combine, lagrange_weights
-   use dde_cursor, only: cursor_type
-   use dde_history, only: history_type
    use dde_interpolant, only: newton_value
-   use dde_problem, only: dde_problem_type
+   use dde_step_context, only: step_context
    use dde_radau_tableau, only: radau_tableau
    use dde_stage_systems, only: stage_systems
    use dde_tolerance, only: scaled_norm
-   use dde_work, only: work_type
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -60,7 +57,7 @@ module dde_stage_iteration
       procedure :: start
       !> Delayed values that lie in this step
       procedure :: expect_delayed
-      !> Find them
+      !> Find the increments
       procedure :: iterate
       !> Slope of the solution at the end of the step
       procedure :: slope_at_end
@@ -104,30 +101,28 @@ contains
    end subroutine forget
 
    !> Delayed values of all stages, and the places of those that lie in the step itself.
-   pure subroutine place_delays(self, problem, past, cursor, method)
+   pure subroutine place_delays(self, context, method)
       !> The iteration
       class(stage_iteration), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> The past
-      type(history_type), intent(in) :: past
-      !> The cursor, on this step
-      type(cursor_type), intent(inout) :: cursor
+      !> The context of the step
+      type(step_context), intent(inout) :: context
       !> The method
       type(radau_tableau), intent(in) :: method
       integer :: i, k
 
-      if (size(problem%lag) == 0) return
-      do i = 1, method%stages
-         self%own_place(:, i) = method%c(i) - problem%lag/cursor%h
-         do k = 1, size(problem%lag)
-            if (self%own_place(k, i) > 0.0_wp) then
-               self%own_weights(:, k, i) = lagrange_weights(self%x, self%own_place(k, i))
-            end if
+      associate (lag => context%problem%lag, h => context%cursor%h)
+         if (size(lag) == 0) return
+         do i = 1, method%stages
+            self%own_place(:, i) = method%c(i) - lag/h
+            do k = 1, size(lag)
+               if (self%own_place(k, i) > 0.0_wp) then
+                  self%own_weights(:, k, i) = lagrange_weights(self%x, self%own_place(k, i))
+               end if
+            end do
          end do
-      end do
-      self%places = method%c*cursor%h
-      call cursor%values(problem, past, self%places, self%delayed)
+         self%places = method%c*h
+      end associate
+      call context%delayed_values(self%places, self%delayed)
    end subroutine place_delays
 
    !> Start of the iteration: the last step's polynomial extrapolated, or no change.
@@ -162,11 +157,11 @@ contains
    end subroutine start
 
    !> Delayed values that lie in this step, from the present increments.
-   pure subroutine expect_delayed(self, problem, y)
+   pure subroutine expect_delayed(self, components, y)
       !> The iteration
       class(stage_iteration), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
+      !> Component that each delayed value is
+      integer, intent(in) :: components(:)
       !> State at the start of the step
       real(wp), intent(in) :: y(:)
       integer :: i, k
@@ -174,7 +169,7 @@ contains
       do i = 1, size(self%own_place, 2)
          do k = 1, size(self%own_place, 1)
             if (.not. self%own_place(k, i) > 0.0_wp) cycle
-            associate (component => problem%component(k))
+            associate (component => components(k))
                self%delayed(k, i) = y(component) + sum(self%increments(component, :) &
                                     *self%own_weights(:, k, i))
             end associate
@@ -183,20 +178,14 @@ contains
    end subroutine expect_delayed
 
    !> Simplified Newton iteration for the stage increments.
-   pure subroutine iterate(self, problem, method, t, h, t_end, y, scale, tolerance, safety, &
-                           work, converged, finite)
+   pure subroutine iterate(self, context, method, y, scale, tolerance, safety, converged, &
+                           finite)
       !> The iteration, started and its systems prepared
       class(stage_iteration), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
+      !> The context of the step
+      type(step_context), intent(inout) :: context
       !> The method
       type(radau_tableau), intent(in) :: method
-      !> Start of the step
-      real(wp), intent(in) :: t
-      !> Length of the step
-      real(wp), intent(in) :: h
-      !> End of the step
-      real(wp), intent(in) :: t_end
       !> State at its start, shape (n)
       real(wp), intent(in) :: y(:)
       !> Scale of each component
@@ -206,8 +195,6 @@ contains
       !> Factor below the step size at which the error would be equal to the tolerance; it is
       !> smaller after many iterations
       real(wp), intent(inout) :: safety
-      !> Work so far
-      type(work_type), intent(inout) :: work
       !> Whether the iteration converged
       logical, intent(out) :: converged
       !> Whether all evaluations were finite
@@ -228,10 +215,9 @@ contains
       last_norm = 0.0_wp
       last_rate = 1.0_wp
       do iteration = 1, most
-         call self%slopes_at_stages(problem, method, t, h, t_end, y, finite)
-         work%evaluations = work%evaluations + method%stages
+         call self%slopes_at_stages(context, method, y, finite)
          if (.not. finite) return
-         call self%systems%correct(method, self%slopes, self%transforms, work, self%change)
+         call self%systems%correct(method, self%slopes, self%transforms, context%work, self%change)
          norm = scaled_norm(size(self%change), self%change, self%scales)
          finite = ieee_is_finite(norm)
          if (.not. (finite .and. norm < huge(1.0_wp))) return
@@ -274,31 +260,30 @@ contains
    end subroutine slope_at_end
 
    !> Slopes of all stages.
-   pure subroutine slopes_at_stages(self, problem, method, t, h, t_end, y, finite)
+   pure subroutine slopes_at_stages(self, context, method, y, finite)
       !> The iteration
       class(stage_iteration), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
+      !> The context of the step
+      type(step_context), intent(inout) :: context
       !> The method
       type(radau_tableau), intent(in) :: method
-      !> Start of the step
-      real(wp), intent(in) :: t
-      !> Length of the step
-      real(wp), intent(in) :: h
-      !> End of the step
-      real(wp), intent(in) :: t_end
       !> State at its start
       real(wp), intent(in) :: y(:)
       !> Whether all are finite
       logical, intent(out) :: finite
+      real(wp) :: t, t_end
       integer :: i
 
-      call self%expect_delayed(problem, y)
-      do i = 1, method%stages
-         self%argument = y + self%increments(:, i)
-         call problem%rhs(merge(t_end, t + method%c(i)*h, i == method%stages), self%argument, &
-                          self%delayed(:, i), self%slopes(:, i))
-      end do
+      call self%expect_delayed(context%problem%component, y)
+      associate (cursor => context%cursor)
+         t = cursor%inside(cursor%t)
+         t_end = cursor%inside(cursor%t + cursor%h)
+         do i = 1, method%stages
+            self%argument = y + self%increments(:, i)
+            call context%evaluate(merge(t_end, t + method%c(i)*cursor%h, i == method%stages), &
+                                  self%argument, self%delayed(:, i), self%slopes(:, i))
+         end do
+      end associate
       finite = all(ieee_is_finite(self%slopes))
    end subroutine slopes_at_stages
 end module dde_stage_iteration

@@ -1,11 +1,10 @@
 !> The linear systems (shift - J) x = b of an implicit step, where J is the Jacobian. dde_linear
-!> solves small dense systems, LAPACK solves large dense and banded ones.
+!> solves small dense systems, LAPACK solves large dense and banded ones. Real and complex systems
+!> have one body in two files that are included.
 module dde_systems
    use dde_jacobian, only: jacobian_type
-   use dde_lapack, only: factorise_band, factorise_by_lapack, lapack_is_there, solve_band, &
-                         solve_by_lapack
+   use dde_lapack, only: gbtrf, gbtrs, getrf, getrs, lapack_is_there
    use dde_linear, only: factorise, solve
-   use dde_row_scaling, only: scale_band, scale_rows
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -16,52 +15,42 @@ module dde_systems
    !> Operations of a complex multiplication over those of a real one.
    real(wp), parameter :: complex_over_real = 4.0_wp
 
-   !> A system with a real shift.
-   type :: real_system
-      private
-      !> Factors, shape (n, n) or (1 + 2 lower + upper, n)
-      real(wp), allocatable :: a(:, :)
+   !> What real and complex systems have in common.
+   type :: linear_system
       !> Rows exchanged, shape (n)
-      integer, allocatable :: pivot(:)
+      integer, allocatable, private :: pivot(:)
       !> First and last row of each column of the factors that is not 0, shape (n)
-      integer, allocatable, dimension(:) :: first, last
+      integer, allocatable, dimension(:), private :: first, last
       !> Factor of each equation that makes its largest coefficient 1, shape (n). Otherwise a stiff
       !> equation would be the pivot for the others.
-      real(wp), allocatable :: row(:)
+      real(wp), allocatable, private :: row(:)
       !> Whether the Jacobian is banded, its diagonals below and above the main one
-      logical :: banded = .false.
-      integer :: lower = 0, upper = 0
+      logical, private :: banded = .false.
+      integer, private :: lower = 0, upper = 0
       !> Additions and multiplications of a factorisation and of a solution
-      real(wp), public :: factor_operations = 0.0_wp, solve_operations = 0.0_wp
+      real(wp) :: factor_operations = 0.0_wp, solve_operations = 0.0_wp
+   end type linear_system
+
+   !> A system with a real shift.
+   type, extends(linear_system) :: real_system
+      !> Factors, shape (n, n) or (1 + 2 lower + upper, n)
+      real(wp), allocatable, private :: a(:, :)
    contains
       !> Factorise for a Jacobian
-      procedure, public :: prepare => prepare_real
+      procedure :: prepare => prepare_real
       !> Replace a right-hand side by the solution
-      procedure, public :: solve => solve_real
+      procedure :: solve => solve_real
    end type real_system
 
    !> A system with a complex shift.
-   type :: complex_system
-      private
+   type, extends(linear_system) :: complex_system
       !> Factors, shape (n, n) or (1 + 2 lower + upper, n)
-      complex(wp), allocatable :: a(:, :)
-      !> Rows exchanged, shape (n)
-      integer, allocatable :: pivot(:)
-      !> First and last row of each column of the factors that is not 0, shape (n)
-      integer, allocatable, dimension(:) :: first, last
-      !> Factor of each equation that makes its largest coefficient 1, shape (n). Otherwise a stiff
-      !> equation would be the pivot for the others.
-      real(wp), allocatable :: row(:)
-      !> Whether the Jacobian is banded, its diagonals below and above the main one
-      logical :: banded = .false.
-      integer :: lower = 0, upper = 0
-      !> Additions and multiplications of a factorisation and of a solution
-      real(wp), public :: factor_operations = 0.0_wp, solve_operations = 0.0_wp
+      complex(wp), allocatable, private :: a(:, :)
    contains
       !> Factorise for a Jacobian
-      procedure, public :: prepare => prepare_complex
+      procedure :: prepare => prepare_complex
       !> Replace a right-hand side by the solution
-      procedure, public :: solve => solve_complex
+      procedure :: solve => solve_complex
    end type complex_system
 
 contains
@@ -70,42 +59,11 @@ contains
    pure subroutine prepare_real(self, jacobian, shift, singular)
       !> The system
       class(real_system), intent(inout) :: self
-      !> J
-      type(jacobian_type), intent(in) :: jacobian
       !> The shift
       real(wp), intent(in) :: shift
-      !> Whether a pivot vanished
-      logical, intent(out) :: singular
-      integer :: diagonal, j, n
-
-      n = size(jacobian%by_y, 2)
-      self%banded = jacobian%banded
-      self%lower = jacobian%lower
-      self%upper = jacobian%upper
-      if (.not. allocated(self%a)) then
-         allocate (self%a(merge(1 + 2*self%lower + self%upper, n, self%banded), n))
-         allocate (self%pivot(n), self%first(n), self%last(n), self%row(n))
-         self%factor_operations = factor_operations(n, self%banded, self%lower, self%upper)
-         self%solve_operations = 2.0_wp*size(self%a)
-      end if
-      if (self%banded) then
-         diagonal = 1 + self%lower + self%upper
-         self%a(self%lower + 1:, :) = -jacobian%by_y
-         self%a(diagonal, :) = self%a(diagonal, :) + shift
-         call scale_band(self%lower, self%upper, self%a, self%row)
-         call factorise_band(self%lower, self%upper, self%a, self%pivot, singular)
-         return
-      end if
-      self%a = -jacobian%by_y
-      do j = 1, n
-         self%a(j, j) = self%a(j, j) + shift
-      end do
-      if (lapack_is_there .and. n >= large) then
-         call scale_rows(self%a, self%row)
-         call factorise_by_lapack(self%a, self%pivot, singular)
-      else
-         call factorise(self%a, self%pivot, self%first, self%last, self%row, singular)
-      end if
+      !> Operations of a multiplication
+      real(wp), parameter :: cost = 1.0_wp
+      include "prepare_system.inc"
    end subroutine prepare_real
 
    !> Replace a right-hand side by the solution.
@@ -114,59 +72,18 @@ contains
       class(real_system), intent(in) :: self
       !> Right-hand side, replaced by the solution, shape (n)
       real(wp), contiguous, intent(inout) :: b(:)
-
-      if (self%banded) then
-         b = self%row*b
-         call solve_band(self%lower, self%upper, self%a, self%pivot, b)
-      else if (lapack_is_there .and. size(b) >= large) then
-         b = self%row*b
-         call solve_by_lapack(self%a, self%pivot, b)
-      else
-         call solve(self%a, self%pivot, self%first, self%last, b)
-      end if
+      include "solve_system.inc"
    end subroutine solve_real
 
    !> Factorise shift - J.
    pure subroutine prepare_complex(self, jacobian, shift, singular)
       !> The system
       class(complex_system), intent(inout) :: self
-      !> J
-      type(jacobian_type), intent(in) :: jacobian
       !> The shift
       complex(wp), intent(in) :: shift
-      !> Whether a pivot vanished
-      logical, intent(out) :: singular
-      integer :: diagonal, j, n
-
-      n = size(jacobian%by_y, 2)
-      self%banded = jacobian%banded
-      self%lower = jacobian%lower
-      self%upper = jacobian%upper
-      if (.not. allocated(self%a)) then
-         allocate (self%a(merge(1 + 2*self%lower + self%upper, n, self%banded), n))
-         allocate (self%pivot(n), self%first(n), self%last(n), self%row(n))
-         self%factor_operations = complex_over_real &
-                                  *factor_operations(n, self%banded, self%lower, self%upper)
-         self%solve_operations = complex_over_real*2.0_wp*size(self%a)
-      end if
-      if (self%banded) then
-         diagonal = 1 + self%lower + self%upper
-         self%a(self%lower + 1:, :) = -jacobian%by_y
-         self%a(diagonal, :) = self%a(diagonal, :) + shift
-         call scale_band(self%lower, self%upper, self%a, self%row)
-         call factorise_band(self%lower, self%upper, self%a, self%pivot, singular)
-         return
-      end if
-      self%a = -jacobian%by_y
-      do j = 1, n
-         self%a(j, j) = self%a(j, j) + shift
-      end do
-      if (lapack_is_there .and. n >= large) then
-         call scale_rows(self%a, self%row)
-         call factorise_by_lapack(self%a, self%pivot, singular)
-      else
-         call factorise(self%a, self%pivot, self%first, self%last, self%row, singular)
-      end if
+      !> Operations of a multiplication
+      real(wp), parameter :: cost = complex_over_real
+      include "prepare_system.inc"
    end subroutine prepare_complex
 
    !> Replace a right-hand side by the solution.
@@ -175,17 +92,26 @@ contains
       class(complex_system), intent(in) :: self
       !> Right-hand side, replaced by the solution, shape (n)
       complex(wp), contiguous, intent(inout) :: b(:)
-
-      if (self%banded) then
-         b = self%row*b
-         call solve_band(self%lower, self%upper, self%a, self%pivot, b)
-      else if (lapack_is_there .and. size(b) >= large) then
-         b = self%row*b
-         call solve_by_lapack(self%a, self%pivot, b)
-      else
-         call solve(self%a, self%pivot, self%first, self%last, b)
-      end if
+      include "solve_system.inc"
    end subroutine solve_complex
+
+   !> Rows of a column that may differ from 0: row i is at (shift + i, j).
+   pure subroutine find_rows(self, j, first, last, shift)
+      !> The system
+      class(linear_system), intent(in) :: self
+      !> Number of the column
+      integer, intent(in) :: j
+      !> First and last row, and the shift of all rows
+      integer, intent(out) :: first, last, shift
+
+      first = 1
+      last = size(self%row)
+      shift = 0
+      if (.not. self%banded) return
+      first = max(1, j - self%upper)
+      last = min(last, j + self%lower)
+      shift = 1 + self%lower + self%upper - j
+   end subroutine find_rows
 
    !> Additions and multiplications of a factorisation, in real numbers.
    pure real(wp) function factor_operations(n, banded, lower, upper) result(operations)

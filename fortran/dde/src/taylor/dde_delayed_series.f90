@@ -1,19 +1,14 @@
 !> The delayed values over one step as Taylor series: the polynomials of the past, shifted to the
 !> start of the step.
 module dde_delayed_series
-   use dde_cursor, only: cursor_type
-   use dde_history, only: history_type
-   use dde_interpolant, only: newton_value, series_value, taylor_coefficients
-   use dde_problem, only: dde_problem_type
+   use dde_interpolant, only: series_value
+   use dde_step_context, only: step_context
    use dde_time, only: elapsed
-   use dde_tolerance, only: tolerance_type
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
    public :: delayed_series
 
-   !> Share of a past step that rounding may hide.
-   real(wp), parameter :: hidden = 4.0_wp*epsilon(1.0_wp)
    !> The rest of a past step is not read if it is shorter than this share of the next. Otherwise a
    !> step of rounding size would follow. The polynomial of the next is as good there.
    real(wp), parameter :: negligible = 1.0e-3_wp
@@ -58,15 +53,11 @@ contains
    end function new_series
 
    !> Series of the delayed values from the start of the step on.
-   pure subroutine read_past(self, problem, past, cursor, skipping, unit, valid_for)
+   pure subroutine read_past(self, context, skipping, unit, valid_for)
       !> The series
       class(delayed_series), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> The past
-      type(history_type), intent(in) :: past
-      !> The cursor, on the step
-      type(cursor_type), intent(inout) :: cursor
+      !> The context of the step
+      type(step_context), intent(inout) :: context
       !> Whether very short past steps may be skipped
       logical, intent(in) :: skipping
       !> Unit of time of the powers. It is shortened to `valid_for`: powers of it over the length of
@@ -74,71 +65,65 @@ contains
       real(wp), intent(inout) :: unit
       !> Time from the start of the step for which all series are valid
       real(wp), intent(out) :: valid_for
-      real(wp) :: place
-      integer :: k, slot
+      integer :: k
 
       valid_for = huge(1.0_wp)
-      do k = 1, size(self%first)
-         if (cursor%before_origin(k)) cycle
-         call read_start(past, cursor, k)
-         self%first(k) = cursor%step(k)
-         if (skipping) call skip_short(past, cursor, k, thin*unit)
-         valid_for = min(valid_for, past%valid_for(cursor%slot(k)) - cursor%offset(k))
-      end do
-      unit = min(unit, valid_for)
-      do k = 1, size(self%first)
-         self%skipped(k) = 0.0_wp
-         if (cursor%before_origin(k)) then
-            call problem%past_series(cursor%time_before(past, problem%lag(k), 0.0_wp), &
-                                     problem%component(k), unit, self%coefficients(:, k))
-         else
-            slot = cursor%slot(k)
-            place = cursor%offset(k)/past%length(slot)
-            if (abs(place) < hidden) place = 0.0_wp
-            call taylor_coefficients(past%degree(slot), past%nodes(:, slot), past%powers(slot), &
-                                     past%coefficients(:, past%row(k), slot), place, &
-                                     unit/past%length(slot), self%coefficients(:, k))
-            if (cursor%step(k) > self%first(k)) then
-               self%skipped(k) = skipped_integral(past, cursor, k, self%first(k), &
-                                                  self%coefficients(0, k))
+      associate (past => context%past, cursor => context%cursor, problem => context%problem)
+         do k = 1, size(self%first)
+            if (cursor%before_origin(k)) cycle
+            call read_start(context, k)
+            self%first(k) = cursor%step(k)
+            if (skipping) call skip_short(context, k, thin*unit)
+            valid_for = min(valid_for, past%validity_of(cursor%step(k)) - cursor%offset(k))
+         end do
+         unit = min(unit, valid_for)
+         do k = 1, size(self%first)
+            self%skipped(k) = 0.0_wp
+            if (cursor%before_origin(k)) then
+               call problem%past_series(cursor%time_before(past, problem%lag(k), 0.0_wp), &
+                                        problem%component(k), unit, self%coefficients(:, k))
+            else
+               call past%series(cursor%step(k), k, cursor%offset(k), unit, self%coefficients(:, k))
+               if (cursor%step(k) > self%first(k)) then
+                  self%skipped(k) = skipped_integral(context, k, self%first(k), &
+                                                     self%coefficients(0, k))
+               end if
             end if
-         end if
-      end do
+         end do
+      end associate
    end subroutine read_past
 
    !> Shorten a step to the length for which the series agree with the past. A step reads its past
    !> from one series, although the past may consist of several polynomials there. The length is 0
    !> if the skipped past differs by more than the tolerance.
-   pure subroutine confirm(self, past, cursor, unit, tolerance, h)
+   pure subroutine confirm(self, context, unit, h)
       !> The series, read
       class(delayed_series), intent(in) :: self
-      !> The past
-      type(history_type), intent(in) :: past
-      !> The cursor, on the step
-      type(cursor_type), intent(inout) :: cursor
+      !> The context of the step
+      type(step_context), intent(inout) :: context
       !> Unit of time of the powers
       real(wp), intent(in) :: unit
-      !> Tolerance of each component
-      type(tolerance_type), intent(in) :: tolerance
       !> Length of the step: proposed, then possible
       real(wp), intent(inout) :: h
       real(wp) :: actual, difference, own
       integer :: k
 
-      associate (z => self%coefficients)
+      associate (past => context%past, cursor => context%cursor, tolerance => context%tolerance, &
+                 component => context%problem%component, z => self%coefficients)
          do k = 1, size(z, 2)
             if (cursor%before_origin(k) .or. cursor%step(k) == past%newest) cycle
-            own = past%length(cursor%slot(k)) - cursor%offset(k)
+            own = past%length_of(cursor%step(k)) - cursor%offset(k)
             do while (h > own)
-               call read_ahead(past, cursor, k, h, actual)
+               call cursor%walk_to(past, k, h)
+               actual = past%value(cursor%step(k), k, cursor%offset(k) + h)
                difference = abs(series_value(ubound(z, 1), z(:, k), h/unit) - actual) &
-                            /(agreement*tolerance%of_component(past%kept(past%row(k)), actual))
+                            /(agreement*tolerance%of_component(component(k), actual))
                if (difference <= 1.0_wp) exit
                h = max(own, 0.9_wp*h/difference**(1.0_wp/ubound(z, 1)))
             end do
          end do
          do k = 1, size(z, 2)
-            actual = agreement*tolerance%of_component(past%kept(past%row(k)), z(0, k))
+            actual = agreement*tolerance%of_component(component(k), z(0, k))
             if (self%skipped(k) > actual*h) h = 0.0_wp
          end do
       end associate
@@ -162,70 +147,65 @@ contains
 
    !> Let delayed value k read the past step that holds its place at the start of the step, or the
    !> next one if that is about to end.
-   pure subroutine read_start(past, cursor, k)
-      !> The past
-      type(history_type), intent(in) :: past
-      !> The cursor
-      type(cursor_type), intent(inout) :: cursor
-      !> Which delayed value
+   pure subroutine read_start(context, k)
+      !> The context of the step
+      type(step_context), intent(inout) :: context
+      !> Number of the delayed value
       integer, intent(in) :: k
-      integer :: next
 
-      do while (cursor%offset(k) < 0.0_wp .and. cursor%step(k) > past%oldest)
-         call cursor%read_from(past, k, cursor%step(k) - 1)
-      end do
-      do while (cursor%step(k) < past%newest)
-         next = past%slot_of(cursor%step(k) + 1)
-         ! not the length less the offset: its rounding error may be many lengths of the next step
-         if (elapsed(cursor%delayed_start(k), past%start(next)) &
-             > negligible*past%length(next)) exit
-         call cursor%read_from(past, k, cursor%step(k) + 1)
-      end do
+      associate (past => context%past, cursor => context%cursor)
+         do while (cursor%offset(k) < 0.0_wp .and. cursor%step(k) > past%oldest)
+            call cursor%read_from(past, k, cursor%step(k) - 1)
+         end do
+         do while (cursor%step(k) < past%newest)
+            ! not the length less the offset: its rounding error may be many lengths of the next
+            if (elapsed(cursor%delayed_start(k), past%start_of(cursor%step(k) + 1)) &
+                > negligible*past%length_of(cursor%step(k) + 1)) exit
+            call cursor%read_from(past, k, cursor%step(k) + 1)
+         end do
+      end associate
    end subroutine read_start
 
    !> Let delayed value k read a later past step. A transient leaves very short steps behind: these
    !> are skipped. Where no step is very short, the next one is read if its start is nearer than
    !> that of the present one and no kink lies between them.
-   pure subroutine skip_short(past, cursor, k, most)
-      !> The past
-      type(history_type), intent(in) :: past
-      !> The cursor
-      type(cursor_type), intent(inout) :: cursor
-      !> Which delayed value
+   pure subroutine skip_short(context, k, most)
+      !> The context of the step
+      type(step_context), intent(inout) :: context
+      !> Number of the delayed value
       integer, intent(in) :: k
       !> Largest length of a very short step, and of all that are skipped together
       real(wp), intent(in) :: most
-      real(wp) :: ahead
+      real(wp) :: ahead, length
       integer(int64) :: first
 
-      if (cursor%step(k) == past%newest) return
-      associate (slot => cursor%slot(k))
-         ahead = past%length(slot) - cursor%offset(k)
+      associate (past => context%past, cursor => context%cursor)
+         if (cursor%step(k) == past%newest) return
+         first = cursor%step(k)
+         length = past%length_of(first)
+         ahead = length - cursor%offset(k)
          if (ahead > most) then
-            if (ahead < cursor%offset(k) .and. past%valid_for(slot) > past%length(slot)) then
-               call cursor%read_from(past, k, cursor%step(k) + 1)
+            if (ahead < cursor%offset(k) .and. past%validity_of(first) > length) then
+               call cursor%read_from(past, k, first + 1)
             end if
             return
          end if
+         do
+            if (cursor%step(k) == past%newest .or. -cursor%offset(k) > most) then
+               call cursor%read_from(past, k, first)
+               return
+            end if
+            call cursor%read_from(past, k, cursor%step(k) + 1)
+            if (past%length_of(cursor%step(k)) > most) exit
+         end do
       end associate
-      first = cursor%step(k)
-      do
-         if (cursor%step(k) == past%newest .or. -cursor%offset(k) > most) then
-            call cursor%read_from(past, k, first)
-            return
-         end if
-         call cursor%read_from(past, k, cursor%step(k) + 1)
-         if (past%length(cursor%slot(k)) > most) exit
-      end do
    end subroutine skip_short
 
    !> Integral of |skipped past - value that is read instead|.
-   pure function skipped_integral(past, cursor, k, first, value) result(integral)
-      !> The past
-      type(history_type), intent(in) :: past
-      !> The cursor
-      type(cursor_type), intent(in) :: cursor
-      !> Which delayed value
+   pure function skipped_integral(context, k, first, value) result(integral)
+      !> The context of the step
+      type(step_context), intent(in) :: context
+      !> Number of the delayed value
       integer, intent(in) :: k
       !> Number of the first past step that is skipped
       integer(int64), intent(in) :: first
@@ -233,45 +213,14 @@ contains
       real(wp), intent(in) :: value
       real(wp) :: integral, offset
       integer(int64) :: step
-      integer :: slot
 
-      slot = past%slot_of(first)
-      offset = elapsed(past%start(slot), cursor%delayed_start(k))
-      integral = (past%length(slot) - offset) &
-                 *abs(newton_value(past%degree(slot), past%nodes(:, slot), &
-                                   past%coefficients(:, past%row(k), slot), &
-                                   offset/past%length(slot)) - value)
-      do step = first + 1, cursor%step(k) - 1
-         slot = past%slot_of(step)
-         integral = integral &
-                    + past%length(slot)*abs(past%coefficients(0, past%row(k), slot) - value)
-      end do
+      associate (past => context%past, cursor => context%cursor)
+         offset = elapsed(past%start_of(first), cursor%delayed_start(k))
+         integral = (past%length_of(first) - offset)*abs(past%value(first, k, offset) - value)
+         do step = first + 1, cursor%step(k) - 1
+            integral = integral &
+                       + past%length_of(step)*abs(past%value(step, k, 0.0_wp) - value)
+         end do
+      end associate
    end function skipped_integral
-
-   !> One delayed value at one place ahead.
-   pure subroutine read_ahead(past, cursor, k, ahead, z)
-      !> The past
-      type(history_type), intent(in) :: past
-      !> The cursor
-      type(cursor_type), intent(inout) :: cursor
-      !> Which delayed value
-      integer, intent(in) :: k
-      !> Time since the start of the step
-      real(wp), intent(in) :: ahead
-      !> The delayed value there
-      real(wp), intent(out) :: z
-      integer :: slot
-
-      do while (cursor%offset(k) + ahead < 0.0_wp)
-         call cursor%read_from(past, k, cursor%step(k) - 1)
-      end do
-      do
-         slot = cursor%slot(k)
-         if (cursor%offset(k) + ahead <= past%length(slot) .or. cursor%step(k) == past%newest) exit
-         call cursor%read_from(past, k, cursor%step(k) + 1)
-      end do
-      z = newton_value(past%degree(slot), past%nodes(:, slot), &
-                       past%coefficients(:, past%row(k), slot), &
-                       (cursor%offset(k) + ahead)/past%length(slot))
-   end subroutine read_ahead
 end module dde_delayed_series

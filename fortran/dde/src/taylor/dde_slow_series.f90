@@ -3,8 +3,7 @@
 !> the step size. The difference between state and slow solution is at most the tolerance.
 module dde_slow_series
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use dde_problem, only: dde_problem_type
-   use dde_work, only: work_type
+   use dde_step_context, only: step_context
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -54,7 +53,7 @@ contains
       class(slow_series), intent(inout) :: self
       !> How far the series of the state reaches, times the relaxation rate
       real(wp), intent(in) :: measure
-      !> The answer
+      !> Whether to search
       logical, intent(out) :: value
 
       value = .false.
@@ -66,11 +65,11 @@ contains
 
    !> Iterate from the state. The series holds if it converges to the tolerance over its reach and
    !> if the state is that near to it.
-   pure subroutine find(self, problem, t, unit, degree, z, scale, rate, work, y)
+   pure subroutine find(self, context, t, unit, degree, z, scale, rate, y)
       !> The series
       class(slow_series), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
+      !> The context of the step
+      type(step_context), intent(inout) :: context
       !> Time
       real(wp), intent(in) :: t
       !> Unit of time of the powers
@@ -78,28 +77,26 @@ contains
       !> Degree
       integer, intent(in) :: degree
       !> Coefficients of the delayed values
-      real(wp), intent(in) :: z(0:degree, size(problem%lag))
+      real(wp), intent(in) :: z(0:degree, size(context%problem%lag))
       !> Tolerance of each component
-      real(wp), intent(in) :: scale(problem%n)
+      real(wp), intent(in) :: scale(context%problem%n)
       !> Relaxation rate
       real(wp), intent(in) :: rate
-      !> Work so far
-      type(work_type), intent(inout) :: work
       !> Coefficients, of which y(0, :) is given, the state; the slow series if it holds
-      real(wp), intent(inout) :: y(0:degree, problem%n)
+      real(wp), intent(inout) :: y(0:degree, context%problem%n)
       real(wp) :: distance, open
       integer :: iteration, k
 
       self%holds = .false.
       if (.not. allocated(self%state)) then
-         allocate (self%change(0:degree, problem%n), self%state(problem%n))
+         allocate (self%change(0:degree, size(scale)), self%state(size(scale)))
       end if
       self%state = y(0, :)
       y(1:, :) = 0.0_wp
       do iteration = 1, most_iterations
          self%change = y
-         call problem%slow_series(t, unit, degree, z, y)
-         work%evaluations = work%evaluations + 1
+         call context%problem%slow_series(t, unit, degree, z, y)
+         context%work%evaluations = context%work%evaluations + 1
          call series_reach(degree, y, scale, self%reach)
          if (.not. self%reach*unit*rate >= least_balance) return
          self%change = y - self%change
@@ -108,7 +105,7 @@ contains
             self%change(k, :) = (k + 1)/(unit*rate)*self%change(k + 1, :)
          end do
          self%change(degree, :) = 0.0_wp
-         open = largest_term(degree, problem%n, self%change, scale, self%reach)
+         open = largest_term(degree, size(scale), self%change, scale, self%reach)
          distance = maxval(abs(y(0, :) - self%state)/scale)
          if (distance > transient + 2*open) then
             ! a limited step reduces the distance by `limited` e-foldings at least
@@ -127,7 +124,7 @@ contains
    pure real(wp) function largest_term(degree, n, coefficients, scale, s) result(largest)
       !> Degree
       integer, intent(in) :: degree
-      !> How many
+      !> Number of series
       integer, intent(in) :: n
       !> Coefficients
       real(wp), intent(in) :: coefficients(0:degree, n)

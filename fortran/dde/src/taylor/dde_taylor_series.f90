@@ -5,7 +5,7 @@ module dde_taylor_series
    use dde_interpolant, only: series_value
    use dde_problem, only: dde_problem_type
    use dde_slow_series, only: series_reach, slow_series
-   use dde_work, only: work_type
+   use dde_step_context, only: step_context
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -62,64 +62,60 @@ contains
 
    !> The slow series if it holds: the state is then moved onto the slow solution. Otherwise the
    !> series of the state.
-   pure subroutine expand(self, problem, t, scale, work, y)
+   pure subroutine expand(self, context, t, scale, y)
       !> The series
       class(taylor_series), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
+      !> The context of the step
+      type(step_context), intent(inout) :: context
       !> Time
       real(wp), intent(in) :: t
       !> Tolerance of each component
       real(wp), contiguous, intent(in) :: scale(:)
-      !> Work so far
-      type(work_type), intent(inout) :: work
       !> State
       real(wp), contiguous, intent(inout) :: y(:)
       real(wp) :: rate
       logical :: trying
 
-      rate = problem%relaxation_rate(t, y)
+      rate = context%problem%relaxation_rate(t, y)
       trying = self%slow%holds
-      if (trying) call find_slow(self, problem, t, scale, rate, work, y)
+      if (trying) call find_slow(self, context, t, scale, rate, y)
       if (self%slow%holds) return
       if (self%unit*rate > longest_unit) then
          call self%delayed%change_unit(longest_unit/rate/self%unit)
          self%unit = longest_unit/rate
       end if
       self%coefficients(0, :) = y
-      call problem%series(t, self%unit, self%degree, self%delayed%coefficients, &
-                          self%coefficients)
-      work%evaluations = work%evaluations + 1
+      call context%problem%series(t, self%unit, self%degree, self%delayed%coefficients, &
+                                  self%coefficients)
+      context%work%evaluations = context%work%evaluations + 1
       call series_reach(self%degree, self%coefficients, scale, self%reach)
       self%reach = self%unit*self%reach
       if (trying) return
       call self%slow%decide_search(rate*self%reach, trying)
       if (.not. trying) return
       self%of_state = self%coefficients
-      call find_slow(self, problem, t, scale, rate, work, y)
+      call find_slow(self, context, t, scale, rate, y)
       if (.not. self%slow%holds) self%coefficients = self%of_state
    end subroutine expand
 
    !> Take the slow series if it holds.
-   pure subroutine find_slow(self, problem, t, scale, rate, work, y)
+   pure subroutine find_slow(self, context, t, scale, rate, y)
       !> The series
       class(taylor_series), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
+      !> The context of the step
+      type(step_context), intent(inout) :: context
       !> Time
       real(wp), intent(in) :: t
       !> Tolerance of each component
       real(wp), contiguous, intent(in) :: scale(:)
       !> Relaxation rate
       real(wp), intent(in) :: rate
-      !> Work so far
-      type(work_type), intent(inout) :: work
       !> State; that on the slow solution
       real(wp), contiguous, intent(inout) :: y(:)
 
       self%coefficients(0, :) = y
-      call self%slow%find(problem, t, self%unit, self%degree, self%delayed%coefficients, scale, &
-                          rate, work, self%coefficients)
+      call self%slow%find(context, t, self%unit, self%degree, self%delayed%coefficients, scale, &
+                          rate, self%coefficients)
       if (.not. self%slow%holds) return
       y = self%coefficients(0, :)
       self%reach = self%unit*self%slow%reach

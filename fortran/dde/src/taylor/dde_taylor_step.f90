@@ -4,15 +4,12 @@
 module dde_taylor_step
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use dde_controller, only: controller_type
-   use dde_cursor, only: cursor_type
-   use dde_history, only: history_type
    use dde_method_constants, only: method_constants
    use dde_interpolant, only: highest_degree
    use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
+   use dde_step_context, only: step_context
    use dde_taylor_series, only: taylor_series
-   use dde_tolerance, only: tolerance_type
-   use dde_work, only: work_type
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -88,35 +85,26 @@ contains
    end subroutine reset
 
    !> Find the series, and the largest step for which it and the past it is made from are valid.
-   pure subroutine propose(self, problem, past, cursor, tolerance, work, h)
+   pure subroutine propose(self, context, h)
       !> The step
       class(taylor_step_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> The past
-      type(history_type), intent(in) :: past
-      !> The cursor, on the longest step that is possible
-      type(cursor_type), intent(inout) :: cursor
-      !> Tolerance of each component
-      type(tolerance_type), intent(in) :: tolerance
-      !> Work so far
-      type(work_type), intent(inout) :: work
+      !> The context of the step, its cursor on the longest step that is possible
+      type(step_context), intent(inout) :: context
       !> Step size: proposed so far, then possible
       real(wp), intent(inout) :: h
       real(wp) :: past_valid_for, possible, unit
       logical :: skipping
 
-      associate (series => self%series)
+      associate (series => self%series, cursor => context%cursor)
          unit = merge(min(series%reach, growth*self%h), h, series%reach > 0.0_wp)
-         call tolerance%scale(self%y, self%scale)
+         call context%tolerance%scale(self%y, self%scale)
          skipping = .true.
          do
             series%unit = unit
-            call series%delayed%read_past(problem, past, cursor, skipping, series%unit, &
-                                          past_valid_for)
-            call series%expand(problem, cursor%inside(cursor%t), self%scale, work, self%y)
+            call series%delayed%read_past(context, skipping, series%unit, past_valid_for)
+            call series%expand(context, cursor%inside(cursor%t), self%scale, self%y)
             possible = min(series%reach, past_valid_for, cursor%h)
-            call series%delayed%confirm(past, cursor, series%unit, tolerance, possible)
+            call series%delayed%confirm(context, series%unit, possible)
             if (possible > 0.0_wp .or. .not. skipping) exit
             skipping = .false.
          end do
@@ -141,24 +129,16 @@ contains
    end subroutine next_length
 
    !> Attempt a step. Its length was chosen so that the error is within the tolerance.
-   pure subroutine attempt(self, problem, past, cursor, tolerance, work, error)
+   pure subroutine attempt(self, context, error)
       !> The step
       class(taylor_step_type), intent(inout) :: self
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> The past
-      type(history_type), intent(in) :: past
-      !> The cursor, on this step
-      type(cursor_type), intent(inout) :: cursor
-      !> Tolerance of each component
-      type(tolerance_type), intent(in) :: tolerance
-      !> Work so far
-      type(work_type), intent(inout) :: work
-      !> 0, or not a number where the series is not finite
+      !> The context of the step
+      type(step_context), intent(inout) :: context
+      !> 0, or not a number if the series is not finite
       real(wp), intent(out) :: error
 
-      self%t = cursor%t
-      self%h = cursor%h
+      self%t = context%cursor%t
+      self%h = context%cursor%h
       error = ieee_value(1.0_wp, ieee_quiet_nan)
       if (.not. self%series%reach > 0.0_wp) return
       ! beyond this, terms that vanish in a very short step would become large
@@ -171,7 +151,7 @@ contains
    pure subroutine interpolant(self, i, a)
       !> The step
       class(taylor_step_type), intent(in) :: self
-      !> Which component
+      !> Number of the component
       integer, intent(in) :: i
       !> Newton coefficients over `nodes`, which are all 0
       real(wp), contiguous, intent(out) :: a(0:)

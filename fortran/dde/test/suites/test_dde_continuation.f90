@@ -6,9 +6,9 @@ module test_dde_continuation
    use expectations, only: expect, expect_between, expect_close, expect_failure, &
                            expect_success
    use files_of_continuations, only: through_file
-   use dde_kinds, only: wp
+   use dde_kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use published_problems, only: infection
+   use published_problems, only: infection, mackey_glass
    use solving, only: at_tolerance
    use test_problems, only: linear, sine
    use undelayed_problems, only: swing
@@ -36,7 +36,10 @@ contains
                    new_unittest("when steps run out", test_too_many_steps), &
                    new_unittest("from event to event", test_events), &
                    new_unittest("through a file", test_file), &
-                   new_unittest("names of methods", test_names)]
+                   new_unittest("names of methods", test_names), &
+                   new_unittest("within a spacing of t", test_runs), &
+                   new_unittest("Taylor steps in pieces", test_pieces), &
+                   new_unittest("rounding of the oldest step", test_rounding)]
    end subroutine collect_dde_continuation
 
    !> Each method that a caller may choose runs, and none runs in place of another.
@@ -332,4 +335,106 @@ contains
       problem = linear(n=1, lag=[1.0_wp], component=[1], past=[past], first=[1.0_wp])
    end function decay
 
+   !> A fast oscillator at t = 100, whose phase is lost with less than a spacing of t, in runs of a
+   !> hundred steps.
+   subroutine test_runs(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(continuation_type) :: continuation
+      type(failure_type), allocatable :: failure
+      type(integration_options) :: options
+      type(integration_result) :: outcome
+      real(wp), parameter :: spacing_of_100 = 2.0_wp**(-46), turns = 1.1_wp*128
+      real(wp) :: t_start
+      integer :: i, runs
+
+      do i = 1, size(methods)
+         options = at_tolerance(1.0e-12_wp, methods(i))
+         options%most_steps = 100
+         continuation = continuation_type()
+         t_start = 100.0_wp
+         do runs = 1, 1000
+            call integrate(swing(turns*2*pi/(64*spacing_of_100)), t_start, &
+                           100.0_wp + 64*spacing_of_100, options, outcome, failure, &
+                           continuation=continuation)
+            t_start = outcome%t
+            if (outcome%reason /= too_many_steps) exit
+         end do
+         call expect_success(error, failure)
+         call expect(error, runs > 3, "several runs")
+         call expect_close(error, outcome%y, [cos(turns*2*pi), -sin(turns*2*pi)], 1.0e-8_wp, &
+                           methods(i))
+      end do
+   end subroutine test_runs
+
+   !> A cut costs a step, not those of a whole delay.
+   subroutine test_pieces(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(continuation_type) :: continuation
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome, whole
+      integer, parameter :: pieces = 20
+      integer(int64) :: steps
+      integer :: i
+
+      call integrate(chaotic(), 0.0_wp, 600.0_wp, by_taylor(), whole, failure)
+      call expect_success(error, failure)
+      steps = 0
+      do i = 1, pieces
+         call integrate(chaotic(), (i - 1)*600.0_wp/pieces, i*600.0_wp/pieces, &
+                        by_taylor(), outcome, failure, continuation=continuation)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         steps = steps + outcome%accepted
+      end do
+      call expect_close(error, outcome%y, whole%y, 1.0e-6_wp, "the end")
+      call expect(error, steps <= whole%accepted + pieces, text(steps)//" steps in pieces, " &
+                  //text(whole%accepted)//" in one")
+   end subroutine test_pieces
+
+   !> The oldest step may begin a rounding after t - lag, 83 here; not more.
+   subroutine test_rounding(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(continuation_type) :: continuation
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: known, outcome
+      real(wp), parameter :: late(2) = [spacing(100.0_wp), 1.0e-9_wp]
+      integer :: i
+
+      call integrate(chaotic(), 0.0_wp, 110.0_wp, by_taylor(), known, failure)
+      call expect_success(error, failure)
+      do i = 1, size(late)
+         continuation = continuation_type()
+         ! the end of the first run is the start of the oldest step kept by the second
+         call integrate(chaotic(), 0.0_wp, 83.0_wp, by_taylor(), outcome, failure, &
+                        continuation=continuation)
+         call expect_success(error, failure)
+         call integrate(chaotic(), 83.0_wp, 100.0_wp, by_taylor(), outcome, failure, &
+                        continuation=continuation)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         associate (start => continuation%step_start(:, 1))
+            call expect_close(error, start, [83.0_wp, 0.0_wp], 0.0_wp, "the oldest step")
+            start(1) = start(1) + late(i)
+         end associate
+         call integrate(chaotic(), 100.0_wp, 110.0_wp, by_taylor(), outcome, failure, &
+                        continuation=continuation)
+         if (i == 1) then
+            call expect_success(error, failure)
+            if (allocated(error)) return
+            call expect_close(error, outcome%y, known%y, 1.0e-8_wp, "the end")
+         else
+            call expect_failure(error, failure, "reaches beyond the past")
+         end if
+      end do
+   end subroutine test_rounding
+
+   !> Taylor steps.
+   type(integration_options) function by_taylor() result(options)
+      options = at_tolerance(1.0e-10_wp, "taylor")
+   end function by_taylor
+
+   !> Mackey and Glass's equation.
+   type(mackey_glass) function chaotic() result(problem)
+      problem = mackey_glass(n=1, lag=[17.0_wp], component=[1], past=[1.2_wp], first=[1.2_wp])
+   end function chaotic
 end module test_dde_continuation

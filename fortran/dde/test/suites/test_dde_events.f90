@@ -1,15 +1,15 @@
 !> Events: where they are found, in what order, and that one can end a run.
 module test_dde_events
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use dde, only: continuation_type, event_met, event_table, integrate, integration_options, &
-                  integration_result, methods, reached_end, table_sampler
+   use dde, only: continuation_type, elapsed, event_met, event_table, instant, integrate, &
+                  integration_options, integration_result, methods, reached_end, table_sampler
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_success
    use dde_kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use published_problems, only: mackey_glass
    use solving, only: at_tolerance
-   use test_problems, only: sine
+   use test_problems, only: linear, sine
    use undelayed_problems, only: quadrature, swing, without_delays
    implicit none (type, external)
    private
@@ -52,7 +52,10 @@ contains
                    new_unittest("a fast function of time", test_fast), &
                    new_unittest("steps without events are not searched", test_bounds), &
                    new_unittest("work", test_work), &
-                   new_unittest("the state of an event is whole", test_whole)]
+                   new_unittest("the state of an event is whole", test_whole), &
+                   new_unittest("within a spacing of t", test_within_spacing), &
+                   new_unittest("a slope that jumps", test_jump), &
+                   new_unittest("a zero where runs meet", test_zero_between)]
    end subroutine collect_dde_events
 
    !> sin t = 1/2 at pi/6, 5 pi/6 and 13 pi/6: rising, falling, both.
@@ -407,4 +410,93 @@ contains
       problem = quadrature(n=1, past=[first], first=[first], power=power)
       call without_delays(problem)
    end function power_of_time
+
+   !> An oscillator at t = 100 with a period of half a spacing of t: maxima a period apart.
+   subroutine test_within_spacing(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(event_table) :: table
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      real(wp), parameter :: period = 2.0_wp**(-47)
+      integer :: i
+
+      table = event_table([1], [0.0_wp], [-1], of_slope=[.true.])
+      call integrate(swing(2*pi/period), 100.0_wp, 100.0_wp + 20*period, &
+                     at_tolerance(1.0e-12_wp), outcome, failure, watcher=table)
+      call expect_success(error, failure)
+      call expect_between(error, real(table%received, wp), 19.0_wp, 20.0_wp, "maxima")
+      if (allocated(error)) return
+      call expect_close(error, [(elapsed(instant(100.0_wp), table%time(i))/(i*period), i=1, 19)], &
+                        spread(1.0_wp, 1, 19), 1.0e-9_wp, "time in periods")
+   end subroutine test_within_spacing
+
+   !> y' = -y(t - 1) from y = 0 with a jump to 1 at t = 0: the slope jumps from 0 to -1 at t = 1
+   !> and passes -1/2 there, and again at 5/2 on its way up from -1 to 0.
+   subroutine test_jump(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(event_table) :: table
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      integer :: i
+
+      do i = 1, size(methods)
+         table = event_table([1], [-0.5_wp], [0], of_slope=[.true.])
+         call integrate(linear(n=1, lag=[1.0_wp], component=[1], past=[0.0_wp], first=[1.0_wp]), &
+                        0.0_wp, 2.9_wp, at_tolerance(1.0e-10_wp, methods(i)), outcome, failure, &
+                        watcher=table)
+         call expect_success(error, failure)
+         call expect_close(error, table%time(:table%received)%hi, [1.0_wp, 2.5_wp], 1.0e-9_wp, &
+                           methods(i))
+         call expect_close(error, table%time(1)%hi, 1.0_wp, 0.0_wp, methods(i))
+      end do
+   end subroutine test_jump
+
+   !> Zeros and extremes of cos t where runs end, and amid runs so short that rounding is all that
+   !> their dense output shows: each is met once. A Newton iteration leaves rounding in its slopes
+   !> at the ends, and a series what follows its last term, so that only the explicit pair is asked
+   !> for all.
+   subroutine test_zero_between(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(event_table) :: table
+      type(continuation_type) :: continuation
+      real(wp) :: little
+      integer :: i, j, k
+
+      do i = 1, size(methods)
+         do j = 0, 2
+            little = j*merge(1.0e-14_wp, 1.0e-5_wp, methods(i) == "explicit")
+            table = event_table([1, 1], [0.0_wp, 0.0_wp], [0, 0], of_slope=[.false., .true.])
+            continuation = continuation_type()
+            do k = 1, 12
+               call go_on(error, methods(i), 0.5_wp*k*pi - little, table, continuation)
+               if (j > 0) call go_on(error, methods(i), 0.5_wp*k*pi + little, table, continuation)
+            end do
+            call go_on(error, methods(i), 6.2_wp*pi, table, continuation)
+            call expect(error, table%received == 12, text(table%received)//" events, "//methods(i))
+            if (allocated(error)) return
+            call expect_close(error, table%time(:12)%hi, [(0.5_wp*k*pi, k=1, 12)], 1.0e-8_wp, &
+                              methods(i))
+         end do
+      end do
+   end subroutine test_zero_between
+
+   !> An oscillator goes on, watched.
+   subroutine go_on(error, method, t_end, table, continuation)
+      !> The first failure of the test
+      type(error_type), allocatable, intent(inout) :: error
+      !> The method
+      character(len=*), intent(in) :: method
+      !> Final time
+      real(wp), intent(in) :: t_end
+      !> The watcher
+      type(event_table), intent(inout) :: table
+      !> Where it stands
+      type(continuation_type), intent(inout) :: continuation
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+
+      call integrate(swing(), continuation%time(1), t_end, at_tolerance(1.0e-10_wp, method), &
+                     outcome, failure, watcher=table, continuation=continuation)
+      call expect_success(error, failure)
+   end subroutine go_on
 end module test_dde_events

@@ -50,15 +50,15 @@ contains
       tolerance = tolerance_type(n, 1.0e-6_wp, 1.0e-6_wp)
       y = [(1.0_wp + 0.1_wp*i, i=1, n)]
       z = 0.5_wp
-      call full%evaluate(problem, 0.0_wp, y, z, tolerance, .true., work, finite)
+      call full%evaluate(problem, tolerance, work, 0.0_wp, y, z, .true., finite)
       call expect(error, work%evaluations == 1 + 2*n, "of all: "//text(work%evaluations))
-      call full%evaluate(problem, 0.0_wp, y, z, tolerance, .false., work, finite)
+      call full%evaluate(problem, tolerance, work, 0.0_wp, y, z, .false., finite)
       call expect(error, work%evaluations == 2 + 3*n, &
                   "without the delayed ones: "//text(work%evaluations))
       problem%lower = 1
       problem%upper = 1
       work = work_type(n)
-      call banded%evaluate(problem, 0.0_wp, y, z, tolerance, .false., work, finite)
+      call banded%evaluate(problem, tolerance, work, 0.0_wp, y, z, .false., finite)
       call expect(error, work%evaluations == 4, "by diagonals: "//text(work%evaluations))
       do j = 1, n
          do i = max(1, j - 1), min(n, j + 1)

@@ -1,15 +1,15 @@
 !> The past as Taylor series: of which step, carried how far, and how long they are valid.
 module test_dde_past_series
-   use dde_cursor, only: cursor_type
    use dde_delayed_series, only: delayed_series
-   use dde_history, only: history_type
    use dde_interpolant, only: taylor_coefficients
+   use dde_step_context, only: step_context
    use dde_time, only: instant_at
    use dde_tolerance, only: tolerance_type
    use dde_errors, only: text
    use expectations, only: expect_close
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use single_step, only: new_context
    use test_problems, only: wille_baker
    implicit none (type, external)
    private
@@ -17,6 +17,8 @@ module test_dde_past_series
 
    !> Nodes of a polynomial that is not one of powers.
    real(wp), parameter :: nodes(3) = [0.0_wp, 1.0_wp, 0.0_wp]
+   !> Times are read this long after they were.
+   real(wp), parameter :: lag = 2.0_wp
 
 contains
 
@@ -32,45 +34,34 @@ contains
                    new_unittest("series behind a layer", test_layer)]
    end subroutine collect_dde_past_series
 
-   !> One cubic, kept over three nodes that are not all 0 in the first step and in powers in the
-   !> second, has the same series wherever one looks, as far as there is place for its terms; and it
-   !> is valid for as long as the second step says.
+   !> One cubic has the same series wherever it is read. It is stored over three nodes in the first
+   !> step and in powers in the second. The series is valid for as long as the step says.
    subroutine test_series(error)
       type(error_type), allocatable, intent(out) :: error
-      type(cursor_type) :: cursor
-      type(delayed_series) :: first_terms, series
-      type(history_type) :: past
-      type(wille_baker) :: problem
-      real(wp) :: known(0:5), valid_for, unit
+      type(delayed_series) :: series
+      type(step_context) :: context
+      type(wille_baker), target :: problem
+      real(wp) :: known(0:5), unit, valid_for
       real(wp), parameter :: looks(5) = [0.0_wp, 0.3_wp, 0.5_wp, 0.7_wp, 1.25_wp]
-      integer :: i
+      integer :: degree, i
 
       ! 1 + 2 t - t^2 + t^3/2 over steps of 0.5 and 1
       problem = delayed()
-      past = history_type(problem, instant_at(0.0_wp))
-      cursor = cursor_type(problem)
-      series = delayed_series(degree=5, delays=1)
-      first_terms = delayed_series(degree=1, delays=1)
-      call past%append(instant_at(0.0_wp), 0.5_wp, nodes, &
-                       reshape([1.0_wp, 0.8125_wp, -0.1875_wp, 0.0625_wp], [4, 1]), &
-                       valid_for=0.5_wp)
-      call past%append(instant_at(0.5_wp), 1.0_wp, [0.0_wp, 0.0_wp, 0.0_wp], &
-                       reshape([1.8125_wp, 1.375_wp, -0.25_wp, 0.5_wp], [4, 1]), valid_for=1.2_wp)
+      context = new_context(problem, 0.0_wp, 0.1_wp, 0.0_wp, 1.0_wp)
+      call context%past%append(instant_at(0.0_wp), 0.5_wp, nodes, &
+                               reshape([1.0_wp, 0.8125_wp, -0.1875_wp, 0.0625_wp], [4, 1]), &
+                               valid_for=0.5_wp)
+      call append(context, 0.5_wp, 1.0_wp, [1.8125_wp, 1.375_wp, -0.25_wp, 0.5_wp], 1.2_wp)
       do i = 1, size(looks)
          associate (t => looks(i))
-            call cursor%set(problem, past, instant_at(t + problem%lag(1)), 0.1_wp)
-            unit = 0.4_wp
-            call series%read_past(problem, past, cursor, .false., unit, valid_for)
-            call expect_close(error, unit, min(0.4_wp, valid_for), 0.0_wp, "unit")
+            valid_for = merge(0.5_wp, 1.7_wp, t < 0.5_wp) - t
+            unit = min(0.4_wp, valid_for)
             known = [1.0_wp + t*(2.0_wp - t*(1.0_wp - 0.5_wp*t)), 2.0_wp - t*(2.0_wp - 1.5_wp*t), &
                      -1.0_wp + 1.5_wp*t, 0.5_wp, 0.0_wp, 0.0_wp]*unit**[0, 1, 2, 3, 4, 5]
-            call expect_close(error, series%coefficients(:, 1), known, 1.0e-15_wp, &
-                              "series at t = "//text(t))
-            call expect_close(error, valid_for, merge(0.5_wp, 1.7_wp, t < 0.5_wp) - t, 1.0e-15_wp, &
-                              "how long it is valid at t = "//text(t))
-            call first_terms%read_past(problem, past, cursor, .false., unit, valid_for)
-            call expect_close(error, first_terms%coefficients(:, 1), known(:1), 1.0e-15_wp, &
-                              "two terms of it")
+            do degree = 1, 5, 4
+               call expect_series(error, context, t, 0.1_wp, 0.4_wp, .false., known(:degree), &
+                                  "series at t = "//text(t), series, valid_for)
+            end do
          end associate
       end do
    end subroutine test_series
@@ -88,159 +79,179 @@ contains
       call expect_close(error, wider, series, 1.0e-15_wp, "series")
    end subroutine test_padded
 
-   !> The same polynomial over nodes of which the second is 0 has the same series: it is not one of
-   !> powers.
+   !> The polynomial 1 + s (s - 1/2) has the same series if the second of its nodes is 0: it is not
+   !> one of powers.
    subroutine test_second_node(error)
       type(error_type), allocatable, intent(out) :: error
-      real(wp), parameter :: first(2) = [0.0_wp, 0.5_wp], second(2) = [0.5_wp, 0.0_wp]
-      type(cursor_type) :: cursor
-      type(delayed_series) :: series(2)
-      type(history_type) :: past
-      type(wille_baker) :: problem
-      real(wp) :: valid_for, unit
-      integer :: order
+      real(wp), parameter :: orders(2, 2) = reshape([0.0_wp, 0.5_wp, 0.5_wp, 0.0_wp], [2, 2])
+      type(delayed_series) :: series
+      type(step_context) :: context
+      type(wille_baker), target :: problem
+      integer :: i
 
       problem = delayed()
-      do order = 1, 2
-         past = history_type(problem, instant_at(0.0_wp))
-         cursor = cursor_type(problem)
-         series(order) = delayed_series(degree=2, delays=1)
-         ! 1 + s (s - 1/2), of which the slope at 0 is -1/2
-         call past%append(instant_at(0.0_wp), 1.0_wp, merge(first, second, order == 1), &
-                          reshape([1.0_wp, 0.0_wp, 1.0_wp], [3, 1]), valid_for=1.0_wp)
-         call cursor%set(problem, past, instant_at(2.25_wp), 0.5_wp)
-         unit = 1.0_wp
-         call series(order)%read_past(problem, past, cursor, .false., unit, valid_for)
+      do i = 1, 2
+         context = new_context(problem, 0.0_wp, 0.5_wp, 0.0_wp, 1.0_wp)
+         call context%past%append(instant_at(0.0_wp), 1.0_wp, orders(:, i), &
+                                  reshape([1.0_wp, 0.0_wp, 1.0_wp], [3, 1]), valid_for=1.0_wp)
+         ! in units of 0.75, for which it is valid
+         call expect_series(error, context, 0.25_wp, 0.5_wp, 1.0_wp, .false., &
+                            [0.9375_wp, 0.0_wp, 0.5625_wp], "series", series)
       end do
-      call expect_close(error, series(2)%coefficients(:, 1), series(1)%coefficients(:, 1), &
-                        1.0e-15_wp, "series")
    end subroutine test_second_node
 
-   !> Where the next step begins nearer, its series is read, unless there is a kink between them;
-   !> what it departs from the past before it begins must not count.
+   !> If the next step begins nearer, its series is read, unless there is a kink between them. Its
+   !> departure from the past before it begins must not exceed the tolerance.
    subroutine test_next(error)
       type(error_type), allocatable, intent(out) :: error
-      type(cursor_type) :: cursor
       type(delayed_series) :: series
-      type(history_type) :: past
-      type(wille_baker) :: problem
-      real(wp) :: h, valid_for, unit
+      type(step_context) :: context
+      type(wille_baker), target :: problem
 
       problem = delayed()
-      past = two_steps(problem, valid_for=1.5_wp)
-      cursor = cursor_type(problem)
-      series = delayed_series(degree=2, delays=1)
-      call cursor%set(problem, past, instant_at(2.75_wp), 0.5_wp)
-      unit = 0.5_wp
-      call series%read_past(problem, past, cursor, .true., unit, valid_for)
-      call expect_close(error, series%coefficients(:, 1), [1.751_wp, 0.5_wp, 0.0_wp], 1.0e-15_wp, &
-                        "the next, back")
-      h = 0.5_wp
-      call series%confirm(past, cursor, unit, tolerance_type(problem%n, 0.0_wp, 1.0e-2_wp), h)
-      call expect_close(error, h, 0.5_wp, 0.0_wp, "a departure of 0.1 tolerances")
-      call series%confirm(past, cursor, unit, tolerance_type(problem%n, 0.0_wp, 1.0e-4_wp), h)
-      call expect_close(error, h, 0.0_wp, 0.0_wp, "a departure of 10 tolerances")
-      unit = 0.5_wp
-      call series%read_past(problem, past, cursor, .false., unit, valid_for)
-      call expect_close(error, series%coefficients(:, 1), [1.75_wp, 0.5_wp, 0.0_wp], 1.0e-15_wp, &
-                        "the step itself")
-      past = two_steps(problem, valid_for=1.0_wp)
-      cursor = cursor_type(problem)
-      call cursor%set(problem, past, instant_at(2.75_wp), 0.25_wp)
-      unit = 0.25_wp
-      call series%read_past(problem, past, cursor, .true., unit, valid_for)
-      call expect_close(error, series%coefficients(:, 1), [1.75_wp, 0.25_wp, 0.0_wp], 1.0e-15_wp, &
-                        "not beyond a kink")
+      context = with_two_steps(problem, valid_for=1.5_wp)
+      call expect_series(error, context, 0.75_wp, 0.5_wp, 0.5_wp, .true., &
+                         [1.751_wp, 0.5_wp, 0.0_wp], "the next, back", series)
+      call expect_length(error, context, series, 0.5_wp, 1.0e-2_wp, 0.5_wp)
+      call expect_length(error, context, series, 0.5_wp, 1.0e-4_wp, 0.0_wp)
+      call expect_series(error, context, 0.75_wp, 0.5_wp, 0.5_wp, .false., &
+                         [1.75_wp, 0.5_wp, 0.0_wp], "the step itself", series)
+      context = with_two_steps(problem, valid_for=1.0_wp)
+      call expect_series(error, context, 0.75_wp, 0.25_wp, 0.25_wp, .true., &
+                         [1.75_wp, 0.25_wp, 0.0_wp], "not beyond a kink", series)
    end subroutine test_next
 
    !> A series is used beyond its step as far as it agrees with what followed.
    subroutine test_disagreement(error)
       type(error_type), allocatable, intent(out) :: error
-      type(cursor_type) :: cursor
       type(delayed_series) :: series
-      type(history_type) :: past
-      type(wille_baker) :: problem
-      real(wp) :: h, valid_for, unit
+      type(step_context) :: context
+      type(wille_baker), target :: problem
       real(wp), parameter :: tolerances(2) = [1.0e-2_wp, 1.0e-4_wp], lengths(2) = [1.0_wp, 0.75_wp]
       integer :: i
 
       problem = delayed()
-      past = two_steps(problem, valid_for=1.5_wp)
-      cursor = cursor_type(problem)
-      series = delayed_series(degree=2, delays=1)
+      context = with_two_steps(problem, valid_for=1.5_wp)
       do i = 1, 2
-         call cursor%set(problem, past, instant_at(2.25_wp), 1.0_wp)
-         unit = 1.0_wp
-         call series%read_past(problem, past, cursor, .true., unit, valid_for)
-         call expect_close(error, series%coefficients(:, 1), [1.25_wp, 1.0_wp, 0.0_wp], &
-                           1.0e-15_wp, "the step itself")
-         h = 1.0_wp
-         call series%confirm(past, cursor, unit, &
-                             tolerance_type(problem%n, 0.0_wp, tolerances(i)), h)
-         call expect_close(error, h, lengths(i), 1.0e-15_wp, "length at "//text(tolerances(i)))
+         call expect_series(error, context, 0.25_wp, 1.0_wp, 1.0_wp, .true., &
+                            [1.25_wp, 1.0_wp, 0.0_wp], "the step itself", series)
+         call expect_length(error, context, series, 1.0_wp, tolerances(i), lengths(i))
       end do
    end subroutine test_disagreement
 
-   !> Two steps, 1 + t from 0 to 1 and 0.001 more from there to 2.
-   function two_steps(problem, valid_for) result(past)
-      !> The problem
-      type(wille_baker), intent(in) :: problem
-      !> Time for which the first is valid
-      real(wp), intent(in) :: valid_for
-      type(history_type) :: past
-
-      past = history_type(problem, instant_at(0.0_wp))
-      call past%append(instant_at(0.0_wp), 1.0_wp, [0.0_wp, 0.0_wp], &
-                       reshape([1.0_wp, 1.0_wp, 0.0_wp], [3, 1]), valid_for)
-      call past%append(instant_at(1.0_wp), 1.0_wp, [0.0_wp, 0.0_wp], &
-                       reshape([2.001_wp, 1.0_wp, 0.0_wp], [3, 1]), valid_for=2.0_wp)
-      call past%append(instant_at(2.0_wp), 1.0_wp, [0.0_wp, 0.0_wp], &
-                       reshape([3.001_wp, 1.0_wp, 0.0_wp], [3, 1]), valid_for=2.0_wp)
-   end function two_steps
-
-   !> Ten steps of 1e-5 that are 0.1 above what follows: passed over where a step of 0.5 is expected
-   !> and 1e-5 is less than half the tolerance times its length, not where one of 1e-3 is.
+   !> Ten steps of 1e-5 that are 0.1 above what follows: skipped if a step of 0.5 is expected and
+   !> 1e-5 is less than half the tolerance times its length, not if one of 1e-3 is.
    subroutine test_layer(error)
       type(error_type), allocatable, intent(out) :: error
-      type(cursor_type) :: cursor
       type(delayed_series) :: series
-      type(history_type) :: past
-      type(wille_baker) :: problem
-      real(wp) :: h, valid_for, unit
+      type(step_context) :: context
+      type(wille_baker), target :: problem
       integer :: i
 
       problem = delayed()
-      past = history_type(problem, instant_at(0.0_wp))
-      cursor = cursor_type(problem)
-      series = delayed_series(degree=2, delays=1)
+      context = new_context(problem, 0.0_wp, 0.1_wp, 0.0_wp, 1.0_wp)
       do i = 0, 9
-         call past%append(instant_at(i*1.0e-5_wp), 1.0e-5_wp, [0.0_wp, 0.0_wp], &
-                          reshape([1.1_wp, 0.0_wp, 0.0_wp], [3, 1]), valid_for=1.0e-4_wp)
+         call append(context, i*1.0e-5_wp, 1.0e-5_wp, [1.1_wp, 0.0_wp, 0.0_wp], 1.0e-4_wp)
       end do
       do i = 0, 1
-         call past%append(instant_at(1.0e-4_wp + i), 1.0_wp, [0.0_wp, 0.0_wp], &
-                          reshape([1.0_wp, 0.0_wp, 0.0_wp], [3, 1]), valid_for=1.0_wp)
+         call append(context, 1.0e-4_wp + i, 1.0_wp, [1.0_wp, 0.0_wp, 0.0_wp], 1.0_wp)
       end do
-      call cursor%set(problem, past, instant_at(2.0_wp), 0.5_wp)
-      unit = 0.5_wp
-      call series%read_past(problem, past, cursor, .true., unit, valid_for)
-      call expect_close(error, series%coefficients(:, 1), [1.0_wp, 0.0_wp, 0.0_wp], 1.0e-15_wp, &
-                        "behind the layer")
-      h = 0.5_wp
-      call series%confirm(past, cursor, unit, tolerance_type(problem%n, 0.0_wp, 1.0e-3_wp), h)
-      call expect_close(error, h, 0.5_wp, 0.0_wp, "a layer that does not count")
-      call series%confirm(past, cursor, unit, tolerance_type(problem%n, 0.0_wp, 1.0e-5_wp), h)
-      call expect_close(error, h, 0.0_wp, 0.0_wp, "a layer that counts")
-      unit = 1.0e-3_wp
-      call series%read_past(problem, past, cursor, .true., unit, valid_for)
-      call expect_close(error, series%coefficients(0, 1), 1.1_wp, 1.0e-15_wp, &
-                        "where a short step is expected")
+      call expect_series(error, context, 0.0_wp, 0.5_wp, 0.5_wp, .true., &
+                         [1.0_wp, 0.0_wp, 0.0_wp], "behind the layer", series)
+      call expect_length(error, context, series, 0.5_wp, 1.0e-3_wp, 0.5_wp)
+      call expect_length(error, context, series, 0.5_wp, 1.0e-5_wp, 0.0_wp)
+      call expect_series(error, context, 0.0_wp, 0.5_wp, 1.0e-3_wp, .true., &
+                         [1.1_wp, 0.0_wp, 0.0_wp], "before a short step", series)
    end subroutine test_layer
+
+   !> The series at a time is known.
+   subroutine expect_series(error, context, t, h, unit, skipping, known, what, series, valid_for)
+      !> The first failure of the test
+      type(error_type), allocatable, intent(inout) :: error
+      !> The context
+      type(step_context), intent(inout) :: context
+      !> Time read
+      real(wp), intent(in) :: t
+      !> Length of the step that reads it
+      real(wp), intent(in) :: h
+      !> Unit of time, shortened to the time for which the series is valid
+      real(wp), intent(in) :: unit
+      !> Whether short steps may be skipped
+      logical, intent(in) :: skipping
+      !> Coefficients, shape (0:degree)
+      real(wp), intent(in) :: known(0:)
+      !> Name of the series
+      character(len=*), intent(in) :: what
+      !> The series
+      type(delayed_series), intent(out) :: series
+      !> Time for which it is valid, if that is known
+      real(wp), intent(in), optional :: valid_for
+      real(wp) :: found_unit, found_valid_for
+
+      series = delayed_series(degree=ubound(known, 1), delays=1)
+      call context%go_to(instant_at(t + lag), h)
+      found_unit = unit
+      call series%read_past(context, skipping, found_unit, found_valid_for)
+      call expect_close(error, series%coefficients(:, 1), known, 1.0e-15_wp, what)
+      call expect_close(error, found_unit, min(unit, found_valid_for), 0.0_wp, "unit, "//what)
+      if (.not. present(valid_for)) return
+      call expect_close(error, found_valid_for, valid_for, 1.0e-15_wp, "validity, "//what)
+   end subroutine expect_series
+
+   !> Length of a step for which a series agrees with the past.
+   subroutine expect_length(error, context, series, unit, tolerance, known)
+      !> The first failure of the test
+      type(error_type), allocatable, intent(inout) :: error
+      !> The context
+      type(step_context), intent(inout) :: context
+      !> The series, read
+      type(delayed_series), intent(in) :: series
+      !> Its unit of time, and the length proposed
+      real(wp), intent(in) :: unit
+      !> Absolute tolerance
+      real(wp), intent(in) :: tolerance
+      !> The length
+      real(wp), intent(in) :: known
+      real(wp) :: h
+
+      context%tolerance = tolerance_type(3, 0.0_wp, tolerance)
+      h = unit
+      call series%confirm(context, unit, h)
+      call expect_close(error, h, known, 1.0e-15_wp, "length at tolerance "//text(tolerance))
+   end subroutine expect_length
+
+   !> A past of steps 1 + t from 0 to 1, and 0.001 more from there to 3.
+   function with_two_steps(problem, valid_for) result(context)
+      !> The problem
+      type(wille_baker), intent(in), target :: problem
+      !> Time for which the first is valid
+      real(wp), intent(in) :: valid_for
+      type(step_context) :: context
+
+      context = new_context(problem, 0.0_wp, 0.1_wp, 0.0_wp, 1.0_wp)
+      call append(context, 0.0_wp, 1.0_wp, [1.0_wp, 1.0_wp, 0.0_wp], valid_for)
+      call append(context, 1.0_wp, 1.0_wp, [2.001_wp, 1.0_wp, 0.0_wp], 2.0_wp)
+      call append(context, 2.0_wp, 1.0_wp, [3.001_wp, 1.0_wp, 0.0_wp], 2.0_wp)
+   end function with_two_steps
+
+   !> Append a step in powers to the past.
+   subroutine append(context, start, length, coefficients, valid_for)
+      !> The context
+      type(step_context), intent(inout) :: context
+      !> Start, length and validity of the step
+      real(wp), intent(in) :: start, length, valid_for
+      !> Coefficients, shape (1 + degree)
+      real(wp), intent(in) :: coefficients(:)
+
+      call context%past%append(instant_at(start), length, &
+                               spread(0.0_wp, 1, size(coefficients) - 1), &
+                               reshape(coefficients, [size(coefficients), 1]), valid_for)
+   end subroutine append
 
    !> A problem of three components with one delay.
    pure type(wille_baker) function delayed() result(problem)
 
-      problem = wille_baker(n=3, lag=[2.0_wp], component=[1], past=[-1.0_wp, -2.0_wp, -3.0_wp], &
+      problem = wille_baker(n=3, lag=[lag], component=[1], past=[-1.0_wp, -2.0_wp, -3.0_wp], &
                             first=[0.0_wp, 0.0_wp, 0.0_wp])
    end function delayed
 end module test_dde_past_series

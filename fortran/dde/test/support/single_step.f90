@@ -5,20 +5,42 @@ module single_step
    use dde_interpolant, only: newton_value
    use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
+   use dde_step_context, only: step_context
    use dde_time, only: instant_at
+   use dde_taylor_step, only: taylor_step_type
    use dde_tolerance, only: tolerance_type
    use dde_work, only: work_type
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: interpolated, take_step
+   public :: held_back, interpolated, new_context, take_step
 
 contains
 
-   !> Take one step from the initial state, dense output included.
-   pure subroutine take_step(problem, t, h, step, estimate, relative, absolute)
+   !> The context of a step at the initial time, its past empty.
+   function new_context(problem, t, h, relative, absolute) result(context)
       !> The problem
-      class(dde_problem_type), intent(in) :: problem
+      class(dde_problem_type), intent(in), target :: problem
+      !> Initial time
+      real(wp), intent(in) :: t
+      !> Length of the step
+      real(wp), intent(in) :: h
+      !> Relative and absolute tolerance
+      real(wp), intent(in) :: relative, absolute
+      type(step_context) :: context
+
+      context%problem => problem
+      context%past = history_type(problem, instant_at(t))
+      context%cursor = cursor_type(problem)
+      context%tolerance = tolerance_type(problem%n, relative, absolute)
+      context%work = work_type(problem%n)
+      call context%go_to(instant_at(t), h)
+   end function new_context
+
+   !> Take one step from the initial state, dense output included.
+   subroutine take_step(problem, t, h, step, estimate, relative, absolute)
+      !> The problem
+      class(dde_problem_type), intent(in), target :: problem
       !> Start
       real(wp), intent(in) :: t
       !> Length
@@ -31,23 +53,41 @@ contains
       real(wp), intent(in), optional :: relative
       !> Absolute tolerance; 1 if not given
       real(wp), intent(in), optional :: absolute
-      type(cursor_type) :: cursor
-      type(history_type) :: past
-      type(work_type) :: work
+      type(step_context) :: context
       real(wp) :: a, r
 
       a = 1.0_wp
       r = 0.0_wp
       if (present(absolute)) a = absolute
       if (present(relative)) r = relative
-      past = history_type(problem, instant_at(t))
-      cursor = cursor_type(problem)
-      call cursor%set(problem, past, instant_at(t), h)
-      call step%restart(problem, past, cursor, work)
-      call step%attempt(problem, past, cursor, tolerance_type(problem%n, r, a), work, estimate)
-      call step%complete(problem, past, cursor, work)
-      call step%extend(problem, past, cursor, work)
+      context = new_context(problem, t, h, r, a)
+      call step%restart(context)
+      call step%attempt(context, estimate)
+      call step%complete(context)
+      call step%extend(context)
    end subroutine take_step
+
+   !> Whether a step from the start is held back.
+   function held_back(problem, tolerance, share) result(value)
+      !> The problem, without delays
+      class(dde_problem_type), intent(in), target :: problem
+      !> Absolute tolerance
+      real(wp), intent(in) :: tolerance
+      !> Its length over that which the series allows
+      real(wp), intent(in) :: share
+      logical :: value
+      type(step_context) :: context
+      type(taylor_step_type) :: step
+      real(wp) :: estimate, length
+
+      step = taylor_step_type(problem, tolerance)
+      context = new_context(problem, 0.0_wp, 1.0e3_wp, 0.0_wp, tolerance)
+      length = 1.0e-6_wp
+      call step%propose(context, length)
+      context%cursor%h = share*length
+      call step%attempt(context, estimate)
+      value = step%stiff()
+   end function held_back
 
    !> Dense output of all components at place s of the step, 0..1.
    pure function interpolated(step, s) result(y)

@@ -1,14 +1,14 @@
 !> Delay equations with exact solutions (Wille and Baker 1992; Hairer, Norsett and Wanner 1993, sec.
 !> II.17), and what all problems of the tests share.
 module test_problems
-   use dde, only: dde_problem_type
+   use dde, only: problem_with_tangents
    use dde_kinds, only: wp
    implicit none (type, external)
    private
    public :: constant_past, fill, linear, sine, wille_baker
 
    !> The start of every problem here that has one: constant history and first state.
-   type, extends(dde_problem_type), abstract :: constant_past
+   type, extends(problem_with_tangents), abstract :: constant_past
       !> History, shape (n)
       real(wp), allocatable :: past(:)
       !> First state, shape (n)
@@ -44,7 +44,7 @@ module test_problems
    end interface wille_baker
 
    !> y' = -y(t - pi/2) with the history sin t: y = sin t.
-   type, extends(dde_problem_type) :: sine
+   type, extends(problem_with_tangents) :: sine
    contains
       procedure :: initial => sine_at_zero
       procedure :: history => sine_history

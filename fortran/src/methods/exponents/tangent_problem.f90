@@ -7,7 +7,7 @@
 !> itself: those by differences are not accurate enough.
 module tangent_problem
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
-   use dde, only: dde_problem_type, find_jacobian
+   use dde, only: dde_problem_type, find_jacobian, problem_with_tangents
    use dde_kinds, only: wp
    implicit none (type, external)
    private
@@ -48,7 +48,10 @@ contains
       allocate (problem%base, source=base)
       problem%vectors = vectors
       problem%n = base%n*(vectors + 1)
-      problem%analytic = base%analytic .and. base%analytic_tangents
+      select type (base)
+      class is (problem_with_tangents)
+         problem%analytic = base%analytic .and. base%analytic_tangents
+      end select
       allocate (problem%lag, source=[((base%lag(k), k=1, size(base%lag)), j=0, vectors)])
       allocate (problem%component, source=[((base%component(k) + j*base%n, &
                                              k=1, size(base%lag)), j=0, vectors)])
@@ -159,11 +162,14 @@ contains
       !> Coefficients of state and tangent vectors; y(0, :) is given
       real(wp), intent(inout) :: y(0:degree, self%n)
 
-      associate (base => self%base, n => self%base%n, delays => size(self%base%lag))
-         call base%series(t, unit, degree, z, y)
-         call base%tangent_series(t, unit, degree, z, y, self%vectors, z(:, delays + 1:), &
-                                  y(:, n + 1:))
-      end associate
+      select type (base => self%base)
+      class is (problem_with_tangents)
+         associate (n => base%n, delays => size(base%lag))
+            call base%series(t, unit, degree, z, y)
+            call base%tangent_series(t, unit, degree, z, y, self%vectors, z(:, delays + 1:), &
+                                     y(:, n + 1:))
+         end associate
+      end select
    end subroutine solution_and_vectors
 
    !> Taylor series before the initial time: no disturbance.
@@ -213,11 +219,14 @@ contains
       real(wp), intent(inout) :: y(0:degree, self%n)
       real(wp) :: before(0:degree, self%base%n)
 
-      associate (base => self%base, n => self%base%n, delays => size(self%base%lag))
-         before = y(:, :n)
-         call base%slow_series(t, unit, degree, z, y)
-         call base%slow_tangent_series(t, unit, degree, z, before, y, self%vectors, &
-                                       z(:, delays + 1:), y(:, n + 1:))
-      end associate
+      select type (base => self%base)
+      class is (problem_with_tangents)
+         associate (n => base%n, delays => size(base%lag))
+            before = y(:, :n)
+            call base%slow_series(t, unit, degree, z, y)
+            call base%slow_tangent_series(t, unit, degree, z, before, y, self%vectors, &
+                                          z(:, delays + 1:), y(:, n + 1:))
+         end associate
+      end select
    end subroutine slow_solution_and_vectors
 end module tangent_problem

@@ -1,12 +1,10 @@
 !> Problems with a component that is much faster than the others, with exact solutions.
 module fast_problems
-   use dde, only: dde_problem_type
    use dde_kinds, only: wp
-   use spring_block, only: spring_block_type
    use test_problems, only: constant_past, fill
    implicit none (type, external)
    private
-   public :: follower, plain_block, pulse
+   public :: follower, pulse
 
    !> y1' = -rate (y1 - cos t), y2' = y1(t - 1): y1 follows cos t.
    type, extends(constant_past) :: follower
@@ -36,12 +34,6 @@ module fast_problems
    interface pulse
       module procedure :: new_pulse
    end interface pulse
-
-   !> The block without its slow series.
-   type, extends(spring_block_type) :: plain_block
-   contains
-      procedure :: relaxation_rate => no_rate
-   end type plain_block
 
 contains
 
@@ -183,13 +175,4 @@ contains
          y(k, 2) = unit/k*z(k - 1, 1)
       end do
    end subroutine pulse_series
-
-   !> None.
-   pure function no_rate(self, t, y) result(rate)
-      class(plain_block), intent(in) :: self
-      real(wp), intent(in) :: t, y(self%n)
-      real(wp) :: rate
-
-      rate = 0.0_wp
-   end function no_rate
 end module fast_problems

@@ -1,0 +1,130 @@
+!> When `auto` changes the method, and what that costs.
+module test_dde_switch
+   use dde, only: dde_problem_type, integrate, integration_result
+   use dde_errors, only: failure_type => error_type, text
+   use dde_methods, only: price_of_trial
+   use dde_tolerance, only: tolerance_type
+   use dde_kinds, only: wp
+   use expectations, only: expect, expect_success
+   use lines_of_cells, only: cells
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use piecewise_problems, only: switching, switching_kinds
+   use published_problems, only: enzyme, infection, mackey_glass
+   use single_step, only: held_back
+   use solving, only: at_tolerance
+   use test_problems, only: fill
+   use undelayed_problems, only: swing
+   implicit none (type, external)
+   private
+   public :: collect_dde_switch
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_dde_switch(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("an oscillation", test_oscillation), &
+                   new_unittest("cost of changes", test_cost)]
+   end subroutine collect_dde_switch
+
+   !> The step that the tolerance allows is not held back, a hundredth of it is.
+   subroutine test_oscillation(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer :: digits
+
+      do digits = 3, 13, 2
+         call expect(error, .not. held_back(swing(), 10.0_wp**(-digits), 1.0_wp), &
+                     "free at 1e-"//text(digits))
+         call expect(error, held_back(swing(), 10.0_wp**(-digits), 0.01_wp), &
+                     "held back at 1e-"//text(digits))
+      end do
+   end subroutine test_oscillation
+
+   !> On problems that jump, change their stiffness or have many delays, and on published ones,
+   !> `auto` takes at most twice the work of the better method, and the work that earns a trial.
+   !> Where the stiffness changes in each delay the average of five neighbouring tolerances counts:
+   !> which trials fail there depends on rounding.
+   subroutine test_cost(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: neighbours(5) = [0.9_wp, 0.95_wp, 1.0_wp, 1.05_wp, 1.1_wp]
+      integer :: kind, power
+
+      do kind = 1, switching_kinds
+         do power = 1, 4, 3
+            call compare_work(error, switch(kind, 10.0_wp**power), 30.0_wp, &
+                              "switching "//text(kind)//", k = 1e"//text(power), neighbours)
+         end do
+      end do
+      call compare_work(error, infection(n=3, lag=[1.0_wp, 10.0_wp], component=[2, 2], &
+                                         past=[5.0_wp, 0.1_wp, 1.0_wp], &
+                                         first=[5.0_wp, 0.1_wp, 1.0_wp]), 40.0_wp, "infection")
+      call compare_work(error, enzyme(n=4, lag=[4.0_wp], component=[4], &
+                                      past=[60.0_wp, 10.0_wp, 10.0_wp, 20.0_wp], &
+                                      first=[60.0_wp, 10.0_wp, 10.0_wp, 20.0_wp]), 160.0_wp, &
+                        "enzyme")
+      call compare_work(error, mackey_glass(n=1, lag=[17.0_wp], component=[1], past=[1.2_wp], &
+                                            first=[1.2_wp]), 200.0_wp, "mackey-glass")
+      call compare_work(error, cells(60, 100.0_wp, delayed=.true.), 5.0_wp, "cells")
+   end subroutine test_cost
+
+   !> The work of `auto` and of the methods that it chooses from.
+   subroutine compare_work(error, problem, t_end, name, neighbours)
+      !> The first failure of the test
+      type(error_type), allocatable, intent(inout) :: error
+      !> The problem
+      class(dde_problem_type), intent(in) :: problem
+      !> Final time
+      real(wp), intent(in) :: t_end
+      !> Its name
+      character(len=*), intent(in) :: name
+      !> Tolerances over 1e-3 and 1e-6 whose average counts; 1 if not given
+      real(wp), intent(in), optional :: neighbours(:)
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: auto, explicit, implicit
+      real(wp), allocatable :: ratios(:)
+      real(wp) :: better, price, tolerance, work
+      integer :: digits, i
+
+      ratios = [1.0_wp]
+      if (present(neighbours)) ratios = neighbours
+
+      do digits = 3, 6, 3
+         call integrate(problem, 0.0_wp, t_end, at_tolerance(10.0_wp**(-digits), "explicit"), &
+                        explicit, failure)
+         call expect_success(error, failure)
+         work = 0.0_wp
+         better = 0.0_wp
+         price = 0.0_wp
+         do i = 1, size(ratios)
+            tolerance = ratios(i)*10.0_wp**(-digits)
+            call integrate(problem, 0.0_wp, t_end, at_tolerance(tolerance, "auto"), auto, failure)
+            call expect_success(error, failure)
+            call integrate(problem, 0.0_wp, t_end, at_tolerance(tolerance, "radau9"), implicit, &
+                           failure)
+            call expect_success(error, failure)
+            if (allocated(error)) return
+            work = work + auto%work/size(ratios)
+            better = better + min(explicit%work, implicit%work)/size(ratios)
+            price = price + price_of_trial(problem, tolerance_type(problem%n, tolerance, &
+                                                                   tolerance))/size(ratios)
+         end do
+         call expect(error, work <= 2*better + 2*price, &
+                     name//" at 1e-"//text(digits)//": "//text(work)//" by auto, " &
+                     //text(explicit%work)//" by explicit, "//text(implicit%work)//" by radau, " &
+                     //text(auto%switches)//" changes")
+      end do
+   end subroutine compare_work
+
+   !> A problem that switches.
+   type(switching) function switch(kind, k) result(problem)
+      !> Which one
+      integer, intent(in) :: kind
+      !> Its fast rate
+      real(wp), intent(in) :: k
+
+      call fill(problem, 2, [0.5_wp, 0.5_wp], [0.5_wp, 0.5_wp], [1.0_wp, 1.0_wp], [1, 2])
+      problem%kind = kind
+      problem%k = k
+   end function switch
+end module test_dde_switch

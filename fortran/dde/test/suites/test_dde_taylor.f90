@@ -1,0 +1,271 @@
+!> Steps by Taylor series: order and length, slow series and the balance they keep, pasts of other
+!> methods.
+module test_dde_taylor
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
+   use dde, only: continuation_type, integrate, integration_options, integration_result
+   use dde_errors, only: failure_type => error_type, text
+   use dde_slow_series, only: series_reach
+   use dde_step_context, only: step_context
+   use dde_taylor_series, only: taylor_series
+   use dde_taylor_step, only: taylor_step_type
+   use dde_kinds, only: wp
+   use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
+   use fast_problems, only: follower, pulse
+   use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use published_problems, only: enzyme
+   use single_step, only: interpolated, new_context
+   use solving, only: at_tolerance, solve
+   use test_problems, only: sine
+   use undelayed_problems, only: blow_up, without_delays
+   implicit none (type, external)
+   private
+   public :: collect_dde_taylor
+
+   !> The method itself, and the one that begins with it.
+   character(len=8), parameter :: both(2) = ["taylor  ", "auto    "]
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_dde_taylor(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [new_unittest("order", test_order), &
+                   new_unittest("length of a step", test_length), &
+                   new_unittest("slope", test_slope), &
+                   new_unittest("no series", test_refusal), &
+                   new_unittest("the past of other methods", test_pasts), &
+                   new_unittest("how far series reach", test_reach), &
+                   new_unittest("a follower", test_follower), &
+                   new_unittest("a transient", test_transient), &
+                   new_unittest("a layer that counts", test_layer), &
+                   new_unittest("a pulse", test_pulse)]
+   end subroutine collect_dde_taylor
+
+   !> y' = y^2, y(0) = 1 has the series 1 + t + t^2 + ...: all places of a step show its first
+   !> terms, so that the error falls with the power degree + 1 of the step.
+   subroutine test_order(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(taylor_step_type) :: step
+      real(wp), parameter :: h = 0.25_wp
+      integer :: degree, k, place
+
+      do degree = 6, 20
+         call take_step(10.0_wp**(7 - degree), h, step)
+         call expect_close(error, real(step%constants%order, wp), real(degree, wp), 0.0_wp, &
+                           "degree")
+         call expect_close(error, step%y_new, [sum([(h**k, k=0, degree)])], 1.0e-15_wp, "end")
+         do place = 0, 4
+            associate (s => 0.25_wp*place)
+               call expect_close(error, interpolated(step, s), [sum([((s*h)**k, k=0, degree)])], &
+                                 1.0e-15_wp, "place "//text(s)//" at degree "//text(degree))
+            end associate
+         end do
+      end do
+   end subroutine test_order
+
+   !> All coefficients of that series are 1, so that the last but one reaches the tolerance first.
+   subroutine test_length(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(taylor_step_type) :: step
+      real(wp) :: allowed, tolerance
+      integer :: degree
+
+      do degree = 8, 20
+         tolerance = 10.0_wp**(7 - degree)
+         call take_step(tolerance, 0.25_wp, step, allowed)
+         call expect_close(error, allowed/(0.9_wp*tolerance**(1.0_wp/(degree - 1))), 1.0_wp, &
+                           1.0e-12_wp, "length at degree "//text(degree))
+      end do
+   end subroutine test_length
+
+   !> 1 + 3 s - 2 s^2 in powers of half a unit of time; what later terms are does not matter at 0.
+   subroutine test_slope(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(taylor_series) :: series
+
+      series%degree = 3
+      series%unit = 0.5_wp
+      allocate (series%coefficients(0:3, 1))
+      series%coefficients(:, 1) = [1.0_wp, 3.0_wp, -2.0_wp, 0.0_wp]
+      call expect_close(error, series%slope(0.0_wp), [6.0_wp], 1.0e-15_wp, "at the start")
+      call expect_close(error, series%slope(0.25_wp), [2.0_wp], 1.0e-15_wp, "in the middle")
+      series%coefficients(3, 1) = ieee_value(1.0_wp, ieee_quiet_nan)
+      call expect_close(error, series%slope(0.0_wp), [6.0_wp], 1.0e-15_wp, "where one is no number")
+   end subroutine test_slope
+
+   !> One step of y' = y^2 from y(0) = 1.
+   subroutine take_step(tolerance, h, step, allowed)
+      !> Absolute tolerance, which sets the degree
+      real(wp), intent(in) :: tolerance
+      !> Length
+      real(wp), intent(in) :: h
+      !> The step, taken
+      type(taylor_step_type), intent(out) :: step
+      !> How long it might have been
+      real(wp), intent(out), optional :: allowed
+      type(blow_up), target :: problem
+      type(step_context) :: context
+      real(wp) :: estimate, length
+
+      problem = blow_up(n=1, past=[1.0_wp], first=[1.0_wp])
+      call without_delays(problem)
+      step = taylor_step_type(problem, tolerance)
+      context = new_context(problem, 0.0_wp, 1.0_wp, 0.0_wp, tolerance)
+      length = 0.5_wp*h
+      call step%propose(context, length)
+      if (present(allowed)) allowed = length
+      context%cursor%h = h
+      call step%attempt(context, estimate)
+      call step%extend(context)
+   end subroutine take_step
+
+   !> A problem that gives no series has no such method, and `auto` begins without.
+   subroutine test_refusal(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(enzyme) :: problem
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      real(wp) :: series(0:6, 4), z(0:6, 1)
+
+      problem = enzyme(n=4, lag=[4.0_wp], component=[4], &
+                       past=[60.0_wp, 10.0_wp, 10.0_wp, 20.0_wp], &
+                       first=[60.0_wp, 10.0_wp, 10.0_wp, 20.0_wp])
+      call integrate(problem, 0.0_wp, 1.0_wp, integration_options(method="taylor"), outcome, &
+                     failure)
+      call expect_failure(error, failure, "method = 'taylor' for a problem that gives no Taylor " &
+                          //"series (analytic = .false.)")
+      call integrate(problem, 0.0_wp, 1.0_wp, integration_options(), outcome, failure)
+      call expect_success(error, failure)
+      z = 0.0_wp
+      series = 0.0_wp
+      call problem%series(0.0_wp, 1.0_wp, 6, z, series)
+      call expect(error, all(ieee_is_nan(series(1:, :))), "there is no series of the solution")
+   end subroutine test_refusal
+
+   !> y = sin t by one method after the other, each on the past that the one before has left.
+   subroutine test_pasts(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(continuation_type) :: continuation
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      character(len=8), parameter :: methods(6) = ["explicit", "taylor  ", "radau9  ", "taylor  ", &
+                                                   "explicit", "taylor  "]
+      integer :: i
+
+      do i = 1, size(methods)
+         call integrate(sine(), continuation%time(1), 2.3_wp*i, &
+                        at_tolerance(1.0e-11_wp, methods(i)), outcome, failure, &
+                        continuation=continuation)
+         call expect_success(error, failure)
+         call expect_close(error, outcome%y, [sin(2.3_wp*i)], 1.0e-9_wp, &
+                           methods(i)//" in run "//text(i))
+         call expect_close(error, continuation%slope, [cos(2.3_wp*i)], 1.0e-8_wp, &
+                           "slope after "//methods(i))
+      end do
+   end subroutine test_pasts
+
+   !> Very small terms that grow do not reach as far as the tolerance would let them; one that
+   !> vanishes, or all, are no limit.
+   subroutine test_reach(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: reach, series(0:8, 1)
+      integer :: k
+
+      ! exp(4 s) - 1 in units of 1e-30: terms grow up to s = 2 and beyond fall
+      series(:, 1) = [(1.0e-30_wp*4.0_wp**k/gamma(k + 1.0_wp), k=0, 8)]
+      call series_reach(8, series, [1.0e-6_wp], reach)
+      call expect_close(error, reach, 0.9_wp*2.0_wp, 1.0e-14_wp, "eight over four")
+      series(7, 1) = 0.0_wp
+      call series_reach(8, series, [1.0e-6_wp], reach)
+      call expect_close(error, reach, 0.9_wp*sqrt(7*8/16.0_wp), 1.0e-14_wp, "a term vanishes")
+      series(:, 1) = 1.0_wp
+      call series_reach(8, series, [1.0e-6_wp], reach)
+      call expect_close(error, reach, 0.9_wp*1.0e-6_wp**(1.0_wp/7), 1.0e-14_wp, "all terms 1")
+      series(1:, 1) = 0.0_wp
+      call series_reach(8, series, [1.0e-6_wp], reach)
+      call expect(error, reach > 1.0e14_wp, "a constant")
+   end subroutine test_reach
+
+   !> The exact solution within ten tolerances, whatever the rate, in few steps.
+   subroutine test_follower(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(follower) :: problem
+      type(integration_result) :: outcome
+      real(wp), parameter :: rate(5) = [1.0e2_wp, 1.0e4_wp, 1.0e6_wp, 1.0e9_wp, 1.0e12_wp]
+      integer :: i, j, k
+
+      do i = 1, size(rate)
+         problem = follower(rate(i), start=2.0_wp)
+         do j = 4, 12, 2
+            do k = 1, 2
+               call integrate(problem, 0.0_wp, 20.0_wp, at_tolerance(10.0_wp**(-j), both(k)), &
+                              outcome, failure)
+               call expect_success(error, failure)
+               call expect_close(error, outcome%y, problem%exact(20.0_wp), 10*10.0_wp**(-j), &
+                                 trim(both(k))//" at rate "//text(rate(i))//", 1e-"//text(j))
+               call expect_between(error, real(outcome%accepted, wp), 20.0_wp, 400.0_wp, &
+                                   "steps at rate "//text(rate(i))//", 1e-"//text(j))
+            end do
+         end do
+      end do
+   end subroutine test_follower
+
+   !> A transient towards the balance is followed as long as it is seen.
+   subroutine test_transient(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(follower) :: problem
+      real(wp), allocatable :: y(:, :)
+      real(wp), parameter :: rate = 1.0e6_wp, times(4) = [1.0_wp, 3.0_wp, 10.0_wp, 30.0_wp]/rate
+      real(wp) :: exact(2, 4)
+      integer :: i
+
+      problem = follower(rate, start=2.0_wp)
+      do i = 1, size(times)
+         exact(:, i) = problem%exact(times(i))
+      end do
+      do i = 1, size(both)
+         call solve(problem, times, at_tolerance(1.0e-9_wp, both(i)), y, error)
+         call expect_close(error, y(1, :), exact(1, :), 1.0e-8_wp, both(i))
+      end do
+   end subroutine test_transient
+
+   !> One delay later the transient changes y2 by 1/rate, which is followed where it counts.
+   subroutine test_layer(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(follower) :: problem
+      real(wp), allocatable :: y(:, :)
+      real(wp), parameter :: times(3) = [1.001_wp, 1.1_wp, 1.5_wp]
+      real(wp) :: exact(2, 3)
+      integer :: i, j
+
+      do j = 3, 9, 2
+         problem = follower(10.0_wp**j, start=2.0_wp)
+         do i = 1, size(times)
+            exact(:, i) = problem%exact(times(i))
+         end do
+         do i = 1, size(both)
+            call solve(problem, times, at_tolerance(1.0e-10_wp, both(i)), y, error)
+            call expect_close(error, y(2, :), exact(2, :), 1.0e-9_wp, &
+                              both(i)//" at rate 1e"//text(j))
+         end do
+      end do
+   end subroutine test_layer
+
+   !> A pulse that comes and goes within a step of what follows it is not overlooked.
+   subroutine test_pulse(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable :: y(:, :)
+      real(wp), parameter :: width = 1.0e-3_wp
+      integer :: i, j
+
+      do i = 1, size(both)
+         do j = 4, 10, 2
+            call solve(pulse(width), [2.0_wp], at_tolerance(10.0_wp**(-j), both(i)), y, error)
+            call expect_close(error, y(2, :), [2*width*atan(0.5_wp/width)], 10*10.0_wp**(-j), &
+                              both(i)//" at 1e-"//text(j))
+         end do
+      end do
+   end subroutine test_pulse
+end module test_dde_taylor
