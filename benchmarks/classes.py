@@ -17,7 +17,7 @@ from workers import BUILD
 from scripts.config.check_config import checked
 from scripts.config.read_config import read
 from scripts.namelists.attractor_surveys import atlas_groups
-from scripts.namelists.write_namelist import write_groups
+from scripts.namelists.write_namelist import write_namelist
 
 PLANE = "xi_05"
 POINTS = {"epsilon_count": 18, "tau_count": 16, "parts": 1, "refinements": 0}
@@ -34,7 +34,7 @@ def classified(tolerance: float, folder: Path) -> tuple[float, xr.Dataset]:
     config["atlas"] |= POINTS
     config["atlas"]["observation"]["tolerance"] = tolerance
     namelist, output = folder / f"{tolerance}.nml", folder / f"{tolerance}.nc"
-    write_groups(namelist, atlas_groups(config, PLANE, 1))
+    write_namelist(namelist, atlas_groups(config, PLANE, 1))
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     run = subprocess.run(
         [BUILD / "bin" / "attractors", namelist, output],

@@ -14,9 +14,9 @@ from workers import BUILD, HERE
 
 from scripts.config.check_config import checked
 from scripts.config.read_config import read
-from scripts.namelists.result_values import cycles_values
+from scripts.namelists.program_groups import cycles_groups
 from scripts.namelists.study_cases import PARAMETERS
-from scripts.namelists.write_namelist import write_groups
+from scripts.namelists.write_namelist import write_namelist
 
 LINES = ("torus_in_epsilon", "chaos_in_epsilon", "chaos_in_tau", "torus_in_tau")
 """Lines of the configuration."""
@@ -52,7 +52,7 @@ def by_us(config: dict, line: str) -> tuple[dict, list[tuple[str, float]]]:
     along = config["cycles"]["lines"][line]["along"]
     with tempfile.TemporaryDirectory() as folder:
         namelist, output = Path(folder) / "line.nml", Path(folder) / "line.nc"
-        write_groups(namelist, {"cycles": cycles_values(config, line)})
+        write_namelist(namelist, cycles_groups(config, line))
         seconds, _ = seconds_of([BUILD / "bin" / "cycles", namelist, output])
         with xr.open_dataset(output) as found:
             orbits = found["branch"].size

@@ -7,15 +7,15 @@
 rule attractors_namelist:
     """Input of one part of a survey of attractors."""
     output:
-        runs="{results}/namelists/attractors/{survey}/{part}.nml",
+        "{results}/namelists/attractors/{survey}/{part}.nml",
     log:
         "{results}/logs/namelists/attractors/{survey}/{part}.log",
     priority: priority_of_survey
     params:
-        groups=of_config(result_values.survey_groups, "survey", "part"),
-        code=code_of("namelists/write_study_namelists.py"),
+        groups=of_config(program_groups.attractors_groups, "survey", "part"),
+        code=code_of("namelists/write_namelist.py"),
     script:
-        "../scripts/namelists/write_study_namelists.py"
+        "../scripts/namelists/write_namelist.py"
 
 
 rule attractors_runs:
@@ -31,7 +31,7 @@ rule attractors_runs:
         "{results}/benchmarks/attractors/{survey}/{part}.tsv"
     priority: priority_of_survey
     params:
-        groups=of_config(result_values.survey_groups, "survey", "part"),
+        groups=of_config(program_groups.attractors_groups, "survey", "part"),
         sources=digest_of("attractors"),
     shell:
         "OMP_NUM_THREADS={threads} {input.program:q} {input.namelist:q} {output:q}"

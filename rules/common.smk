@@ -4,7 +4,7 @@ import hashlib
 import os
 import re
 
-from scripts.namelists import result_values, study_cases
+from scripts.namelists import program_groups, study_cases
 from scripts.page import page_assets
 from scripts.workflow import git_commit, result_files, script_imports
 
@@ -91,7 +91,7 @@ def placed(given):
 def placed_file(path):
     """One file, by its path in the folder of results."""
     for folder, other in CONFIGS.items():
-        if result_values.are_the_same(path, other, config):
+        if program_groups.are_the_same(path, other, config):
             return f"{folder}/{path}"
     return f"{RESULTS}/{path}"
 
@@ -165,10 +165,12 @@ def trajectory_of(wildcards):
     return placed_file(path) if own else f"{wildcards.results}/{path}"
 
 
-def spectrum_values(wildcards):
-    """The spectrum's namelist group."""
-    spectra = CONFIGS[wildcards.results]["spectra"]
-    return {"trajectory": trajectory_of(wildcards), **spectra}
+def spectrum_groups(wildcards):
+    """Namelist groups of a spectrum."""
+    trajectories = str(Path(trajectory_of(wildcards)).parents[1])
+    return program_groups.spectrum_groups(
+        CONFIGS[wildcards.results], wildcards.scene, trajectories
+    )
 
 
 def runs_of_route(wildcards):

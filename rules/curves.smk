@@ -9,8 +9,7 @@ rule hopf_namelist:
         "{results}/logs/namelists/hopf/{plane}.log",
     priority: OF_PAPER
     params:
-        group="hopf_curves",
-        values=of_config(result_values.plane_values, "plane"),
+        groups=of_config(program_groups.hopf_groups, "plane"),
         code=code_of("namelists/write_namelist.py"),
     script:
         "../scripts/namelists/write_namelist.py"
@@ -29,7 +28,7 @@ rule hopf_curves:
         "{results}/benchmarks/hopf/{plane}.tsv"
     priority: OF_PAPER
     params:
-        values=of_config(result_values.plane_values, "plane"),
+        groups=of_config(program_groups.hopf_groups, "plane"),
         sources=digest_of("hopf"),
     shell:
         "{input.program:q} {input.namelist:q} {output:q} 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"

@@ -9,8 +9,7 @@ rule cycles_namelist:
         "{results}/logs/namelists/cycles/{cycle_line}.log",
     priority: OF_LONGEST
     params:
-        group="cycles",
-        values=of_config(result_values.cycles_values, "cycle_line"),
+        groups=of_config(program_groups.cycles_groups, "cycle_line"),
         code=code_of("namelists/write_namelist.py"),
     script:
         "../scripts/namelists/write_namelist.py"
@@ -29,7 +28,7 @@ rule cycles_runs:
         "{results}/benchmarks/cycles/{cycle_line}.tsv"
     priority: OF_LONGEST
     params:
-        values=of_config(result_values.cycles_values, "cycle_line"),
+        groups=of_config(program_groups.cycles_groups, "cycle_line"),
         sources=digest_of("cycles"),
     shell:
         "{input.program:q} {input.namelist:q} {output:q} 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"

@@ -4,14 +4,14 @@
 rule exponents_namelist:
     """Input of the Lyapunov exponents of a scene."""
     output:
-        runs="{results}/namelists/exponents/{scene}.nml",
+        "{results}/namelists/exponents/{scene}.nml",
     log:
         "{results}/logs/namelists/exponents/{scene}.log",
     params:
-        groups=of_config(result_values.exponents_groups, "scene"),
-        code=code_of("namelists/write_study_namelists.py"),
+        groups=of_config(program_groups.exponents_groups, "scene"),
+        code=code_of("namelists/write_namelist.py"),
     script:
-        "../scripts/namelists/write_study_namelists.py"
+        "../scripts/namelists/write_namelist.py"
 
 
 rule exponents_runs:
@@ -27,7 +27,7 @@ rule exponents_runs:
         "{results}/benchmarks/exponents/{scene}.tsv"
     priority: OF_LONG
     params:
-        groups=of_config(result_values.exponents_groups, "scene"),
+        groups=of_config(program_groups.exponents_groups, "scene"),
         sources=digest_of("exponents"),
     shell:
         "{input.program:q} {input.namelist:q} {output:q} 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"

@@ -7,8 +7,7 @@ rule velocity_step_namelist:
         "<results>/logs/namelists/velocity_step.log",
     priority: OF_PAPER
     params:
-        group="velocity_step",
-        values=config["velocity_step"],
+        groups=program_groups.velocity_step_groups(config),
         code=code_of("namelists/write_namelist.py"),
     script:
         "../scripts/namelists/write_namelist.py"
@@ -27,7 +26,7 @@ rule velocity_step:
         "<results>/benchmarks/friction/velocity_step.tsv"
     priority: OF_PAPER
     params:
-        values=config["velocity_step"],
+        groups=program_groups.velocity_step_groups(config),
         sources=digest_of("velocity_step"),
     shell:
         "{input.program:q} {input.namelist:q} {output:q} 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"

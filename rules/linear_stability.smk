@@ -8,8 +8,7 @@ rule linear_stability_namelist:
     log:
         "{results}/logs/namelists/linear_stability/{scene}.log",
     params:
-        group="linear_stability",
-        values=of_config(result_values.linear_stability_values, "scene"),
+        groups=of_config(program_groups.linear_stability_groups, "scene"),
         code=code_of("namelists/write_namelist.py"),
     script:
         "../scripts/namelists/write_namelist.py"
@@ -27,7 +26,7 @@ rule linear_stability:
     benchmark:
         "{results}/benchmarks/linear_stability/{scene}.tsv"
     params:
-        values=of_config(result_values.linear_stability_values, "scene"),
+        groups=of_config(program_groups.linear_stability_groups, "scene"),
         sources=digest_of("linear_stability"),
     shell:
         "{input.program:q} {input.namelist:q} {output:q} 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"

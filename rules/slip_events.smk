@@ -13,7 +13,7 @@ rule slip_events:
     benchmark:
         "{results}/benchmarks/slip_events/{scene}.tsv"
     params:
-        values=of_config(result_values.scene_values, "scene"),
+        groups=of_config(program_groups.scene_groups, "scene"),
         sources=digest_of("slip_events"),
     shell:
         "{input.program:q} {input.namelist:q} {output:q} 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"

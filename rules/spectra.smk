@@ -9,8 +9,7 @@ rule spectrum_namelist:
         "{results}/logs/namelists/spectra/{scene}.log",
     priority: OF_PAPER
     params:
-        group="spectrum",
-        values=spectrum_values,
+        groups=spectrum_groups,
         code=code_of("namelists/write_namelist.py"),
     script:
         "../scripts/namelists/write_namelist.py"
@@ -30,7 +29,7 @@ rule spectrum:
         "{results}/benchmarks/spectra/{scene}.tsv"
     priority: OF_PAPER
     params:
-        values=spectrum_values,
+        groups=spectrum_groups,
         sources=digest_of("spectrum"),
     shell:
         "{input.program:q} {input.namelist:q} {output:q} 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"

@@ -2,32 +2,30 @@
 # and work against precision.
 
 
-rule stability_namelists:
-    """Inputs of the runs of a family of stiff and extreme cases, and of its reference."""
+rule measurement_namelist:
+    """Input of the runs of a family of stiff and extreme cases, or of a scene."""
     output:
-        measurement="{results}/namelists/measurements/stability/{family}.nml",
-        reference="{results}/namelists/references/stability/{family}.nml",
+        "{results}/namelists/measurements/{study}/{family}.nml",
     log:
-        "{results}/logs/namelists/stability/{family}.log",
+        "{results}/logs/namelists/measurements/{study}/{family}.log",
     params:
-        groups=of_config(result_values.family_groups, "family"),
-        code=code_of("namelists/write_study_namelists.py"),
+        groups=of_config(program_groups.measurement_groups, "study", "family"),
+        code=code_of("namelists/write_namelist.py"),
     script:
-        "../scripts/namelists/write_study_namelists.py"
+        "../scripts/namelists/write_namelist.py"
 
 
-rule trust_namelists:
-    """Inputs of the runs that find up to which time a scene can be compared."""
+rule reference_namelist:
+    """Input of the reference of a family of stiff and extreme cases, or of a scene."""
     output:
-        measurement="{results}/namelists/measurements/trust/{work_scene}.nml",
-        reference="{results}/namelists/references/trust/{work_scene}.nml",
+        "{results}/namelists/references/{study}/{family}.nml",
     log:
-        "{results}/logs/namelists/trust/{work_scene}.log",
+        "{results}/logs/namelists/references/{study}/{family}.log",
     params:
-        groups=of_config(result_values.trust_groups, "work_scene"),
-        code=code_of("namelists/write_study_namelists.py"),
+        groups=of_config(program_groups.reference_groups, "study", "family"),
+        code=code_of("namelists/write_namelist.py"),
     script:
-        "../scripts/namelists/write_study_namelists.py"
+        "../scripts/namelists/write_namelist.py"
 
 
 rule reference:
@@ -43,7 +41,7 @@ rule reference:
         "{results}/benchmarks/references/{study}/{family}.tsv"
     priority: OF_LONG
     params:
-        groups=of_config(result_values.study_groups, "study", "family"),
+        groups=of_config(program_groups.reference_groups, "study", "family"),
         sources=digest_of("reference"),
     shell:
         "{input.program:q} {input.namelist:q} {output:q} 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"
@@ -61,7 +59,7 @@ rule measurement:
     benchmark:
         "{results}/benchmarks/measurements/{study}/{family}.tsv"
     params:
-        groups=of_config(result_values.study_groups, "study", "family"),
+        groups=of_config(program_groups.measurement_groups, "study", "family"),
         sources=digest_of("measure"),
     shell:
         "{input.program:q} {input.namelist:q} {output:q} 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"
@@ -115,7 +113,7 @@ rule work_precision_namelist:
     log:
         "<results>/logs/namelists/work_precision/{work_scene}.log",
     params:
-        study=MEASURED,
+        config={key: config[key] for key in ("scenes", "work_precision")},
         code=code_of("namelists/write_measured_scene.py"),
     script:
         "../scripts/namelists/write_measured_scene.py"

@@ -9,8 +9,7 @@ rule scene_namelist:
         "{results}/logs/namelists/trajectories/{scene}.log",
     priority: OF_PAPER
     params:
-        group="scene",
-        values=of_config(result_values.scene_values, "scene"),
+        groups=of_config(program_groups.scene_groups, "scene"),
         code=code_of("namelists/write_namelist.py"),
     script:
         "../scripts/namelists/write_namelist.py"
@@ -29,7 +28,7 @@ rule trajectory:
         "{results}/benchmarks/trajectories/{scene}.tsv"
     priority: OF_PAPER
     params:
-        values=of_config(result_values.scene_values, "scene"),
+        groups=of_config(program_groups.scene_groups, "scene"),
         sources=digest_of("trajectory"),
     shell:
         "{input.program:q} {input.namelist:q} {output:q} 2> {log:q} || {{ grep -v ' %, ' {log:q} >&2; exit 1; }}"

@@ -20,7 +20,7 @@ from namelist_groups import CASES, EXPONENTS, MEASURE, OBSERVATION, POINTS, REFE
 
 from scripts.config.check_config import checked
 from scripts.config.read_config import merged, read
-from scripts.namelists.write_namelist import write_groups
+from scripts.namelists.write_namelist import write_namelist
 from scripts.workflow import manifest
 
 ROOT = Path(__file__).parent.parent
@@ -161,7 +161,7 @@ class Programs:
 
     def write(self, groups: dict[str, dict]) -> Path:
         """The namelist of a run."""
-        write_groups(self.folder / "input.nml", groups)
+        write_namelist(self.folder / "input.nml", groups)
         return self.folder / "input.nml"
 
     def run_groups(self, program: str, groups: dict[str, dict]) -> subprocess.CompletedProcess[str]:

@@ -20,9 +20,11 @@ def drawn_histories(count: int, ranges: dict) -> list[dict]:
     ]
 
 
-def observation_group(observation: dict, spectra: dict) -> dict:
-    """The namelist group of how attractors are judged."""
-    return {**{key: value for key, value in observation.items() if key != "kept"}, **spectra}
+def judged_groups(observation: dict, spectra: dict, points: dict) -> dict[str, dict]:
+    """The namelist groups of points and of how attractors are found and judged there."""
+    solver = {key: observation[key] for key in ("method", "tolerance", "most_steps")}
+    others = {key: observation[key] for key in observation if key not in ("kept", *solver)}
+    return {"observation": {**others, **spectra}, "solver": solver, "points": points}
 
 
 def points_group(
@@ -35,14 +37,10 @@ def points_group(
     refinements: int = 0,
 ) -> dict:
     """The namelist group of points; each parameter of the place is a value or an axis."""
-    axes = {
-        f"{parameter}_{key}": value
-        for parameter in PARAMETERS
-        for key, value in axis_of(place[parameter]).items()
-    }
-    columns = {key: [history[key] for history in histories] for key in ("theta", "u", "v")}
+    axes = {parameter: axis_of(place[parameter]) for parameter in PARAMETERS}
+    columns = {key: [history[key] for history in histories] for key in HISTORY}
     how = {"sweep": sweep, "refinements": refinements, "kept": kept}
-    return {"name": name, **axes, **columns, **how}
+    return {"name": name, **axes, "histories": columns, **how}
 
 
 def axis_of(given: float | dict) -> dict:
@@ -73,7 +71,7 @@ def scene_groups(config: dict, scene: str) -> dict:
         histories=[settings["history"], *others],
         kept=observation["kept"],
     )
-    return {"observation": observation_group(observation, config["spectra"]), "points": points}
+    return judged_groups(observation, config["spectra"], points)
 
 
 def atlas_groups(config: dict, plane: str, part: int) -> dict:
@@ -95,8 +93,7 @@ def atlas_groups(config: dict, plane: str, part: int) -> dict:
         kept=atlas["observation"]["kept"],
         refinements=refinements,
     )
-    observation = observation_group(atlas["observation"], config["spectra"])
-    return {"observation": observation, "points": points}
+    return judged_groups(atlas["observation"], config["spectra"], points)
 
 
 def route_groups(config: dict, line: str, run: str) -> dict:
@@ -119,8 +116,7 @@ def route_groups(config: dict, line: str, run: str) -> dict:
         kept=routes["observation"]["kept"],
         sweep=run if run in routes["sweeps"] else "none",
     )
-    observation = observation_group(routes["observation"], config["spectra"])
-    return {"observation": observation, "points": points}
+    return judged_groups(routes["observation"], config["spectra"], points)
 
 
 def basin_groups(config: dict, place: str) -> dict:
@@ -132,5 +128,4 @@ def basin_groups(config: dict, place: str) -> dict:
         histories=drawn_histories(basins["count"], basins["histories"]),
         kept=basins["observation"]["kept"],
     )
-    observation = observation_group(basins["observation"], config["spectra"])
-    return {"observation": observation, "points": points}
+    return judged_groups(basins["observation"], config["spectra"], points)

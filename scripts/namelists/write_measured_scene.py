@@ -4,8 +4,8 @@ from pathlib import Path
 
 from scripts.files.outputs import logged
 from scripts.files.tsv import read_table
-from scripts.namelists.study_cases import work_precision_groups
-from scripts.namelists.write_namelist import write_groups
+from scripts.namelists.program_groups import work_precision_groups
+from scripts.namelists.write_namelist import write_namelist
 
 
 def horizon_of(rows: list[dict], scene: str) -> float:
@@ -18,5 +18,5 @@ if __name__ == "__main__":
     with logged(snakemake.log[0]):
         scene = snakemake.wildcards.work_scene
         t_end = horizon_of(read_table(snakemake.input.horizons), scene)
-        groups = work_precision_groups(snakemake.params.study, scene, t_end)
-        write_groups(Path(snakemake.output[0]), groups["measurement"])
+        groups = work_precision_groups(snakemake.params.config, scene, t_end)
+        write_namelist(Path(snakemake.output[0]), groups)

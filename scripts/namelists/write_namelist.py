@@ -1,4 +1,4 @@
-"""Write namelist groups for a Fortran program."""
+"""Write the namelist of a Fortran program."""
 
 from pathlib import Path
 
@@ -7,18 +7,15 @@ import f90nml
 from scripts.files.outputs import logged, written
 
 
-def write_namelist(path: Path, group: str, values: dict) -> None:
-    """Write `values` as namelist group `group`; the file is whole or absent."""
-    write_groups(path, {group: values})
+def write_namelist(path: Path, groups: dict[str, dict]) -> None:
+    """Write groups of values; the file is whole or absent.
 
-
-def write_groups(path: Path, groups: dict[str, dict]) -> None:
-    """Write several groups into one file, which is whole or absent."""
+    A program reads them from one namelist group, &settings: there a key is `group%key`.
+    """
     with written(path) as unfinished:
-        f90nml.Namelist(groups).write(unfinished, force=True)
+        f90nml.Namelist({"settings": groups}).write(unfinished, force=True)
 
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        group, values = snakemake.params.group, dict(snakemake.params.values)
-        write_namelist(Path(snakemake.output[0]), group, values)
+        write_namelist(Path(snakemake.output[0]), snakemake.params.groups)

@@ -61,7 +61,8 @@ contains
 
    !> How attractors are found here.
    pure type(attractor_settings_type) function quickly() result(settings)
-      settings = attractor_settings_type(t_transient=200.0_wp, t_observed=500.0_wp, &
+      settings = attractor_settings_type(t_lasting=0.0_wp, t_path=0.0_wp, &
+                                         t_transient=200.0_wp, t_observed=500.0_wp, &
                                     t_turning=50.0_wp, interval=5.0_wp, exponents=3, &
                                          zero_level=1.0e-3_wp, longest_bar=1.0e-2_wp, doublings=1, &
                                          sample_interval=0.1_wp, window="hann", segments=2, &

@@ -37,7 +37,8 @@ contains
       !> Time of the approach
       real(wp), intent(in) :: time
 
-      settings = attractor_settings_type(t_transient=time, t_observed=500.0_wp, &
+      settings = attractor_settings_type(t_lasting=0.0_wp, t_path=0.0_wp, &
+                                         t_transient=time, t_observed=500.0_wp, &
                                          t_turning=50.0_wp, interval=5.0_wp, &
                                          exponents=2, zero_level=1.0e-3_wp, &
                                          longest_bar=1.0e-2_wp, doublings=0, &

@@ -50,7 +50,8 @@ contains
       !> Time observed
       real(wp), intent(in) :: t_observed
 
-      settings = attractor_settings_type(t_transient=t_transient, t_observed=t_observed, &
+      settings = attractor_settings_type(t_lasting=0.0_wp, t_path=0.0_wp, &
+                                         t_transient=t_transient, t_observed=t_observed, &
                                          t_turning=0.5_wp*t_observed, interval=5.0_wp, &
                                          exponents=4, zero_level=3.0e-5_wp, longest_bar=1.0e-3_wp, &
                                          doublings=0, sample_interval=0.1_wp, window="hann", &

@@ -154,7 +154,8 @@ contains
       !> Time of the path
       real(wp), intent(in) :: t_path
 
-      settings = attractor_settings_type(t_transient=2000.0_wp, t_observed=1000.0_wp, &
+      settings = attractor_settings_type(t_lasting=0.0_wp, &
+                                         t_transient=2000.0_wp, t_observed=1000.0_wp, &
                                          t_turning=500.0_wp, t_path=t_path, interval=5.0_wp, &
                                          exponents=3, zero_level=3.0e-5_wp, longest_bar=1.0e-3_wp, &
                                          doublings=0, sample_interval=0.1_wp, window="hann", &
