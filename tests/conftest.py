@@ -16,7 +16,7 @@ from pathlib import Path
 
 import pytest
 import xarray as xr
-from namelist_groups import CASES, EXPONENTS, MEASURE, OBSERVATION, POINTS, REFERENCE
+from namelist_groups import CASES, EXPONENTS, MEASURE, OBSERVATION, POINTS, REFERENCE, in_groups
 
 from scripts.config.check_config import checked
 from scripts.config.read_config import merged, read
@@ -41,7 +41,7 @@ GROUPS = {
     "velocity_step": "velocity_step",
     "slip_events": "scene",
 }
-"""Namelist group of each program that reads one alone."""
+"""Namelist group of each program that reads one alone, as tests name it."""
 MADE = {
     ".git",
     ".venv",
@@ -161,7 +161,7 @@ class Programs:
 
     def write(self, groups: dict[str, dict]) -> Path:
         """The namelist of a run."""
-        write_namelist(self.folder / "input.nml", groups)
+        write_namelist(self.folder / "input.nml", in_groups(groups))
         return self.folder / "input.nml"
 
     def run_groups(self, program: str, groups: dict[str, dict]) -> subprocess.CompletedProcess[str]:
@@ -357,6 +357,6 @@ def good_groups(good_inputs) -> dict[str, dict[str, dict]]:
     groups = {program: {group: good_inputs[program]} for program, group in GROUPS.items()}
     groups["exponents"] = {"scene": good_inputs["trajectory"], "exponents": EXPONENTS}
     groups["attractors"] = {"observation": OBSERVATION, "points": POINTS}
-    groups["measure"] = {"cases_list": CASES, "measure": MEASURE}
-    groups["reference"] = {"cases_list": CASES, "reference": REFERENCE}
+    groups["measure"] = {"cases": CASES, "measure": MEASURE}
+    groups["reference"] = {"cases": CASES, "reference": REFERENCE}
     return copy.deepcopy(groups)

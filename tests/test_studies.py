@@ -140,7 +140,7 @@ def test_measured_runs_end_at_the_horizon(smoke_config):
     rows = [{"scene": "torus", "horizon": 17.0}, {"scene": "chaos", "horizon": 8.0}]
     groups = work_precision_groups(measured_study(smoke_config), "chaos", 8.0)
     assert horizon_of(rows, "chaos") == 8.0
-    assert groups["measurement"]["cases_list"]["t_end"] == [8.0]
+    assert groups["measurement"]["cases"]["t_end"] == [8.0]
 
 
 def test_proportionality_is_the_slope_of_useful_errors():

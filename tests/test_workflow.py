@@ -124,17 +124,17 @@ def test_namelists_of_studies_hold_the_config(smoke, smoke_config):
     study = smoke_config["stability"]
     for name, family in study["families"].items():
         for kind in ("measurements", "references"):
-            cases = f90nml.read(folder / kind / "stability" / f"{name}.nml")["cases_list"]
+            cases = f90nml.read(folder / kind / "stability" / f"{name}.nml")["cases"]
             assert np.unique(cases["gamma"]).tolist() == family["gamma"]
             assert np.unique(cases["v"]).tolist() == family["v"]
             assert set(np.atleast_1d(cases["t_end"])) == {family["t_end"]}
     study = measured_study(smoke_config)
     for name, scene in study["cases"].items():
         groups = f90nml.read(folder / "measurements" / "work_precision" / f"{name}.nml").todict()
-        assert groups["cases_list"]["t_end"] <= scene["t_end"]
+        assert groups["cases"]["t_end"] <= scene["t_end"]
         assert groups["measure"]["tolerances"] == study["tolerances"]
         trusted = f90nml.read(folder / "references" / "trust" / f"{name}.nml").todict()
-        assert trusted["cases_list"]["t_end"] == scene["t_end"]
+        assert trusted["cases"]["t_end"] == scene["t_end"]
         assert trusted["reference"].items() >= study["reference"].items()
 
 

@@ -20,14 +20,14 @@ def drawn_histories(count: int, ranges: dict) -> list[dict]:
     ]
 
 
-def judged_groups(observation: dict, spectra: dict, points: dict) -> dict[str, dict]:
+def judged_groups(observation: dict, spectra: dict, points: dict[str, dict]) -> dict[str, dict]:
     """The namelist groups of points and of how attractors are found and judged there."""
     solver = {key: observation[key] for key in ("method", "tolerance", "most_steps")}
     others = {key: observation[key] for key in observation if key not in ("kept", *solver)}
-    return {"observation": {**others, **spectra}, "solver": solver, "points": points}
+    return {"observation": {**others, **spectra}, "solver": solver, **points}
 
 
-def points_group(
+def points_groups(
     name: str,
     *,
     place: dict,
@@ -35,12 +35,12 @@ def points_group(
     kept: int,
     sweep: str = "none",
     refinements: int = 0,
-) -> dict:
-    """The namelist group of points; each parameter of the place is a value or an axis."""
+) -> dict[str, dict]:
+    """The namelist groups of points and of histories; each parameter of the place is a value or an axis."""
     axes = {parameter: axis_of(place[parameter]) for parameter in PARAMETERS}
     columns = {key: [history[key] for history in histories] for key in HISTORY}
     how = {"sweep": sweep, "refinements": refinements, "kept": kept}
-    return {"name": name, **axes, "histories": columns, **how}
+    return {"points": {"name": name, **axes, **how}, "histories": columns}
 
 
 def axis_of(given: float | dict) -> dict:
@@ -65,7 +65,7 @@ def scene_groups(config: dict, scene: str) -> dict:
     count = settings.get("attractors", {}).get("histories", study["count"])
     others = drawn_histories(count - 1, study["histories"])
     observation = study["observation"]
-    points = points_group(
+    points = points_groups(
         scene,
         place=settings,
         histories=[settings["history"], *others],
@@ -82,7 +82,7 @@ def atlas_groups(config: dict, plane: str, part: int) -> dict:
     atlas = config["atlas"]
     settings, refinements = atlas["planes"][plane], atlas["refinements"]
     delays = part_of(atlas["tau_count"], atlas["parts"], part, 2**refinements)
-    points = points_group(
+    points = points_groups(
         f"{plane} part {part} of {atlas['parts']}",
         place={
             **settings,
@@ -109,7 +109,7 @@ def route_groups(config: dict, line: str, run: str) -> dict:
     if along in HISTORY:
         values = np.linspace(*window, count).tolist()
         histories = [{**histories[0], along: value} for value in values]
-    points = points_group(
+    points = points_groups(
         f"{line} {run}",
         place={**settings, along: {"window": window, "count": count}},
         histories=histories,
@@ -122,7 +122,7 @@ def route_groups(config: dict, line: str, run: str) -> dict:
 def basin_groups(config: dict, place: str) -> dict:
     """Namelist of a place where motions coexist: random histories."""
     basins = config["basins"]
-    points = points_group(
+    points = points_groups(
         place,
         place=basins["places"][place],
         histories=drawn_histories(basins["count"], basins["histories"]),

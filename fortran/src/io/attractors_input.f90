@@ -1,17 +1,20 @@
 !> How attractors are found and judged, and at which points, from a namelist.
 module attractors_input
    use attractors, only: attractor_settings_type
+   use block_parameters, only: absent_history, block_history_type
    use dde, only: integration_options, methods
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
    use namelist_input, only: namelist_file_type, word_length
    use points_input, only: check_points, points_settings_type
    use spectrum_input, only: check_spectrum
-   use value_checks, only: check_choice, check_count, check_number, missing, missing_count
+   use value_checks, only: absent, check_choice, check_count, check_number, missing, missing_count
    implicit none (type, external)
    private
    public :: read_attractors
 
+   !> Most histories.
+   integer, parameter :: most_histories = 1000
    !> Most doublings of the time that exponents take.
    integer, parameter :: most_doublings = 10
    !> Most samples at a point.
@@ -31,8 +34,8 @@ module attractors_input
 
 contains
 
-   !> Read and check all three sections.
-   subroutine read_attractors(path, observation, options, points, error)
+   !> Read and check all sections.
+   subroutine read_attractors(path, observation, options, points, given, error)
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> How attractors are judged
@@ -41,12 +44,16 @@ contains
       type(integration_options), intent(out) :: options
       !> Where they are looked for
       type(points_settings_type), intent(out) :: points
+      !> Histories from which they are reached
+      type(block_history_type), allocatable, intent(out) :: given(:)
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
       type(namelist_file_type) :: file
+      type(block_history_type) :: histories(most_histories)
       type(solver_settings_type) :: solver
-      namelist /settings/ observation, solver, points
+      namelist /settings/ observation, solver, points, histories
 
+      histories = absent_history
       call file%open(path, error)
       if (allocated(error)) return
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
@@ -59,7 +66,8 @@ contains
                         at_least=1.0_wp)
       options = integration_options(method=trim(solver%method), relative=solver%tolerance, &
                                     absolute=solver%tolerance, most_steps=solver%most_steps)
-      call check_points(path//": points", points, error)
+      given = pack(histories, min(histories%theta, histories%u, histories%v) < absent)
+      call check_points(path//": points", points, given, error)
    end subroutine read_attractors
 
    !> Refuse settings by which no point, or no point in a reasonable time, could be judged; keep an

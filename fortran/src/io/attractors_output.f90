@@ -18,11 +18,13 @@ module attractors_output
 contains
 
    !> Write what was found at each point.
-   subroutine write_attractors(path, points, settings, options, findings, error)
+   subroutine write_attractors(path, points, list, settings, options, findings, error)
       !> Path of the file
       character(len=*), intent(in) :: path
       !> Where attractors were looked for, and what is kept of each
       type(points_settings_type), intent(in) :: points
+      !> All points
+      type(point_type), intent(in) :: list(:)
       !> How attractors were judged
       type(attractor_settings_type), intent(in) :: settings
       !> Method and tolerances
@@ -33,7 +35,6 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
       real(wp), dimension(size(findings)) :: least, most
-      type(point_type), allocatable :: list(:)
       integer :: i, rows
 
       call file%create(path, "Attractors of the spring block with delayed friction")
@@ -43,7 +44,6 @@ contains
       call file%attribute("refinements", int(points%refinements, int64))
       call put_settings(file, settings, options)
       rows = file%dimension("point", size(findings), coordinates="epsilon tau xi gamma")
-      list = points%list()
       associate (place => list%parameters, past => list%history, found => findings%attractor)
          call file%column(rows, "epsilon", place%epsilon, trim(parameter_meanings(2)))
          call file%column(rows, "tau", place%tau, trim(parameter_meanings(1)))

@@ -2,11 +2,10 @@
 !> four parameters of the block and a list of histories, or a sweep along one parameter.
 module points_input
    use attractor_points, only: point_type
-   use block_parameters, only: absent_history, block_history_type, block_parameters_type, &
-                               check_quantity
+   use block_parameters, only: block_history_type, block_parameters_type, check_quantity
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use namelist_input, only: elements, word_length
+   use namelist_input, only: word_length
    use value_checks, only: check_choice, check_count, check_number, missing, missing_count
    implicit none (type, external)
    private
@@ -45,8 +44,6 @@ module points_input
       character(len=word_length) :: name = ""
       !> Values of the parameters
       type(axis_type) :: epsilon, tau, xi, gamma
-      !> Values for t <= 0
-      type(block_history_type) :: histories(1000) = absent_history
       !> Whether each point starts where the one before ended: "none", "up" or "down"
       character(len=word_length) :: sweep = ""
       !> Every 2**refinements-th line in epsilon and tau is computed in full
@@ -58,48 +55,43 @@ module points_input
       procedure :: list => list_points
       !> Points in a line of the grid
       procedure :: columns => columns_of_grid
-      !> Axes in the order of `names`, and the number of histories
+      !> Axes in the order of `names`
       procedure, private :: axes => axes_of_grid
-      procedure, private :: number_of_histories
    end type points_settings_type
 
 contains
 
    !> Refuse points that cannot be computed or stored; keep an earlier error.
-   pure subroutine check_points(place, points, error)
+   pure subroutine check_points(place, points, histories, error)
       !> File and section, for messages
       character(len=*), intent(in) :: place
       !> The points
       type(points_settings_type), intent(in) :: points
+      !> Values for t <= 0
+      type(block_history_type), intent(in) :: histories(:)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
       type(axis_type) :: axes(size(names))
-      integer :: histories, i, numbers(3)
+      integer :: i
 
       if (allocated(error)) return
       axes = points%axes()
-      histories = points%number_of_histories()
       call check_count(error, place, "letters of name", len_trim(points%name), at_least=1, &
                        at_most=longest_name)
       call check_count(error, place, "kept", points%kept, at_least=0, at_most=most_kept)
       do i = 1, size(axes)
          call check_axis(error, place, trim(names(i)), axes(i))
       end do
-      call check_count(error, place, "number of histories", histories, at_least=1)
-      numbers = [histories, size(elements(points%histories%u)), size(elements(points%histories%v))]
-      if (any(numbers /= histories) .and. .not. allocated(error)) then
-         call raise(error, place//": histories with "//text(numbers(1))//" theta, " &
-                    //text(numbers(2))//" u, "//text(numbers(3))//" v; expected one of each")
-      end if
-      do i = 1, histories
-         call points%histories(i)%check(place//": history "//text(i), error)
+      call check_count(error, place, "number of histories", size(histories), at_least=1)
+      do i = 1, size(histories)
+         call histories(i)%check(place//": history "//text(i), error)
       end do
       if (allocated(error)) return
       call check_number(error, place, "number of points", &
-                        product([real(histories, wp), real(length(axes), wp)]), &
+                        product([real(size(histories), wp), real(length(axes), wp)]), &
                         at_most=real(most_points, wp))
-      call check_sweep(error, place, points%sweep, axes, histories)
-      call check_refinements(error, place, points, axes, histories)
+      call check_sweep(error, place, points%sweep, axes, size(histories))
+      call check_refinements(error, place, points, axes, size(histories))
    end subroutine check_points
 
    !> The axes in the order of `names`.
@@ -111,14 +103,6 @@ contains
       axes = [self%epsilon, self%tau, self%xi, self%gamma]
    end function axes_of_grid
 
-   !> Number of histories.
-   pure integer function number_of_histories(self) result(number)
-      !> The points
-      class(points_settings_type), intent(in) :: self
-
-      number = size(elements(self%histories%theta))
-   end function number_of_histories
-
    !> Points in a line of the grid.
    pure integer function columns_of_grid(self) result(columns)
       !> The points
@@ -129,9 +113,11 @@ contains
 
    !> All points: epsilon runs fastest, then tau, xi, gamma, and histories slowest; those of a sweep in
    !> its order.
-   pure function list_points(self) result(points)
+   pure function list_points(self, histories) result(points)
       !> What was checked
       class(points_settings_type), intent(in) :: self
+      !> Values for t <= 0
+      type(block_history_type), intent(in) :: histories(:)
       type(point_type), allocatable :: points(:)
       type(axis_type) :: axes(size(names))
       integer :: from(size(names)), g, i, j, k, to(size(names)), x
@@ -144,10 +130,10 @@ contains
                                            tau=value_at(axes(of_tau), j), &
                                            xi=value_at(axes(of_xi), x), &
                                            gamma=value_at(axes(of_gamma), g)), &
-                     self%histories(k)), &
+                     histories(k)), &
                      i=from(of_epsilon), to(of_epsilon)), j=from(of_tau), to(of_tau)), &
                   x=from(of_xi), to(of_xi)), g=from(of_gamma), to(of_gamma)), &
-                 k=1, self%number_of_histories())]
+                 k=1, size(histories))]
       if (self%sweep == "down") points = points(size(points):1:-1)
    end function list_points
 

@@ -93,7 +93,7 @@ contains
       call check_number(error, place, "number of samples t_end/sample_interval", &
                         scene%t_end/scene%sample_interval, at_most=most_samples)
       call check_choice(error, place, "method", scene%method, methods)
-      do i = 1, max(1, count(scene%variables /= ""))
+      do i = 1, max(1, findloc(scene%variables /= "", .true., dim=1, back=.true.))
          call check_choice(error, place, "variables", scene%variables(i), variable_names)
          if (allocated(error)) return
          if (any(scene%variables(:i - 1) == scene%variables(i))) then
