@@ -38,14 +38,16 @@ RULES_FOR = {
     "exponents.tsv": {"build", "exponents_namelist", "exponents_runs", "exponents_table"},
     "stability.tsv": {
         "build",
-        "stability_namelists",
+        "measurement_namelist",
+        "reference_namelist",
         "reference",
         "measurement",
         "stability_table",
     },
     "work-precision.tsv": {
         "build",
-        "trust_namelists",
+        "measurement_namelist",
+        "reference_namelist",
         "reference",
         "measurement",
         "trusted_horizons",

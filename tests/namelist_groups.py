@@ -42,7 +42,6 @@ def in_groups(given: dict[str, dict]) -> dict[str, dict]:
     return groups
 
 
-
 OBSERVATION = {
     "t_transient": 100.0,
     "t_observed": 200.0,

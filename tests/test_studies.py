@@ -9,12 +9,8 @@ from matplotlib import pyplot as plt
 from scripts.drawing.style import STYLE
 from scripts.figures import stability, work_precision
 from scripts.files.tsv import read_table, write_table
-from scripts.namelists.study_cases import (
-    cases_of_family,
-    columns,
-    measured_study,
-    work_precision_groups,
-)
+from scripts.namelists.program_groups import work_precision_groups
+from scripts.namelists.study_cases import cases_of_family
 from scripts.namelists.write_measured_scene import horizon_of
 from scripts.tables import stability_table
 from scripts.tables.accuracy import (
@@ -95,7 +91,7 @@ def test_family_is_all_combinations():
         "made tau=1 gamma=10000",
         "made tau=1 gamma=0.8",
     ]
-    assert columns(cases)["sample_interval"] == 4 * [0.5]
+    assert case_groups(cases)["cases"]["sample_interval"] == 4 * [0.5]
 
 
 def test_distance_is_relative_above_one():
@@ -138,9 +134,9 @@ def test_uncertain_reference_ends_trust_too(reference):
 def test_measured_runs_end_at_the_horizon(smoke_config):
     """As the table says for the scene."""
     rows = [{"scene": "torus", "horizon": 17.0}, {"scene": "chaos", "horizon": 8.0}]
-    groups = work_precision_groups(measured_study(smoke_config), "chaos", 8.0)
+    groups = work_precision_groups(smoke_config, "chaos", 8.0)
     assert horizon_of(rows, "chaos") == 8.0
-    assert groups["measurement"]["cases"]["t_end"] == [8.0]
+    assert groups["cases"]["t_end"] == [8.0]
 
 
 def test_proportionality_is_the_slope_of_useful_errors():

@@ -20,7 +20,8 @@ from expected_rules import (
 )
 
 from scripts.figures.entries import FIGURES
-from scripts.namelists.study_cases import measured_study
+from scripts.namelists.program_groups import LAW, nested
+from scripts.namelists.study_cases import PARAMETERS, measured_study
 
 
 def test_every_rule_ran(smoke_run):
@@ -82,12 +83,16 @@ def test_namelists_hold_the_config(smoke, smoke_config):
     """Each value under its key, in the group that its program reads."""
     folder = smoke.folder / "results" / "namelists"
     read = {
-        path.relative_to(folder).with_suffix("").as_posix(): f90nml.read(path).todict()
+        path.relative_to(folder).with_suffix("").as_posix(): f90nml.read(path).todict()["settings"]
         for path in folder.rglob("*.nml")
         if path.relative_to(folder).parts[0] not in ("attractors", "measurements", "references")
     }
     scenes = {
-        name: {"name": name, **{key: scene[key] for key in set(scene) - OF_OTHERS}}
+        name: nested(
+            {"name": name, **{key: scene[key] for key in set(scene) - OF_OTHERS}},
+            "parameters",
+            PARAMETERS,
+        )
         for name, scene in smoke_config["scenes"].items()
     }
     # a list of one is read as its item
@@ -95,7 +100,7 @@ def test_namelists_hold_the_config(smoke, smoke_config):
     expected = {
         **{f"trajectories/{name}": {"scene": scene} for name, scene in scenes.items()},
         **{f"hopf/{k}": {"hopf_curves": v} for k, v in smoke_config["hopf_curves"].items()},
-        "velocity_step": {"velocity_step": smoke_config["velocity_step"]},
+        "velocity_step": {"velocity_step": nested(smoke_config["velocity_step"], "law", LAW)},
     }
     cycles = smoke_config["cycles"]
     shared = {key: value for key, value in cycles.items() if key not in ("lines", "curves")}
@@ -104,14 +109,14 @@ def test_namelists_hold_the_config(smoke, smoke_config):
         given = {key: value for key, value in line.items() if value != []}
         # a list of one is read as its item
         given |= {"starts": line["starts"][0]} if len(line["starts"]) == 1 else {}
-        expected[f"cycles/{name}"] = {"cycles": shared | given}
+        expected[f"cycles/{name}"] = {"cycles": nested(shared | given, "parameters", PARAMETERS)}
     for name, scene in scenes.items():
-        parameters = {key: scene[key] for key in ("tau", "epsilon", "xi", "gamma")}
+        parameters = {"parameters": scene["parameters"]}
         asked = {"linear_stability": parameters | smoke_config["linear_stability"]}
         expected[f"linear_stability/{name}"] = asked
     for scene in SCENES:
         source = {"trajectory": f"results/trajectories/{scene}.nc"}
-        expected[f"spectra/{scene}"] = {"spectrum": source | smoke_config["spectra"]}
+        expected[f"spectra/{scene}"] = source | {"spectrum": smoke_config["spectra"]}
         wanted = smoke_config["exponents"] | smoke_config["scenes"][scene]["exponents"]
         (wanted["check_steps"],) = wanted["check_steps"]
         expected[f"exponents/{scene}"] = {"scene": scenes[scene], "exponents": wanted}
@@ -124,16 +129,16 @@ def test_namelists_of_studies_hold_the_config(smoke, smoke_config):
     study = smoke_config["stability"]
     for name, family in study["families"].items():
         for kind in ("measurements", "references"):
-            cases = f90nml.read(folder / kind / "stability" / f"{name}.nml")["cases"]
-            assert np.unique(cases["gamma"]).tolist() == family["gamma"]
-            assert np.unique(cases["v"]).tolist() == family["v"]
-            assert set(np.atleast_1d(cases["t_end"])) == {family["t_end"]}
+            groups = f90nml.read(folder / kind / "stability" / f"{name}.nml")["settings"]
+            assert np.unique(groups["parameters"]["gamma"]).tolist() == family["gamma"]
+            assert np.unique(groups["histories"]["v"]).tolist() == family["v"]
+            assert set(np.atleast_1d(groups["cases"]["t_end"])) == {family["t_end"]}
     study = measured_study(smoke_config)
     for name, scene in study["cases"].items():
-        groups = f90nml.read(folder / "measurements" / "work_precision" / f"{name}.nml").todict()
+        groups = f90nml.read(folder / "measurements" / "work_precision" / f"{name}.nml")["settings"]
         assert groups["cases"]["t_end"] <= scene["t_end"]
         assert groups["measure"]["tolerances"] == study["tolerances"]
-        trusted = f90nml.read(folder / "references" / "trust" / f"{name}.nml").todict()
+        trusted = f90nml.read(folder / "references" / "trust" / f"{name}.nml")["settings"]
         assert trusted["cases"]["t_end"] == scene["t_end"]
         assert trusted["reference"].items() >= study["reference"].items()
 
@@ -192,7 +197,7 @@ def test_figure_needs_only_its_own_rules(planned, figure):
         ("build/release/bin/spectrum", {"build"}),
         (
             "results/references/stability/strong.tsv",
-            {"build", "stability_namelists", "reference"},
+            {"build", "reference_namelist", "reference"},
         ),
     ],
 )

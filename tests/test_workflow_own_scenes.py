@@ -58,13 +58,14 @@ def test_one_key_of_a_scene_can_be_changed(smoke, scratch, tmp_path):
     given = ("--config", "scenes={ torus: { xi: 8e-1, t_end: 09000.5 } }")
     run = scratch.snakemake(namelist, *overlays, *given)
     assert run.returncode == 0, run.stdout
-    scene = f90nml.read(scratch.folder / namelist)["scene"].todict()
+    scene = f90nml.read(scratch.folder / namelist)["settings"]["scene"].todict()
+    scene |= scene["parameters"]
     changed = {"tau": 10, "tolerance": 1e-10, "xi": 0.8, "t_end": 9000.5}
     assert {key: scene[key] for key in changed} == changed
     assert scene["history"] == {"theta": 0.0, "u": 0.0, "v": 1.5}
     paper = smoke.folder / "results" / "namelists" / "trajectories" / "torus.nml"
-    before = f90nml.read(paper)["scene"].todict()
-    assert scene["epsilon"] == before["epsilon"]
+    before = f90nml.read(paper)["settings"]["scene"].todict()
+    assert scene["epsilon"] == before["parameters"]["epsilon"]
 
 
 @pytest.mark.parametrize(

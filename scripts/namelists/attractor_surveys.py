@@ -36,7 +36,7 @@ def points_groups(
     sweep: str = "none",
     refinements: int = 0,
 ) -> dict[str, dict]:
-    """The namelist groups of points and of histories; each parameter of the place is a value or an axis."""
+    """The namelist groups of points and histories; parameters of the place are values or axes."""
     axes = {parameter: axis_of(place[parameter]) for parameter in PARAMETERS}
     columns = {key: [history[key] for history in histories] for key in HISTORY}
     how = {"sweep": sweep, "refinements": refinements, "kept": kept}

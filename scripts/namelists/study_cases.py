@@ -1,4 +1,4 @@
-"""Parameters of the block, and the cases of the studies of stability and of work against precision."""
+"""Parameters of the block; cases of the studies of stability and of work against precision."""
 
 import math
 from itertools import product

@@ -1,5 +1,5 @@
-!> Cases to measure, from the sections `cases`, `parameters` and `histories` of a namelist: one list a
-!> key, one element a case.
+!> Cases to measure, from the sections `cases`, `parameters` and `histories` of a namelist: one list
+!> a key, one element a case.
 module cases_input
    use block_parameters, only: block_history_type, block_parameters_type
    use dde_errors, only: error_type, raise, text
@@ -16,7 +16,7 @@ module cases_input
    !> Most samples of a case.
    real(wp), parameter :: most_samples = 1.0e6_wp
 
-   !> What stands in the section `cases` of one case; parameters and history have their own sections.
+   !> The section `cases`: of each case what is neither a parameter nor a history.
    type :: case_section_type
       !> Name
       character(len=word_length) :: name = ""

@@ -65,7 +65,8 @@ contains
       call check_choice(error, path, "along", cycles%along, parameter_names)
       if (allocated(error)) return
       call check_cycles(path, cycles, along, error)
-      line_settings = cycle_settings_type(line=cycle_line_type(along, cycles%parameters, cycles%window), &
+      line_settings = cycle_settings_type(line=cycle_line_type(along, cycles%parameters, &
+                                                               cycles%window), &
                                      starts=elements(cycles%starts), &
                                      t_transient=cycles%t_transient, degree=cycles%degree, &
                                      intervals=cycles%intervals, &
@@ -78,11 +79,11 @@ contains
    end subroutine read_cycles
 
    !> Whether curves of special points are followed.
-   pure logical function has_curves(cycles)
+   pure logical function has_curves(cycles) result(value)
       !> The section
       type(cycles_section_type), intent(in) :: cycles
 
-      has_curves = any([cycles%epsilon_window, cycles%tau_window] < absent)
+      value = any([cycles%epsilon_window, cycles%tau_window] < absent)
    end function has_curves
 
    !> Refuse a line, a mesh or windows with which nothing can be computed; keep an earlier error.

@@ -95,7 +95,8 @@ contains
          end do
       end do
       rows = file%dimension("orbit", all, coordinates=trim(parameter_names(along))//" branch")
-      call file%column(rows, trim(parameter_names(along)), columns(:, 1), "parameter along the line")
+      call file%column(rows, trim(parameter_names(along)), columns(:, 1), &
+                       "parameter along the line")
       call file%column(rows, "period", columns(:, 2), "period")
       call file%column(rows, "v_least", columns(:, 3), "least velocity")
       call file%column(rows, "v_most", columns(:, 4), "greatest velocity")

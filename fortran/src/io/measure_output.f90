@@ -60,7 +60,8 @@ contains
       call file%words(run, "method", runs%method, "method")
       call file%words(run, "status", runs%status, "ok, or why the run ended before t_end")
       call file%words(run, "reason", reasons, "the same in the solver's words")
-      call file%column(run, "setting", runs%setting, "tolerance, or length of the steps of rk4 methods")
+      call file%column(run, "setting", runs%setting, &
+                       "tolerance, or length of the steps of rk4 methods")
       call file%column(run, "tau", cases%parameters%tau, trim(parameter_meanings(1)))
       call file%column(run, "epsilon", cases%parameters%epsilon, trim(parameter_meanings(2)))
       call file%column(run, "xi", cases%parameters%xi, trim(parameter_meanings(3)))
@@ -72,13 +73,19 @@ contains
       call file%column(run, "t_reached", runs%outcome%t, "last time reached")
       call file%column(run, "steps_accepted", real(runs%outcome%accepted, wp), "steps accepted")
       call file%column(run, "steps_rejected", real(runs%outcome%rejected, wp), "steps rejected")
-      call file%column(run, "steps_implicit", real(runs%outcome%implicit_steps, wp), "implicit steps accepted")
-      call file%column(run, "evaluations", real(runs%outcome%evaluations, wp), "right-hand sides evaluated")
-      call file%column(run, "factorisations", real(runs%outcome%factorisations, wp), "matrices factorised")
+      call file%column(run, "steps_implicit", real(runs%outcome%implicit_steps, wp), &
+                       "implicit steps accepted")
+      call file%column(run, "evaluations", real(runs%outcome%evaluations, wp), &
+                       "right-hand sides evaluated")
+      call file%column(run, "factorisations", real(runs%outcome%factorisations, wp), &
+                       "matrices factorised")
       call file%column(run, "switches", real(runs%outcome%switches, wp), "changes of method")
-      call file%column(run, "least_ln_v", runs%least_ln_v, "smallest ln v on a grid 8 times that of samples")
-      call file%column(run, "most_ln_v", runs%most_ln_v, "largest ln v on a grid 8 times that of samples")
-      call file%column(run, "seconds", runs%seconds, "CPU time of the solver alone, median of repeats", "s")
+      call file%column(run, "least_ln_v", runs%least_ln_v, &
+                       "smallest ln v on a grid 8 times that of samples")
+      call file%column(run, "most_ln_v", runs%most_ln_v, &
+                       "largest ln v on a grid 8 times that of samples")
+      call file%column(run, "seconds", runs%seconds, &
+                       "CPU time of the solver alone, median of repeats", "s")
 
       allocate (table(most_samples, size(runs)))
       table = ieee_value(1.0_wp, ieee_quiet_nan)

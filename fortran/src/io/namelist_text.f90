@@ -1,5 +1,5 @@
-!> The text of a namelist: a group and its keys may stand only once, and its numbers are finite. Of a
-!> key that is given twice, Fortran's own reading takes the last value without a word.
+!> The text of a namelist: a group and its keys may stand only once, and its numbers are finite. Of
+!> a key that is given twice, Fortran's own reading takes the last value without a word.
 module namelist_text
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: int64

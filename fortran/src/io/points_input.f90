@@ -111,8 +111,8 @@ contains
       columns = length(self%epsilon)
    end function columns_of_grid
 
-   !> All points: epsilon runs fastest, then tau, xi, gamma, and histories slowest; those of a sweep in
-   !> its order.
+   !> All points: epsilon runs fastest, then tau, xi, gamma, and histories slowest; those of a sweep
+   !> in its order.
    pure function list_points(self, histories) result(points)
       !> What was checked
       class(points_settings_type), intent(in) :: self
@@ -174,7 +174,8 @@ contains
       end do
       call check_count(error, place, name//"%count", axis%count, at_least=1)
       if (allocated(error)) return
-      if (1 <= axis%part(1) .and. axis%part(1) <= axis%part(2) .and. axis%part(2) <= axis%count) return
+      if (1 <= axis%part(1) .and. axis%part(1) <= axis%part(2) &
+          .and. axis%part(2) <= axis%count) return
       call raise(error, place//": "//name//"%part = "//text(axis%part(1))//", " &
                  //text(axis%part(2))//"; expected first and last, 1 <= first <= last <= " &
                  //text(axis%count))

@@ -41,7 +41,7 @@ module scene_input
       character(len=element_length) :: variables(3) = ""
    contains
       !> Method and tolerances for the solver
-      procedure :: options
+      procedure :: options => options_of_scene
    end type scene_type
 
 contains
@@ -104,11 +104,11 @@ contains
    end subroutine check_scene
 
    !> Method and tolerances for the solver.
-   pure type(integration_options) function options(self)
+   pure type(integration_options) function options_of_scene(self) result(options)
       !> The scene
       class(scene_type), intent(in) :: self
 
       options = integration_options(method=trim(self%method), relative=self%tolerance, &
                                     absolute=self%tolerance)
-   end function options
+   end function options_of_scene
 end module scene_input

@@ -38,7 +38,8 @@ contains
       call file%column(rows, "duration", events%duration, "time in which v > 1")
       call file%column(rows, "slip", events%slip, "integral of v over the duration")
       call file%column(rows, "peak_velocity", events%peak_velocity, "largest v of the event")
-      call file%column(rows, "least_velocity", events%least_velocity, "least v up to the next onset")
+      call file%column(rows, "least_velocity", events%least_velocity, &
+                       "least v up to the next onset")
       call file%finish(error)
    end subroutine write_slip_events
 end module slip_events_output

@@ -7,16 +7,17 @@ module block_parameters
    implicit none (type, external)
    private
    public :: absent_history, absent_parameters, block_history_type, block_parameters_type, &
-             check_quantity, history_names, missing_history, missing_parameters, parameter_meanings, &
-             parameter_names, parameters_of, vector_of
+             check_quantity, history_names, missing_history, missing_parameters, &
+             parameter_meanings, parameter_names, parameters_of, vector_of
 
    !> Names of the parameters, in the order of their numbers.
    character(len=*), parameter :: parameter_names(4) = ["tau    ", "epsilon", "xi     ", "gamma  "]
    !> Descriptions of the parameters, in the same order.
-   character(len=*), parameter :: parameter_meanings(4) = [character(len=38) :: &
-                                                           "delay", &
-                                                           "sensitivity of the velocity relaxation", &
-                                                           "spring constant", "frequency"]
+   character(len=*), parameter :: parameter_meanings(4) = [ &
+                                  "delay                                 ", &
+                                  "sensitivity of the velocity relaxation", &
+                                  "spring constant                       ", &
+                                  "frequency                             "]
    !> Names of the values for t <= 0, in the order of the components.
    character(len=*), parameter :: history_names(3) = ["theta", "u    ", "v    "]
 
@@ -49,8 +50,8 @@ module block_parameters
    end type block_history_type
 
    !> Parameters and a history that must be given.
-   type(block_parameters_type), parameter :: missing_parameters = &
-                                             block_parameters_type(missing, missing, missing, missing)
+   type(block_parameters_type), parameter :: &
+      missing_parameters = block_parameters_type(missing, missing, missing, missing)
    type(block_history_type), parameter :: missing_history = &
                                           block_history_type(missing, missing, missing)
    !> Those beyond the last of a list.

@@ -1,5 +1,5 @@
-!> Namelists that are read, and what is refused: by the one way in which all are read, and values with
-!> which a program could not compute anything.
+!> Namelists that are read, and what is refused: by the one way in which all are read, and values
+!> with which a program could not compute anything.
 module test_namelists
    use attractors, only: attractor_settings_type
    use attractors_input, only: read_attractors
@@ -237,7 +237,7 @@ contains
       call expect_failure(error, failure, "no-such-file.nml: ")
       call refused(error, "scene", scene, "scene%colour = 1.0", group)
       call refused(error, "scene", scene, "scene%colour = 1.0", "colour")
-      call refused(error, "scene", scene, "SCENE%T_END = 3.0", group//"scene%t_end stands in lines ")
+      call refused(error, "scene", scene, "SCENE%T_END = 3.0", group//"scene%t_end stands in")
       call refused(error, "scene", scene, "scene%t_end = 'much'", group)
       call refused(error, "scene", scene, "scene%t_end = 1.0, 2.0", group)
       call refused(error, "scene", scene, "scene%t_end = NaN", &
@@ -319,8 +319,8 @@ contains
       !> The first failure
       type(error_type), allocatable, intent(out) :: error
       character(len=*), parameter :: o = "observation%", p = "points%", s = "survey"
-      character(len=*), parameter :: two = "histories%theta = 0.0, 0.5; histories%u = 0.0, 0.5; "// &
-                                     "histories%v = 1.1, 1.5"
+      character(len=*), parameter :: two = "histories%theta = 0.0, 0.5; "// &
+                                     "histories%u = 0.0, 0.5; histories%v = 1.1, 1.5"
 
       call refused(error, s, survey, o//"t_observed = 0.0", "observation: t_observed = 0.0;")
       call refused(error, s, survey, o//"exponents = 1", "exponents = 1; expected")
