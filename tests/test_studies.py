@@ -9,7 +9,7 @@ from matplotlib import pyplot as plt
 from scripts.drawing.style import STYLE
 from scripts.figures import stability, work_precision
 from scripts.files.tsv import read_table, write_table
-from scripts.namelists.program_groups import work_precision_groups
+from scripts.namelists.program_groups import case_groups, work_precision_groups
 from scripts.namelists.study_cases import cases_of_family
 from scripts.namelists.write_measured_scene import horizon_of
 from scripts.tables import stability_table
