@@ -290,7 +290,8 @@ contains
       call refused(error, "plane", plane, h//"ordinate = 'xi'; "//h//"ordinate_window = 0.0, 1.0", &
                    "ordinate_window(1) = 0.0; expected")
       call refused(error, "plane", plane, h//"cells = 0", "cells = 0; expected")
-      call refused(error, "line", line, "cycles%along = 'v'", "expected one of 'tau' 'epsilon'")
+      call refused(error, "line", line, "cycles%along = 'v'; cycles%parameters%tau = 1.0", &
+                   "expected one of 'tau' 'epsilon'")
       call refused(error, "line", line, "cycles%window = 1.0, 1.0", "window(2) = 1.0; expected")
       call refused(error, "line", line, "cycles%starts = 0.5", "starts = 0.5; expected")
       call refused(error, "line", line, "cycles%degree = 10", "degree = 10; expected")
