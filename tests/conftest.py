@@ -16,10 +16,10 @@ from pathlib import Path
 
 import pytest
 import xarray as xr
-from namelist_groups import CASES, EXPONENTS, MEASURE, OBSERVATION, POINTS, REFERENCE
+from namelist_groups import CASES, EXPONENTS, MEASURE, OBSERVATION, POINTS, REFERENCE, in_groups
 
 from scripts.config.read_config import read
-from scripts.namelists.write_namelist import write_groups
+from scripts.namelists.write_namelist import write_namelist
 from scripts.results import manifest
 from scripts.workflow.plan import Plan, read_plan
 
@@ -41,7 +41,7 @@ GROUPS = {
     "velocity_step": "velocity_step",
     "slip_events": "scene",
 }
-"""Namelist group of each program that reads one alone."""
+"""Namelist group of each program that reads one alone, as tests name it."""
 MADE = {
     ".git",
     ".venv",
@@ -176,7 +176,7 @@ class Programs:
 
     def write(self, groups: dict[str, dict]) -> Path:
         """The namelist of a run."""
-        write_groups(self.folder / "input.nml", groups)
+        write_namelist(self.folder / "input.nml", in_groups(groups))
         return self.folder / "input.nml"
 
     def run_groups(self, program: str, groups: dict[str, dict]) -> subprocess.CompletedProcess[str]:
@@ -378,6 +378,6 @@ def good_groups(good_inputs) -> dict[str, dict[str, dict]]:
     groups = {program: {group: good_inputs[program]} for program, group in GROUPS.items()}
     groups["exponents"] = {"scene": good_inputs["trajectory"], "exponents": EXPONENTS}
     groups["attractors"] = {"observation": OBSERVATION, "points": POINTS}
-    groups["measure"] = {"cases_list": CASES, "measure": MEASURE}
-    groups["reference"] = {"cases_list": CASES, "reference": REFERENCE}
+    groups["measure"] = {"cases": CASES, "measure": MEASURE}
+    groups["reference"] = {"cases": CASES, "reference": REFERENCE}
     return copy.deepcopy(groups)

@@ -1,4 +1,46 @@
-"""Namelist groups that programs accept, for tests to copy and change."""
+"""Namelist values that programs accept, for tests to copy and change, and the groups they are in.
+
+Tests name the keys of a group without the groups within it.
+"""
+
+from scripts.namelists.program_groups import LAW, nested
+from scripts.namelists.study_cases import HISTORY, PARAMETERS
+
+PARTS = {
+    "scene": {"parameters": PARAMETERS},
+    "linear_stability": {"parameters": PARAMETERS},
+    "cycles": {"parameters": PARAMETERS},
+    "velocity_step": {"law": LAW},
+}
+"""For a group: the groups within it and their keys."""
+BESIDE = {
+    "cases": {"parameters": PARAMETERS, "histories": HISTORY},
+    "points": {"histories": HISTORY},
+    "observation": {"solver": ["method", "tolerance", "most_steps"]},
+}
+"""For a group: groups beside it that tests leave in it, and their keys."""
+
+
+def in_groups(given: dict[str, dict]) -> dict[str, dict]:
+    """Groups as programs read them."""
+    groups = {}
+    for name, values in given.items():
+        for part, keys in PARTS.get(name, {}).items():
+            values = nested(values, part, keys)
+        for part, keys in BESIDE.get(name, {}).items():
+            values = nested(values, part, keys)
+            groups[part] = values.pop(part)
+        if name == "points":
+            for axis in PARAMETERS:
+                names = {f"{axis}_{key}": key for key in ("window", "count", "part")}
+                values = nested(values, axis, list(names))
+                values[axis] = {names[key]: value for key, value in values[axis].items()}
+        if name == "spectrum":
+            groups |= {key: values[key] for key in ("trajectory",) if key in values}
+            values = {key: value for key, value in values.items() if key != "trajectory"}
+        groups[name] = values
+    return groups
+
 
 OBSERVATION = {
     "t_transient": 100.0,

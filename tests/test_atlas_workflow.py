@@ -16,7 +16,7 @@ from matplotlib import pyplot as plt
 from scripts.figures import atlas
 from scripts.files.tsv import read_table, write_table
 from scripts.namelists.attractor_surveys import atlas_groups
-from scripts.namelists.write_namelist import write_groups
+from scripts.namelists.write_namelist import write_namelist
 from scripts.page import play_data
 from scripts.tables import attractor_tables
 
@@ -65,7 +65,7 @@ def made_parts(
     config["atlas"] |= {"parts": parts, "refinements": refinements, **counts}
     paths = []
     for part in range(1, parts + 1):
-        write_groups(programs.folder / "input.nml", atlas_groups(config, "xi_05", part))
+        write_namelist(programs.folder / "input.nml", atlas_groups(config, "xi_05", part))
         paths.append(programs.folder / f"{parts}_{part}_{refinements}.nc")
         run = programs.run("attractors", "input.nml", paths[-1].name)
         assert run.returncode == 0, run.stderr

@@ -14,8 +14,9 @@ from pathlib import Path
 import pytest
 from conftest import SMOKE, Programs, Project, unfinished, wait_for
 from disks import NAMESPACE, need_namespaces
+from namelist_groups import in_groups
 
-from scripts.namelists.write_namelist import write_groups
+from scripts.namelists.write_namelist import write_namelist
 
 SNAKEMAKE = Path(sys.executable).parent / "snakemake"
 LONG = "results/references/stability/grid_fault.tsv"
@@ -66,7 +67,7 @@ def groups_of(program: str, t_end: float, good_groups: dict) -> dict[str, dict]:
     if program == "trajectory":
         groups["scene"]["t_end"] = 2000 * t_end
     else:
-        groups["cases_list"]["t_end"] = [t_end, 5.0]
+        groups["cases"]["t_end"] = [t_end, 5.0]
     return groups
 
 
@@ -75,7 +76,8 @@ def groups_of(program: str, t_end: float, good_groups: dict) -> dict[str, dict]:
 def test_last_of_two_runs_wins(programs, good_groups, program, first_to_end):
     """The program of a workflow that was killed may still run: it gives way, in words."""
     for name, t_end in (("older", 150.0), ("newer", 200.0)):
-        write_groups(programs.folder / f"{name}.nml", groups_of(program, t_end, good_groups))
+        groups = in_groups(groups_of(program, t_end, good_groups))
+        write_namelist(programs.folder / f"{name}.nml", groups)
 
     def begin(name: str) -> subprocess.Popen[str]:
         # in place: a new file would take the inode that a removed one leaves to the next

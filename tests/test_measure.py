@@ -103,7 +103,7 @@ def test_reference_that_stops_says_so(programs, good_groups):
     groups = good_groups["reference"]
     fast = {"v": 1e6, "gamma": 0.8, "epsilon": 0.5, "theta": 0.0, "u": 0.0}
     for key, value in fast.items():
-        groups["cases_list"][key][0] = value
+        groups["cases"][key][0] = value
     rows = [row for row in references_of(programs, groups) if row["case"] == "decay"]
     assert {row["status"] for row in rows} == {"step_underflow"}
     assert rows[-1]["u"] == "NaN"

@@ -9,8 +9,8 @@ from matplotlib import pyplot as plt
 from scripts.drawing.style import STYLE
 from scripts.figures import stability, work_precision
 from scripts.files.tsv import as_digits, read_table, write_table
-from scripts.namelists.result_values import work_precision_groups
-from scripts.namelists.study_cases import cases_of_family, columns
+from scripts.namelists.program_groups import case_groups, work_precision_groups
+from scripts.namelists.study_cases import cases_of_family
 from scripts.namelists.write_namelist import end_at_horizons
 from scripts.tables import stability_table
 from scripts.tables.accuracy import (
@@ -86,7 +86,7 @@ def test_family_is_all_combinations():
         "made tau=1 gamma=10000",
         "made tau=1 gamma=0.8",
     ]
-    assert columns(cases)["sample_interval"] == 4 * [0.5]
+    assert case_groups(cases)["cases"]["sample_interval"] == 4 * [0.5]
 
 
 def test_errors_are_relative_above_one():
@@ -136,7 +136,7 @@ def test_measured_runs_end_at_the_horizon(smoke_config):
     """As the table says for the scene."""
     rows = [{"scene": "torus", "horizon": 17.0}, {"scene": "chaos", "horizon": 8.0}]
     groups = end_at_horizons(work_precision_groups(smoke_config, "chaos"), rows)
-    assert groups["cases_list"]["t_end"] == [8.0]
+    assert groups["cases"]["t_end"] == [8.0]
 
 
 def test_proportionality_is_the_slope_of_useful_errors():

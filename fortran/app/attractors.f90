@@ -3,11 +3,12 @@
 program attractors_program
    use attractor_points, only: find_attractors, finding_type, sweep_attractors
    use attractors, only: attractor_settings_type
+   use attractors_input, only: read_attractors
    use attractors_output, only: write_attractors
+   use block_parameters, only: block_history_type
    use dde, only: integration_options
    use dde_errors, only: error_type
-   use observation_input, only: read_observation
-   use points_input, only: points_settings_type, read_points
+   use points_input, only: points_settings_type
    use progress, only: progress_type
    use program_arguments, only: get_paths, stop_on
    implicit none (type, external)
@@ -16,23 +17,23 @@ program attractors_program
    type(error_type), allocatable :: error
    type(finding_type), allocatable :: findings(:)
    type(integration_options) :: options
-   type(points_settings_type) :: asked
+   type(points_settings_type) :: points
+   type(block_history_type), allocatable :: histories(:)
+   type(point_type), allocatable :: list(:)
    type(progress_type) :: report
 
-   call get_paths(namelist_path, output_path, error)
+   call get_paths(namelist_path, output_path)
+   call read_attractors(namelist_path, settings, options, points, histories, error)
    call stop_on(error)
-   call read_observation(namelist_path, settings, options, error)
-   call stop_on(error)
-   call read_points(namelist_path, asked, error)
-   call stop_on(error)
-   report = progress_type("attractors of "//trim(asked%name))
-   if (asked%sweep == "none") then
-      call find_attractors(asked%points, settings, options, findings, report, asked%columns, &
-                           asked%refinements)
+   list = points%list(histories)
+   report = progress_type("attractors of "//trim(points%name))
+   if (points%sweep == "none") then
+      call find_attractors(list, settings, options, findings, report, points%columns(), &
+                           points%refinements)
    else
-      call sweep_attractors(asked%points, settings, options, findings, report)
+      call sweep_attractors(list, settings, options, findings, report)
    end if
    call report%finish()
-   call write_attractors(output_path, asked, settings, options, findings, error)
+   call write_attractors(output_path, points, list, settings, options, findings, error)
    call stop_on(error)
 end program attractors_program

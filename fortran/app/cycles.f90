@@ -19,8 +19,7 @@ program cycles_program
    type(left_out_type), allocatable :: left_out(:)
    type(progress_type) :: report
 
-   call get_paths(namelist_path, output_path, error)
-   call stop_on(error)
+   call get_paths(namelist_path, output_path)
    call read_cycles(namelist_path, settings, error)
    call stop_on(error)
    report = progress_type("branches of cycles")

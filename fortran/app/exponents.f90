@@ -5,9 +5,10 @@ program exponents
    use exponents_input, only: exponents_settings_type, read_exponents
    use exponents_output, only: write_exponents
    use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
+   use namelist_input, only: elements
    use program_arguments, only: get_paths, stop_on
    use progress, only: progress_type
-   use scene_input, only: read_scene, scene_type
+   use scene_input, only: scene_type
    use spring_block, only: spring_block_type
    use steady_sliding, only: comes_to_rest
    implicit none (type, external)
@@ -23,16 +24,13 @@ program exponents
    integer :: i
    logical :: rest ! where no exponent is that of the flow
 
-   call get_paths(namelist_path, output_path, error)
-   call stop_on(error)
-   call read_scene(namelist_path, scene, error)
-   call stop_on(error)
+   call get_paths(namelist_path, output_path)
    call read_exponents(namelist_path, scene, settings, error)
    call stop_on(error)
    block_model = spring_block_type(scene%parameters, scene%history)
-   own = integration_options(method=trim(scene%method), relative=scene%tolerance, &
-                             absolute=scene%tolerance)
-   associate (tolerances => settings%check_tolerances, steps => settings%check_steps)
+   own = scene%options()
+   associate (tolerances => elements(settings%check_tolerances), &
+              steps => elements(settings%check_steps))
       allocate (options(1 + size(tolerances) + size(steps)), source=own)
       options(2:1 + size(tolerances))%relative = tolerances
       options(2:1 + size(tolerances))%absolute = tolerances
@@ -46,7 +44,7 @@ program exponents
       call report%begin_part(i)
       call measure_growth(block_model, &
                           growth_settings_type( &
-                          exponents=settings%exponents, t_begin=scene%t_transient, &
+                          exponents=settings%count, t_begin=scene%t_transient, &
                           t_end=settings%t_end, t_turning=settings%t_turning, &
                           interval=settings%interval, blocks=settings%blocks, &
                           across_flow=.not. rest), &

@@ -16,8 +16,7 @@ program hopf
    type(curve_point_type), allocatable :: points(:)
    type(hopf_point_type), allocatable :: special(:)
 
-   call get_paths(namelist_path, output_path, error)
-   call stop_on(error)
+   call get_paths(namelist_path, output_path)
    call read_plane(namelist_path, settings, plane, error)
    call stop_on(error)
    call trace_curves(plane, points, error)

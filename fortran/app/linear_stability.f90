@@ -18,8 +18,7 @@ program linear_stability
    type(stability_change_type), allocatable :: with_epsilon(:), with_tau(:)
    integer :: pairs(2)
 
-   call get_paths(namelist_path, output_path, error)
-   call stop_on(error)
+   call get_paths(namelist_path, output_path)
    call read_linear_stability(namelist_path, settings, error)
    call stop_on(error)
    call roots_of_block(settings%parameters, settings%root_bound, roots, error)

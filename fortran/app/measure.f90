@@ -1,14 +1,12 @@
 !> Measured runs: cases solved by several methods at several tolerances, with what each run gave and
 !> what it cost. A run that fails is a row with its reason.
 program measure
-   use cases_input, only: read_cases
    use dde_errors, only: error_type
-   use dde_kinds, only: wp
    use measure_input, only: measure_settings_type, read_measure
    use measure_output, only: measured_runs_type, write_measured_runs
+   use dde_kinds, only: wp
    use measured_case, only: case_type
    use measured_run, only: measure_run, time_runs
-   use namelist_input, only: not_given
    use program_arguments, only: get_paths, stop_on
    use progress, only: progress_type
    implicit none (type, external)
@@ -20,27 +18,24 @@ program measure
    type(progress_type) :: report
    integer :: i, j
 
-   call get_paths(namelist_path, output_path, error)
-   call stop_on(error)
-   call read_cases(namelist_path, cases, error)
-   call stop_on(error)
-   call read_measure(namelist_path, settings, error)
+   call get_paths(namelist_path, output_path)
+   call read_measure(namelist_path, cases, settings, error)
    call stop_on(error)
    allocate (measured(size(cases)))
    report = progress_type("measured runs", parts=2*size(cases))
    do i = 1, size(cases)
       call report%begin_part(2*i - 1)
       measured(i)%case = cases(i)
-      measured(i)%runs = settings%runs
-      do j = 1, size(settings%runs)
+      measured(i)%runs = settings%runs()
+      do j = 1, size(measured(i)%runs)
          call measure_run(cases(i), 0.0_wp, settings%most_steps, measured(i)%runs(j))
-         call report%advance(j, size(settings%runs))
+         call report%advance(j, size(measured(i)%runs))
       end do
       call report%begin_part(2*i)
       call time_runs(cases(i), settings%most_steps, settings%repeats, settings%least_seconds, &
                      measured(i)%runs, report)
    end do
    call report%finish()
-   call write_measured_runs(output_path, measured, not_given(), error)
+   call write_measured_runs(output_path, measured, error)
    call stop_on(error)
 end program measure

@@ -1,7 +1,6 @@
 !> Reference solutions of cases in quadruple precision, each with the evidence of its own
 !> uncertainty and of how much the case magnifies a disturbance of its history.
 program reference
-   use cases_input, only: read_cases
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use measured_case, only: case_type
@@ -20,18 +19,15 @@ program reference
    type(run_type) :: best, checking, disturbed
    integer :: i
 
-   call get_paths(namelist_path, output_path, error)
-   call stop_on(error)
-   call read_cases(namelist_path, cases, error)
-   call stop_on(error)
-   call read_reference(namelist_path, settings, error)
+   call get_paths(namelist_path, output_path)
+   call read_reference(namelist_path, cases, settings, error)
    call stop_on(error)
    call file%create(output_path, error)
    call stop_on(error)
    associate (options => settings)
-      best = run_type(options%method, options%tolerance)
+      best = run_type(trim(options%method), options%tolerance)
       disturbed = best
-      checking = run_type(options%check_method, options%check_tolerance)
+      checking = run_type(trim(options%check_method), options%check_tolerance)
       report = progress_type("references", parts=3*size(cases))
       do i = 1, size(cases)
          call report%begin_part(3*i - 2)

@@ -1,6 +1,5 @@
 !> Slip events of one scene after its transient.
 program slip_events_program
-   use dde, only: integration_options
    use dde_errors, only: error_type
    use program_arguments, only: get_paths, stop_on
    use scene_input, only: read_scene, scene_type
@@ -13,14 +12,11 @@ program slip_events_program
    type(scene_type) :: scene
    type(slip_events_type) :: events
 
-   call get_paths(namelist_path, output_path, error)
-   call stop_on(error)
+   call get_paths(namelist_path, output_path)
    call read_scene(namelist_path, scene, error)
    call stop_on(error)
    call find_slip_events(spring_block_type(scene%parameters, scene%history), scene%t_transient, &
-                         scene%t_end, &
-                         integration_options(method=trim(scene%method), relative=scene%tolerance, &
-                                             absolute=scene%tolerance), events, error)
+                         scene%t_end, scene%options(), events, error)
    call stop_on(error)
    call write_slip_events(output_path, scene, events, error)
    call stop_on(error)

@@ -11,7 +11,7 @@ program spectrum_program
    use spectrum_output, only: write_spectrum
    use trajectory_input, only: read_trajectory, trajectory_type
    implicit none (type, external)
-   character(len=:), allocatable :: namelist_path, output_path
+   character(len=:), allocatable :: namelist_path, output_path, trajectory_path
    type(bases_type) :: bases
    type(error_type), allocatable :: error
    type(peak_type), allocatable :: peaks(:)
@@ -21,13 +21,11 @@ program spectrum_program
    real(wp) :: interval
    integer :: first
 
-   call get_paths(namelist_path, output_path, error)
+   call get_paths(namelist_path, output_path)
+   call read_spectrum_settings(namelist_path, trajectory_path, settings, error)
    call stop_on(error)
-   call read_spectrum_settings(namelist_path, settings, error)
-   call stop_on(error)
-   call check_input(trim(settings%trajectory), output_path, error)
-   call stop_on(error)
-   call read_trajectory(trim(settings%trajectory), trajectory, error)
+   call check_input(trajectory_path, output_path)
+   call read_trajectory(trajectory_path, trajectory, error)
    call stop_on(error)
 
    interval = trajectory%sample_interval
@@ -39,7 +37,7 @@ program spectrum_program
    end if
    call power_spectrum(v, interval, settings%window, settings%segments, settings%overlap, &
                        frequency, power, error)
-   if (allocated(error)) error%message = trim(settings%trajectory)//": "//error%message
+   if (allocated(error)) error%message = trajectory_path//": "//error%message
    call stop_on(error)
    if (allocated(trajectory%u)) call undo_smoothing(interval, frequency, power)
    peaks = find_peaks(frequency, power, settings%peak_floor, settings%peak_prominence)

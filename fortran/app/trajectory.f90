@@ -1,6 +1,6 @@
 !> Trajectory of one scene: the delayed block integrated from its history to t_end.
 program trajectory
-   use dde, only: integrate, integration_options, integration_result
+   use dde, only: integrate, integration_result
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use program_arguments, only: get_paths, stop_on
@@ -10,23 +10,19 @@ program trajectory
    implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path
    type(error_type), allocatable :: error
-   type(integration_options) :: options
    type(integration_result) :: outcome
    type(scene_type) :: scene
    type(spring_block_type) :: block_model
    type(trajectory_writer_type) :: writer
 
-   call get_paths(namelist_path, output_path, error)
-   call stop_on(error)
+   call get_paths(namelist_path, output_path)
    call read_scene(namelist_path, scene, error)
    call stop_on(error)
 
    block_model = spring_block_type(scene%parameters, scene%history)
-   options = integration_options(method=trim(scene%method), relative=scene%tolerance, &
-                                 absolute=scene%tolerance)
    writer = trajectory_writer_type(output_path, scene)
    call stop_on(writer%file%error)
-   call integrate(block_model, 0.0_wp, scene%t_end, options, outcome, error, writer)
+   call integrate(block_model, 0.0_wp, scene%t_end, scene%options(), outcome, error, writer)
    if (allocated(error)) call writer%discard()
    call stop_on(error)
    call writer%finish(outcome, error)

@@ -11,8 +11,7 @@ program velocity_step_program
    type(friction_response_type) :: response
    type(step_protocol_type) :: protocol
 
-   call get_paths(namelist_path, output_path, error)
-   call stop_on(error)
+   call get_paths(namelist_path, output_path)
    call read_protocol(namelist_path, protocol, error)
    call stop_on(error)
    call respond(protocol, response, error)

@@ -20,12 +20,14 @@ def drawn_histories(count: int, ranges: dict) -> list[dict]:
     ]
 
 
-def observation_group(observation: dict, spectra: dict) -> dict:
-    """The namelist group of how attractors are judged."""
-    return {**{key: value for key, value in observation.items() if key != "kept"}, **spectra}
+def judged_groups(observation: dict, spectra: dict, points: dict[str, dict]) -> dict[str, dict]:
+    """The namelist groups of points and of how attractors are found and judged there."""
+    solver = {key: observation[key] for key in ("method", "tolerance", "most_steps")}
+    others = {key: observation[key] for key in observation if key not in ("kept", *solver)}
+    return {"observation": {**others, **spectra}, "solver": solver, **points}
 
 
-def points_group(
+def points_groups(
     name: str,
     *,
     place: dict,
@@ -33,16 +35,12 @@ def points_group(
     kept: int,
     sweep: str = "none",
     refinements: int = 0,
-) -> dict:
-    """The namelist group of points; each parameter of the place is a value or an axis."""
-    axes = {
-        f"{parameter}_{key}": value
-        for parameter in PARAMETERS
-        for key, value in axis_of(place[parameter]).items()
-    }
-    columns = {key: [history[key] for history in histories] for key in ("theta", "u", "v")}
+) -> dict[str, dict]:
+    """The namelist groups of points and histories; parameters of the place are values or axes."""
+    axes = {parameter: axis_of(place[parameter]) for parameter in PARAMETERS}
+    columns = {key: [history[key] for history in histories] for key in HISTORY}
     how = {"sweep": sweep, "refinements": refinements, "kept": kept}
-    return {"name": name, **axes, **columns, **how}
+    return {"points": {"name": name, **axes, **how}, "histories": columns}
 
 
 def axis_of(given: float | dict) -> dict:
@@ -67,13 +65,13 @@ def scene_groups(config: dict, scene: str) -> dict:
     count = settings.get("attractors", {}).get("histories", study["count"])
     others = drawn_histories(count - 1, study["histories"])
     observation = study["observation"]
-    points = points_group(
+    points = points_groups(
         scene,
         place=settings,
         histories=[settings["history"], *others],
         kept=observation["kept"],
     )
-    return {"observation": observation_group(observation, config["spectra"]), "points": points}
+    return judged_groups(observation, config["spectra"], points)
 
 
 def atlas_groups(config: dict, plane: str, part: int) -> dict:
@@ -84,7 +82,7 @@ def atlas_groups(config: dict, plane: str, part: int) -> dict:
     atlas = config["atlas"]
     settings, refinements = atlas["planes"][plane], atlas["refinements"]
     delays = part_of(atlas["tau_count"], atlas["parts"], part, 2**refinements)
-    points = points_group(
+    points = points_groups(
         f"{plane} part {part} of {atlas['parts']}",
         place={
             **settings,
@@ -95,8 +93,7 @@ def atlas_groups(config: dict, plane: str, part: int) -> dict:
         kept=atlas["observation"]["kept"],
         refinements=refinements,
     )
-    observation = observation_group(atlas["observation"], config["spectra"])
-    return {"observation": observation, "points": points}
+    return judged_groups(atlas["observation"], config["spectra"], points)
 
 
 def route_groups(config: dict, line: str, run: str) -> dict:
@@ -112,25 +109,23 @@ def route_groups(config: dict, line: str, run: str) -> dict:
     if along in HISTORY:
         values = np.linspace(*window, count).tolist()
         histories = [{**histories[0], along: value} for value in values]
-    points = points_group(
+    points = points_groups(
         f"{line} {run}",
         place={**settings, along: {"window": window, "count": count}},
         histories=histories,
         kept=routes["observation"]["kept"],
         sweep=run if run in routes["sweeps"] else "none",
     )
-    observation = observation_group(routes["observation"], config["spectra"])
-    return {"observation": observation, "points": points}
+    return judged_groups(routes["observation"], config["spectra"], points)
 
 
 def basin_groups(config: dict, place: str) -> dict:
     """Namelist of a place where motions coexist: random histories."""
     basins = config["basins"]
-    points = points_group(
+    points = points_groups(
         place,
         place=basins["places"][place],
         histories=drawn_histories(basins["count"], basins["histories"]),
         kept=basins["observation"]["kept"],
     )
-    observation = observation_group(basins["observation"], config["spectra"])
-    return {"observation": observation, "points": points}
+    return judged_groups(basins["observation"], config["spectra"], points)

@@ -1,4 +1,4 @@
-"""Write namelist groups for a Fortran program."""
+"""Write the namelist of a Fortran program."""
 
 from pathlib import Path
 
@@ -8,17 +8,20 @@ from scripts.files.outputs import logged, written
 from scripts.files.tsv import read_table
 
 
-def write_groups(path: Path, groups: dict[str, dict]) -> None:
-    """Write groups into one file, which is complete or absent."""
+def write_namelist(path: Path, groups: dict[str, dict]) -> None:
+    """Write groups of values; the file is complete or absent.
+
+    A program reads them from one namelist group, &settings: there a key is `group%key`.
+    """
     with written(path) as unfinished:
-        f90nml.Namelist(groups).write(unfinished, force=True)
+        f90nml.Namelist({"settings": groups}).write(unfinished, force=True)
 
 
 def end_at_horizons(groups: dict[str, dict], rows: list[dict]) -> dict[str, dict]:
     """Cases that end at the times up to which runs can be compared, given by rows of a table."""
     horizons = {row["scene"]: row["horizon"] for row in rows}
-    cases = groups["cases_list"]
-    return {**groups, "cases_list": {**cases, "t_end": [horizons[name] for name in cases["name"]]}}
+    cases = groups["cases"]
+    return {**groups, "cases": {**cases, "t_end": [horizons[name] for name in cases["name"]]}}
 
 
 if __name__ == "__main__":
@@ -26,4 +29,4 @@ if __name__ == "__main__":
         groups = snakemake.params.groups
         if snakemake.input.get("horizons"):
             groups = end_at_horizons(groups, read_table(snakemake.input.horizons))
-        write_groups(Path(snakemake.output[0]), groups)
+        write_namelist(Path(snakemake.output[0]), groups)

@@ -7,7 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import PurePath
 
-from scripts.namelists import result_values as values
+from scripts.namelists import attractor_surveys
+from scripts.namelists import program_groups as groups
 
 # Priorities: the paper's figures can be looked at while long runs go on. Long runs start before
 # short ones, the longest first, so that no core is idle at the end. Snakemake adds the priorities
@@ -52,7 +53,7 @@ RUNS = [
         rule="trajectory",
         program="trajectory",
         output="trajectories/{scene}.nc",
-        groups=values.scene_groups,
+        groups=groups.scene_groups,
         priority=PAPER,
     ),
     Run(
@@ -60,13 +61,13 @@ RUNS = [
         program="slip_events",
         output="slip_events/{scene}.nc",
         namelist="namelists/trajectories/{scene}.nml",
-        groups=values.scene_groups,
+        groups=groups.scene_groups,
     ),
     Run(
         rule="spectrum",
         program="spectrum",
         output="spectra/{scene}.nc",
-        groups=values.spectrum_groups,
+        groups=groups.spectrum_groups,
         needs={"trajectory": "trajectories/{scene}.nc"},
         priority=PAPER,
     ),
@@ -74,27 +75,27 @@ RUNS = [
         rule="hopf_curves",
         program="hopf",
         output="hopf/{plane}.nc",
-        groups=values.plane_groups,
+        groups=groups.hopf_groups,
         priority=PAPER,
     ),
     Run(
         rule="velocity_step",
         program="velocity_step",
         output="friction/velocity_step.nc",
-        groups=values.velocity_step_groups,
+        groups=groups.velocity_step_groups,
         priority=PAPER,
     ),
     Run(
         rule="linear_stability",
         program="linear_stability",
         output="linear_stability/{scene}.nc",
-        groups=values.linear_stability_groups,
+        groups=groups.linear_stability_groups,
     ),
     Run(
         rule="cycles_runs",
         program="cycles",
         output="cycles/{cycle_line}.nc",
-        groups=values.cycles_groups,
+        groups=groups.cycles_groups,
         priority=LONGEST,
         takes_minutes=True,
     ),
@@ -102,7 +103,7 @@ RUNS = [
         rule="exponents_runs",
         program="exponents",
         output="exponents/{scene}.nc",
-        groups=values.exponents_groups,
+        groups=groups.exponents_groups,
         priority=LONG,
         takes_minutes=True,
     ),
@@ -110,7 +111,7 @@ RUNS = [
         rule="scene_attractors",
         program="attractors",
         output="attractors/scenes/{scene}.nc",
-        groups=values.scene_survey_groups,
+        groups=attractor_surveys.scene_groups,
         priority=PAPER,
         takes_minutes=True,
     ),
@@ -118,7 +119,7 @@ RUNS = [
         rule="attractors_runs",
         program="attractors",
         output="attractors/{survey}/{part}.nc",
-        groups=values.survey_groups,
+        groups=groups.attractors_groups,
         priority=LONG,
         takes_minutes=True,
     ),
@@ -126,7 +127,7 @@ RUNS = [
         rule="reference",
         program="reference",
         output="references/{study}/{case}.tsv",
-        groups=values.reference_groups,
+        groups=groups.reference_groups,
         priority=LONG,
         takes_minutes=True,
     ),
@@ -134,13 +135,13 @@ RUNS = [
         rule="measurement",
         program="measure",
         output="measurements/{study}/{case}.nc",
-        groups=values.measurement_groups,
+        groups=groups.measurement_groups,
     ),
     Run(  # the methods take turns, so that what else the machine does hits all alike
         rule="work_precision_runs",
         program="measure",
         output="measurements/work_precision/{case}.nc",
-        groups=values.work_precision_groups,
+        groups=groups.work_precision_groups,
         horizons="tables/trusted-horizons.tsv",
         priority=LONG,
         takes_minutes=True,

@@ -1,8 +1,9 @@
 !> Files of attractors.
 module attractors_output
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use attractor_points, only: finding_type
+   use attractor_points, only: finding_type, point_type
    use attractors, only: attractor_settings_type, most_with_zeros
+   use block_parameters, only: parameter_meanings
    use dde, only: integration_options
    use dde_errors, only: error_type
    use exponent_averages, only: sign_bound
@@ -17,11 +18,13 @@ module attractors_output
 contains
 
    !> Write what was found at each point.
-   subroutine write_attractors(path, asked, settings, options, findings, error)
+   subroutine write_attractors(path, points, list, settings, options, findings, error)
       !> Path of the file
       character(len=*), intent(in) :: path
-      !> Points, and what is kept of each
-      type(points_settings_type), intent(in) :: asked
+      !> Where attractors were looked for, and what is kept of each
+      type(points_settings_type), intent(in) :: points
+      !> All points
+      type(point_type), intent(in) :: list(:)
       !> How attractors were judged
       type(attractor_settings_type), intent(in) :: settings
       !> Method and tolerances
@@ -35,65 +38,57 @@ contains
       integer :: i, rows
 
       call file%create(path, "Attractors of the spring block with delayed friction")
-      call file%attribute("name", trim(asked%name))
-      call file%attribute("sweep", trim(asked%sweep))
-      call file%attribute("refinements", int(asked%refinements, int64))
+      file%at_once = .true.
+      call file%attribute("name", trim(points%name))
+      call file%attribute("sweep", trim(points%sweep))
+      call file%attribute("refinements", int(points%refinements, int64))
       call put_settings(file, settings, options)
       rows = file%dimension("point", size(findings), coordinates="epsilon tau xi gamma")
-      associate (points => asked%points, found => findings%attractor)
-         call put("epsilon", points%parameters%epsilon, "sensitivity of the velocity relaxation")
-         call put("tau", points%parameters%tau, "delay")
-         call put("xi", points%parameters%xi, "spring constant")
-         call put("gamma", points%parameters%gamma, "frequency")
-         call put("history_theta", points%history%theta, "theta for t <= 0")
-         call put("history_u", points%history%u, "u for t <= 0")
-         call put("history_v", points%history%v, "v for t <= 0")
-         call put_flags("computed", merge(1, 0, findings%computed), ["no ", "yes"], &
-                        "whether the motion was computed; "// &
-                        "if not, class and period are those of the neighbours")
-         call put_flags("class", found%class, class_names, "class of the motion")
-         call put_flags("reason", found%reason, reason_names, "why the class is undecided")
+      associate (place => list%parameters, past => list%history, found => findings%attractor)
+         call file%column(rows, "epsilon", place%epsilon, trim(parameter_meanings(2)))
+         call file%column(rows, "tau", place%tau, trim(parameter_meanings(1)))
+         call file%column(rows, "xi", place%xi, trim(parameter_meanings(3)))
+         call file%column(rows, "gamma", place%gamma, trim(parameter_meanings(4)))
+         call file%column(rows, "history_theta", past%theta, "theta for t <= 0")
+         call file%column(rows, "history_u", past%u, "u for t <= 0")
+         call file%column(rows, "history_v", past%v, "v for t <= 0")
+         call file%flags(rows, "computed", merge(1, 0, findings%computed), ["no ", "yes"], &
+                         "whether the motion was computed; "// &
+                         "if not, class and period are those of the neighbours")
+         call file%flags(rows, "class", found%class, class_names, "class of the motion")
+         call file%flags(rows, "reason", found%reason, reason_names, "why the class is undecided")
          call put_found("time", found%time, "time until the class was certain, or the limit")
-         call put_flags("by_exponents", found%by_exponents, class_names, &
-                        "class by Lyapunov exponents")
-         call put_flags("by_section", found%by_section, class_names, &
-                        "class by the section v = 1, v rising")
-         call put_flags("by_spectrum", found%by_spectrum, class_names, &
-                        "class by the spectrum of v")
+         call file%flags(rows, "by_exponents", found%by_exponents, class_names, &
+                         "class by Lyapunov exponents")
+         call file%flags(rows, "by_section", found%by_section, class_names, &
+                         "class by the section v = 1, v rising")
+         call file%flags(rows, "by_spectrum", found%by_spectrum, class_names, &
+                         "class by the spectrum of v")
          call put_exponents()
-         call put_integers("period", found%period, "points of a cycle in the section, 0: none")
+         call file%column(rows, "period", found%period, "points of a cycle in the section, 0: none")
          call put_found("roughness", found%roughness, &
                         "of the section as a function of two phases, of three on a 3-torus, "// &
                         "0: smooth, 1: random")
-         call put("base_1", found%bases(1), "first fundamental frequency of v, 0: none")
-         call put("base_2", found%bases(2), "second fundamental frequency of v, 0: none")
-         call put("base_3", found%bases(3), "third fundamental frequency of v, 0: none")
+         call file%column(rows, "base_1", found%bases(1), &
+                          "first fundamental frequency of v, 0: none")
+         call file%column(rows, "base_2", found%bases(2), &
+                          "second fundamental frequency of v, 0: none")
+         call file%column(rows, "base_3", found%bases(3), &
+                          "third fundamental frequency of v, 0: none")
          call put_found("line_share", found%line_share, &
                         "share of the power of v in the lines of the first two")
          do i = 1, size(findings)
             call reach(findings(i), least(i), most(i))
          end do
-         call put("smallest_maximum", least, "smallest maximum of v")
-         call put("largest_maximum", most, "largest maximum of v")
+         call file%column(rows, "smallest_maximum", least, "smallest maximum of v")
+         call file%column(rows, "largest_maximum", most, "largest maximum of v")
       end associate
-      call put_kept(file, asked%kept, findings, rows)
+      call put_kept(file, points%kept, findings, rows)
       if (settings%t_path > 0.0_wp) call put_paths(file, settings%t_path, findings, rows)
       call put_problems(file, findings, rows)
       call file%finish(error)
 
    contains
-
-      !> A real number at each point.
-      subroutine put(name, values, long_name)
-         !> Name of the variable
-         character(len=*), intent(in) :: name
-         !> Values of the variable
-         real(wp), intent(in) :: values(:)
-         !> Description of the variable, its `long_name`
-         character(len=*), intent(in) :: long_name
-
-         call file%put(file%real_variable(name, rows, long_name, "1"), values)
-      end subroutine put
 
       !> A number at each point where it was measured, NaN at the others.
       subroutine put_found(name, values, long_name)
@@ -104,36 +99,9 @@ contains
          !> Description of the variable, its `long_name`
          character(len=*), intent(in) :: long_name
 
-         call put(name, merge(values, ieee_value(1.0_wp, ieee_quiet_nan), &
-                              findings%computed .and. values >= 0.0_wp), long_name)
+         call file%column(rows, name, merge(values, ieee_value(1.0_wp, ieee_quiet_nan), &
+                                            findings%computed .and. values >= 0.0_wp), long_name)
       end subroutine put_found
-
-      !> An integer at each point.
-      subroutine put_integers(name, values, long_name)
-         !> Name of the variable
-         character(len=*), intent(in) :: name
-         !> Values of the variable
-         integer, intent(in) :: values(:)
-         !> Description of the variable, its `long_name`
-         character(len=*), intent(in) :: long_name
-
-         call file%put(file%integer_variable(name, rows, long_name), values)
-      end subroutine put_integers
-
-      !> One of several words at each point.
-      subroutine put_flags(name, values, words, long_name)
-         !> Name of the variable
-         character(len=*), intent(in) :: name
-         !> Which of the words, from 0
-         integer, intent(in) :: values(:)
-         !> The words
-         character(len=*), intent(in) :: words(:)
-         !> Description of the variable, its `long_name`
-         character(len=*), intent(in) :: long_name
-         integer :: i
-
-         call file%flags(name, rows, values, [(i, i=0, size(words) - 1)], words, long_name)
-      end subroutine put_flags
 
       !> Exponents and their errors.
       subroutine put_exponents()
@@ -152,9 +120,9 @@ contains
             bounds(:n, k) = sign_bound(findings(k)%attractor%exponents, settings%zero_level)
          end do
          dimensions = [file%dimension("exponent", size(values, 1)), rows]
-         call file%table("lyapunov_exponent", dimensions, values, "Lyapunov exponents, descending")
-         call file%table("lyapunov_error", dimensions, bars, "standard errors of the exponents")
-         call file%table("sign_bound", dimensions, bounds, &
+         call file%table(dimensions, "lyapunov_exponent", values, "Lyapunov exponents, descending")
+         call file%table(dimensions, "lyapunov_error", bars, "standard errors of the exponents")
+         call file%table(dimensions, "sign_bound", bounds, &
                          "absolute value up to which an exponent has no sign")
       end subroutine put_exponents
    end subroutine write_attractors
@@ -233,9 +201,9 @@ contains
          end associate
       end do
       dimensions = [file%dimension("kept", kept), rows]
-      call file%table("maximum", dimensions, maxima, "maxima of v, in order of time")
-      call file%table("section_theta", dimensions, theta, "theta in the section v = 1, v rising")
-      call file%table("section_u", dimensions, u, "u in the section v = 1, v rising")
+      call file%table(dimensions, "maximum", maxima, "maxima of v, in order of time")
+      call file%table(dimensions, "section_theta", theta, "theta in the section v = 1, v rising")
+      call file%table(dimensions, "section_u", u, "u in the section v = 1, v rising")
    end subroutine put_kept
 
    !> Paths one after another, and how many points each has; 0 of steady sliding.
@@ -272,23 +240,9 @@ contains
       ! a dimension of length zero would be an unlimited one
       if (sum(lengths) == 0) return
       dimension = file%dimension("path_point", sum(lengths))
-      call put("path_time", line(1, :), "time from the beginning of the path")
-      call put("path_u", line(2, :), "u along the path")
-      call put("path_ln_v", line(3, :), "ln v along the path")
-
-   contains
-
-      !> A column of the paths.
-      subroutine put(name, values, long_name)
-         !> Name of the variable
-         character(len=*), intent(in) :: name
-         !> Values of the variable
-         real(wp), intent(in) :: values(:)
-         !> Description of the variable, its `long_name`
-         character(len=*), intent(in) :: long_name
-
-         call file%put(file%real_variable(name, dimension, long_name, "1"), values)
-      end subroutine put
+      call file%column(dimension, "path_time", line(1, :), "time from the beginning of the path")
+      call file%column(dimension, "path_u", line(2, :), "u along the path")
+      call file%column(dimension, "path_ln_v", line(3, :), "ln v along the path")
    end subroutine put_paths
 
    !> Why no attractor was found, blank where one was.
@@ -312,6 +266,6 @@ contains
       do i = 1, size(findings)
          if (allocated(findings(i)%problem)) words(i) = findings(i)%problem%message
       end do
-      call file%words("problem", rows, words, "why no attractor was found")
+      call file%words(rows, "problem", words, "why no attractor was found")
    end subroutine put_problems
 end module attractors_output

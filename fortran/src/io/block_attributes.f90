@@ -1,6 +1,8 @@
-!> Parameters and history of the block as attributes of a file.
+!> Parameters and history of the block in files.
 module block_attributes
-   use block_parameters, only: block_history_type, block_parameters_type
+   use block_parameters, only: block_history_type, block_parameters_type, history_names, &
+                               parameter_names, vector_of
+   use dde_kinds, only: wp
    use netcdf_output, only: output_file_type
    implicit none (type, external)
    private
@@ -8,28 +10,38 @@ module block_attributes
 
 contains
 
-   !> Write the parameters.
-   subroutine put_parameters(file, parameters)
+   !> Write the parameters as attributes.
+   subroutine put_parameters(file, parameters, but)
       !> The file
       type(output_file_type), intent(inout) :: file
       !> Parameters
       type(block_parameters_type), intent(in) :: parameters
+      !> Number of a parameter that is left out, if any
+      integer, intent(in), optional :: but
+      real(wp) :: vector(size(parameter_names))
+      integer :: i
 
-      call file%attribute("tau", parameters%tau)
-      call file%attribute("epsilon", parameters%epsilon)
-      call file%attribute("xi", parameters%xi)
-      call file%attribute("gamma", parameters%gamma)
+      vector = vector_of(parameters)
+      do i = 1, size(vector)
+         if (present(but)) then
+            if (i == but) cycle
+         end if
+         call file%attribute(trim(parameter_names(i)), vector(i))
+      end do
    end subroutine put_parameters
 
-   !> Write the history.
+   !> Write the history as attributes.
    subroutine put_history(file, history)
       !> The file
       type(output_file_type), intent(inout) :: file
       !> Values for t <= 0
       type(block_history_type), intent(in) :: history
+      real(wp) :: values(size(history_names))
+      integer :: i
 
-      call file%attribute("history_theta", history%theta)
-      call file%attribute("history_u", history%u)
-      call file%attribute("history_v", history%v)
+      values = [history%theta, history%u, history%v]
+      do i = 1, size(values)
+         call file%attribute("history_"//trim(history_names(i)), values(i))
+      end do
    end subroutine put_history
 end module block_attributes

@@ -1,86 +1,66 @@
-!> Cases to measure, from the namelist group &cases_list: one list a key, one element a case.
+!> Cases to measure, from the sections `cases`, `parameters` and `histories` of a namelist: one list
+!> a key, one element a case.
 module cases_input
-   use block_parameters, only: block_history_type, block_parameters_type, check_quantity
+   use block_parameters, only: block_history_type, block_parameters_type
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
    use measured_case, only: case_name_length, case_type
-   use namelist_input, only: close_namelist, not_given, open_namelist, word_length
-   use value_checks, only: check_number
+   use namelist_input, only: word_length
+   use value_checks, only: absent, check_number
    implicit none (type, external)
    private
-   public :: read_cases
+   public :: case_section_type, join_cases, most_cases
 
    !> Most cases in one file.
    integer, parameter :: most_cases = 1000
    !> Most samples of a case.
    real(wp), parameter :: most_samples = 1.0e6_wp
 
+   !> The section `cases`: of each case what is neither a parameter nor a history.
+   type :: case_section_type
+      !> Name
+      character(len=word_length) :: name = ""
+      !> Last time
+      real(wp) :: t_end = absent
+      !> Time between samples
+      real(wp) :: sample_interval = absent
+   end type case_section_type
+
 contains
 
-   !> Read and check the cases.
-   subroutine read_cases(path, cases, error)
+   !> The cases with all that belongs to each; those that cannot be solved are refused.
+   subroutine join_cases(path, cases, parameters, histories, joined, error)
       !> Path of the namelist file
       character(len=*), intent(in) :: path
+      !> The section `cases`
+      type(case_section_type), intent(in) :: cases(:)
+      !> The section `parameters`
+      type(block_parameters_type), intent(in) :: parameters(:)
+      !> The section `histories`
+      type(block_history_type), intent(in) :: histories(:)
       !> The cases
-      type(case_type), allocatable, intent(out) :: cases(:)
-      !> They cannot be read, or a value is out of range
-      type(error_type), allocatable, intent(out) :: error
+      type(case_type), allocatable, intent(out) :: joined(:)
+      !> First error met
+      type(error_type), allocatable, intent(inout) :: error
       integer :: i
 
-      call read_group(path, cases, error)
       if (allocated(error)) return
-      if (size(cases) == 0) call raise(error, path//": name: no case; expected at least one")
-      do i = 1, size(cases)
-         call check_case(path//": case '"//trim(cases(i)%name)//"'", cases(i), error)
+      joined = [(case_type(cases(i)%name(:case_name_length), parameters(i), histories(i), &
+                           cases(i)%t_end, cases(i)%sample_interval), i=1, count(cases%name /= ""))]
+      if (size(joined) == 0) call raise(error, path//": name: no case; expected at least one")
+      if (any(len_trim(cases%name) > case_name_length)) then
+         call raise(error, path//": name of "//text(maxval(len_trim(cases%name))) &
+                    //" letters; expected 1 to "//text(case_name_length))
+      end if
+      do i = 1, size(joined)
+         call check_case(path//": case '"//trim(joined(i)%name)//"'", joined(i), error)
          if (allocated(error)) return
-         if (any(cases(:i - 1)%name == cases(i)%name)) then
-            call raise(error, path//": name = '"//trim(cases(i)%name) &
+         if (any(joined(:i - 1)%name == joined(i)%name)) then
+            call raise(error, path//": name = '"//trim(joined(i)%name) &
                        //"' twice; expected each once")
          end if
       end do
-   end subroutine read_cases
-
-   !> Read the group &cases_list.
-   subroutine read_group(path, cases, error)
-      !> Path of the namelist file
-      character(len=*), intent(in) :: path
-      !> The cases
-      type(case_type), allocatable, intent(out) :: cases(:)
-      !> They cannot be read
-      type(error_type), allocatable, intent(out) :: error
-      character(len=word_length) :: name(most_cases)
-      real(wp), dimension(most_cases) :: tau, epsilon, xi, gamma, theta, u, v, t_end, &
-                                         sample_interval
-      character(len=256) :: reason
-      integer :: i, status, unit
-      namelist /cases_list/ name, tau, epsilon, xi, gamma, theta, u, v, t_end, sample_interval
-
-      name = ""
-      tau = not_given()
-      epsilon = tau
-      xi = tau
-      gamma = tau
-      theta = tau
-      u = tau
-      v = tau
-      t_end = tau
-      sample_interval = tau
-      call open_namelist(path, "cases_list", unit, error)
-      if (allocated(error)) return
-      read (unit, nml=cases_list, iostat=status, iomsg=reason)
-      call close_namelist(path, "cases_list", unit, status, reason, error)
-      cases = [(case_type(name(i) (:case_name_length), &
-                          block_parameters_type(tau=tau(i), epsilon=epsilon(i), xi=xi(i), &
-                                                gamma=gamma(i)), &
-                          block_history_type(theta=theta(i), u=u(i), v=v(i)), &
-                          t_end=t_end(i), sample_interval=sample_interval(i)), &
-                i=1, count(name /= ""))]
-      if (allocated(error)) return
-      if (any(len_trim(name) > case_name_length)) then
-         call raise(error, path//": name of "//text(maxval(len_trim(name))) &
-                    //" letters; expected 1 to "//text(case_name_length))
-      end if
-   end subroutine read_group
+   end subroutine join_cases
 
    !> Refuse what cannot be solved.
    pure subroutine check_case(place, case, error)
@@ -92,9 +72,7 @@ contains
       type(error_type), allocatable, intent(inout) :: error
 
       call case%parameters%check(place, error)
-      call check_quantity(error, place, "theta", case%history%theta)
-      call check_quantity(error, place, "u", case%history%u)
-      call check_quantity(error, place, "v", case%history%v)
+      call case%history%check(place, error)
       call check_number(error, place, "t_end", case%t_end, above=0.0_wp)
       call check_number(error, place, "sample_interval", case%sample_interval, above=0.0_wp, &
                         at_most=case%t_end)

@@ -1,130 +1,127 @@
-!> The line on which cycles are followed, from the namelist group &cycles.
+!> The line on which cycles are followed, from a namelist.
 module cycles_input
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use block_cycles, only: cycle_settings_type
-   use block_family, only: parameters_of, vector_of
-   use block_parameters, only: check_quantity
-   use cycle_lines, only: along_epsilon
+   use block_parameters, only: block_parameters_type, check_quantity, missing_parameters, &
+                               parameter_names, parameters_of, vector_of
+   use cycle_lines, only: along_epsilon, cycle_line_type
    use dde_errors, only: error_type, raise
    use dde_kinds, only: wp
-   use namelist_input, only: close_namelist, not_given, open_namelist, word_length
-   use value_checks, only: check_choice, check_count, check_number
+   use namelist_input, only: elements, namelist_file_type, word_length
+   use value_checks, only: absent, check_choice, check_count, check_number, missing, missing_count
    implicit none (type, external)
    private
-   public :: names_along, read_cycles
+   public :: read_cycles
 
-   !> Parameters along which a line may run, in the order of their numbers.
-   character(len=7), parameter :: names_along(4) = ["tau    ", "epsilon", "xi     ", "gamma  "]
-   !> Most trajectories
-   integer, parameter :: most_starts = 100
+   !> The section `cycles`; all nondimensional.
+   type :: cycles_section_type
+      !> Parameter along the line
+      character(len=word_length) :: along = ""
+      !> Its first and last value
+      real(wp) :: window(2) = missing
+      !> The other parameters; that along the line may be left out
+      type(block_parameters_type) :: parameters = missing_parameters
+      !> Parameter values from which trajectories are followed to a cycle
+      real(wp) :: starts(100) = absent
+      !> Velocity before these trajectories, and their time
+      real(wp) :: v = missing, t_transient = missing
+      !> Degree and intervals of the first mesh
+      integer :: degree = missing_count, intervals = missing_count
+      !> Longest period of a branch
+      real(wp) :: longest_period = missing
+      !> Most orbits of a branch
+      integer :: most_orbits = missing_count
+      !> Window in which curves of special points are followed; none are if it is left out
+      real(wp) :: epsilon_window(2) = absent, tau_window(2) = absent
+   end type cycles_section_type
 
 contains
 
-   !> Read and check what is asked.
-   subroutine read_cycles(path, settings, error)
+   !> Read and check what is computed.
+   subroutine read_cycles(path, line_settings, error)
       !> Path of the namelist file
       character(len=*), intent(in) :: path
-      !> What is asked
-      type(cycle_settings_type), intent(out) :: settings
+      !> What is computed
+      type(cycle_settings_type), intent(out) :: line_settings
       !> Error if the file cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: along
-      real(wp) :: v, vector(4)
-      integer :: i
+      type(cycles_section_type) :: cycles
+      type(namelist_file_type) :: file
+      integer :: along
+      real(wp) :: vector(size(parameter_names))
+      namelist /settings/ cycles
 
-      call read_group(path, settings, along, v, error)
-      call check_choice(error, path, "along", along, names_along)
+      call file%open(path, error)
       if (allocated(error)) return
-      associate (line => settings%line, p => settings%line%parameters)
-         line%along = findloc(names_along == along, .true., dim=1)
+      read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
+      along = findloc(parameter_names == cycles%along, .true., dim=1)
+      if (along > 0) then
          ! the value of the parameter along the line is not used
-         vector = vector_of(p)
-         vector(line%along) = line%window(1)
-         p = parameters_of(vector)
-         call p%check(path, error)
-         call check_quantity(error, path, along, line%window(1), "window(1)")
-         call check_number(error, path, "window(2)", line%window(2), above=line%window(1))
-         do i = 1, size(settings%starts)
-            call check_number(error, path, "starts", settings%starts(i), at_least=line%window(1), &
-                              at_most=line%window(2))
-         end do
-      end associate
-      call check_quantity(error, path, "v", v)
-      call check_number(error, path, "t_transient", settings%t_transient, above=0.0_wp)
-      call check_count(error, path, "degree", settings%degree, 3, at_most=9)
-      call check_count(error, path, "intervals", settings%intervals, 10, at_most=1000)
-      call check_number(error, path, "longest_period", settings%longest_period, above=0.0_wp)
-      call check_count(error, path, "most_orbits", settings%most_orbits, 2, at_most=100000)
-      if (allocated(settings%curve_window)) then
-         if (settings%line%along > along_epsilon .and. .not. allocated(error)) then
-            call raise(error, path//": epsilon_window and tau_window; expected only where along " &
-                       //"is tau or epsilon")
-         end if
-         associate (window => settings%curve_window)
-            call check_quantity(error, path, "epsilon", window(1, 1), "epsilon_window(1)")
-            call check_number(error, path, "epsilon_window(2)", window(2, 1), above=window(1, 1))
-            call check_quantity(error, path, "tau", window(1, 2), "tau_window(1)")
-            call check_number(error, path, "tau_window(2)", window(2, 2), above=window(1, 2))
-         end associate
+         vector = vector_of(cycles%parameters)
+         vector(along) = cycles%window(1)
+         cycles%parameters = parameters_of(vector)
       end if
-      allocate (settings%start_v(size(settings%starts)), source=v)
+      write (file%copy, nml=settings, delim="quote")
+      call file%close(error)
+      call check_choice(error, path, "along", cycles%along, parameter_names)
+      if (allocated(error)) return
+      call check_cycles(path, cycles, along, error)
+      line_settings = cycle_settings_type(line=cycle_line_type(along, cycles%parameters, &
+                                                               cycles%window), &
+                                     starts=elements(cycles%starts), &
+                                     t_transient=cycles%t_transient, degree=cycles%degree, &
+                                     intervals=cycles%intervals, &
+                                     longest_period=cycles%longest_period, &
+                                     most_orbits=cycles%most_orbits)
+      allocate (line_settings%start_v(size(line_settings%starts)), source=cycles%v)
+      if (has_curves(cycles)) then
+         line_settings%curve_window = reshape([cycles%epsilon_window, cycles%tau_window], [2, 2])
+      end if
    end subroutine read_cycles
 
-   !> Read the group &cycles.
-   subroutine read_group(path, settings, along_read, v_read, error)
+   !> Whether curves of special points are followed.
+   pure logical function has_curves(cycles) result(value)
+      !> The section
+      type(cycles_section_type), intent(in) :: cycles
+
+      value = any([cycles%epsilon_window, cycles%tau_window] < absent)
+   end function has_curves
+
+   !> Refuse a line, a mesh or windows with which nothing can be computed; keep an earlier error.
+   pure subroutine check_cycles(path, cycles, along, error)
       !> Path of the namelist file
       character(len=*), intent(in) :: path
-      !> What is asked
-      type(cycle_settings_type), intent(out) :: settings
-      !> Name of the parameter along the line
-      character(len=:), allocatable, intent(out) :: along_read
-      !> Velocity before the trajectories
-      real(wp), intent(out) :: v_read
-      !> Error if the file cannot be read
-      type(error_type), allocatable, intent(out) :: error
-      character(len=word_length) :: along
-      character(len=256) :: reason
-      real(wp) :: tau, epsilon, xi, gamma, v, window(2), starts(most_starts), t_transient
-      real(wp) :: longest_period, epsilon_window(2), tau_window(2)
-      integer :: degree, intervals, most_orbits, status, unit
-      namelist /cycles/ along, window, tau, epsilon, xi, gamma, starts, v, t_transient, degree, &
-         intervals, longest_period, most_orbits, epsilon_window, tau_window
+      !> The section
+      type(cycles_section_type), intent(in) :: cycles
+      !> Number of the parameter along the line
+      integer, intent(in) :: along
+      !> First error met
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: i
 
-      along = ""
-      tau = not_given()
-      epsilon = tau
-      xi = tau
-      gamma = tau
-      v = tau
-      window = tau
-      starts = tau
-      t_transient = tau
-      longest_period = tau
-      epsilon_window = tau
-      tau_window = tau
-      degree = 0
-      intervals = 0
-      most_orbits = 0
-      call open_namelist(path, "cycles", unit, error)
-      if (.not. allocated(error)) then
-         read (unit, nml=cycles, iostat=status, iomsg=reason)
-         call close_namelist(path, "cycles", unit, status, reason, error)
+      call cycles%parameters%check(path, error)
+      associate (window => cycles%window, starts => elements(cycles%starts))
+         call check_number(error, path, "window(2)", window(2), above=window(1))
+         do i = 1, size(starts)
+            call check_number(error, path, "starts", starts(i), at_least=window(1), &
+                              at_most=window(2))
+         end do
+      end associate
+      call check_quantity(error, path, "v", cycles%v)
+      call check_number(error, path, "t_transient", cycles%t_transient, above=0.0_wp)
+      call check_count(error, path, "degree", cycles%degree, 3, at_most=9)
+      call check_count(error, path, "intervals", cycles%intervals, 10)
+      call check_number(error, path, "longest_period", cycles%longest_period, above=0.0_wp)
+      call check_count(error, path, "most_orbits", cycles%most_orbits, 2)
+      if (allocated(error) .or. .not. has_curves(cycles)) return
+      if (along > along_epsilon) then
+         call raise(error, path//": epsilon_window and tau_window; expected only where along " &
+                    //"is tau or epsilon")
       end if
-      along_read = trim(along)
-      v_read = v
-      settings%line%window = window
-      settings%line%parameters%tau = tau
-      settings%line%parameters%epsilon = epsilon
-      settings%line%parameters%xi = xi
-      settings%line%parameters%gamma = gamma
-      settings%starts = pack(starts, .not. ieee_is_nan(starts))
-      settings%t_transient = t_transient
-      settings%longest_period = longest_period
-      settings%degree = degree
-      settings%intervals = intervals
-      settings%most_orbits = most_orbits
-      if (.not. all(ieee_is_nan([epsilon_window, tau_window]))) then
-         settings%curve_window = reshape([epsilon_window, tau_window], [2, 2])
-      end if
-   end subroutine read_group
+      associate (epsilon => cycles%epsilon_window, tau => cycles%tau_window)
+         call check_quantity(error, path, "epsilon", epsilon(1), "epsilon_window(1)")
+         call check_number(error, path, "epsilon_window(2)", epsilon(2), above=epsilon(1))
+         call check_quantity(error, path, "tau", tau(1), "tau_window(1)")
+         call check_number(error, path, "tau_window(2)", tau(2), above=tau(1))
+      end associate
+   end subroutine check_cycles
 end module cycles_input

@@ -1,11 +1,11 @@
 !> Files of cycles along a line of parameters.
 module cycles_output
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use block_family, only: vector_of
+   use block_attributes, only: put_parameters
    use block_cycles, only: cycle_settings_type, cycles_type, left_out_type
+   use block_parameters, only: parameter_names, vector_of
    use cycle_curves, only: cycle_curve_type
    use cycle_lines, only: hopf_start_type
-   use cycles_input, only: names_along
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
    use netcdf_output, only: output_file_type
@@ -40,18 +40,13 @@ contains
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
-      real(wp) :: fixed(size(names_along))
-      integer :: i
 
       call file%create(path, "Cycles along a line of parameters: stable and unstable branches")
-      associate (p => settings%line%parameters, along => settings%line%along)
-         call file%attribute("along", trim(names_along(along)))
-         fixed = vector_of(p)
-         do i = 1, size(names_along)
-            if (i /= along) call file%attribute(trim(names_along(i)), fixed(i))
-         end do
-         call file%attribute("degree", int(settings%degree, int64))
+      associate (line => settings%line)
+         call file%attribute("along", trim(parameter_names(line%along)))
+         call put_parameters(file, line%parameters, but=line%along)
       end associate
+      call file%attribute("degree", int(settings%degree, int64))
       call put_orbits(file, settings%line%along, found)
       call put_left_out(file, settings%line%along, left_out)
       call put_points(file, found)
@@ -72,7 +67,7 @@ contains
       real(wp), allocatable :: columns(:, :), imaginary(:, :), real_part(:, :)
       integer, allocatable :: branch(:), intervals(:), unstable(:)
       character(len=word_length) :: words(size(found), 2)
-      integer :: all, i, id(5), j, k, row, rows, several
+      integer :: all, i, j, k, row, rows, several
 
       all = 0
       do i = 1, size(found)
@@ -99,27 +94,27 @@ contains
             end associate
          end do
       end do
-      rows = file%dimension("orbit", all, coordinates=trim(names_along(along))//" branch")
-      id(1) = file%real_variable(trim(names_along(along)), rows, "parameter along the line", "1")
-      id(2) = file%real_variable("period", rows, "period", "1")
-      id(3) = file%real_variable("v_least", rows, "least velocity", "1")
-      id(4) = file%real_variable("v_most", rows, "greatest velocity", "1")
-      id(5) = file%real_variable("multiplier_error", rows, &
-                                 "distance of the trivial multiplier from 1", "1")
-      do i = 1, size(id)
-         call file%put(id(i), columns(:, i))
-      end do
-      call file%put(file%integer_variable("branch", rows, "number of the branch, from 1"), branch)
-      call file%put(file%integer_variable("intervals", rows, "intervals of the mesh"), intervals)
-      call file%put(file%integer_variable("unstable", rows, &
-                                          "multipliers outside of the unit circle"), unstable)
+      rows = file%dimension("orbit", all, coordinates=trim(parameter_names(along))//" branch")
+      call file%column(rows, trim(parameter_names(along)), columns(:, 1), &
+                       "parameter along the line")
+      call file%column(rows, "period", columns(:, 2), "period")
+      call file%column(rows, "v_least", columns(:, 3), "least velocity")
+      call file%column(rows, "v_most", columns(:, 4), "greatest velocity")
+      call file%column(rows, "multiplier_error", columns(:, 5), &
+                       "distance of the trivial multiplier from 1")
+      call file%flush()
+      file%at_once = .true.
+      call file%column(rows, "branch", branch, "number of the branch, from 1")
+      call file%column(rows, "intervals", intervals, "intervals of the mesh")
+      call file%column(rows, "unstable", unstable, "multipliers outside of the unit circle")
+      file%at_once = .false.
       several = file%dimension("multiplier", multipliers)
-      call file%table("multiplier_real", [several, rows], real_part, &
+      call file%table([several, rows], "multiplier_real", real_part, &
                       "real part of the multipliers of greatest modulus")
-      call file%table("multiplier_imaginary", [several, rows], imaginary, "their imaginary part")
+      call file%table([several, rows], "multiplier_imaginary", imaginary, "their imaginary part")
       rows = file%dimension("branches", size(found))
-      call file%words("branch_origin", rows, words(:, 1), "where the branch starts")
-      call file%words("branch_ending", rows, words(:, 2), "why it ends")
+      call file%words(rows, "branch_origin", words(:, 1), "where the branch starts")
+      call file%words(rows, "branch_ending", words(:, 2), "why it ends")
    end subroutine put_orbits
 
    !> Starts from which no branch was followed.
@@ -133,10 +128,11 @@ contains
       integer :: rows
 
       rows = file%dimension("left_out", size(left_out))
-      call file%words("left_out_origin", rows, left_out%origin, "where it starts")
-      call file%put(file%real_variable("left_out_"//trim(names_along(along)), rows, &
-                                       "parameter along the line", "1"), left_out%at)
-      call file%words("left_out_reason", rows, left_out%reason, "why no branch was followed")
+      call file%words(rows, "left_out_origin", left_out%origin, "where it starts")
+      call file%column(rows, "left_out_"//trim(parameter_names(along)), left_out%at, &
+                       "parameter along the line")
+      call file%flush()
+      call file%words(rows, "left_out_reason", left_out%reason, "why no branch was followed")
    end subroutine put_left_out
 
    !> Special points.
@@ -148,38 +144,10 @@ contains
       character(len=kind_length), allocatable :: words(:, :)
       real(wp), allocatable :: columns(:, :)
       integer, allocatable :: numbers(:, :)
-      integer :: all, i, id, j, row, rows
-      character(len=*), parameter :: names(14) = [character(len=24) :: &
-                                                  "tau", "epsilon", "xi", "gamma", "period", &
-                                                  "v_most", "multiplier_real", &
-                                                  "multiplier_imaginary", "angle", &
-                                                  "multiplier_error", "mesh_error", &
-                                                  "coefficient", "coefficient_error", "amplitude"]
-      character(len=*), parameter :: meanings(14) = [character(len=60) :: &
-                                                     "its tau", "its epsilon", "its xi", &
-                                                     "its gamma", "its period", &
-                                                     "its greatest velocity", &
-                                                     "real part of the critical multiplier", &
-                                                     "imaginary part of it", &
-                                                     "angle of it over a full turn", &
-                                                     "distance of the trivial multiplier from 1", &
-                                                     "difference of the parameter on two meshes", &
-                                                     "cubic coefficient of a torus point", &
-                                                     "difference of it on two meshes", &
-                                                     "half range of maxima of ln v of tori, &
-                                                     &over root of distance"]
-      character(len=*), parameter :: counts(5) = [character(len=24) :: &
-                                                  "branch", "unstable_before", "unstable_behind", &
-                                                  "resonance_turns", "resonance_periods"]
-      character(len=*), parameter :: count_meanings(5) = [character(len=60) :: &
-                                                          "its branch, from 1", &
-                                                          "unstable multipliers before it", &
-                                                          "unstable multipliers behind it", &
-                                                          "p of the fraction p/q nearest to the &
-                                                          &angle", "q of it, at most 10"]
+      integer :: all, i, j, row, rows
 
       all = sum([(size(found(i)%points), i=1, size(found))])
-      allocate (words(all, 2), columns(all, size(names)), numbers(all, size(counts)))
+      allocate (words(all, 2), columns(all, 14), numbers(all, 5))
       columns = ieee_value(1.0_wp, ieee_quiet_nan)
       row = 0
       do i = 1, size(found)
@@ -202,16 +170,38 @@ contains
          end do
       end do
       rows = file%dimension("special", all, coordinates="special_tau special_epsilon")
-      call file%words("special_kind", rows, words(:, 1), "kind of the special point")
-      call file%words("special_criticality", rows, words(:, 2), "criticality of a torus point")
-      do i = 1, size(names)
-         id = file%real_variable("special_"//trim(names(i)), rows, trim(meanings(i)), "1")
-         call file%put(id, columns(:, i))
+      call file%words(rows, "special_kind", words(:, 1), "kind of the special point")
+      call file%words(rows, "special_criticality", words(:, 2), "criticality of a torus point")
+      file%at_once = .true.
+      do i = 1, size(parameter_names)
+         call file%column(rows, "special_"//trim(parameter_names(i)), columns(:, i), &
+                          "its "//trim(parameter_names(i)))
       end do
-      do i = 1, size(counts)
-         id = file%integer_variable("special_"//trim(counts(i)), rows, trim(count_meanings(i)))
-         call file%put(id, numbers(:, i))
-      end do
+      call file%column(rows, "special_period", columns(:, 5), "its period")
+      call file%column(rows, "special_v_most", columns(:, 6), "its greatest velocity")
+      call file%column(rows, "special_multiplier_real", columns(:, 7), &
+                       "real part of the critical multiplier")
+      call file%column(rows, "special_multiplier_imaginary", columns(:, 8), "imaginary part of it")
+      call file%column(rows, "special_angle", columns(:, 9), "angle of it over a full turn")
+      call file%column(rows, "special_multiplier_error", columns(:, 10), &
+                       "distance of the trivial multiplier from 1")
+      call file%column(rows, "special_mesh_error", columns(:, 11), &
+                       "difference of the parameter on two meshes")
+      call file%column(rows, "special_coefficient", columns(:, 12), &
+                       "cubic coefficient of a torus point")
+      call file%column(rows, "special_coefficient_error", columns(:, 13), &
+                       "difference of it on two meshes")
+      call file%column(rows, "special_amplitude", columns(:, 14), &
+                       "half range of maxima of ln v of tori, over root of distance")
+      call file%column(rows, "special_branch", numbers(:, 1), "its branch, from 1")
+      call file%column(rows, "special_unstable_before", numbers(:, 2), &
+                       "unstable multipliers before it")
+      call file%column(rows, "special_unstable_behind", numbers(:, 3), &
+                       "unstable multipliers behind it")
+      call file%column(rows, "special_resonance_turns", numbers(:, 4), &
+                       "p of the fraction p/q nearest to the angle")
+      call file%column(rows, "special_resonance_periods", numbers(:, 5), "q of it, at most 10")
+      file%at_once = .false.
    end subroutine put_points
 
    !> Curves, each from one end to the other.
@@ -223,7 +213,7 @@ contains
       character(len=kind_length) :: words(size(curves), 3)
       real(wp), allocatable :: columns(:, :)
       integer, allocatable :: number(:)
-      integer :: all, i, id(5), j, k, row, rows
+      integer :: all, i, j, k, row, rows
 
       all = 0
       do i = 1, size(curves)
@@ -248,21 +238,20 @@ contains
          end do
       end do
       rows = file%dimension("curve_point", all, coordinates="curve_tau curve_epsilon")
-      id(1) = file%real_variable("curve_epsilon", rows, "epsilon of a point of a curve", "1")
-      id(2) = file%real_variable("curve_tau", rows, "its tau", "1")
-      id(3) = file%real_variable("curve_period", rows, "its period", "1")
-      id(4) = file%real_variable("curve_angle", rows, &
-                                 "angle of the critical multiplier over a full turn", "1")
-      id(5) = file%real_variable("curve_multiplier_error", rows, &
-                                 "distance of the trivial multiplier from 1", "1")
-      do i = 1, size(id)
-         call file%put(id(i), columns(:, i))
-      end do
-      call file%put(file%integer_variable("curve", rows, "number of the curve, from 1"), number)
+      call file%column(rows, "curve_epsilon", columns(:, 1), "epsilon of a point of a curve")
+      call file%column(rows, "curve_tau", columns(:, 2), "its tau")
+      call file%column(rows, "curve_period", columns(:, 3), "its period")
+      call file%column(rows, "curve_angle", columns(:, 4), &
+                       "angle of the critical multiplier over a full turn")
+      call file%column(rows, "curve_multiplier_error", columns(:, 5), &
+                       "distance of the trivial multiplier from 1")
+      call file%flush()
+      call file%column(rows, "curve", number, "number of the curve, from 1")
+      call file%flush()
       rows = file%dimension("curves", size(curves))
-      call file%words("curve_kind", rows, words(:, 1), "kind of its points")
-      call file%words("curve_first_end", rows, words(:, 2), "why it ends at its first point")
-      call file%words("curve_last_end", rows, words(:, 3), "why it ends at its last point")
+      call file%words(rows, "curve_kind", words(:, 1), "kind of its points")
+      call file%words(rows, "curve_first_end", words(:, 2), "why it ends at its first point")
+      call file%words(rows, "curve_last_end", words(:, 3), "why it ends at its last point")
    end subroutine put_curves
 
    !> Cusps of curves of folds.
@@ -271,7 +260,7 @@ contains
       type(output_file_type), intent(inout) :: file
       !> The curves
       type(cycle_curve_type), intent(in) :: curves(:)
-      integer :: i, id(8), k, rows
+      integer :: i, k, rows
       integer, allocatable :: number(:)
       real(wp) :: columns(8, sum([((size(curves(i)%parts(k)%cusps), k=1, 2), i=1, size(curves))]))
 
@@ -282,20 +271,19 @@ contains
          end do
       end do
       rows = file%dimension("cusp", size(number), coordinates="cusp_tau cusp_epsilon")
-      do i = 1, 4
-         id(i) = file%real_variable("cusp_"//trim(names_along(i)), rows, &
-                                    trim(names_along(i))//" of a cusp of a curve of folds", "1")
+      do i = 1, size(parameter_names)
+         call file%column(rows, "cusp_"//trim(parameter_names(i)), columns(i, :), &
+                          trim(parameter_names(i))//" of a cusp of a curve of folds")
       end do
-      id(5) = file%real_variable("cusp_period", rows, "its period", "1")
-      id(6) = file%real_variable("cusp_v_most", rows, "its greatest velocity", "1")
-      id(7) = file%real_variable("cusp_multiplier_error", rows, &
-                                 "distance of the trivial multiplier from 1", "1")
-      id(8) = file%real_variable("cusp_mesh_error", rows, &
-                                 "difference of tau or epsilon on two meshes", "1")
-      do i = 1, size(id)
-         call file%put(id(i), columns(i, :))
-      end do
-      call file%put(file%integer_variable("cusp_curve", rows, "its curve, from 1"), number)
+      call file%column(rows, "cusp_period", columns(5, :), "its period")
+      call file%column(rows, "cusp_v_most", columns(6, :), "its greatest velocity")
+      call file%column(rows, "cusp_multiplier_error", columns(7, :), &
+                       "distance of the trivial multiplier from 1")
+      call file%column(rows, "cusp_mesh_error", columns(8, :), &
+                       "difference of tau or epsilon on two meshes")
+      call file%flush()
+      call file%column(rows, "cusp_curve", number, "its curve, from 1")
+      call file%flush()
 
    contains
 
@@ -323,20 +311,17 @@ contains
       !> Hopf points
       type(hopf_start_type), intent(in) :: hopf(:)
       real(wp) :: places(4, size(hopf))
-      integer :: i, id(5), rows
+      integer :: i, rows
 
       do i = 1, size(hopf)
          places(:, i) = vector_of(hopf(i)%parameters)
       end do
       rows = file%dimension("hopf", size(hopf), coordinates="hopf_tau hopf_epsilon")
-      do i = 1, 4
-         id(i) = file%real_variable("hopf_"//trim(names_along(i)), rows, &
-                                    trim(names_along(i))//" of the Hopf point", "1")
+      do i = 1, size(parameter_names)
+         call file%column(rows, "hopf_"//trim(parameter_names(i)), places(i, :), &
+                          trim(parameter_names(i))//" of the Hopf point")
       end do
-      id(5) = file%real_variable("hopf_omega", rows, "angular frequency of its pair", "1")
-      do i = 1, 4
-         call file%put(id(i), places(i, :))
-      end do
-      call file%put(id(5), hopf%omega)
+      call file%column(rows, "hopf_omega", hopf%omega, "angular frequency of its pair")
+      call file%flush()
    end subroutine put_hopf
 end module cycles_output

@@ -36,14 +36,14 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(exponent_type), allocatable :: exponents(:)
       type(output_file_type) :: file
-      real(wp), dimension(settings%exponents, size(options)) :: bars, bounds, values
+      real(wp), dimension(settings%count, size(options)) :: bars, bounds, values
       real(wp), dimension(size(options)) :: dimension, dimension_error
       real(wp), allocatable :: averages(:, :), blocks(:, :), time(:)
-      integer :: i, id, ids(4)
+      integer :: i, ids(4)
       logical :: flow
 
-      allocate (blocks(settings%exponents, settings%blocks))
-      flow = size(measured(1)%growth, 1) < settings%exponents
+      allocate (blocks(settings%count, settings%blocks))
+      flow = size(measured(1)%growth, 1) < settings%count
       do i = size(options), 1, -1
          exponents = average_growth(measured(i)%growth, measured(i)%length, settings%blocks, flow)
          values(:, i) = exponents%value
@@ -51,35 +51,34 @@ contains
          bounds(:, i) = sign_bound(exponents, settings%zero_level)
          call dimension_of(exponents, settings%zero_level, dimension(i), dimension_error(i))
       end do
-      do i = 1, settings%exponents
+      do i = 1, settings%count
          blocks(i, :) = exponents(i)%blocks
       end do
       associate (first => measured(1))
          call running_averages(with_flow(first%growth, flow), first%length, most_times, time, &
                                averages)
          call file%create(path, "Lyapunov exponents of the spring block with delayed friction")
-         ids = [file%dimension("exponent", settings%exponents), &
+         file%at_once = .true.
+         ids = [file%dimension("exponent", settings%count), &
                 file%dimension("run", size(options), coordinates="tolerance longest_step"), &
                 file%dimension("t", size(time)), file%dimension("block", settings%blocks)]
-         id = file%real_variable("tolerance", ids(2), "tolerance, the scene's own first", "1")
-         call file%put(id, options%relative)
-         id = file%real_variable("longest_step", ids(2), "longest step allowed, if any", "1")
-         call file%put(id, merge(options%longest_step, ieee_value(1.0_wp, ieee_quiet_nan), &
-                                 options%longest_step < huge(1.0_wp)))
-         id = file%real_variable("mean_step", ids(2), "mean step, also of the history", "1")
-         call file%put(id, measured%time/max(1_int64, measured%steps))
-         id = file%real_variable("dimension", ids(2), "Kaplan-Yorke dimension", "1")
-         call file%put(id, dimension)
-         id = file%real_variable("dimension_error", ids(2), "its standard error", "1")
-         call file%put(id, dimension_error)
-         id = file%real_variable("t", ids(3), "time", "1")
-         call file%put(id, first%t_begin + time)
-         call file%table("value", ids([1, 2]), values, "exponent")
-         call file%table("error", ids([1, 2]), bars, "standard error from blocks")
-         call file%table("sign_bound", ids([1, 2]), bounds, &
+         call file%column(ids(2), "tolerance", options%relative, &
+                          "tolerance, the scene's own first")
+         call file%column(ids(2), "longest_step", &
+                          merge(options%longest_step, ieee_value(1.0_wp, ieee_quiet_nan), &
+                                options%longest_step < huge(1.0_wp)), &
+                          "longest step allowed, if any")
+         call file%column(ids(2), "mean_step", measured%time/max(1_int64, measured%steps), &
+                          "mean step, also of the history")
+         call file%column(ids(2), "dimension", dimension, "Kaplan-Yorke dimension")
+         call file%column(ids(2), "dimension_error", dimension_error, "its standard error")
+         call file%column(ids(3), "t", first%t_begin + time, "time")
+         call file%table(ids([1, 2]), "value", values, "exponent")
+         call file%table(ids([1, 2]), "error", bars, "standard error from blocks")
+         call file%table(ids([1, 2]), "sign_bound", bounds, &
                          "absolute value up to which an exponent has no sign")
-         call file%table("block_value", ids([1, 4]), blocks, "exponent in each block")
-         call file%table("running_average", ids([1, 3]), averages, "plain average up to a time")
+         call file%table(ids([1, 4]), "block_value", blocks, "exponent in each block")
+         call file%table(ids([1, 3]), "running_average", averages, "plain average up to a time")
          call file%attribute("scene", trim(scene%name))
          call put_parameters(file, scene%parameters)
          call put_history(file, scene%history)

@@ -1,12 +1,12 @@
-!> The plane and window of Hopf curves, from the namelist group &hopf_curves.
+!> The plane and window of Hopf curves, from a namelist.
 module hopf_input
    use block_family, only: along_tau, along_xi
    use block_parameters, only: check_quantity
    use dde_errors, only: error_type
    use hopf_planes, only: curve_plane_type
    use dde_kinds, only: wp
-   use namelist_input, only: close_namelist, not_given, open_namelist, word_length
-   use value_checks, only: check_choice, check_count, check_number
+   use namelist_input, only: namelist_file_type, word_length
+   use value_checks, only: check_choice, check_count, check_number, missing, missing_count
    implicit none (type, external)
    private
    public :: hopf_settings_type, read_plane
@@ -19,81 +19,72 @@ module hopf_input
       !> 'tau' or 'xi'
       character(len=word_length) :: ordinate = ""
       !> Value of the other of the two
-      real(wp) :: fixed
+      real(wp) :: fixed = missing
       !> Frequency of the block
-      real(wp) :: gamma
+      real(wp) :: gamma = missing
       !> Window on epsilon
-      real(wp) :: epsilon_window(2)
+      real(wp) :: epsilon_window(2) = missing
       !> Window on the ordinate
-      real(wp) :: ordinate_window(2)
+      real(wp) :: ordinate_window(2) = missing
       !> Cells of the map of unstable pairs along each side of the window
-      integer :: cells = 0
+      integer :: cells = missing_count
+   contains
+      !> Name of the parameter that is fixed beside gamma
+      procedure :: other => name_of_fixed
    end type hopf_settings_type
 
 contains
 
    !> Read and check a plane.
-   subroutine read_plane(path, settings, plane, error)
+   subroutine read_plane(path, hopf_curves, plane, error)
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> The settings
-      type(hopf_settings_type), intent(out) :: settings
+      type(hopf_settings_type), intent(out) :: hopf_curves
       !> The plane they describe
       type(curve_plane_type), intent(out) :: plane
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
-      character(len=3) :: other
+      character(len=:), allocatable :: ordinate, other
+      type(namelist_file_type) :: file
+      namelist /settings/ hopf_curves
 
-      call read_group(path, settings, error)
-      call check_choice(error, path, "ordinate", settings%ordinate, ordinates)
-      call check_quantity(error, path, "gamma", settings%gamma)
-      associate (x => settings%epsilon_window, y => settings%ordinate_window)
+      call file%open(path, error)
+      if (allocated(error)) return
+      read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
+      write (file%copy, nml=settings, delim="quote")
+      call file%close(error)
+      call check_choice(error, path, "ordinate", hopf_curves%ordinate, ordinates)
+      if (allocated(error)) return
+      ordinate = trim(hopf_curves%ordinate)
+      other = hopf_curves%other()
+      associate (x => hopf_curves%epsilon_window, y => hopf_curves%ordinate_window)
+         call check_quantity(error, path, "gamma", hopf_curves%gamma)
          call check_quantity(error, path, "epsilon", x(1), "epsilon_window(1)")
          call check_number(error, path, "epsilon_window(2)", x(2), above=max(x(1), 0.0_wp))
-         other = merge("xi ", "tau", settings%ordinate == "tau")
-         call check_quantity(error, path, trim(other), settings%fixed, "fixed ("//trim(other)//")")
-         call check_quantity(error, path, trim(settings%ordinate), y(1), "ordinate_window(1)")
+         call check_quantity(error, path, other, hopf_curves%fixed, "fixed ("//other//")")
+         call check_quantity(error, path, ordinate, y(1), "ordinate_window(1)")
          call check_number(error, path, "ordinate_window(2)", y(2), above=y(1))
-         call check_count(error, path, "cells", settings%cells, 1)
+         call check_count(error, path, "cells", hopf_curves%cells, 1)
          plane%epsilon_window = x
          plane%ordinate_window = y
-         plane%fixed%gamma = settings%gamma
-         if (settings%ordinate == "tau") then
+         plane%fixed%gamma = hopf_curves%gamma
+         if (ordinate == "tau") then
             plane%along = along_tau
-            plane%fixed%xi = settings%fixed
+            plane%fixed%xi = hopf_curves%fixed
          else
             plane%along = along_xi
-            plane%fixed%tau = settings%fixed
+            plane%fixed%tau = hopf_curves%fixed
          end if
       end associate
    end subroutine read_plane
 
-   !> Read the group &hopf_curves.
-   subroutine read_group(path, settings, error)
-      !> Path of the namelist file
-      character(len=*), intent(in) :: path
-      !> The settings
-      type(hopf_settings_type), intent(out) :: settings
-      !> They cannot be read
-      type(error_type), allocatable, intent(out) :: error
-      character(len=len(settings%ordinate)) :: ordinate
-      character(len=256) :: reason
-      real(wp) :: fixed, gamma, epsilon_window(2), ordinate_window(2)
-      integer :: cells, status, unit
-      namelist /hopf_curves/ ordinate, fixed, gamma, epsilon_window, ordinate_window, cells
+   !> Name of the parameter that is fixed beside gamma.
+   pure function name_of_fixed(self) result(name)
+      !> The plane
+      class(hopf_settings_type), intent(in) :: self
+      character(len=:), allocatable :: name
 
-      ordinate = ""
-      fixed = not_given()
-      gamma = fixed
-      epsilon_window = fixed
-      ordinate_window = fixed
-      cells = 0
-      call open_namelist(path, "hopf_curves", unit, error)
-      if (allocated(error)) return
-      read (unit, nml=hopf_curves, iostat=status, iomsg=reason)
-      call close_namelist(path, "hopf_curves", unit, status, reason, error)
-      settings = hopf_settings_type(ordinate=ordinate, fixed=fixed, gamma=gamma, cells=cells, &
-                                    epsilon_window=epsilon_window, &
-                                    ordinate_window=ordinate_window)
-   end subroutine read_group
+      name = trim(merge("xi ", "tau", self%ordinate == "tau"))
+   end function name_of_fixed
 end module hopf_input

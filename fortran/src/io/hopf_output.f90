@@ -1,5 +1,6 @@
 !> Files of Hopf curves.
 module hopf_output
+   use block_parameters, only: parameter_meanings
    use dde_errors, only: error_type
    use double_hopf, only: word_length
    use hopf_curves, only: curve_point_type
@@ -29,43 +30,36 @@ contains
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
-      integer :: branch, crossing, epsilon, l1, omega, others, piece, printed_residual
-      integer :: printed_tau, residual, rows, tau, xi
+      integer :: rows
 
       call file%create(path, "Hopf curves: where a pair of characteristic roots is imaginary")
       rows = file%dimension("point", size(points), coordinates="epsilon tau xi")
-      epsilon = file%real_variable("epsilon", rows, "sensitivity of the velocity relaxation", "1")
-      tau = file%real_variable("tau", rows, "delay", "1")
-      xi = file%real_variable("xi", rows, "spring constant", "1")
-      omega = file%real_variable("omega", rows, "angular frequency of the pair", "1")
-      branch = file%integer_variable("branch", rows, "branch k of equation (10)")
-      piece = file%integer_variable("piece", rows, "number of the unbroken piece of curve")
-      residual = file%real_variable("residual", rows, "residual of (5) over its largest term", "1")
-      crossing = file%integer_variable("crossing", rows, "sign of d Re(lambda)/d tau")
-      printed_tau = file%real_variable("printed_tau", rows, "delay by (10) as printed", "1")
-      printed_residual = file%real_variable("printed_residual", rows, &
-                                            "residual of (5) there over its largest term", "1")
-      l1 = file%real_variable("l1", rows, "first Lyapunov coefficient", "1")
-      others = file%integer_variable("unstable_pairs", rows, "unstable pairs beside this one")
+      associate (place => points%parameters)
+         call file%column(rows, "epsilon", place%epsilon, trim(parameter_meanings(2)))
+         call file%column(rows, "tau", place%tau, trim(parameter_meanings(1)))
+         call file%column(rows, "xi", place%xi, trim(parameter_meanings(3)))
+      end associate
+      call file%column(rows, "omega", points%omega, "angular frequency of the pair")
+      call file%column(rows, "branch", points%branch, "branch k of equation (10)")
+      call file%column(rows, "piece", points%piece, "number of the unbroken piece of curve")
+      call file%column(rows, "residual", points%residual, "residual of (5) over its largest term")
+      call file%column(rows, "crossing", points%crossing, "sign of d Re(lambda)/d tau")
+      call file%column(rows, "printed_tau", points%printed_tau, "delay by (10) as printed")
+      call file%column(rows, "printed_residual", points%printed_residual, &
+                       "residual of (5) there over its largest term")
+      call file%column(rows, "l1", points%l1, "first Lyapunov coefficient")
+      call file%column(rows, "unstable_pairs", points%unstable_pairs, &
+                       "unstable pairs beside this one")
       call file%attribute("ordinate", trim(settings%ordinate))
       call file%attribute("gamma", settings%gamma)
-      call file%attribute(trim(merge("xi ", "tau", settings%ordinate == "tau")), settings%fixed)
-      call file%put(epsilon, points%parameters%epsilon)
-      call file%put(tau, points%parameters%tau)
-      call file%put(xi, points%parameters%xi)
-      call file%put(omega, points%omega)
-      call file%put(branch, points%branch)
-      call file%put(piece, points%piece)
-      call file%put(residual, points%residual)
-      call file%put(crossing, points%crossing)
-      call file%put(printed_tau, points%printed_tau)
-      call file%put(printed_residual, points%printed_residual)
-      call file%put(l1, points%l1)
-      call file%put(others, points%unstable_pairs)
+      call file%attribute(settings%other(), settings%fixed)
+      call file%flush()
       rows = file%dimension("special", size(special), &
                             coordinates="special_epsilon special_tau special_xi")
       call put_special(file, rows, special)
+      file%at_once = .true.
       call put_unfoldings(file, settings, rows, special)
+      file%at_once = .false.
       call put_map(file, settings, pairs)
       call file%finish(error)
    end subroutine write_curves
@@ -79,27 +73,25 @@ contains
       !> Special points
       type(hopf_point_type), intent(in) :: special(:)
       character(len=1), parameter :: number(2) = ["1", "2"]
-      integer :: branch, i, l1, omega, place(3), pairs
+      integer :: i
 
-      call file%words("special_kind", rows, special%kind, "kind of the special point")
-      place(1) = file%real_variable("special_epsilon", rows, "its epsilon", "1")
-      place(2) = file%real_variable("special_tau", rows, "its tau", "1")
-      place(3) = file%real_variable("special_xi", rows, "its xi", "1")
-      pairs = file%integer_variable("special_unstable_pairs", rows, &
-                                    "unstable pairs beside those on the axis")
-      call file%put(place(1), special%parameters%epsilon)
-      call file%put(place(2), special%parameters%tau)
-      call file%put(place(3), special%parameters%xi)
-      call file%put(pairs, special%unstable_pairs)
+      call file%words(rows, "special_kind", special%kind, "kind of the special point")
+      associate (place => special%parameters)
+         call file%column(rows, "special_epsilon", place%epsilon, "its epsilon")
+         call file%column(rows, "special_tau", place%tau, "its tau")
+         call file%column(rows, "special_xi", place%xi, "its xi")
+      end associate
+      call file%column(rows, "special_unstable_pairs", special%unstable_pairs, &
+                       "unstable pairs beside those on the axis")
+      call file%flush()
       do i = 1, 2
-         omega = file%real_variable("special_omega_"//number(i), rows, &
-                                    "frequency of pair "//number(i)//", 0 where there is none", "1")
-         branch = file%integer_variable("special_branch_"//number(i), rows, "its branch, or -1")
-         l1 = file%real_variable("special_l1_"//number(i), rows, &
-                                 "its first Lyapunov coefficient", "1")
-         call file%put(omega, special%omega(i))
-         call file%put(branch, special%branch(i))
-         call file%put(l1, special%l1(i))
+         call file%column(rows, "special_omega_"//number(i), special%omega(i), &
+                          "frequency of pair "//number(i)//", 0 where there is none")
+         call file%column(rows, "special_branch_"//number(i), special%branch(i), &
+                          "its branch, or -1")
+         call file%column(rows, "special_l1_"//number(i), special%l1(i), &
+                          "its first Lyapunov coefficient")
+         call file%flush()
       end do
    end subroutine put_special
 
@@ -150,7 +142,7 @@ contains
       end do
       call put("theta", ratios(:, 1), "Re g1011/Re g0021")
       call put("delta", ratios(:, 2), "Re g1110/Re g2100")
-      call file%words("special_unfolding", rows, unfolding, &
+      call file%words(rows, "special_unfolding", unfolding, &
                       "case of Guckenheimer and Holmes, table 7.5.1")
       do j = 1, 2
          call put("start_epsilon_"//number(j), special%unfolding%start(1, j), &
@@ -160,9 +152,9 @@ contains
                   "direction of curve "//number(j)//" of folds or tori, "//trim(settings%ordinate))
          call put("angle_"//number(j), angle(:, j), &
                   "angle of the multipliers where tori of cycle "//number(j)//" start")
-         call file%words("special_criticality_"//number(j), rows, criticality(:, j), &
+         call file%words(rows, "special_criticality_"//number(j), criticality(:, j), &
                          "kind of this torus bifurcation")
-         call file%words("special_torus_"//number(j), rows, torus(:, j), &
+         call file%words(rows, "special_torus_"//number(j), torus(:, j), &
                          "stability of its torus on the centre manifold")
       end do
 
@@ -177,7 +169,7 @@ contains
          !> What they are
          character(len=*), intent(in) :: long_name
 
-         call file%put(file%real_variable("special_"//key, rows, long_name, "1"), values)
+         call file%column(rows, "special_"//key, values, long_name)
       end subroutine put
    end subroutine put_unfoldings
 
@@ -189,14 +181,16 @@ contains
       type(hopf_settings_type), intent(in) :: settings
       !> Number of unstable pairs, epsilon first
       integer, intent(in) :: pairs(:, :)
-      integer :: cells(2), x, y
+      integer :: cells(2)
 
       cells(1) = file%dimension("map_epsilon", size(pairs, 1))
       cells(2) = file%dimension("map_ordinate", size(pairs, 2))
-      x = file%real_variable("map_epsilon", cells(1), "epsilon in the middle of a cell", "1")
-      y = file%real_variable("map_ordinate", cells(2), "ordinate in the middle of a cell", "1")
-      call file%put(x, middles(settings%epsilon_window, size(pairs, 1)))
-      call file%put(y, middles(settings%ordinate_window, size(pairs, 2)))
-      call file%table("map_unstable_pairs", cells, real(pairs, wp), "number of unstable pairs")
+      call file%column(cells(1), "map_epsilon", middles(settings%epsilon_window, size(pairs, 1)), &
+                       "epsilon in the middle of a cell")
+      call file%column(cells(2), "map_ordinate", &
+                       middles(settings%ordinate_window, size(pairs, 2)), &
+                       "ordinate in the middle of a cell")
+      call file%flush()
+      call file%table(cells, "map_unstable_pairs", real(pairs, wp), "number of unstable pairs")
    end subroutine put_map
 end module hopf_output

@@ -29,7 +29,7 @@ contains
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
-      integer :: imaginary, real_part, rows
+      integer :: rows
 
       call file%create(path, "Linear stability of steady sliding")
       call put_parameters(file, settings%parameters)
@@ -39,10 +39,9 @@ contains
       call file%attribute("unstable_pairs", int(pairs(1), int64))
       call file%attribute("unstable_pairs_without_delay", int(pairs(2), int64))
       rows = file%dimension("root", size(roots))
-      real_part = file%real_variable("root_real", rows, "real part of a characteristic root", "1")
-      imaginary = file%real_variable("root_imag", rows, "its imaginary part", "1")
-      call file%put(real_part, real(roots))
-      call file%put(imaginary, aimag(roots))
+      call file%column(rows, "root_real", real(roots), "real part of a characteristic root")
+      call file%column(rows, "root_imag", aimag(roots), "its imaginary part")
+      call file%flush()
       call put_changes(file, "tau", with_tau%parameters%tau, with_tau)
       call put_changes(file, "epsilon", with_epsilon%parameters%epsilon, with_epsilon)
       call file%finish(error)
@@ -58,19 +57,16 @@ contains
       real(wp), intent(in) :: values(:)
       !> The changes
       type(stability_change_type), intent(in) :: changes(:)
-      integer :: after, before, omega, place, rows
+      integer :: rows
 
       rows = file%dimension("change_with_"//parameter_name, size(changes))
-      place = file%real_variable(parameter_name//"_of_change", rows, &
-                                 parameter_name//" at which a pair crosses the axis", "1")
-      omega = file%real_variable(parameter_name//"_change_omega", rows, "its frequency", "1")
-      before = file%integer_variable(parameter_name//"_change_pairs_before", rows, &
-                                     "unstable pairs below")
-      after = file%integer_variable(parameter_name//"_change_pairs_after", rows, &
-                                    "unstable pairs above")
-      call file%put(place, values)
-      call file%put(omega, changes%omega)
-      call file%put(before, changes%pairs_before)
-      call file%put(after, changes%pairs_after)
+      call file%column(rows, parameter_name//"_of_change", values, &
+                       parameter_name//" at which a pair crosses the axis")
+      call file%column(rows, parameter_name//"_change_omega", changes%omega, "its frequency")
+      call file%column(rows, parameter_name//"_change_pairs_before", changes%pairs_before, &
+                       "unstable pairs below")
+      call file%column(rows, parameter_name//"_change_pairs_after", changes%pairs_after, &
+                       "unstable pairs above")
+      call file%flush()
    end subroutine put_changes
 end module linear_stability_output

@@ -1,17 +1,20 @@
-!> What to measure of the cases, from the namelist group &measure.
+!> Cases and what to measure of them, from a namelist.
 module measure_input
+   use block_parameters, only: absent_history, absent_parameters, block_history_type, &
+                               block_parameters_type
+   use cases_input, only: case_section_type, join_cases, most_cases
    use dde, only: solver_methods => methods
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
+   use measured_case, only: case_type
    use measured_run, only: baseline_methods, run_type
-   use namelist_input, only: close_namelist, not_given, open_namelist, word_length
-   use solver_checks, only: check_tolerance
-   use value_checks, only: check_choice, check_count, check_number
+   use namelist_input, only: element_length, elements, namelist_file_type
+   use value_checks, only: absent, check_choice, check_count, check_number, missing, missing_count
    implicit none (type, external)
    private
    public :: measure_settings_type, read_measure
 
-   !> Most methods, tolerances or lengths of steps.
+   !> Most tolerances or lengths of steps.
    integer, parameter :: most = 100
    !> Methods to choose from.
    character(len=10), parameter :: choices(*) = [character(len=10) :: solver_methods, &
@@ -19,71 +22,95 @@ module measure_input
 
    !> The runs of each case and how they are measured.
    type :: measure_settings_type
-      !> Runs asked for: method and setting
-      type(run_type), allocatable :: runs(:)
+      !> Methods
+      character(len=element_length) :: methods(16) = ""
+      !> Tolerances of the solver's methods
+      real(wp) :: tolerances(most) = absent
+      !> Lengths of steps of the other methods
+      real(wp) :: steps(most) = absent
       !> Most steps of a run of the solver
-      integer(int64) :: most_steps = 0
+      integer(int64) :: most_steps = missing_count
       !> Times measured; 0 for none
-      integer :: repeats = 0
+      integer :: repeats = missing_count
       !> Shortest time to measure, in CPU seconds
-      real(wp) :: least_seconds = 0.0_wp
+      real(wp) :: least_seconds = missing
+   contains
+      !> Each method at each of its tolerances or lengths of steps
+      procedure :: runs => runs_of_methods
    end type measure_settings_type
 
 contains
 
-   !> Read and check the settings: each method at each of its tolerances or lengths of steps.
-   subroutine read_measure(path, settings, error)
+   !> Read and check cases and settings.
+   subroutine read_measure(path, list, measure, error)
       !> Path of the namelist file
       character(len=*), intent(in) :: path
+      !> The cases
+      type(case_type), allocatable, intent(out) :: list(:)
       !> The settings
-      type(measure_settings_type), intent(out) :: settings
+      type(measure_settings_type), intent(out) :: measure
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
-      character(len=word_length) :: methods(most)
-      real(wp) :: tolerances(most), steps(most), least_seconds
-      character(len=256) :: reason
-      integer :: i, j, most_steps, repeats, status, unit
-      namelist /measure/ methods, tolerances, steps, most_steps, repeats, least_seconds
+      type(block_parameters_type) :: parameters(most_cases)
+      type(block_history_type) :: histories(most_cases)
+      type(case_section_type) :: cases(most_cases)
+      type(namelist_file_type) :: file
+      integer :: i
+      logical :: solver
+      namelist /settings/ cases, parameters, histories, measure
 
-      methods = ""
-      tolerances = not_given()
-      steps = not_given()
-      most_steps = -1
-      repeats = -1
-      least_seconds = not_given()
-      call open_namelist(path, "measure", unit, error)
+      parameters = absent_parameters
+      histories = absent_history
+      call file%open(path, error)
       if (allocated(error)) return
-      read (unit, nml=measure, iostat=status, iomsg=reason)
-      call close_namelist(path, "measure", unit, status, reason, error)
-      call check_count(error, path, "most_steps", most_steps, 1)
-      call check_count(error, path, "repeats", repeats, 0)
-      call check_number(error, path, "least_seconds", least_seconds, at_least=0.0_wp)
-      call check_choice(error, path, "methods", methods(1), choices)
-      settings%most_steps = most_steps
-      settings%repeats = repeats
-      settings%least_seconds = least_seconds
-      allocate (settings%runs(0))
-      do i = 1, count(methods /= "")
-         call check_choice(error, path, "methods", methods(i), choices)
-         if (any(baseline_methods == methods(i))) then
-            do j = 1, max(1, given(steps))
-               call check_number(error, path, "steps", steps(j), above=0.0_wp)
-               settings%runs = [settings%runs, run_type(methods(i), steps(j))]
-            end do
-         else
-            do j = 1, max(1, given(tolerances))
-               call check_tolerance(error, path, "tolerances", tolerances(j))
-               settings%runs = [settings%runs, run_type(methods(i), tolerances(j))]
-            end do
-         end if
+      read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
+      write (file%copy, nml=settings, delim="quote")
+      call file%close(error)
+      call join_cases(path, cases, parameters, histories, list, error)
+      call check_number(error, path, "most_steps", real(measure%most_steps, wp), at_least=1.0_wp)
+      call check_count(error, path, "repeats", measure%repeats, 0)
+      call check_number(error, path, "least_seconds", measure%least_seconds, at_least=0.0_wp)
+      do i = 1, max(1, count(measure%methods /= ""))
+         call check_choice(error, path, "methods", measure%methods(i), choices)
+      end do
+      if (allocated(error)) return
+      do i = 1, count(measure%methods /= "")
+         solver = all(baseline_methods /= measure%methods(i))
+         call check_list(path, trim(merge("tolerances", "steps     ", solver)), &
+                         merge(measure%tolerances, measure%steps, solver), error)
       end do
    end subroutine read_measure
 
-   !> Length of a list: up to the last element that is a number.
-   pure integer function given(list) result(length)
-      !> The list, filled up with what is no number
+   !> Refuse an empty list, and numbers that are not positive; keep an earlier error.
+   pure subroutine check_list(path, key, list, error)
+      !> Path of the namelist file
+      character(len=*), intent(in) :: path
+      !> Key of the list
+      character(len=*), intent(in) :: key
+      !> The list, `absent` beyond its last element
       real(wp), intent(in) :: list(:)
+      !> First error met
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: i
 
-      length = findloc(list <= huge(1.0_wp), .true., dim=1, back=.true.)
-   end function given
+      do i = 1, max(1, count(list < absent))
+         call check_number(error, path, key, list(i), above=0.0_wp)
+      end do
+   end subroutine check_list
+
+   !> Each method at each of its tolerances or lengths of steps.
+   pure function runs_of_methods(self) result(runs)
+      !> The settings
+      class(measure_settings_type), intent(in) :: self
+      type(run_type), allocatable :: runs(:)
+      real(wp), allocatable :: settings(:)
+      integer :: i, j
+
+      allocate (runs(0))
+      do i = 1, count(self%methods /= "")
+         settings = elements(self%tolerances)
+         if (any(baseline_methods == self%methods(i))) settings = elements(self%steps)
+         runs = [runs, [(run_type(self%methods(i), settings(j)), j=1, size(settings))]]
+      end do
+   end function runs_of_methods
 end module measure_input

@@ -1,5 +1,7 @@
 !> Files of measured runs: one row a run, with its samples.
 module measure_output
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use block_parameters, only: parameter_meanings
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use measured_case, only: case_type
@@ -25,13 +27,11 @@ module measure_output
 contains
 
    !> Write all runs of all cases; a case with fewer samples than another is filled up with NaN.
-   subroutine write_measured_runs(path, measured, filling, error)
+   subroutine write_measured_runs(path, measured, error)
       !> Path of the file
       character(len=*), intent(in) :: path
       !> Cases and their runs
       type(measured_runs_type), intent(in) :: measured(:)
-      !> What stands where there is no sample
-      real(wp), intent(in) :: filling
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
@@ -53,65 +53,53 @@ contains
       most_samples = maxval([(size(runs(i)%samples, 2), i=1, size(runs))])
 
       call file%create(path, "Measured runs of the spring block with delayed friction")
+      file%at_once = .true.
       run = file%dimension("run", size(runs), coordinates="case method setting")
       sample = file%dimension("sample", most_samples, coordinates="time")
-      call file%words("case", run, cases%name, "name of the case")
-      call file%words("method", run, runs%method, "method")
-      call file%words("status", run, runs%status, "ok, or why the run ended before t_end")
-      call file%words("reason", run, reasons, "the same in the solver's words")
-      call put("setting", runs%setting, "tolerance, or length of the steps of rk4 methods")
-      call put("tau", cases%parameters%tau, "delay")
-      call put("epsilon", cases%parameters%epsilon, "sensitivity of the velocity relaxation")
-      call put("xi", cases%parameters%xi, "spring constant")
-      call put("gamma", cases%parameters%gamma, "frequency")
-      call put("history_theta", cases%history%theta, "friction state for t <= 0")
-      call put("history_u", cases%history%u, "displacement for t <= 0")
-      call put("history_v", cases%history%v, "velocity for t <= 0")
-      call put("t_end", cases%t_end, "last time asked for")
-      call put("t_reached", runs%outcome%t, "last time reached")
-      call put("steps_accepted", real(runs%outcome%accepted, wp), "steps accepted")
-      call put("steps_rejected", real(runs%outcome%rejected, wp), "steps rejected")
-      call put("steps_implicit", real(runs%outcome%implicit_steps, wp), "implicit steps accepted")
-      call put("evaluations", real(runs%outcome%evaluations, wp), "right-hand sides evaluated")
-      call put("factorisations", real(runs%outcome%factorisations, wp), "matrices factorised")
-      call put("switches", real(runs%outcome%switches, wp), "changes of method")
-      call put("least_ln_v", runs%least_ln_v, "smallest ln v on a grid 8 times that of samples")
-      call put("most_ln_v", runs%most_ln_v, "largest ln v on a grid 8 times that of samples")
-      call put("seconds", runs%seconds, "CPU time of the solver alone, median of repeats", "s")
+      call file%words(run, "case", cases%name, "name of the case")
+      call file%words(run, "method", runs%method, "method")
+      call file%words(run, "status", runs%status, "ok, or why the run ended before t_end")
+      call file%words(run, "reason", reasons, "the same in the solver's words")
+      call file%column(run, "setting", runs%setting, &
+                       "tolerance, or length of the steps of rk4 methods")
+      call file%column(run, "tau", cases%parameters%tau, trim(parameter_meanings(1)))
+      call file%column(run, "epsilon", cases%parameters%epsilon, trim(parameter_meanings(2)))
+      call file%column(run, "xi", cases%parameters%xi, trim(parameter_meanings(3)))
+      call file%column(run, "gamma", cases%parameters%gamma, trim(parameter_meanings(4)))
+      call file%column(run, "history_theta", cases%history%theta, "friction state for t <= 0")
+      call file%column(run, "history_u", cases%history%u, "displacement for t <= 0")
+      call file%column(run, "history_v", cases%history%v, "velocity for t <= 0")
+      call file%column(run, "t_end", cases%t_end, "last time asked for")
+      call file%column(run, "t_reached", runs%outcome%t, "last time reached")
+      call file%column(run, "steps_accepted", real(runs%outcome%accepted, wp), "steps accepted")
+      call file%column(run, "steps_rejected", real(runs%outcome%rejected, wp), "steps rejected")
+      call file%column(run, "steps_implicit", real(runs%outcome%implicit_steps, wp), &
+                       "implicit steps accepted")
+      call file%column(run, "evaluations", real(runs%outcome%evaluations, wp), &
+                       "right-hand sides evaluated")
+      call file%column(run, "factorisations", real(runs%outcome%factorisations, wp), &
+                       "matrices factorised")
+      call file%column(run, "switches", real(runs%outcome%switches, wp), "changes of method")
+      call file%column(run, "least_ln_v", runs%least_ln_v, &
+                       "smallest ln v on a grid 8 times that of samples")
+      call file%column(run, "most_ln_v", runs%most_ln_v, &
+                       "largest ln v on a grid 8 times that of samples")
+      call file%column(run, "seconds", runs%seconds, &
+                       "CPU time of the solver alone, median of repeats", "s")
 
       allocate (table(most_samples, size(runs)))
-      table = filling
+      table = ieee_value(1.0_wp, ieee_quiet_nan)
       do i = 1, size(runs)
          samples = size(runs(i)%samples, 2)
          table(:samples, i) = cases(i)%sample_times()
       end do
-      call file%table("time", [sample, run], table, "time of the sample")
+      call file%table([sample, run], "time", table, "time of the sample")
       call put_samples("theta", 1, "friction state")
       call put_samples("u", 2, "displacement")
       call put_samples("ln_v", 3, "logarithm of the velocity")
       call file%finish(error)
 
    contains
-
-      !> A number of each run.
-      subroutine put(name, values, long_name, units)
-         !> Name of the variable
-         character(len=*), intent(in) :: name
-         !> Values of the variable
-         real(wp), intent(in) :: values(:)
-         !> Description of the variable, its `long_name`
-         character(len=*), intent(in) :: long_name
-         !> Unit of the variable, if any
-         character(len=*), intent(in), optional :: units
-         integer :: id
-
-         if (present(units)) then
-            id = file%real_variable(name, run, long_name, units)
-         else
-            id = file%real_variable(name, run, long_name, "1")
-         end if
-         call file%put(id, values)
-      end subroutine put
 
       !> Samples of one component of each run.
       subroutine put_samples(name, component, long_name)
@@ -122,11 +110,11 @@ contains
          !> Description of the variable, its `long_name`
          character(len=*), intent(in) :: long_name
 
-         table = filling
+         table = ieee_value(1.0_wp, ieee_quiet_nan)
          do i = 1, size(runs)
             table(:size(runs(i)%samples, 2), i) = runs(i)%samples(component, :)
          end do
-         call file%table(name, [sample, run], table, long_name)
+         call file%table([sample, run], name, table, long_name)
       end subroutine put_samples
    end subroutine write_measured_runs
 end module measure_output

@@ -1,67 +1,90 @@
-!> What all namelists share: opening the file, closing it, and what a missing key holds.
+!> Reading of namelist files. Every program reads one group, &settings, into variables of derived
+!> types: the keys are their components, as scene%t_end. A component without a value keeps its
+!> default, `missing` where it must be given. So each key stands once, in its type.
 module namelist_input
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use dde_errors, only: error_type, raise
    use dde_kinds, only: wp
-   use namelist_text, only: check_given_once
+   use namelist_text, only: check_given_once, check_numbers
+   use value_checks, only: absent
    implicit none (type, external)
    private
-   public :: close_namelist, not_given, open_namelist, word_length
+   public :: elements, element_length, namelist_file_type, word_length
 
    !> Length of a word in a namelist: far above any that is allowed, so that one too long is met and
    !> refused instead of cut.
    integer, parameter :: word_length = 256
+   !> Length of a word in a list.
+   integer, parameter :: element_length = 32
+   !> Length and number of lines that hold the longest namelist: 16 words in a line, 1000 cases.
+   integer, parameter :: line_length = 1024, most_lines = 12000
+   !> The group.
+   character(len=*), parameter :: group = "settings"
+
+   !> A namelist file that is read. Between `open` and `close` the group is read from `unit`, and
+   !> then written to `copy`, by which `close` finds what was not given.
+   type :: namelist_file_type
+      !> Path of the file
+      character(len=:), allocatable :: path
+      !> Unit it is open on
+      integer :: unit = -1
+      !> I/O status and message of the read
+      integer :: status = 0
+      character(len=256) :: reason = ""
+      !> All keys with the values read
+      character(len=line_length), allocatable :: copy(:)
+   contains
+      procedure :: open => open_file
+      procedure :: close => close_file
+   end type namelist_file_type
 
 contains
 
-   !> What a real key holds before it is read: no number, so that a missing key is refused.
-   real(wp) function not_given() result(value)
-      value = ieee_value(1.0_wp, ieee_quiet_nan)
-   end function not_given
-
-   !> Open a namelist file for reading a group.
-   subroutine open_namelist(path, group, unit, error)
+   !> Open a namelist file for reading the group.
+   subroutine open_file(self, path, error)
+      !> The file
+      class(namelist_file_type), intent(out) :: self
       !> Path of the file
       character(len=*), intent(in) :: path
-      !> Namelist group, in small letters
-      character(len=*), intent(in) :: group
-      !> Unit it is open on
-      integer, intent(out) :: unit
       !> Error if the file cannot be opened, or the group or a key of it is given twice
+      type(error_type), allocatable, intent(out) :: error
+
+      self%path = path
+      allocate (self%copy(most_lines))
+      call check_given_once(path, group, error)
+      if (allocated(error)) return
+      open (newunit=self%unit, file=path, status="old", action="read", iostat=self%status, &
+            iomsg=self%reason)
+      if (self%status /= 0) call raise(error, path//": "//trim(self%reason))
+   end subroutine open_file
+
+   !> Close the file after reading the group.
+   subroutine close_file(self, error)
+      !> The file
+      class(namelist_file_type), intent(in) :: self
+      !> Error if the group could not be read, or a number is missing or not finite
       type(error_type), allocatable, intent(out) :: error
       character(len=256) :: reason
       integer :: status
 
-      call check_given_once(path, group, error)
-      if (allocated(error)) return
-      open (newunit=unit, file=path, status="old", action="read", iostat=status, iomsg=reason)
-      if (status /= 0) call raise(error, path//": "//trim(reason))
-   end subroutine open_namelist
-
-   !> Close the file after reading a group; say what went wrong, if anything did.
-   subroutine close_namelist(path, group, unit, status, reason, error)
-      !> Path of the file
-      character(len=*), intent(in) :: path
-      !> Namelist group
-      character(len=*), intent(in) :: group
-      !> Unit it is open on
-      integer, intent(in) :: unit
-      !> I/O status of the read
-      integer, intent(in) :: status
-      !> Message of the read
-      character(len=*), intent(in) :: reason
-      !> Error if the group could not be read
-      type(error_type), allocatable, intent(out) :: error
-      character(len=256) :: close_reason
-      integer :: close_status
-
-      close (unit, iostat=close_status, iomsg=close_reason)
-      if (status < 0) then
-         call raise(error, path//": no complete namelist group &"//group//" in it")
-      else if (status > 0) then
-         call raise(error, path//": namelist group &"//group//": "//trim(reason))
-      else if (close_status /= 0) then
-         call raise(error, path//": cannot be closed: "//trim(close_reason))
+      close (self%unit, iostat=status, iomsg=reason)
+      if (self%status < 0) then
+         call raise(error, self%path//": namelist group &"//group//": a value of another type, " &
+                    //"too many values, or no / at the end")
+      else if (self%status > 0) then
+         call raise(error, self%path//": namelist group &"//group//": "//trim(self%reason))
+      else if (status /= 0) then
+         call raise(error, self%path//": cannot be closed: "//trim(reason))
+      else
+         call check_numbers(self%path, self%copy, error)
       end if
-   end subroutine close_namelist
+   end subroutine close_file
+
+   !> The elements of a list that were given.
+   pure function elements(list) result(given)
+      !> The list, `absent` beyond its last element
+      real(wp), intent(in) :: list(:)
+      real(wp), allocatable :: given(:)
+
+      given = pack(list, list < absent)
+   end function elements
 end module namelist_input

@@ -1,11 +1,12 @@
-!> The text of a namelist file, in which a group and its keys may stand only once: of a key that is
-!> given twice, Fortran's own reading takes the last value without a word.
+!> The text of a namelist: a group and its keys may stand only once, and its numbers are finite. Of
+!> a key that is given twice, Fortran's own reading takes the last value without a word.
 module namelist_text
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: int64
+   use value_checks, only: missing_count
    implicit none (type, external)
    private
-   public :: check_given_once
+   public :: check_given_once, check_numbers
 
    !> Most bytes of a namelist file: the largest that a program accepts, 1000 cases or 1000
    !> histories, has a quarter of it.
@@ -91,6 +92,37 @@ contains
          end do
       end subroutine check_keys
    end subroutine check_given_once
+
+   !> Refuse numbers that are not finite and integers that were not given.
+   subroutine check_numbers(path, lines, error)
+      !> Path of the file that was read
+      character(len=*), intent(in) :: path
+      !> All keys and their values, as Fortran writes a namelist with strings in quotes
+      character(len=*), intent(in) :: lines(:)
+      !> First such number
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: key, line, values
+      integer :: at, i
+
+      key = ""
+      do i = 2, size(lines)
+         line = in_small_letters(blanked(trim(lines(i)), strings=.true.))
+         if (line == " /") return
+         at = index(line, "=")
+         if (at > 0) key = trim(adjustl(line(:at - 1)))
+         values = line(at + 1:)
+         if (index(values, "nan") > 0) then
+            call raise(error, path//": "//key//" = NaN; expected a finite number " &
+                       //"(NaN: missing, or not a number)")
+         else if (index(values, "inf") > 0) then
+            call raise(error, path//": "//key//" = "//trim(adjustl(values)) &
+                       //" expected a finite number")
+         else if (index(values, text(missing_count)) > 0) then
+            call raise(error, path//": "//key//" is missing; expected a whole number")
+         end if
+         if (allocated(error)) return
+      end do
+   end subroutine check_numbers
 
    !> Read all of a file.
    subroutine read_file(path, content, error)

@@ -32,6 +32,17 @@ module netcdf_output
       character(len=64) :: coordinates = ""
    end type axis_type
 
+   !> Values of a column that are not written yet, of one of the two types.
+   type :: pending_type
+      !> NetCDF id of the variable
+      integer :: variable = -1
+      real(wp), allocatable :: reals(:)
+      integer, allocatable :: integers(:)
+   end type pending_type
+
+   !> Most columns that are defined before their values are written.
+   integer, parameter :: most_pending = 32
+
    !> A file in the making; after the first error all further calls do nothing.
    type :: output_file_type
       private
@@ -41,6 +52,12 @@ module netcdf_output
       integer :: id = -1
       !> Dimensions of the file
       type(axis_type), allocatable :: axes(:)
+      !> Columns whose values are not written yet, and their number
+      type(pending_type), allocatable :: pending(:)
+      integer :: columns = 0
+      !> Whether the values of a column are written when it is defined; otherwise `flush` and
+      !> `finish` write them. Only the order of bytes in the file differs.
+      logical, public :: at_once = .false.
       !> First error met
       type(error_type), allocatable, public :: error
    contains
@@ -48,11 +65,15 @@ module netcdf_output
       procedure :: create
       !> A dimension
       procedure :: dimension
-      !> A variable of real numbers or integers
+      !> A variable of real numbers or integers over one dimension, with its values
+      generic :: column => column_of_reals, column_of_integers
+      !> Write the values of the columns so far
+      procedure :: flush => write_pending
+      !> A variable without values
       procedure :: real_variable, integer_variable
       !> An attribute of a variable or, without one, of the file
       generic :: attribute => text_attribute, real_attribute, integer_attribute
-      !> Values of a variable
+      !> Values of a variable that was defined without
       generic :: put => put_reals, put_integers
       !> A variable of words, of one of several words, or over two dimensions, with its values
       procedure :: words, flags, table
@@ -61,7 +82,7 @@ module netcdf_output
       !> Give it up
       procedure :: discard
       procedure, private :: note, variable, text_attribute, real_attribute, integer_attribute
-      procedure, private :: put_reals, put_integers
+      procedure, private :: put_reals, put_integers, column_of_reals, column_of_integers
    end type output_file_type
 
 contains
@@ -75,6 +96,7 @@ contains
       !> What it holds
       character(len=*), intent(in) :: title
 
+      allocate (self%pending(most_pending))
       call self%place%begin(path, self%error)
       if (allocated(self%error)) return
       call self%note(nf90_create(self%place%other_path, ior(nf90_netcdf4, nf90_noclobber), self%id))
@@ -192,15 +214,74 @@ contains
       call self%attribute("units", "1", id)
    end function integer_variable
 
-   !> Define and write a variable of words over one dimension; shorter words end with null
-   !> characters, which readers drop.
-   subroutine words(self, name, dimension, values, long_name)
+   !> Define a variable of real numbers and keep or write its values.
+   subroutine column_of_reals(self, dimension, name, values, long_name, units)
       !> The file
       class(output_file_type), intent(inout) :: self
-      !> Name of the variable
-      character(len=*), intent(in) :: name
       !> Dimension of the variable
       integer, intent(in) :: dimension
+      !> Name of the variable
+      character(len=*), intent(in) :: name
+      !> Values of the variable; NaN is a missing one
+      real(wp), intent(in) :: values(:)
+      !> Description of the variable, its `long_name`
+      character(len=*), intent(in) :: long_name
+      !> Unit of the variable, if it is not nondimensional
+      character(len=*), intent(in), optional :: units
+      character(len=:), allocatable :: unit
+
+      unit = "1"
+      if (present(units)) unit = units
+      self%columns = self%columns + 1
+      self%pending(self%columns)%variable = self%real_variable(name, dimension, long_name, unit)
+      self%pending(self%columns)%reals = values
+      if (self%at_once) call self%flush()
+   end subroutine column_of_reals
+
+   !> Define a variable of integers and keep or write its values.
+   subroutine column_of_integers(self, dimension, name, values, long_name)
+      !> The file
+      class(output_file_type), intent(inout) :: self
+      !> Dimension of the variable
+      integer, intent(in) :: dimension
+      !> Name of the variable
+      character(len=*), intent(in) :: name
+      !> Values of the variable
+      integer, intent(in) :: values(:)
+      !> Description of the variable, its `long_name`
+      character(len=*), intent(in) :: long_name
+
+      self%columns = self%columns + 1
+      self%pending(self%columns)%variable = self%integer_variable(name, dimension, long_name)
+      self%pending(self%columns)%integers = values
+      if (self%at_once) call self%flush()
+   end subroutine column_of_integers
+
+   !> Write the values of the columns so far.
+   subroutine write_pending(self)
+      !> The file
+      class(output_file_type), intent(inout) :: self
+      integer :: i
+
+      do i = 1, self%columns
+         associate (column => self%pending(i))
+            if (allocated(column%reals)) call self%put(column%variable, column%reals)
+            if (allocated(column%integers)) call self%put(column%variable, column%integers)
+         end associate
+         self%pending(i) = pending_type()
+      end do
+      self%columns = 0
+   end subroutine write_pending
+
+   !> Define and write a variable of words over one dimension; shorter words end with null
+   !> characters, which readers drop.
+   subroutine words(self, dimension, name, values, long_name)
+      !> The file
+      class(output_file_type), intent(inout) :: self
+      !> Dimension of the variable
+      integer, intent(in) :: dimension
+      !> Name of the variable
+      character(len=*), intent(in) :: name
       !> Values of the variable
       character(len=*), intent(in) :: values(:)
       !> Description of the variable, its `long_name`
@@ -218,26 +299,28 @@ contains
    end subroutine words
 
    !> Define and write a variable whose values stand for words.
-   subroutine flags(self, name, dimension, values, codes, meanings, long_name)
+   subroutine flags(self, dimension, name, values, meanings, long_name, codes)
       !> The file
       class(output_file_type), intent(inout) :: self
-      !> Name of the variable
-      character(len=*), intent(in) :: name
       !> Dimension of the variable
       integer, intent(in) :: dimension
+      !> Name of the variable
+      character(len=*), intent(in) :: name
       !> Values of the variable
       integer, intent(in) :: values(:)
-      !> All values that it can have
-      integer, intent(in) :: codes(:)
-      !> The word of each, in their order
+      !> The word of each value, in their order
       character(len=*), intent(in) :: meanings(:)
       !> Description of the variable, its `long_name`
       character(len=*), intent(in) :: long_name
-      integer :: id
+      !> All values that it can have; if they are left out, 0, 1, ...
+      integer, intent(in), optional :: codes(:)
+      integer :: i, id, numbers(size(meanings))
 
+      numbers = [(i, i=0, size(meanings) - 1)]
+      if (present(codes)) numbers = codes
       id = self%variable(name, nf90_int, [dimension], long_name)
       if (.not. allocated(self%error)) then
-         call self%note(nf90_put_att(self%id, id, "flag_values", codes))
+         call self%note(nf90_put_att(self%id, id, "flag_values", numbers))
       end if
       call self%attribute("flag_meanings", joined(meanings), id)
       call self%put(id, values)
@@ -261,13 +344,13 @@ contains
 
    !> Define and write a variable of nondimensional real numbers over two dimensions; NaN is a
    !> missing value.
-   subroutine table(self, name, dimensions, values, long_name)
+   subroutine table(self, dimensions, name, values, long_name)
       !> The file
       class(output_file_type), intent(inout) :: self
-      !> Name of the variable
-      character(len=*), intent(in) :: name
       !> Dimensions of the variable, the faster first
       integer, intent(in) :: dimensions(2)
+      !> Name of the variable
+      character(len=*), intent(in) :: name
       !> Values of the variable
       real(wp), intent(in) :: values(:, :)
       !> Description of the variable, its `long_name`
@@ -377,6 +460,7 @@ contains
       !> First error met
       type(error_type), allocatable, intent(out) :: error
 
+      call self%flush()
       if (.not. allocated(self%error)) call self%note(nf90_close(self%id))
       if (.not. allocated(self%error)) then
          call self%place%publish(self%error)

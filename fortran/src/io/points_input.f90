@@ -1,21 +1,18 @@
-!> Points at which attractors are looked for, from the namelist group &points: a grid in the four
-!> parameters of the block and a list of histories, or a sweep along one parameter.
+!> Points at which attractors are looked for, from the section `points` of a namelist: a grid in the
+!> four parameters of the block and a list of histories, or a sweep along one parameter.
 module points_input
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use attractor_points, only: point_type
    use block_parameters, only: block_history_type, block_parameters_type, check_quantity
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use namelist_input, only: close_namelist, not_given, open_namelist, word_length
-   use value_checks, only: check_count, check_number
+   use namelist_input, only: word_length
+   use value_checks, only: check_choice, check_count, check_number, missing, missing_count
    implicit none (type, external)
    private
-   public :: points_settings_type, read_points
+   public :: check_points, points_settings_type
 
-   !> Most histories.
-   integer, parameter :: most_histories = 1000
-   !> Most values of a parameter, and most points in all.
-   integer, parameter :: most_places = 100000, most_points = 1000000
+   !> Most points in all.
+   integer, parameter :: most_points = 1000000
    !> Most maxima and points of the section kept of each.
    integer, parameter :: most_kept = 100000
    !> Most refinements: every 16th line is computed first.
@@ -31,88 +28,103 @@ module points_input
       enumerator :: of_epsilon = 1, of_tau, of_xi, of_gamma
    end enum
 
-   !> Evenly spaced values of one parameter, and which of them are wanted.
+   !> Evenly spaced values of one parameter, of which a part is computed.
    type :: axis_type
       !> First and last value
-      real(wp) :: window(2) = 0.0_wp
+      real(wp) :: window(2) = missing
       !> Number of values; the first alone when 1
-      integer :: places = 0
-      !> First and last that are wanted, from 1
-      integer :: wanted(2) = 0
+      integer :: count = missing_count
+      !> First and last that are computed, from 1
+      integer :: part(2) = missing_count
    end type axis_type
 
-   !> What is looked for, and what is kept of it.
+   !> Where attractors are looked for, and what is kept of each.
    type :: points_settings_type
       !> Name of what the points belong to
       character(len=word_length) :: name = ""
-      !> The points, of which epsilon runs fastest, then tau, xi, gamma, and histories slowest; of a
-      !> sweep in its order
-      type(point_type), allocatable :: points(:)
+      !> Values of the parameters
+      type(axis_type) :: epsilon, tau, xi, gamma
       !> Whether each point starts where the one before ended: "none", "up" or "down"
-      character(len=word_length) :: sweep = "none"
-      !> Points in a line of the grid
-      integer :: columns = 0
+      character(len=word_length) :: sweep = ""
       !> Every 2**refinements-th line in epsilon and tau is computed in full
-      integer :: refinements = 0
+      integer :: refinements = missing_count
       !> Most maxima and points of the section kept of each
-      integer :: kept = 0
+      integer :: kept = missing_count
+   contains
+      !> All points
+      procedure :: list => list_points
+      !> Points in a line of the grid
+      procedure :: columns => columns_of_grid
+      !> Axes in the order of `names`
+      procedure, private :: axes => axes_of_grid
    end type points_settings_type
 
 contains
 
-   !> Read and check the points.
-   subroutine read_points(path, settings, error)
-      !> Path of the namelist file
-      character(len=*), intent(in) :: path
+   !> Refuse points that cannot be computed or stored; keep an earlier error.
+   pure subroutine check_points(place, points, histories, error)
+      !> File and section, for messages
+      character(len=*), intent(in) :: place
       !> The points
-      type(points_settings_type), intent(out) :: settings
-      !> They cannot be read, or a value is out of range
-      type(error_type), allocatable, intent(out) :: error
+      type(points_settings_type), intent(in) :: points
+      !> Values for t <= 0
+      type(block_history_type), intent(in) :: histories(:)
+      !> First error met
+      type(error_type), allocatable, intent(inout) :: error
       type(axis_type) :: axes(size(names))
-      real(wp) :: theta(most_histories), u(most_histories), v(most_histories)
-      integer :: histories, i
+      integer :: i
 
-      call read_group(path, settings, axes, theta, u, v, error)
-      call check_count(error, path, "letters of name", len_trim(settings%name), at_least=1, &
+      if (allocated(error)) return
+      axes = points%axes()
+      call check_count(error, place, "letters of name", len_trim(points%name), at_least=1, &
                        at_most=longest_name)
-      call check_count(error, path, "kept", settings%kept, at_least=0, at_most=most_kept)
+      call check_count(error, place, "kept", points%kept, at_least=0, at_most=most_kept)
       do i = 1, size(axes)
-         call check_axis(error, path, trim(names(i)), axes(i))
+         call check_axis(error, place, trim(names(i)), axes(i))
       end do
-      histories = maxval([(i, i=1, most_histories)], &
-                         mask=.not. (ieee_is_nan(theta) .and. ieee_is_nan(u) .and. ieee_is_nan(v)))
-      call check_count(error, path, "number of histories", max(0, histories), at_least=1)
-      do i = 1, histories
-         call check_quantity(error, path, "theta", theta(i), "theta("//text(i)//")")
-         call check_quantity(error, path, "u", u(i), "u("//text(i)//")")
-         call check_quantity(error, path, "v", v(i), "v("//text(i)//")")
+      call check_count(error, place, "number of histories", size(histories), at_least=1)
+      do i = 1, size(histories)
+         call histories(i)%check(place//": history "//text(i), error)
       end do
       if (allocated(error)) return
-      call check_number(error, path, "number of points", &
-                        product([real(histories, wp), real(wanted(axes), wp)]), &
+      call check_number(error, place, "number of points", &
+                        product([real(size(histories), wp), real(length(axes), wp)]), &
                         at_most=real(most_points, wp))
-      call check_sweep(error, path, settings%sweep, axes, histories)
-      call check_refinements(error, path, settings, axes, histories)
-      if (allocated(error)) return
-      settings%columns = wanted(axes(of_epsilon))
-      settings%points = grid_of(axes, [(block_history_type(theta=theta(i), u=u(i), v=v(i)), &
-                                        i=1, histories)])
-      if (settings%sweep == "down") then
-         settings%points = settings%points(size(settings%points):1:-1)
-      end if
-   end subroutine read_points
+      call check_sweep(error, place, points%sweep, axes, size(histories))
+      call check_refinements(error, place, points, axes, size(histories))
+   end subroutine check_points
 
-   !> All points of a grid.
-   pure function grid_of(axes, histories) result(points)
-      !> The axes
-      type(axis_type), intent(in) :: axes(:)
-      !> The histories
+   !> The axes in the order of `names`.
+   pure function axes_of_grid(self) result(axes)
+      !> The points
+      class(points_settings_type), intent(in) :: self
+      type(axis_type) :: axes(size(names))
+
+      axes = [self%epsilon, self%tau, self%xi, self%gamma]
+   end function axes_of_grid
+
+   !> Points in a line of the grid.
+   pure integer function columns_of_grid(self) result(columns)
+      !> The points
+      class(points_settings_type), intent(in) :: self
+
+      columns = length(self%epsilon)
+   end function columns_of_grid
+
+   !> All points: epsilon runs fastest, then tau, xi, gamma, and histories slowest; those of a sweep
+   !> in its order.
+   pure function list_points(self, histories) result(points)
+      !> What was checked
+      class(points_settings_type), intent(in) :: self
+      !> Values for t <= 0
       type(block_history_type), intent(in) :: histories(:)
       type(point_type), allocatable :: points(:)
-      integer :: from(size(axes)), g, i, j, k, to(size(axes)), x
+      type(axis_type) :: axes(size(names))
+      integer :: from(size(names)), g, i, j, k, to(size(names)), x
 
-      from = [(axes(i)%wanted(1), i=1, size(axes))]
-      to = [(axes(i)%wanted(2), i=1, size(axes))]
+      axes = self%axes()
+      from = [(axes(i)%part(1), i=1, size(axes))]
+      to = [(axes(i)%part(2), i=1, size(axes))]
       points = [(((((point_type( &
                      block_parameters_type(epsilon=value_at(axes(of_epsilon), i), &
                                            tau=value_at(axes(of_tau), j), &
@@ -122,15 +134,16 @@ contains
                      i=from(of_epsilon), to(of_epsilon)), j=from(of_tau), to(of_tau)), &
                   x=from(of_xi), to(of_xi)), g=from(of_gamma), to(of_gamma)), &
                  k=1, size(histories))]
-   end function grid_of
+      if (self%sweep == "down") points = points(size(points):1:-1)
+   end function list_points
 
-   !> How many values of an axis are wanted.
-   elemental integer function wanted(axis) result(values)
+   !> Number of values of an axis that are computed.
+   elemental integer function length(axis) result(values)
       !> The axis
       type(axis_type), intent(in) :: axis
 
-      values = axis%wanted(2) - axis%wanted(1) + 1
-   end function wanted
+      values = axis%part(2) - axis%part(1) + 1
+   end function length
 
    !> A value on an axis.
    pure real(wp) function value_at(axis, i) result(value)
@@ -139,17 +152,17 @@ contains
       !> Which, from 1
       integer, intent(in) :: i
 
-      associate (share => real(i - 1, wp)/max(1, axis%places - 1))
+      associate (share => real(i - 1, wp)/max(1, axis%count - 1))
          value = (1.0_wp - share)*axis%window(1) + share*axis%window(2)
       end associate
    end function value_at
 
    !> Refuse values out of range, and a part of the axis that is not in it.
-   pure subroutine check_axis(error, path, name, axis)
+   pure subroutine check_axis(error, place, name, axis)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
-      !> Path of the namelist file
-      character(len=*), intent(in) :: path
+      !> File and section, for messages
+      character(len=*), intent(in) :: place
       !> Name of the parameter
       character(len=*), intent(in) :: name
       !> The axis
@@ -157,23 +170,23 @@ contains
       integer :: i
 
       do i = 1, 2
-         call check_quantity(error, path, name, axis%window(i), name//"_window")
+         call check_quantity(error, place, name, axis%window(i), name//"%window")
       end do
-      call check_count(error, path, name//"_count", axis%places, at_least=1, at_most=most_places)
+      call check_count(error, place, name//"%count", axis%count, at_least=1)
       if (allocated(error)) return
-      if (1 <= axis%wanted(1) .and. axis%wanted(1) <= axis%wanted(2) &
-          .and. axis%wanted(2) <= axis%places) return
-      call raise(error, path//": "//name//"_part = "//text(axis%wanted(1))//", " &
-                 //text(axis%wanted(2))//"; expected first and last, 1 <= first <= last <= " &
-                 //text(axis%places))
+      if (1 <= axis%part(1) .and. axis%part(1) <= axis%part(2) &
+          .and. axis%part(2) <= axis%count) return
+      call raise(error, place//": "//name//"%part = "//text(axis%part(1))//", " &
+                 //text(axis%part(2))//"; expected first and last, 1 <= first <= last <= " &
+                 //text(axis%count))
    end subroutine check_axis
 
    !> Refuse an unknown direction, and a sweep along two parameters or from two histories.
-   pure subroutine check_sweep(error, path, sweep, axes, histories)
+   pure subroutine check_sweep(error, place, sweep, axes, histories)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
-      !> Path of the namelist file
-      character(len=*), intent(in) :: path
+      !> File and section, for messages
+      character(len=*), intent(in) :: place
       !> The direction
       character(len=*), intent(in) :: sweep
       !> The axes
@@ -181,102 +194,46 @@ contains
       !> Number of histories
       integer, intent(in) :: histories
 
-      if (allocated(error)) return
-      if (all(sweep /= directions)) then
-         call raise(error, path//": sweep = '"//trim(sweep) &
-                    //"'; expected one of 'none' 'up' 'down'")
-      else if (sweep /= "none" .and. count(wanted(axes) > 1) > 1) then
-         call raise(error, path//": sweep = '"//trim(sweep)//"' along " &
-                    //text(count(wanted(axes) > 1))//" parameters; expected at most one")
-      else if (sweep /= "none" .and. histories > 1) then
-         call raise(error, path//": sweep = '"//trim(sweep)//"' from "//text(histories) &
+      call check_choice(error, place, "sweep", sweep, directions)
+      if (allocated(error) .or. sweep == "none") return
+      if (count(length(axes) > 1) > 1) then
+         call raise(error, place//": sweep = '"//trim(sweep)//"' along " &
+                    //text(count(length(axes) > 1))//" parameters; expected at most one")
+      else if (histories > 1) then
+         call raise(error, place//": sweep = '"//trim(sweep)//"' from "//text(histories) &
                     //" histories; expected one")
       end if
    end subroutine check_sweep
 
    !> Refuse refinements of what is no plane of epsilon and tau from one history.
-   pure subroutine check_refinements(error, path, settings, axes, histories)
+   pure subroutine check_refinements(error, place, points, axes, histories)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
-      !> Path of the namelist file
-      character(len=*), intent(in) :: path
+      !> File and section, for messages
+      character(len=*), intent(in) :: place
       !> Refinements and sweep
-      type(points_settings_type), intent(in) :: settings
+      type(points_settings_type), intent(in) :: points
       !> The axes
       type(axis_type), intent(in) :: axes(:)
       !> Number of histories
       integer, intent(in) :: histories
-      character(len=:), allocatable :: place
+      character(len=:), allocatable :: unfit
 
-      call check_count(error, path, "refinements", settings%refinements, at_least=0, &
+      call check_count(error, place, "refinements", points%refinements, at_least=0, &
                        at_most=most_refinements)
-      if (allocated(error) .or. settings%refinements == 0) return
-      if (settings%sweep /= "none") then
-         place = "in a sweep"
+      if (allocated(error) .or. points%refinements == 0) return
+      if (points%sweep /= "none") then
+         unfit = "in a sweep"
       else if (histories > 1) then
-         place = "from "//text(histories)//" histories"
-      else if (any(axes([of_epsilon, of_tau])%places == 1)) then
-         place = "along one line"
-      else if (any(wanted(axes([of_xi, of_gamma])) > 1)) then
-         place = "along xi or gamma"
+         unfit = "from "//text(histories)//" histories"
+      else if (any(axes([of_epsilon, of_tau])%count == 1)) then
+         unfit = "along one line"
+      else if (any(length(axes([of_xi, of_gamma])) > 1)) then
+         unfit = "along xi or gamma"
       else
          return
       end if
-      call raise(error, path//": refinements = "//text(settings%refinements)//" "//place &
+      call raise(error, place//": refinements = "//text(points%refinements)//" "//unfit &
                  //"; expected 0, or a plane of epsilon and tau from one history")
    end subroutine check_refinements
-
-   !> Read the group &points.
-   subroutine read_group(path, settings, axes, theta, u, v, error)
-      !> Path of the namelist file
-      character(len=*), intent(in) :: path
-      !> Name, sweep, refinements and what is kept
-      type(points_settings_type), intent(out) :: settings
-      !> Values of the parameters, in the order of `names`
-      type(axis_type), intent(out) :: axes(:)
-      !> Histories, NaN beyond the last
-      real(wp), intent(out) :: theta(:), u(:), v(:)
-      !> They cannot be read
-      type(error_type), allocatable, intent(out) :: error
-      character(len=len(settings%name)) :: name, sweep
-      real(wp), dimension(2) :: epsilon_window, gamma_window, tau_window, xi_window
-      integer, dimension(2) :: epsilon_part, gamma_part, tau_part, xi_part
-      integer :: epsilon_count, gamma_count, kept, refinements, status, tau_count, unit, xi_count
-      character(len=256) :: reason
-      namelist /points/ name, epsilon_window, epsilon_count, epsilon_part, tau_window, tau_count, &
-         tau_part, xi_window, xi_count, xi_part, gamma_window, gamma_count, gamma_part, theta, u, &
-         v, sweep, refinements, kept
-
-      name = ""
-      sweep = ""
-      theta = not_given()
-      u = theta
-      v = theta
-      epsilon_window = not_given()
-      tau_window = epsilon_window
-      xi_window = epsilon_window
-      gamma_window = epsilon_window
-      epsilon_count = 0
-      tau_count = 0
-      xi_count = 0
-      gamma_count = 0
-      epsilon_part = 0
-      tau_part = 0
-      xi_part = 0
-      gamma_part = 0
-      refinements = -1
-      kept = -1
-      call open_namelist(path, "points", unit, error)
-      if (allocated(error)) return
-      read (unit, nml=points, iostat=status, iomsg=reason)
-      call close_namelist(path, "points", unit, status, reason, error)
-      settings%name = name
-      settings%sweep = sweep
-      settings%refinements = refinements
-      settings%kept = kept
-      axes = [axis_type(epsilon_window, epsilon_count, epsilon_part), &
-              axis_type(tau_window, tau_count, tau_part), &
-              axis_type(xi_window, xi_count, xi_part), &
-              axis_type(gamma_window, gamma_count, gamma_part)]
-   end subroutine read_group
 end module points_input

@@ -11,14 +11,14 @@ module program_arguments
 
 contains
 
-   !> The two arguments.
-   subroutine get_paths(namelist_path, output_path, error)
+   !> The two arguments. If there are not two, or the input cannot be read, or the output cannot be
+   !> written, the program ends.
+   subroutine get_paths(namelist_path, output_path)
       !> First argument
       character(len=:), allocatable, intent(out) :: namelist_path
       !> Second argument
       character(len=:), allocatable, intent(out) :: output_path
-      !> There are not two, or the input cannot be read, or the output cannot be written
-      type(error_type), allocatable, intent(out) :: error
+      type(error_type), allocatable :: error
 
       namelist_path = argument(1)
       output_path = argument(2)
@@ -30,18 +30,18 @@ contains
          call raise(error, "the output path is empty; expected the path of a file")
       else
          call check_place(output_path, error)
-         if (.not. allocated(error)) call check_input(namelist_path, output_path, error)
       end if
+      call stop_on(error)
+      call check_input(namelist_path, output_path)
    end subroutine get_paths
 
-   !> Refuse to read what may have no end, and to replace what the program reads.
-   subroutine check_input(input_path, output_path, error)
+   !> Refuse to read what may have no end, and to replace what the program reads: the program ends.
+   subroutine check_input(input_path, output_path)
       !> Path of the file to read
       character(len=*), intent(in) :: input_path
       !> Path of the file to write
       character(len=*), intent(in) :: output_path
-      !> The input is no regular file, or is the output
-      type(error_type), allocatable, intent(out) :: error
+      type(error_type), allocatable :: error
 
       if (is_special(input_path)) then
          call raise(error, input_path//": cannot be read: a folder, a device or a pipe is there; " &
@@ -50,6 +50,7 @@ contains
          call raise(error, output_path//": cannot write: it is the input "//input_path &
                     //"; expected another path")
       end if
+      call stop_on(error)
    end subroutine check_input
 
    !> Name of this program, without its folder.

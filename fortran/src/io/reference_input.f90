@@ -1,10 +1,14 @@
-!> How references are computed, from the namelist group &reference.
+!> Cases and how their references are computed, from a namelist.
 module reference_input
+   use block_parameters, only: absent_history, absent_parameters, block_history_type, &
+                               block_parameters_type
+   use cases_input, only: case_section_type, join_cases, most_cases
    use dde, only: methods
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
-   use namelist_input, only: close_namelist, not_given, open_namelist, word_length
-   use value_checks, only: check_choice, check_count, check_number
+   use measured_case, only: case_type
+   use namelist_input, only: namelist_file_type, word_length
+   use value_checks, only: check_choice, check_number, missing, missing_count
    implicit none (type, external)
    private
    public :: read_reference, reference_settings_type
@@ -12,55 +16,49 @@ module reference_input
    !> How each case is computed.
    type :: reference_settings_type
       !> Method and tolerance of the reference
-      character(len=10) :: method = ""
-      real(wp) :: tolerance = 0.0_wp
+      character(len=word_length) :: method = ""
+      real(wp) :: tolerance = missing
       !> Method and larger tolerance of the run that it is checked by
-      character(len=10) :: check_method = ""
-      real(wp) :: check_tolerance = 0.0_wp
+      character(len=word_length) :: check_method = ""
+      real(wp) :: check_tolerance = missing
       !> Change of theta and u, and relative change of v, for t <= 0, that measures the conditioning
-      real(wp) :: disturbance = 0.0_wp
+      real(wp) :: disturbance = missing
       !> Most steps of a run
-      integer(int64) :: most_steps = 0
+      integer(int64) :: most_steps = missing_count
    end type reference_settings_type
 
 contains
 
-   !> Read and check the settings.
-   subroutine read_reference(path, settings, error)
+   !> Read and check cases and settings.
+   subroutine read_reference(path, list, reference, error)
       !> Path of the namelist file
       character(len=*), intent(in) :: path
+      !> The cases
+      type(case_type), allocatable, intent(out) :: list(:)
       !> The settings
-      type(reference_settings_type), intent(out) :: settings
+      type(reference_settings_type), intent(out) :: reference
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
-      character(len=word_length) :: check_method, method
-      real(wp) :: tolerance, check_tolerance, disturbance
-      character(len=256) :: reason
-      integer :: most_steps, status, unit
-      namelist /reference/ method, tolerance, check_method, check_tolerance, disturbance, most_steps
+      type(block_parameters_type) :: parameters(most_cases)
+      type(block_history_type) :: histories(most_cases)
+      type(case_section_type) :: cases(most_cases)
+      type(namelist_file_type) :: file
+      namelist /settings/ cases, parameters, histories, reference
 
-      method = ""
-      check_method = ""
-      tolerance = not_given()
-      check_tolerance = not_given()
-      disturbance = not_given()
-      most_steps = -1
-      call open_namelist(path, "reference", unit, error)
+      parameters = absent_parameters
+      histories = absent_history
+      call file%open(path, error)
       if (allocated(error)) return
-      read (unit, nml=reference, iostat=status, iomsg=reason)
-      call close_namelist(path, "reference", unit, status, reason, error)
-      call check_choice(error, path, "method", method, methods)
-      call check_choice(error, path, "check_method", check_method, methods)
-      call check_number(error, path, "tolerance", tolerance, at_least=1.0e-22_wp, &
-                        at_most=1.0e-10_wp)
-      call check_number(error, path, "check_tolerance", check_tolerance, above=tolerance, &
-                        at_most=1.0e-10_wp)
-      call check_number(error, path, "disturbance", disturbance, above=0.0_wp, &
-                        at_most=1.0e-10_wp)
-      call check_count(error, path, "most_steps", most_steps, 1)
-      settings = reference_settings_type(method=method(:10), tolerance=tolerance, &
-                                         check_method=check_method(:10), &
-                                         check_tolerance=check_tolerance, &
-                                         disturbance=disturbance, most_steps=int(most_steps, int64))
+      read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
+      write (file%copy, nml=settings, delim="quote")
+      call file%close(error)
+      call join_cases(path, cases, parameters, histories, list, error)
+      call check_choice(error, path, "method", reference%method, methods)
+      call check_choice(error, path, "check_method", reference%check_method, methods)
+      call check_number(error, path, "tolerance", reference%tolerance, above=0.0_wp)
+      call check_number(error, path, "check_tolerance", reference%check_tolerance, &
+                        above=reference%tolerance)
+      call check_number(error, path, "disturbance", reference%disturbance, above=0.0_wp)
+      call check_number(error, path, "most_steps", real(reference%most_steps, wp), at_least=1.0_wp)
    end subroutine read_reference
 end module reference_input

@@ -22,16 +22,10 @@ contains
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
-      integer :: duration, least, onset, peak, recurrence, rows, slip
+      integer :: rows
 
       call file%create(path, "Slip events of the spring block: times in which v > 1")
       rows = file%dimension("event", size(events%onset), coordinates="onset")
-      onset = file%real_variable("onset", rows, "time at which v rises through 1", "1")
-      recurrence = file%real_variable("recurrence_time", rows, "time to the next onset", "1")
-      duration = file%real_variable("duration", rows, "time in which v > 1", "1")
-      slip = file%real_variable("slip", rows, "integral of v over the duration", "1")
-      peak = file%real_variable("peak_velocity", rows, "largest v of the event", "1")
-      least = file%real_variable("least_velocity", rows, "least v up to the next onset", "1")
       call file%attribute("scene", trim(scene%name))
       call put_parameters(file, scene%parameters)
       call put_history(file, scene%history)
@@ -39,12 +33,13 @@ contains
       call file%attribute("t_end", scene%t_end)
       call file%attribute("tolerance", scene%tolerance)
       call file%attribute("method", trim(scene%method))
-      call file%put(onset, events%onset)
-      call file%put(recurrence, events%recurrence_time)
-      call file%put(duration, events%duration)
-      call file%put(slip, events%slip)
-      call file%put(peak, events%peak_velocity)
-      call file%put(least, events%least_velocity)
+      call file%column(rows, "onset", events%onset, "time at which v rises through 1")
+      call file%column(rows, "recurrence_time", events%recurrence_time, "time to the next onset")
+      call file%column(rows, "duration", events%duration, "time in which v > 1")
+      call file%column(rows, "slip", events%slip, "integral of v over the duration")
+      call file%column(rows, "peak_velocity", events%peak_velocity, "largest v of the event")
+      call file%column(rows, "least_velocity", events%least_velocity, &
+                       "least v up to the next onset")
       call file%finish(error)
    end subroutine write_slip_events
 end module slip_events_output

@@ -1,9 +1,9 @@
-!> What a spectrum is made from and how, from the namelist group &spectrum.
+!> What a spectrum is made from and how, from a namelist.
 module spectrum_input
-   use dde_errors, only: error_type, raise
+   use dde_errors, only: error_type
    use dde_kinds, only: wp
-   use namelist_input, only: close_namelist, not_given, open_namelist, word_length
-   use value_checks, only: check_choice, check_count, check_number
+   use namelist_input, only: namelist_file_type, word_length
+   use value_checks, only: check_choice, check_count, check_number, missing, missing_count
    implicit none (type, external)
    private
    public :: check_spectrum, read_spectrum_settings, spectrum_settings_type
@@ -11,93 +11,63 @@ module spectrum_input
    !> Windows to choose from.
    character(len=6), parameter :: windows(2) = ["hann  ", "boxcar"]
 
-   !> Source and method of a spectrum.
+   !> Method of a spectrum.
    type :: spectrum_settings_type
-      !> Trajectory file to read
-      character(len=4096) :: trajectory = ""
       !> 'hann' or 'boxcar'
       character(len=word_length) :: window = ""
       !> Number of Welch segments
-      integer :: segments = 0
+      integer :: segments = missing_count
       !> Share of a segment that the next one repeats
-      real(wp) :: overlap
+      real(wp) :: overlap = missing
       !> Least height of a peak over the highest peak's
-      real(wp) :: peak_floor
+      real(wp) :: peak_floor = missing
       !> Least height of a peak over the valleys beside it
-      real(wp) :: peak_prominence
+      real(wp) :: peak_prominence = missing
    end type spectrum_settings_type
 
 contains
 
-   !> Read and check the settings.
-   subroutine read_spectrum_settings(path, settings, error)
+   !> Read and check source and method of a spectrum.
+   subroutine read_spectrum_settings(path, trajectory_path, spectrum, error)
       !> Path of the namelist file
       character(len=*), intent(in) :: path
-      !> The settings
-      type(spectrum_settings_type), intent(out) :: settings
+      !> Trajectory file to read
+      character(len=:), allocatable, intent(out) :: trajectory_path
+      !> The method
+      type(spectrum_settings_type), intent(out) :: spectrum
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
+      character(len=4096) :: trajectory
+      type(namelist_file_type) :: file
+      namelist /settings/ trajectory, spectrum
+      namelist /without_path/ spectrum
 
-      call read_group(path, settings, error)
-      if (.not. allocated(error) .and. settings%trajectory == "") then
-         call raise(error, path//": trajectory = ''; expected the path of a trajectory file")
-      end if
-      call check_spectrum(error, path, settings%window, settings%segments, settings%overlap, &
-                          settings%peak_floor, settings%peak_prominence)
+      trajectory = ""
+      call file%open(path, error)
+      if (allocated(error)) return
+      read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
+      write (file%copy, nml=without_path, delim="quote")
+      call file%close(error)
+      call check_spectrum(error, path//": spectrum", spectrum%window, spectrum%segments, &
+                          spectrum%overlap)
+      trajectory_path = trim(trajectory)
    end subroutine read_spectrum_settings
 
    !> Refuse a spectrum that cannot be made; keep an earlier error.
-   pure subroutine check_spectrum(error, path, window, segments, overlap, peak_floor, &
-                                  peak_prominence)
+   pure subroutine check_spectrum(error, place, window, segments, overlap)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
-      !> Path of the namelist file
-      character(len=*), intent(in) :: path
+      !> File and section, for messages
+      character(len=*), intent(in) :: place
       !> Name of the window
       character(len=*), intent(in) :: window
       !> Number of Welch segments
       integer, intent(in) :: segments
       !> Share of a segment that the next one repeats
       real(wp), intent(in) :: overlap
-      !> Least height of a peak over the highest peak's
-      real(wp), intent(in) :: peak_floor
-      !> Least height of a peak over the valleys beside it
-      real(wp), intent(in) :: peak_prominence
 
-      call check_choice(error, path, "window", window, windows)
-      call check_count(error, path, "segments", segments, at_least=1)
-      call check_number(error, path, "overlap", overlap, at_least=0.0_wp, below=1.0_wp)
-      call check_number(error, path, "peak_floor", peak_floor, above=0.0_wp, at_most=1.0_wp)
-      call check_number(error, path, "peak_prominence", peak_prominence, at_least=1.0_wp)
+      call check_choice(error, place, "window", window, windows)
+      call check_count(error, place, "segments", segments, at_least=1)
+      call check_number(error, place, "overlap", overlap, at_least=0.0_wp, below=1.0_wp)
    end subroutine check_spectrum
-
-   !> Read the group &spectrum.
-   subroutine read_group(path, settings, error)
-      !> Path of the namelist file
-      character(len=*), intent(in) :: path
-      !> The settings
-      type(spectrum_settings_type), intent(out) :: settings
-      !> They cannot be read
-      type(error_type), allocatable, intent(out) :: error
-      character(len=len(settings%trajectory)) :: trajectory
-      character(len=len(settings%window)) :: window
-      character(len=256) :: reason
-      real(wp) :: overlap, peak_floor, peak_prominence
-      integer :: segments, status, unit
-      namelist /spectrum/ trajectory, window, segments, overlap, peak_floor, peak_prominence
-
-      trajectory = ""
-      window = ""
-      segments = 0
-      overlap = not_given()
-      peak_floor = overlap
-      peak_prominence = overlap
-      call open_namelist(path, "spectrum", unit, error)
-      if (allocated(error)) return
-      read (unit, nml=spectrum, iostat=status, iomsg=reason)
-      call close_namelist(path, "spectrum", unit, status, reason, error)
-      settings = spectrum_settings_type(trajectory=trajectory, window=window, segments=segments, &
-                                        overlap=overlap, peak_floor=peak_floor, &
-                                        peak_prominence=peak_prominence)
-   end subroutine read_group
 end module spectrum_input

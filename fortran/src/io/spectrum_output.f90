@@ -42,24 +42,24 @@ contains
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
-      integer :: b, bins, f, m(2), p, pf, pp, rows
+      integer :: base, bins, rows
 
       call file%create(path, "Power spectrum of the velocity v")
       bins = file%dimension("frequency", size(frequency))
       rows = file%dimension("peak", size(peaks), coordinates="peak_frequency")
-      f = file%real_variable("frequency", bins, "frequency, cycles per unit of time", "1")
-      p = file%real_variable("power", bins, "one-sided power spectral density of v", "1")
-      pf = file%real_variable("peak_frequency", rows, "interpolated frequency of the peak", "1")
-      pp = file%real_variable("peak_power", rows, "interpolated height of the peak", "1")
-      call file%flags("peak_kind", rows, peaks%kind, kinds, kind_names, "what the peak is")
-      m(1) = file%integer_variable("peak_multiple", rows, &
-                                   "multiple of the first fundamental frequency")
-      m(2) = file%integer_variable("peak_second_multiple", rows, &
-                                   "multiple of the second fundamental frequency, added to " &
-                                   //"the first's")
-      b = file%real_variable("base_frequency", &
-                             file%dimension("base", count(bases%frequency > 0.0_wp)), &
-                             "fundamental frequencies of the peaks", "1")
+      call file%column(bins, "frequency", frequency, "frequency, cycles per unit of time")
+      call file%column(bins, "power", power, "one-sided power spectral density of v")
+      call file%column(rows, "peak_frequency", peaks%frequency, &
+                       "interpolated frequency of the peak")
+      call file%column(rows, "peak_power", peaks%power, "interpolated height of the peak")
+      call file%flags(rows, "peak_kind", peaks%kind, kind_names, "what the peak is", kinds)
+      call file%column(rows, "peak_multiple", peaks%multiple(1), &
+                       "multiple of the first fundamental frequency")
+      call file%column(rows, "peak_second_multiple", peaks%multiple(2), &
+                       "multiple of the second fundamental frequency, added to the first's")
+      base = file%dimension("base", count(bases%frequency > 0.0_wp))
+      call file%column(base, "base_frequency", pack(bases%frequency, bases%frequency > 0.0_wp), &
+                       "fundamental frequencies of the peaks")
       call file%attribute("scene", scene)
       call file%attribute("window", trim(settings%window))
       call file%attribute("segments", int(settings%segments, int64))
@@ -75,13 +75,6 @@ contains
          call file%attribute("bases_told_apart", trim(merge("yes", "no ", bases%told_apart)))
       end if
       call file%attribute("spectrum_kind", spectrum_kind_name(spectrum_kind(power, peaks, bases)))
-      call file%put(f, frequency)
-      call file%put(p, power)
-      call file%put(pf, peaks%frequency)
-      call file%put(pp, peaks%power)
-      call file%put(m(1), peaks%multiple(1))
-      call file%put(m(2), peaks%multiple(2))
-      call file%put(b, pack(bases%frequency, bases%frequency > 0.0_wp))
       call file%finish(error)
    end subroutine write_spectrum
 end module spectrum_output

@@ -21,15 +21,10 @@ contains
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
-      integer :: mu, rows, slip, theta, time, velocity
+      integer :: rows
 
       call file%create(path, "Response of friction to steps of the imposed velocity")
       rows = file%dimension("sample", size(response%time), coordinates="time")
-      time = file%real_variable("time", rows, "time", "s")
-      slip = file%real_variable("slip", rows, "slip", "m")
-      velocity = file%real_variable("velocity", rows, "imposed velocity", "m s-1")
-      theta = file%real_variable("theta", rows, "state", "s")
-      mu = file%real_variable("mu", rows, "friction coefficient", "1")
       associate (law => protocol%law, v => protocol%law%v0 + protocol%delta_v)
          call file%attribute("mu0", law%mu0)
          call file%attribute("a", law%a)
@@ -46,11 +41,11 @@ contains
                              friction_coefficient(law, v, steady_state(law, v)) &
                              - friction_coefficient(law, v, steady_state(law, law%v0)))
       end associate
-      call file%put(time, response%time)
-      call file%put(slip, response%slip)
-      call file%put(velocity, response%velocity)
-      call file%put(theta, response%theta)
-      call file%put(mu, response%mu)
+      call file%column(rows, "time", response%time, "time", "s")
+      call file%column(rows, "slip", response%slip, "slip", "m")
+      call file%column(rows, "velocity", response%velocity, "imposed velocity", "m s-1")
+      call file%column(rows, "theta", response%theta, "state", "s")
+      call file%column(rows, "mu", response%mu, "friction coefficient")
       call file%finish(error)
    end subroutine write_response
 end module velocity_step_output

@@ -1,11 +1,19 @@
-!> Refusal of values out of range: the message names place, key, value and range.
+!> Values of settings that were not given, and refusal of values out of range: the message names
+!> place, key, value and range.
 module value_checks
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use dde_errors, only: error_type, raise, text
-   use dde_kinds, only: wp
+   use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: check_choice, check_count, check_number
+   public :: absent, check_choice, check_count, check_number, missing, missing_count
+
+   !> Default of a number that must be given: not a number.
+   real(wp), parameter :: missing = transfer([-1_int64, -1_int64], 1.0_wp)
+   !> Default of an integer that must be given.
+   integer, parameter :: missing_count = -huge(1)
+   !> Default of a number that may be left out, as the last of a list.
+   real(wp), parameter :: absent = huge(1.0_wp)
 
 contains
 
@@ -31,7 +39,7 @@ contains
       logical :: fine
 
       if (allocated(error)) return
-      fine = ieee_is_finite(value)
+      fine = abs(value) < absent
       range = "a finite number"
       if (present(above)) then
          range = range//" > "//text(above)
@@ -51,7 +59,11 @@ contains
       end if
       if (fine) return
       if (ieee_is_nan(value)) range = range//" (NaN: missing, or not a number)"
-      call raise(error, place//": "//key//" = "//text(value)//"; expected "//range)
+      if (value == absent) then
+         call raise(error, place//": "//key//" is missing; expected "//range)
+      else
+         call raise(error, place//": "//key//" = "//text(value)//"; expected "//range)
+      end if
    end subroutine check_number
 
    !> Refuse a count out of range; keep an earlier error.

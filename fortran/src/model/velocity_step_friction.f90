@@ -3,6 +3,7 @@
 module velocity_step_friction
    use dde, only: dde_problem_type
    use dde_kinds, only: wp
+   use value_checks, only: missing
    implicit none (type, external)
    private
    public :: friction_parameters_type, friction_coefficient, steady_state, state_evolution_type
@@ -10,17 +11,17 @@ module velocity_step_friction
    !> Parameters of the law.
    type :: friction_parameters_type
       !> Friction at v = v0 without the two logarithms (dimensionless)
-      real(wp) :: mu0 = 0.0_wp
+      real(wp) :: mu0 = missing
       !> Size of the direct effect (dimensionless)
-      real(wp) :: a = 0.0_wp
+      real(wp) :: a = missing
       !> Size of the evolution effect (dimensionless)
-      real(wp) :: b = 0.0_wp
+      real(wp) :: b = missing
       !> Critical slip distance, m
-      real(wp) :: dc = 1.0_wp
+      real(wp) :: dc = missing
       !> Reference velocity, m/s
-      real(wp) :: v0 = 1.0_wp
+      real(wp) :: v0 = missing
       !> Constant b beside the state, s
-      real(wp) :: b_state = 1.0_wp
+      real(wp) :: b_state = missing
    end type friction_parameters_type
 
    !> Evolution of the state theta, equation (1.2), at constant velocity.

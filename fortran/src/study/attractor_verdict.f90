@@ -16,41 +16,42 @@ module attractor_verdict
    use spectrum, only: power_spectrum
    use spectrum_verdict, only: continuum, line_share, one_base, spectrum_kind, two_bases
    use spring_block, only: index_of_ln_v
+   use value_checks, only: missing, missing_count
    implicit none (type, external)
    private
    public :: attractor_settings_type, attractor_type, judge, on_cycle
 
-   !> How an attractor is found and judged.
+   !> How an attractor is found and judged; all of it must be given.
    type :: attractor_settings_type
       !> Longest time of the approach, left out
-      real(wp) :: t_transient = 0.0_wp
+      real(wp) :: t_transient = missing
       !> Time in which it is first observed, and exponents are measured
-      real(wp) :: t_observed = 0.0_wp
+      real(wp) :: t_observed = missing
       !> Time for which chaos must last after it is certain
-      real(wp) :: t_lasting = 0.0_wp
+      real(wp) :: t_lasting = missing
       !> Time in which tangent vectors turn before
-      real(wp) :: t_turning = 0.0_wp
+      real(wp) :: t_turning = missing
       !> Time on the attractor of which the path is kept; 0: none is
-      real(wp) :: t_path = 0.0_wp
+      real(wp) :: t_path = missing
       !> Longest time between orthonormalisations
-      real(wp) :: interval = 0.0_wp
+      real(wp) :: interval = missing
       !> Number of exponents; four if all of fewer are zero, without delay no more than equations
-      integer :: exponents = 0
+      integer :: exponents = missing_count
       !> An exponent this close to zero has no sign
-      real(wp) :: zero_level = 0.0_wp
+      real(wp) :: zero_level = missing
       !> Longest error bar of a zero exponent
-      real(wp) :: longest_bar = 0.0_wp
+      real(wp) :: longest_bar = missing
       !> How often that time is doubled while the class is undecided
-      integer :: doublings = 0
+      integer :: doublings = missing_count
       !> Time between the samples of the spectrum
-      real(wp) :: sample_interval = 0.0_wp
+      real(wp) :: sample_interval = missing
       !> Window of the spectrum, of `window_of`
-      character(len=8) :: window = "hann"
+      character(len=16) :: window = ""
       !> Number of its segments, and the share of one that the next repeats
-      integer :: segments = 1
-      real(wp) :: overlap = 0.0_wp
+      integer :: segments = missing_count
+      real(wp) :: overlap = missing
       !> Least height of its peaks over the highest, and over the valleys beside them
-      real(wp) :: peak_floor = 0.0_wp, peak_prominence = 1.0_wp
+      real(wp) :: peak_floor = missing, peak_prominence = missing
    end type attractor_settings_type
 
    !> An attractor.

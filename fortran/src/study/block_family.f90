@@ -1,6 +1,6 @@
 !> The block as a family of problems with the parameters tau, epsilon, xi and gamma.
 module block_family
-   use block_parameters, only: block_history_type, block_parameters_type
+   use block_parameters, only: block_history_type, parameters_of, vector_of
    use dde, only: dde_problem_type
    use dde_kinds, only: wp
    use problem_family, only: problem_family_type
@@ -32,22 +32,4 @@ contains
       problem%lag = [parameters(1)]
       problem%component = [index_of_ln_v]
    end subroutine block_at
-
-   !> Parameters by name.
-   pure type(block_parameters_type) function parameters_of(vector) result(parameters)
-      !> tau, epsilon, xi, gamma
-      real(wp), intent(in) :: vector(:)
-
-      parameters = block_parameters_type(tau=vector(1), epsilon=vector(2), xi=vector(3), &
-                                         gamma=vector(4))
-   end function parameters_of
-
-   !> Parameters by number.
-   pure function vector_of(parameters) result(vector)
-      !> Parameters by name
-      type(block_parameters_type), intent(in) :: parameters
-      real(wp) :: vector(4)
-
-      vector = [parameters%tau, parameters%epsilon, parameters%xi, parameters%gamma]
-   end function vector_of
 end module block_family

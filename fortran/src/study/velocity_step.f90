@@ -6,22 +6,23 @@ module velocity_step
    use velocity_step_friction, only: friction_coefficient, friction_parameters_type, &
                                      state_evolution_type, steady_state
    use dde_kinds, only: wp
+   use value_checks, only: missing, missing_count
    implicit none (type, external)
    private
    public :: friction_response_type, respond, step_protocol_type
 
-   !> What is imposed.
+   !> What is imposed; its namelist must give all of it.
    type :: step_protocol_type
       !> The law, SI units
       type(friction_parameters_type) :: law
       !> Velocity step, m/s
-      real(wp) :: delta_v = 0.0_wp
+      real(wp) :: delta_v = missing
       !> Slip in the first phase and in each of the others, in units of Dc
-      real(wp) :: slip_before = 0.0_wp, slip_after = 0.0_wp
+      real(wp) :: slip_before = missing, slip_after = missing
       !> Samples in each phase
-      integer :: samples = 0
+      integer :: samples = missing_count
       !> Relative tolerance of the integration
-      real(wp) :: tolerance = 0.0_wp
+      real(wp) :: tolerance = missing
    end type step_protocol_type
 
    !> The response; all arrays of shape (3 samples), the ends of two phases at the same slip.
