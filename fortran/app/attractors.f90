@@ -1,7 +1,7 @@
 !> Attractors of the delayed block on a grid of its parameters, from one history or several, or
 !> along a sweep, with their classes.
 program attractors_program
-   use attractor_points, only: find_attractors, finding_type, sweep_attractors
+   use attractor_points, only: find_attractors, finding_type, point_type, sweep_attractors
    use attractors, only: attractor_settings_type
    use attractors_input, only: read_attractors
    use attractors_output, only: write_attractors
