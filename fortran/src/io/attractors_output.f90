@@ -38,7 +38,6 @@ contains
       integer :: i, rows
 
       call file%create(path, "Attractors of the spring block with delayed friction")
-      file%at_once = .true.
       call file%attribute("name", trim(points%name))
       call file%attribute("sweep", trim(points%sweep))
       call file%attribute("refinements", int(points%refinements, int64))

@@ -102,12 +102,9 @@ contains
       call file%column(rows, "v_most", columns(:, 4), "greatest velocity")
       call file%column(rows, "multiplier_error", columns(:, 5), &
                        "distance of the trivial multiplier from 1")
-      call file%flush()
-      file%at_once = .true.
       call file%column(rows, "branch", branch, "number of the branch, from 1")
       call file%column(rows, "intervals", intervals, "intervals of the mesh")
       call file%column(rows, "unstable", unstable, "multipliers outside of the unit circle")
-      file%at_once = .false.
       several = file%dimension("multiplier", multipliers)
       call file%table([several, rows], "multiplier_real", real_part, &
                       "real part of the multipliers of greatest modulus")
@@ -131,7 +128,6 @@ contains
       call file%words(rows, "left_out_origin", left_out%origin, "where it starts")
       call file%column(rows, "left_out_"//trim(parameter_names(along)), left_out%at, &
                        "parameter along the line")
-      call file%flush()
       call file%words(rows, "left_out_reason", left_out%reason, "why no branch was followed")
    end subroutine put_left_out
 
@@ -172,7 +168,6 @@ contains
       rows = file%dimension("special", all, coordinates="special_tau special_epsilon")
       call file%words(rows, "special_kind", words(:, 1), "kind of the special point")
       call file%words(rows, "special_criticality", words(:, 2), "criticality of a torus point")
-      file%at_once = .true.
       do i = 1, size(parameter_names)
          call file%column(rows, "special_"//trim(parameter_names(i)), columns(:, i), &
                           "its "//trim(parameter_names(i)))
@@ -201,7 +196,6 @@ contains
       call file%column(rows, "special_resonance_turns", numbers(:, 4), &
                        "p of the fraction p/q nearest to the angle")
       call file%column(rows, "special_resonance_periods", numbers(:, 5), "q of it, at most 10")
-      file%at_once = .false.
    end subroutine put_points
 
    !> Curves, each from one end to the other.
@@ -245,9 +239,7 @@ contains
                        "angle of the critical multiplier over a full turn")
       call file%column(rows, "curve_multiplier_error", columns(:, 5), &
                        "distance of the trivial multiplier from 1")
-      call file%flush()
       call file%column(rows, "curve", number, "number of the curve, from 1")
-      call file%flush()
       rows = file%dimension("curves", size(curves))
       call file%words(rows, "curve_kind", words(:, 1), "kind of its points")
       call file%words(rows, "curve_first_end", words(:, 2), "why it ends at its first point")
@@ -281,9 +273,7 @@ contains
                        "distance of the trivial multiplier from 1")
       call file%column(rows, "cusp_mesh_error", columns(8, :), &
                        "difference of tau or epsilon on two meshes")
-      call file%flush()
       call file%column(rows, "cusp_curve", number, "its curve, from 1")
-      call file%flush()
 
    contains
 
@@ -322,6 +312,5 @@ contains
                           trim(parameter_names(i))//" of the Hopf point")
       end do
       call file%column(rows, "hopf_omega", hopf%omega, "angular frequency of its pair")
-      call file%flush()
    end subroutine put_hopf
 end module cycles_output

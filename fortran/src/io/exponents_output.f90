@@ -58,7 +58,6 @@ contains
          call running_averages(with_flow(first%growth, flow), first%length, most_times, time, &
                                averages)
          call file%create(path, "Lyapunov exponents of the spring block with delayed friction")
-         file%at_once = .true.
          ids = [file%dimension("exponent", settings%count), &
                 file%dimension("run", size(options), coordinates="tolerance longest_step"), &
                 file%dimension("t", size(time)), file%dimension("block", settings%blocks)]

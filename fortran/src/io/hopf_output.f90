@@ -53,13 +53,10 @@ contains
       call file%attribute("ordinate", trim(settings%ordinate))
       call file%attribute("gamma", settings%gamma)
       call file%attribute(settings%other(), settings%fixed)
-      call file%flush()
       rows = file%dimension("special", size(special), &
                             coordinates="special_epsilon special_tau special_xi")
       call put_special(file, rows, special)
-      file%at_once = .true.
       call put_unfoldings(file, settings, rows, special)
-      file%at_once = .false.
       call put_map(file, settings, pairs)
       call file%finish(error)
    end subroutine write_curves
@@ -83,7 +80,6 @@ contains
       end associate
       call file%column(rows, "special_unstable_pairs", special%unstable_pairs, &
                        "unstable pairs beside those on the axis")
-      call file%flush()
       do i = 1, 2
          call file%column(rows, "special_omega_"//number(i), special%omega(i), &
                           "frequency of pair "//number(i)//", 0 where there is none")
@@ -91,7 +87,6 @@ contains
                           "its branch, or -1")
          call file%column(rows, "special_l1_"//number(i), special%l1(i), &
                           "its first Lyapunov coefficient")
-         call file%flush()
       end do
    end subroutine put_special
 
@@ -190,7 +185,6 @@ contains
       call file%column(cells(2), "map_ordinate", &
                        middles(settings%ordinate_window, size(pairs, 2)), &
                        "ordinate in the middle of a cell")
-      call file%flush()
       call file%table(cells, "map_unstable_pairs", real(pairs, wp), "number of unstable pairs")
    end subroutine put_map
 end module hopf_output

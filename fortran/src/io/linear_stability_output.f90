@@ -41,7 +41,6 @@ contains
       rows = file%dimension("root", size(roots))
       call file%column(rows, "root_real", real(roots), "real part of a characteristic root")
       call file%column(rows, "root_imag", aimag(roots), "its imaginary part")
-      call file%flush()
       call put_changes(file, "tau", with_tau%parameters%tau, with_tau)
       call put_changes(file, "epsilon", with_epsilon%parameters%epsilon, with_epsilon)
       call file%finish(error)
@@ -67,6 +66,5 @@ contains
                        "unstable pairs below")
       call file%column(rows, parameter_name//"_change_pairs_after", changes%pairs_after, &
                        "unstable pairs above")
-      call file%flush()
    end subroutine put_changes
 end module linear_stability_output

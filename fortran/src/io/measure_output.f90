@@ -53,7 +53,6 @@ contains
       most_samples = maxval([(size(runs(i)%samples, 2), i=1, size(runs))])
 
       call file%create(path, "Measured runs of the spring block with delayed friction")
-      file%at_once = .true.
       run = file%dimension("run", size(runs), coordinates="case method setting")
       sample = file%dimension("sample", most_samples, coordinates="time")
       call file%words(run, "case", cases%name, "name of the case")

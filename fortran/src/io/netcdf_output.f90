@@ -32,17 +32,6 @@ module netcdf_output
       character(len=64) :: coordinates = ""
    end type axis_type
 
-   !> Values of a column that are not written yet, of one of the two types.
-   type :: pending_type
-      !> NetCDF id of the variable
-      integer :: variable = -1
-      real(wp), allocatable :: reals(:)
-      integer, allocatable :: integers(:)
-   end type pending_type
-
-   !> Most columns that are defined before their values are written.
-   integer, parameter :: most_pending = 32
-
    !> A file in the making; after the first error all further calls do nothing.
    type :: output_file_type
       private
@@ -52,12 +41,6 @@ module netcdf_output
       integer :: id = -1
       !> Dimensions of the file
       type(axis_type), allocatable :: axes(:)
-      !> Columns whose values are not written yet, and their number
-      type(pending_type), allocatable :: pending(:)
-      integer :: columns = 0
-      !> Whether the values of a column are written when it is defined; otherwise `flush` and
-      !> `finish` write them. Only the order of bytes in the file differs.
-      logical, public :: at_once = .false.
       !> First error met
       type(error_type), allocatable, public :: error
    contains
@@ -67,12 +50,10 @@ module netcdf_output
       procedure :: dimension
       !> A variable of real numbers or integers over one dimension, with its values
       generic :: column => column_of_reals, column_of_integers
-      !> Write the values of the columns so far
-      procedure :: flush => write_pending
       !> A variable without values
       procedure :: real_variable, integer_variable
       !> An attribute of a variable or, without one, of the file
-      generic :: attribute => text_attribute, real_attribute, integer_attribute
+      procedure :: attribute
       !> Values of a variable that was defined without
       generic :: put => put_reals, put_integers
       !> A variable of words, of one of several words, or over two dimensions, with its values
@@ -81,8 +62,8 @@ module netcdf_output
       procedure :: finish
       !> Give it up
       procedure :: discard
-      procedure, private :: note, variable, text_attribute, real_attribute, integer_attribute
-      procedure, private :: put_reals, put_integers, column_of_reals, column_of_integers
+      procedure, private :: note, variable, put_reals, put_integers
+      procedure, private :: column_of_reals, column_of_integers
    end type output_file_type
 
 contains
@@ -96,7 +77,6 @@ contains
       !> What it holds
       character(len=*), intent(in) :: title
 
-      allocate (self%pending(most_pending))
       call self%place%begin(path, self%error)
       if (allocated(self%error)) return
       call self%note(nf90_create(self%place%other_path, ior(nf90_netcdf4, nf90_noclobber), self%id))
@@ -114,9 +94,7 @@ contains
 
    !> Keep the first error and leave nothing behind.
    subroutine note(self, status)
-      !> The file
       class(output_file_type), intent(inout) :: self
-      !> What a NetCDF call returned
       integer, intent(in) :: status
       character(len=:), allocatable :: reason
 
@@ -149,15 +127,12 @@ contains
    !> Define a variable, compressed and with a checksum: a value that was damaged on the disk is an
    !> error for all readers.
    integer function variable(self, name, kind, dimensions, long_name) result(id)
-      !> The file
       class(output_file_type), intent(inout) :: self
-      !> Name of the variable
       character(len=*), intent(in) :: name
       !> NetCDF's number of its type
       integer, intent(in) :: kind
       !> Dimensions of the variable, the fastest first
       integer, intent(in) :: dimensions(:)
-      !> Description of the variable, its `long_name`
       character(len=*), intent(in) :: long_name
       character(len=:), allocatable :: coordinates
       integer :: i
@@ -214,7 +189,7 @@ contains
       call self%attribute("units", "1", id)
    end function integer_variable
 
-   !> Define a variable of real numbers and keep or write its values.
+   !> Define and write a variable of real numbers over one dimension.
    subroutine column_of_reals(self, dimension, name, values, long_name, units)
       !> The file
       class(output_file_type), intent(inout) :: self
@@ -232,13 +207,10 @@ contains
 
       unit = "1"
       if (present(units)) unit = units
-      self%columns = self%columns + 1
-      self%pending(self%columns)%variable = self%real_variable(name, dimension, long_name, unit)
-      self%pending(self%columns)%reals = values
-      if (self%at_once) call self%flush()
+      call self%put(self%real_variable(name, dimension, long_name, unit), values)
    end subroutine column_of_reals
 
-   !> Define a variable of integers and keep or write its values.
+   !> Define and write a variable of integers over one dimension.
    subroutine column_of_integers(self, dimension, name, values, long_name)
       !> The file
       class(output_file_type), intent(inout) :: self
@@ -251,27 +223,8 @@ contains
       !> Description of the variable, its `long_name`
       character(len=*), intent(in) :: long_name
 
-      self%columns = self%columns + 1
-      self%pending(self%columns)%variable = self%integer_variable(name, dimension, long_name)
-      self%pending(self%columns)%integers = values
-      if (self%at_once) call self%flush()
+      call self%put(self%integer_variable(name, dimension, long_name), values)
    end subroutine column_of_integers
-
-   !> Write the values of the columns so far.
-   subroutine write_pending(self)
-      !> The file
-      class(output_file_type), intent(inout) :: self
-      integer :: i
-
-      do i = 1, self%columns
-         associate (column => self%pending(i))
-            if (allocated(column%reals)) call self%put(column%variable, column%reals)
-            if (allocated(column%integers)) call self%put(column%variable, column%integers)
-         end associate
-         self%pending(i) = pending_type()
-      end do
-      self%columns = 0
-   end subroutine write_pending
 
    !> Define and write a variable of words over one dimension; shorter words end with null
    !> characters, which readers drop.
@@ -363,74 +316,43 @@ contains
       if (.not. allocated(self%error)) call self%note(nf90_put_var(self%id, id, values))
    end subroutine table
 
-   !> A word or sentence.
-   subroutine text_attribute(self, name, value, variable)
+   !> Set an attribute of the file or of a variable.
+   subroutine attribute(self, name, value, variable)
       !> The file
       class(output_file_type), intent(inout) :: self
       !> Name of the attribute
       character(len=*), intent(in) :: name
-      !> Value of the attribute
-      character(len=*), intent(in) :: value
-      !> Variable it belongs to
+      !> Text, a real number or a long integer
+      class(*), intent(in) :: value
+      !> Variable that the attribute belongs to, if not to the file
       integer, intent(in), optional :: variable
+      integer :: owner
 
       if (allocated(self%error)) return
-      call self%note(nf90_put_att(self%id, owner(variable), name, value))
-   end subroutine text_attribute
-
-   !> A real number.
-   subroutine real_attribute(self, name, value, variable)
-      !> The file
-      class(output_file_type), intent(inout) :: self
-      !> Name of the attribute
-      character(len=*), intent(in) :: name
-      !> Value of the attribute
-      real(wp), intent(in) :: value
-      !> Variable it belongs to
-      integer, intent(in), optional :: variable
-
-      if (allocated(self%error)) return
-      call self%note(nf90_put_att(self%id, owner(variable), name, value))
-   end subroutine real_attribute
-
-   !> An integer.
-   subroutine integer_attribute(self, name, value, variable)
-      !> The file
-      class(output_file_type), intent(inout) :: self
-      !> Name of the attribute
-      character(len=*), intent(in) :: name
-      !> Value of the attribute
-      integer(int64), intent(in) :: value
-      !> Variable it belongs to
-      integer, intent(in), optional :: variable
-
-      if (allocated(self%error)) return
-      if (abs(value) > huge(1)) then
-         ! NetCDF's Fortran interface takes no longer integers
-         call self%real_attribute(name, real(value, wp), variable)
-      else
-         call self%note(nf90_put_att(self%id, owner(variable), name, int(value)))
-      end if
-   end subroutine integer_attribute
-
-   !> Id of an attribute's owner.
-   pure integer function owner(variable) result(value)
-      !> Variable, if any
-      integer, intent(in), optional :: variable
-
-      value = nf90_global
-      if (present(variable)) value = variable
-   end function owner
+      owner = nf90_global
+      if (present(variable)) owner = variable
+      select type (value)
+      type is (character(len=*))
+         call self%note(nf90_put_att(self%id, owner, name, value))
+      type is (real(wp))
+         call self%note(nf90_put_att(self%id, owner, name, value))
+      type is (integer(int64))
+         if (abs(value) > huge(1)) then
+            ! NetCDF's Fortran interface takes no longer integers
+            call self%note(nf90_put_att(self%id, owner, name, real(value, wp)))
+         else
+            call self%note(nf90_put_att(self%id, owner, name, int(value)))
+         end if
+      class default
+         call raise(self%error, "attribute "//name//": neither text, real nor long integer")
+      end select
+   end subroutine attribute
 
    !> Write real numbers, from index `first` on.
    subroutine put_reals(self, variable, values, first)
-      !> The file
       class(output_file_type), intent(inout) :: self
-      !> Variable
       integer, intent(in) :: variable
-      !> Values
       real(wp), intent(in) :: values(:)
-      !> Index of the first, from 1
       integer, intent(in), optional :: first
       integer :: start
 
@@ -442,11 +364,8 @@ contains
 
    !> Write integers.
    subroutine put_integers(self, variable, values)
-      !> The file
       class(output_file_type), intent(inout) :: self
-      !> Variable
       integer, intent(in) :: variable
-      !> Values
       integer, intent(in) :: values(:)
 
       if (allocated(self%error)) return
@@ -460,7 +379,6 @@ contains
       !> First error met
       type(error_type), allocatable, intent(out) :: error
 
-      call self%flush()
       if (.not. allocated(self%error)) call self%note(nf90_close(self%id))
       if (.not. allocated(self%error)) then
          call self%place%publish(self%error)

@@ -1,7 +1,7 @@
 !> Values of settings that were not given, and refusal of values out of range: the message names
 !> place, key, value and range.
 module value_checks
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: int64, wp
    implicit none (type, external)
@@ -39,7 +39,8 @@ contains
       logical :: fine
 
       if (allocated(error)) return
-      fine = abs(value) < absent
+      fine = ieee_is_finite(value)
+      if (fine) fine = abs(value) < absent
       range = "a finite number"
       if (present(above)) then
          range = range//" > "//text(above)

@@ -116,7 +116,7 @@ contains
       type(attractor_settings_type) :: observation
       type(block_history_type), allocatable :: histories(:)
       type(case_type), allocatable :: cases(:)
-      class(curve_plane_type), allocatable :: curve_plane
+      type(curve_plane_type) :: curve_plane
       type(cycle_settings_type) :: cycles
       type(exponents_settings_type) :: exponents_read
       type(hopf_settings_type) :: hopf_curves
