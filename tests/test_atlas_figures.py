@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
-from config_refusals import line_about, refusal
 from figure_contents import assert_on_page, points_in, title_of, words_in
 from made_up_results import attractor_row, followed_cycles, hopf_curve
 from matplotlib import pyplot as plt
@@ -19,8 +18,8 @@ from scripts.drawing import class_map
 from scripts.drawing.special_points import STYLES
 from scripts.drawing.style import STYLE
 from scripts.figures import atlas, cycles, routes
+from scripts.results import paths
 from scripts.tables.motion_rows import COLOURS
-from scripts.workflow import result_files
 
 PLACES = {
     "first": {"epsilon": 0.35, "tau": 10.0, "xi": 0.8, "gamma": 0.8},
@@ -415,7 +414,7 @@ def test_sweeps_and_planes_of_lines_are_found_by_their_parameters(config):
         "in_xi": {"along": "xi", "tau": 7.0, "epsilon": 0.9, "gamma": 0.8},
     }
     folder = "<results>/attractors/routes"
-    assert result_files.sweeps_on_lines(config) == {
+    assert paths.sweeps_on_lines(config) == {
         "mine": [f"{folder}/chaos_in_tau/up.nc", f"{folder}/chaos_in_tau/down.nc"],
         "beside": [],
         "faster": [],
@@ -423,19 +422,4 @@ def test_sweeps_and_planes_of_lines_are_found_by_their_parameters(config):
         "in_xi": [],
     }
     expected = [f"<results>/cycles/{line}.nc" for line in ("mine", "across")]
-    assert result_files.cycles_in_atlas(config) == expected
-
-
-def test_scene_of_the_true_torus_needs_attractors(config):
-    """The line names the row."""
-    del config["scenes"]["torus"]["attractors"]
-    line = line_about(refusal(config), "scene")
-    assert line.startswith("config figures true_torus rows a: scene = 'torus'; expected ")
-
-
-@pytest.mark.parametrize("survey", ["attractors", "routes"])
-def test_figures_need_points_that_are_kept(config, survey):
-    """The line names the key."""
-    config[survey]["observation"]["kept"] = 0
-    line = line_about(refusal(config), "kept")
-    assert line == f"config {survey} observation: kept = 0; expected a whole number >= 1"
+    assert paths.cycles_in_atlas(config) == expected

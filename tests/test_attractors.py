@@ -46,13 +46,13 @@ def test_parts_of_the_atlas_divide_its_delays(full):
     delays = []
     for part in range(1, settings["parts"] + 1):
         points = attractor_surveys.atlas_groups(full, "fault", part)["points"]
-        assert points["epsilon_part"] == [1, settings["epsilon_count"]]
-        assert points["epsilon_window"] == settings["epsilon_window"]
-        assert points["tau_window"] == settings["planes"]["fault"]["tau_window"]
+        assert points["epsilon"]["part"] == [1, settings["epsilon_count"]]
+        assert points["epsilon"]["window"] == settings["epsilon_window"]
+        assert points["tau"]["window"] == settings["planes"]["fault"]["tau_window"]
         assert points["refinements"] == settings["refinements"]
-        assert points["xi_window"] == [0.5, 0.5]
-        assert points["gamma_window"] == [1e8, 1e8]
-        delays += range(points["tau_part"][0], points["tau_part"][1] + 1)
+        assert points["xi"]["window"] == [0.5, 0.5]
+        assert points["gamma"]["window"] == [1e8, 1e8]
+        delays += range(points["tau"]["part"][0], points["tau"]["part"][1] + 1)
     assert delays == list(range(1, settings["tau_count"] + 1))
 
 
@@ -63,11 +63,14 @@ def test_runs_of_a_route_go_along_its_parameter(full, run, sweep):
     groups = attractor_surveys.route_groups(full, "chaos_in_epsilon", run)
     points, line = groups["points"], routes["lines"]["chaos_in_epsilon"]
     assert points["sweep"] == sweep
-    assert (points["epsilon_window"], points["epsilon_count"]) == (line["window"], line["count"])
-    assert points["epsilon_part"] == [1, line["count"]]
-    assert (points["tau_window"], points["tau_count"]) == ([7.0, 7.0], 1)
+    assert (points["epsilon"]["window"], points["epsilon"]["count"]) == (
+        line["window"],
+        line["count"],
+    )
+    assert points["epsilon"]["part"] == [1, line["count"]]
+    assert (points["tau"]["window"], points["tau"]["count"]) == ([7.0, 7.0], 1)
     history = routes["histories"].get(run, routes["histories"]["near"])
-    assert {key: points[key] for key in HISTORY} == {key: [history[key]] for key in HISTORY}
+    assert groups["histories"] == {key: [history[key]] for key in HISTORY}
     assert groups["observation"].items() >= full["spectra"].items()
     assert "kept" not in groups["observation"]
     assert points["refinements"] == 0
@@ -78,10 +81,11 @@ def test_route_along_a_value_of_the_history(full):
     """One set of parameters and a history for each value; there are no sweeps."""
     line = {"along": "v", "window": [0.5, 1.5], "count": 3, "tau": 7.0, "epsilon": 0.5}
     full["routes"]["lines"]["mine"] = line | {"xi": 0.5, "gamma": 0.8}
-    points = attractor_surveys.route_groups(full, "mine", "slip")["points"]
-    assert points["v"] == [0.5, 1.0, 1.5]
-    assert points["u"] == [full["routes"]["histories"]["slip"]["u"]] * 3
-    assert [points[f"{key}_count"] for key in PARAMETERS] == [1, 1, 1, 1]
+    groups = attractor_surveys.route_groups(full, "mine", "slip")
+    points, histories = groups["points"], groups["histories"]
+    assert histories["v"] == [0.5, 1.0, 1.5]
+    assert histories["u"] == [full["routes"]["histories"]["slip"]["u"]] * 3
+    assert [points[key]["count"] for key in PARAMETERS] == [1, 1, 1, 1]
     assert points["sweep"] == "none"
     names = [path.split("/")[-1] for path in paths.runs_of_route(full, "mine")]
     assert names == ["near.nc", "slip.nc"]
@@ -89,10 +93,11 @@ def test_route_along_a_value_of_the_history(full):
 
 def test_basins_have_random_histories_only(full):
     """`count` histories at the parameters of the place."""
-    points = attractor_surveys.basin_groups(full, "three_cycles")["points"]
-    assert len(points["v"]) == full["basins"]["count"]
-    assert points["tau_window"] == [7.0, 7.0]
-    assert min(points["u"]) < -5.0
+    groups = attractor_surveys.basin_groups(full, "three_cycles")
+    points, histories = groups["points"], groups["histories"]
+    assert len(histories["v"]) == full["basins"]["count"]
+    assert points["tau"]["window"] == [7.0, 7.0]
+    assert min(histories["u"]) < -5.0
 
 
 def test_histories_are_drawn_by_the_seed(full):
@@ -124,9 +129,9 @@ def test_scene_has_its_parameters_and_histories(full):
     """The scene's history is the first."""
     groups = attractor_surveys.scene_groups(full, "true_torus")
     points, scene = groups["points"], full["scenes"]["true_torus"]
-    assert (points["epsilon_window"], points["tau_window"]) == ([0.5, 0.5], [12.5, 12.5])
-    assert len(points["theta"]) == len(points["u"]) == len(points["v"]) == 6
-    assert points["v"][0] == scene["history"]["v"]
+    assert (points["epsilon"]["window"], points["tau"]["window"]) == ([0.5, 0.5], [12.5, 12.5])
+    assert [len(values) for values in groups["histories"].values()] == [6, 6, 6]
+    assert groups["histories"]["v"][0] == scene["history"]["v"]
 
 
 def a_run(classes: list[str], **given) -> xr.Dataset:

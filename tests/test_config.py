@@ -400,6 +400,13 @@ def test_values_that_contradict_others_are_refused(config, path, value, line):
     assert [each for each in lines if each.startswith(line)], lines
 
 
+def test_scene_of_the_true_torus_needs_attractors(config):
+    """Its figure shows points of the section."""
+    del config["scenes"]["torus"]["attractors"]
+    (line,) = refuse(config)
+    assert line.startswith("config figures true_torus rows a: scene = 'torus'; expected a scene")
+
+
 def test_part_of_too_many_points_is_refused(config):
     """One run of the program takes a million of them."""
     config["atlas"] |= {"epsilon_count": 100000, "tau_count": 80, "parts": 7, "refinements": 0}

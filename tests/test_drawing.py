@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from test_page_contrast import luminance
 
 from scripts.config.check_config import checked
-from scripts.config.read_config import merged
+from scripts.config.read_config import merge, read
 from scripts.drawing import spectra, trajectories
 from scripts.drawing.parameters import number
 from scripts.drawing.style import METADATA, STYLE, logged, save
@@ -343,7 +343,7 @@ def test_curves_are_dashed_where_subcritical(ordinate, fixed):
 
 def test_shades_end_at_the_curves():
     """A cell of a new plane, which has the default number of them, is narrower than a curve."""
-    new = checked(merged([ROOT / "config" / name for name in ("config.yaml", "new.yaml")], []))
+    new = checked(merge(*(read(ROOT / "config" / name) for name in ("config.yaml", "new.yaml"))))
     cells = new["hopf_curves"]["my_plane"]["cells"]
     with plt.style.context(STYLE):
         figure = plane.draw(a_plane("tau", "xi"), {})

@@ -6,12 +6,10 @@ The suites lyapunov_spectrum and tangent_runs show long intervals and other meth
 import numpy as np
 import pytest
 import xarray as xr
-from config_refusals import line_about, refusal
 from conftest import of_trajectory
 from figure_contents import assert_on_page, title_of, words_in
 from matplotlib import pyplot as plt
 
-from scripts.config.check_config import checked
 from scripts.drawing.style import STYLE
 from scripts.figures import exponents
 from scripts.files.tsv import read_table
@@ -49,31 +47,6 @@ def test_exponents_of_a_fixed_point_are_its_roots(programs, groups):
     assert made.dimension.values.tolist() == [0, 0, 0, 0]
     assert made.t[-1] == pytest.approx(500)
     assert made.attrs["zero_exponents"] == 0
-
-
-def test_more_exponents_than_equations_are_refused(programs, groups):
-    """In words, with nothing left behind."""
-    groups["exponents"]["count"] = 4
-    done = programs.run_groups("exponents", groups)
-    assert done.returncode == 1
-    assert "4 asked for of 3 equations without delay" in done.stderr
-    assert programs.left_behind() == []
-
-
-def test_end_is_that_of_the_scene_where_none_is_given(config):
-    """A scene without the key `exponents` gets none."""
-    del config["scenes"]["torus"]["exponents"]["t_end"]
-    scenes = checked(config)["scenes"]
-    assert scenes["torus"]["exponents"] == {"count": 6, "t_end": scenes["torus"]["t_end"]}
-    assert "exponents" not in scenes["fixed_point"]
-
-
-def test_more_exponents_than_equations_are_refused_without_delay(config):
-    """A fixed point of three equations has three."""
-    config["scenes"]["fixed_point"]["exponents"] = {"count": 4}
-    line = line_about(refusal(config), "count")
-    assert line.startswith("scene 'fixed_point' exponents: count = 4; expected ")
-    assert "<= 3 without delay" in line
 
 
 def test_table_holds_all_exponents_of_all_scenes(smoke):

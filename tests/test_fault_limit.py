@@ -5,11 +5,12 @@ from decimal import Decimal, localcontext
 import numpy as np
 import pytest
 import xarray as xr
-from expected_rules import settings
 
 from scripts.tables import dimensions_table, fault_limit_table
+from scripts.workflow.plan import read_plan
 
-PRESETS = settings("dimensions")
+CONFIG = read_plan({}).config
+PRESETS = CONFIG["dimensions"]
 
 
 def least_by_6(gamma: float, xi: float) -> tuple[Decimal, Decimal]:
@@ -58,7 +59,7 @@ def test_least_epsilon_is_on_a_curve_of_the_program(programs, gamma):
     """Which knows (7) to (10) alone: none of its points is lower, and one is that low."""
     row = fault_limit_table.row_of(0.5, gamma)
     window = [row["least"] - row["depth"], row["least"] + 0.9 * row["depth"]]
-    plane = settings("hopf_curves", "tau_of_epsilon") | {"gamma": gamma, "cells": 4}
+    plane = CONFIG["hopf_curves"]["tau_of_epsilon"] | {"gamma": gamma, "cells": 4}
     curves = programs.made_by("hopf", plane | {"epsilon_window": window})
     lowest = curves.isel(point=int(curves.epsilon.values.argmin()))
     assert 0 <= float(lowest.epsilon) - row["least"] + 1e-14 < 1e-4 * row["depth"]

@@ -14,8 +14,11 @@ contains
    pure subroutine getrf(m, n, a, lda, ipiv, info)
       !> As in LAPACK
       integer, intent(in) :: m, n, lda
+      !> As in LAPACK
       class(*), intent(in) :: a(:, :)
+      !> As in LAPACK
       integer, intent(inout) :: ipiv(:)
+      !> As in LAPACK
       integer, intent(out) :: info
 
       info = 1
@@ -25,8 +28,11 @@ contains
    pure subroutine getrs(trans, n, nrhs, a, lda, ipiv, b, ldb, info)
       !> As in LAPACK
       character(len=1), intent(in) :: trans
+      !> As in LAPACK
       integer, intent(in) :: n, nrhs, lda, ldb, ipiv(:)
+      !> As in LAPACK
       class(*), intent(in) :: a(:, :), b(:)
+      !> As in LAPACK
       integer, intent(out) :: info
 
       info = 1
@@ -36,8 +42,11 @@ contains
    pure subroutine gbtrf(m, n, kl, ku, ab, ldab, ipiv, info)
       !> As in LAPACK
       integer, intent(in) :: m, n, kl, ku, ldab
+      !> As in LAPACK
       class(*), intent(in) :: ab(:, :)
+      !> As in LAPACK
       integer, intent(inout) :: ipiv(:)
+      !> As in LAPACK
       integer, intent(out) :: info
 
       info = 1
@@ -47,8 +56,11 @@ contains
    pure subroutine gbtrs(trans, n, kl, ku, nrhs, ab, ldab, ipiv, b, ldb, info)
       !> As in LAPACK
       character(len=1), intent(in) :: trans
+      !> As in LAPACK
       integer, intent(in) :: n, kl, ku, nrhs, ldab, ldb, ipiv(:)
+      !> As in LAPACK
       class(*), intent(in) :: ab(:, :), b(:)
+      !> As in LAPACK
       integer, intent(out) :: info
 
       info = 1
