@@ -84,12 +84,16 @@ class Project:
                 timeout=900,
             )
 
-    def reproduce(self, *arguments: str) -> subprocess.CompletedProcess[str]:
-        """Run ./reproduce with the packages at hand; all it says is in stdout."""
+    def use_packages_at_hand(self) -> None:
+        """Let ./reproduce find everything set up."""
         write_script(self.folder / "setup" / "setup.sh", "exit 0")
         for tool in ("python", "snakemake"):
             path = Path(sys.executable).parent / tool
             write_script(self.folder / ".venv" / "bin" / tool, f"exec '{path}' \"$@\"")
+
+    def reproduce(self, *arguments: str) -> subprocess.CompletedProcess[str]:
+        """Run ./reproduce with the packages at hand; all it says is in stdout."""
+        self.use_packages_at_hand()
         return subprocess.run(
             [self.folder / "reproduce", *arguments],
             cwd=self.folder,

@@ -296,7 +296,7 @@ def test_bad_claim_stops_the_workflow_in_words(scratch):
     """Before anything runs, without a traceback of Python."""
     (scratch.folder / "mine.yaml").write_text(f"claims: {json.dumps(RING)}")
     before = scratch.outputs()
-    run = scratch.snakemake(*SMOKE, "mine.yaml")
+    run = scratch.snakemake("--config", "user_file=mine.yaml")
     assert run.returncode != 0
     assert "expected = 'ring'; expected class of an attractor, one of: fixed point" in run.stdout
     assert "Traceback" not in run.stdout

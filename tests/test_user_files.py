@@ -156,8 +156,9 @@ def test_one_key_of_a_scene_can_be_changed(scratch, mine):
     namelist = "results/mine/namelists/trajectories/torus.nml"
     run = scratch.snakemake(namelist, "--config", "user_file=mine.yaml")
     assert run.returncode == 0, run.stdout
-    scene = f90nml.read(scratch.folder / namelist)["scene"].todict()
-    assert (scene["tau"], scene["epsilon"], scene["t_end"]) == (10, 0.5, 8000.0)
+    scene = f90nml.read(scratch.folder / namelist)["settings"]["scene"].todict()
+    assert scene["parameters"] == {"tau": 10, "epsilon": 0.5, "xi": 0.8, "gamma": 0.8}
+    assert scene["t_end"] == 8000.0
     assert scene["history"] == {"theta": 0.0, "u": 0.0, "v": 1.5}
 
 
