@@ -7,7 +7,8 @@ from snakemake.utils import min_version
 
 min_version("9.27")
 # the scripts of jobs import the project's modules, too
-os.environ["PYTHONPATH"] = str(workflow.basedir)
+before = os.environ.get("PYTHONPATH")
+os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [str(workflow.basedir), before]))
 sys.path.insert(0, str(workflow.basedir))
 
 from scripts.config.read_config import ConfigError
