@@ -7,8 +7,8 @@ from snakemake.utils import min_version
 
 min_version("9.27")
 # the scripts of jobs import the project's modules, too
-before = os.environ.get("PYTHONPATH")
-os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [str(workflow.basedir), before]))
+folders = [str(workflow.basedir), os.environ.get("PYTHONPATH")]
+os.environ.update(PYTHONPATH=os.pathsep.join(filter(None, folders)))
 sys.path.insert(0, str(workflow.basedir))
 
 from scripts.config.read_config import ConfigError

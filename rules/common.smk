@@ -1,8 +1,9 @@
-# Wildcards, and digests of code by which results of older code are stale.
+# Wildcards, digests of code by which results of older code are stale, and functions of the rules.
 import functools
 import hashlib
 from pathlib import Path
 
+from scripts.figures import registry
 from scripts.results.programs import BUILD, PAPER, RUNS
 from scripts.workflow.script_imports import modules_of
 
@@ -66,3 +67,39 @@ def fill_in(value):
     if isinstance(value, list):
         return [fill_in(item) for item in value]
     return value.replace("<results>", plan.results) if isinstance(value, str) else value
+
+
+def groups_of(run):
+    """Groups of a run's namelist, by the wildcards."""
+
+    def find_groups(wildcards):
+        return fill_in(run.groups(config, **wildcards))
+
+    return find_groups
+
+
+def tables_read(figure):
+    """Tables of the project that a figure reads beside results."""
+    files = registry.files_of(figure, config)
+    return [path for path in files if not path.startswith("<results>/")]
+
+
+def figures_on_page():
+    """What the page shows of each figure."""
+    return [
+        {
+            "name": name,
+            "category": registry.category_of(name),
+            "caption": f"{plan.results}/figures/{name}.rst",
+            "drawing": f"{plan.results}/figures/{name}.svg",
+            "shows_classes": registry.shows_classes(name),
+            "data": fill_in(
+                [
+                    path
+                    for path in registry.files_of(name, config)
+                    if path.startswith("<results>/")
+                ]
+            ),
+        }
+        for name in plan.figures
+    ]

@@ -1,12 +1,4 @@
 # The figures, a rule of its name for each, and their captions.
-from scripts.figures import registry
-
-
-def tables_read(figure):
-    """Tables of the project that a figure reads beside results."""
-    files = registry.files_of(figure, config)
-    return [path for path in files if not path.startswith("<results>/")]
-
 
 for figure in plan.figures:
 

@@ -3,27 +3,6 @@ from scripts.page import page_assets
 from scripts.workflow.git_commit import commit_of
 
 
-def figures_on_page():
-    """What the page shows of each figure."""
-    return [
-        {
-            "name": name,
-            "category": registry.category_of(name),
-            "caption": f"{plan.results}/figures/{name}.rst",
-            "drawing": f"{plan.results}/figures/{name}.svg",
-            "shows_classes": registry.shows_classes(name),
-            "data": fill_in(
-                [
-                    path
-                    for path in registry.files_of(name, config)
-                    if path.startswith("<results>/")
-                ]
-            ),
-        }
-        for name in plan.figures
-    ]
-
-
 rule play_data:
     """Classes and motions of the atlas, for the view in which a reader moves the parameters."""
     input:

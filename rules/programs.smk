@@ -24,15 +24,6 @@ rule build:
         " > {log:q} 2>&1 9> build/lock || {{ cat {log:q} >&2; exit 1; }}"
 
 
-def groups_of(run):
-    """Groups of a run's namelist, by the wildcards."""
-
-    def find_groups(wildcards):
-        return fill_in(run.groups(config, **wildcards))
-
-    return find_groups
-
-
 for run in RUNS:
     if not run.namelist:
 
