@@ -18,8 +18,8 @@ for figure in plan.figures:
             svg=f"<results>/figures/{figure}.svg",
         log:
             f"<results>/logs/figures/{figure}.log",
-        localrule: True
         priority: PAPER if registry.category_of(figure) == "Figures" else 0
+        localrule: True
         params:
             **fill_in(registry.params_of(figure, config)),
             script=registry.script_of(figure),

@@ -8,7 +8,9 @@ rule play_data:
     input:
         runs=paths.parts_of_atlas(config),
         tables=(
-            expand("<results>/tables/atlas/{plane}.tsv", plane=config["atlas"]["planes"])
+            expand(
+                "<results>/tables/atlas/{plane}.tsv", plane=config["atlas"]["planes"]
+            )
             if plan.is_users
             else ["<results>/tables/atlas.tsv"]
         ),
