@@ -49,14 +49,15 @@ contains
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
       type(namelist_file_type) :: file
-      type(block_history_type) :: histories(most_histories)
+      type(block_history_type), allocatable :: histories(:)
       type(solver_settings_type) :: solver
       namelist /settings/ observation, solver, points, histories
 
-      histories = absent_history
+      allocate (histories(most_histories), source=absent_history)
       call file%open(path, error)
       if (allocated(error)) return
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
+      histories = pack(histories, min(histories%theta, histories%u, histories%v) < absent)
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
       call check_observation(path//": observation", observation, error)
@@ -66,7 +67,7 @@ contains
                         at_least=1.0_wp)
       options = integration_options(method=trim(solver%method), relative=solver%tolerance, &
                                     absolute=solver%tolerance, most_steps=solver%most_steps)
-      given = pack(histories, min(histories%theta, histories%u, histories%v) < absent)
+      call move_alloc(histories, given)
       call check_points(path//": points", points, given, error)
    end subroutine read_attractors
 

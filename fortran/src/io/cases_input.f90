@@ -6,10 +6,10 @@ module cases_input
    use dde_kinds, only: wp
    use measured_case, only: case_name_length, case_type
    use namelist_input, only: word_length
-   use value_checks, only: absent, check_number
+   use value_checks, only: check_number, missing
    implicit none (type, external)
    private
-   public :: case_section_type, join_cases, most_cases
+   public :: case_section_type, join_cases, keep_given, most_cases
 
    !> Most cases in one file.
    integer, parameter :: most_cases = 1000
@@ -21,12 +21,28 @@ module cases_input
       !> Name
       character(len=word_length) :: name = ""
       !> Last time
-      real(wp) :: t_end = absent
+      real(wp) :: t_end = missing
       !> Time between samples
-      real(wp) :: sample_interval = absent
+      real(wp) :: sample_interval = missing
    end type case_section_type
 
 contains
+
+   !> Keep the cases that were given: those with a name.
+   pure subroutine keep_given(cases, parameters, histories)
+      !> The section `cases`
+      type(case_section_type), allocatable, intent(inout) :: cases(:)
+      !> The section `parameters`
+      type(block_parameters_type), allocatable, intent(inout) :: parameters(:)
+      !> The section `histories`
+      type(block_history_type), allocatable, intent(inout) :: histories(:)
+      integer :: n
+
+      n = count(cases%name /= "")
+      cases = cases(:n)
+      parameters = parameters(:n)
+      histories = histories(:n)
+   end subroutine keep_given
 
    !> The cases with all that belongs to each; those that cannot be solved are refused.
    subroutine join_cases(path, cases, parameters, histories, joined, error)
@@ -46,7 +62,7 @@ contains
 
       if (allocated(error)) return
       joined = [(case_type(cases(i)%name(:case_name_length), parameters(i), histories(i), &
-                           cases(i)%t_end, cases(i)%sample_interval), i=1, count(cases%name /= ""))]
+                           cases(i)%t_end, cases(i)%sample_interval), i=1, size(cases))]
       if (size(joined) == 0) call raise(error, path//": name: no case; expected at least one")
       if (any(len_trim(cases%name) > case_name_length)) then
          call raise(error, path//": name of "//text(maxval(len_trim(cases%name))) &

@@ -1,8 +1,8 @@
 !> Cases and what to measure of them, from a namelist.
 module measure_input
-   use block_parameters, only: absent_history, absent_parameters, block_history_type, &
-                               block_parameters_type
-   use cases_input, only: case_section_type, join_cases, most_cases
+   use block_parameters, only: block_history_type, block_parameters_type, missing_history, &
+                               missing_parameters
+   use cases_input, only: case_section_type, join_cases, keep_given, most_cases
    use dde, only: solver_methods => methods
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
@@ -51,19 +51,21 @@ contains
       type(measure_settings_type), intent(out) :: measure
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
-      type(block_parameters_type) :: parameters(most_cases)
-      type(block_history_type) :: histories(most_cases)
-      type(case_section_type) :: cases(most_cases)
+      type(block_parameters_type), allocatable :: parameters(:)
+      type(block_history_type), allocatable :: histories(:)
+      type(case_section_type), allocatable :: cases(:)
       type(namelist_file_type) :: file
       integer :: i
       logical :: solver
       namelist /settings/ cases, parameters, histories, measure
 
-      parameters = absent_parameters
-      histories = absent_history
+      allocate (cases(most_cases))
+      allocate (parameters(most_cases), source=missing_parameters)
+      allocate (histories(most_cases), source=missing_history)
       call file%open(path, error)
       if (allocated(error)) return
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
+      call keep_given(cases, parameters, histories)
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
       call join_cases(path, cases, parameters, histories, list, error)

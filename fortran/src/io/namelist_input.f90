@@ -2,10 +2,9 @@
 !> types: the keys are their components, as scene%t_end. A component without a value keeps its
 !> default, `missing` where it must be given. So each key stands once, in its type.
 module namelist_input
-   use dde_errors, only: error_type, raise
+   use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use namelist_text, only: check_given_once, check_numbers
-   use value_checks, only: absent
+   use value_checks, only: absent, missing_count
    implicit none (type, external)
    private
    public :: elements, element_length, namelist_file_type, word_length
@@ -45,13 +44,11 @@ contains
       class(namelist_file_type), intent(out) :: self
       !> Path of the file
       character(len=*), intent(in) :: path
-      !> Error if the file cannot be opened, or the group or a key of it is given twice
+      !> Error if the file cannot be opened
       type(error_type), allocatable, intent(out) :: error
 
       self%path = path
       allocate (self%copy(most_lines))
-      call check_given_once(path, group, error)
-      if (allocated(error)) return
       open (newunit=self%unit, file=path, status="old", action="read", iostat=self%status, &
             iomsg=self%reason)
       if (self%status /= 0) call raise(error, path//": "//trim(self%reason))
@@ -68,8 +65,8 @@ contains
 
       close (self%unit, iostat=status, iomsg=reason)
       if (self%status < 0) then
-         call raise(error, self%path//": namelist group &"//group//": a value of another type, " &
-                    //"too many values, or no / at the end")
+         call raise(error, self%path//": namelist group &"//group//": not in the file, a value " &
+                    //"of another type, too many values, or no / at the end")
       else if (self%status > 0) then
          call raise(error, self%path//": namelist group &"//group//": "//trim(self%reason))
       else if (status /= 0) then
@@ -78,6 +75,37 @@ contains
          call check_numbers(self%path, self%copy, error)
       end if
    end subroutine close_file
+
+   !> Refuse numbers that are not finite and numbers that were not given.
+   subroutine check_numbers(path, lines, error)
+      !> Path of the file that was read
+      character(len=*), intent(in) :: path
+      !> All keys and their values, as Fortran writes a namelist with strings in quotes
+      character(len=*), intent(in) :: lines(:)
+      !> First such number
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: key
+      integer :: at, i
+
+      do i = 2, size(lines)
+         if (lines(i) == " /") return
+         at = index(lines(i), "=")
+         if (at > 0) key = trim(adjustl(lines(i) (:at - 1)))
+         associate (values => lines(i) (at + 1:))
+            if (index(values, """") > 0) cycle
+            if (index(values, "NaN") > 0) then
+               call raise(error, path//": "//key//" = NaN; expected a finite number " &
+                          //"(NaN: missing, or not a number)")
+            else if (index(values, "Inf") > 0) then
+               call raise(error, path//": "//key//" = "//trim(adjustl(values)) &
+                          //" expected a finite number")
+            else if (index(values, text(missing_count)) > 0) then
+               call raise(error, path//": "//key//" is missing; expected a whole number")
+            end if
+         end associate
+         if (allocated(error)) return
+      end do
+   end subroutine check_numbers
 
    !> The elements of a list that were given.
    pure function elements(list) result(given)

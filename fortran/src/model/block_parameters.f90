@@ -6,7 +6,7 @@ module block_parameters
    use value_checks, only: absent, check_number, missing
    implicit none (type, external)
    private
-   public :: absent_history, absent_parameters, block_history_type, block_parameters_type, &
+   public :: absent_history, block_history_type, block_parameters_type, &
              check_quantity, history_names, missing_history, missing_parameters, &
              parameter_meanings, parameter_names, parameters_of, vector_of
 
@@ -54,9 +54,7 @@ module block_parameters
       missing_parameters = block_parameters_type(missing, missing, missing, missing)
    type(block_history_type), parameter :: missing_history = &
                                           block_history_type(missing, missing, missing)
-   !> Those beyond the last of a list.
-   type(block_parameters_type), parameter :: absent_parameters = &
-                                             block_parameters_type(absent, absent, absent, absent)
+   !> A history beyond the last of a list.
    type(block_history_type), parameter :: absent_history = &
                                           block_history_type(absent, absent, absent)
 
