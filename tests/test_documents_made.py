@@ -45,6 +45,8 @@ SOURCES = sorted(
     for path in (ROOT / "fortran" / folder).rglob("*.f90")
 )
 """What the pages about the code are made from."""
+PUBLIC = r"^ *public :: ((?:.*&\n)*.*)$"
+"""The names that a module exports."""
 
 
 def drawn() -> tuple[set[str], set[tuple[str, str]]]:
@@ -152,20 +154,22 @@ def lines_of(path: Path) -> list[str]:
 
 
 def test_everything_has_a_comment():
-    """`!>` stands above modules, programs, types, procedures and their arguments.
+    """`!>` stands above modules, programs, types, procedures, and arguments of public procedures.
 
     FORD drops a first line such as `Name: text`.
     """
-    procedure = r"(?!end\b)(?:[\w(), =*:]+ )?(?:subroutine|function) \w+"
-    thing = re.compile(
-        rf"\s*(?:module (?!procedure)\w+$|program \w+$|type(?:, [\w(), ]+)? :: \w+|{procedure})"
-        r"|\s*[\w(), =*:+-]+,\s*intent\("
-    )
+    procedure = re.compile(r"(?! *(?:end\b|!)) *(?:[\w(), =*:]+ )?(?:subroutine|function) (\w+)")
+    thing = re.compile(r"\s*(?:module (?!procedure)\w+$|program \w+$|type(?:, [\w(), ]+)? :: \w+)")
+    argument = re.compile(r"\s*[\w(), =*:+-]+,\s*intent\(")
     checked, bare, dropped = 0, [], []
     for path in SOURCES:
+        exported = re.findall(r"\w+", "".join(re.findall(PUBLIC, path.read_text(), flags=re.M)))
+        is_public = False
         for before, line in pairwise(["", *lines_of(path)]):
             explained = before.strip().startswith("!>")
-            if thing.match(line) and not line.lstrip().startswith(("end ", "!")):
+            if begun := procedure.match(line):
+                is_public = begun[1] in exported
+            if begun or thing.match(line) or (is_public and argument.match(line)):
                 checked += 1
                 bare += [] if explained else [f"{path.name}: {line.strip()}"]
             elif not explained and re.match(r"\s*!> [\w-]+:(\s|$)", line):

@@ -288,6 +288,7 @@ def test_run_with_other_values_loses_no_result(smoke, scratch):
     (scratch.folder / "mine.yaml").write_text("scenes: { torus: { tau: 10.5 } }")
     with about_to_write(scratch, "mine.yaml") as (run, _):
         os.killpg(run.pid, signal.SIGKILL)
+    assert scratch.snakemake("--unlock", *SMOKE).returncode == 0
     again = scratch.snakemake("figure_5", *SMOKE)
     assert again.returncode == 0, again.stdout
     assert scratch.outputs() == smoke.outputs()

@@ -90,7 +90,7 @@ contains
       do i = 2, size(lines)
          if (lines(i) == " /") return
          at = index(lines(i), "=")
-         if (at > 0) key = trim(adjustl(lines(i) (:at - 1)))
+         if (at > 0) key = in_small_letters(trim(adjustl(lines(i) (:at - 1))))
          associate (values => lines(i) (at + 1:))
             if (index(values, """") > 0) cycle
             if (index(values, "NaN") > 0) then
@@ -106,6 +106,21 @@ contains
          if (allocated(error)) return
       end do
    end subroutine check_numbers
+
+   !> Text in small letters.
+   pure function in_small_letters(words) result(small)
+      !> The text
+      character(len=*), intent(in) :: words
+      character(len=len(words)) :: small
+      integer :: i
+
+      small = words
+      do i = 1, len(words)
+         if (lge(words(i:i), "A") .and. lle(words(i:i), "Z")) then
+            small(i:i) = achar(iachar(words(i:i)) + iachar("a") - iachar("A"))
+         end if
+      end do
+   end function in_small_letters
 
    !> The elements of a list that were given.
    pure function elements(list) result(given)

@@ -94,7 +94,9 @@ contains
 
    !> Keep the first error and leave nothing behind.
    subroutine note(self, status)
+      !> The file
       class(output_file_type), intent(inout) :: self
+      !> What a call of NetCDF returned
       integer, intent(in) :: status
       character(len=:), allocatable :: reason
 
@@ -127,12 +129,15 @@ contains
    !> Define a variable, compressed and with a checksum: a value that was damaged on the disk is an
    !> error for all readers.
    integer function variable(self, name, kind, dimensions, long_name) result(id)
+      !> The file
       class(output_file_type), intent(inout) :: self
+      !> Name of the variable
       character(len=*), intent(in) :: name
       !> NetCDF's number of its type
       integer, intent(in) :: kind
       !> Dimensions of the variable, the fastest first
       integer, intent(in) :: dimensions(:)
+      !> Description of the variable, its `long_name`
       character(len=*), intent(in) :: long_name
       character(len=:), allocatable :: coordinates
       integer :: i
@@ -350,9 +355,13 @@ contains
 
    !> Write real numbers, from index `first` on.
    subroutine put_reals(self, variable, values, first)
+      !> The file
       class(output_file_type), intent(inout) :: self
+      !> The variable
       integer, intent(in) :: variable
+      !> Values of the variable
       real(wp), intent(in) :: values(:)
+      !> Index of the first, 1 if it is left out
       integer, intent(in), optional :: first
       integer :: start
 
@@ -364,8 +373,11 @@ contains
 
    !> Write integers.
    subroutine put_integers(self, variable, values)
+      !> The file
       class(output_file_type), intent(inout) :: self
+      !> The variable
       integer, intent(in) :: variable
+      !> Values of the variable
       integer, intent(in) :: values(:)
 
       if (allocated(self%error)) return

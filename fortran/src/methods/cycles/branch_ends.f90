@@ -117,6 +117,7 @@ contains
 
    !> Whether a branch or a curve comes back to its first orbit.
    pure logical function is_closed(family, orbits, step) result(value)
+      !> What the orbits have in common
       type(free_family_type), intent(in) :: family
       !> Orbits of the branch
       type(periodic_orbit_type), intent(in) :: orbits(:)

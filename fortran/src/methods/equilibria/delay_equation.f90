@@ -53,6 +53,7 @@ contains
    pure function linear_part(problem, state) result(linear)
       !> The problem, with constant lags
       class(dde_problem_type), intent(in) :: problem
+      !> The stationary state
       real(wp), intent(in) :: state(:)
       type(linear_system_type) :: linear
       real(wp) :: by_y(size(state), size(state)), by_z(size(state), size(problem%lag))
