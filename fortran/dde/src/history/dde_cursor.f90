@@ -35,15 +35,15 @@ module dde_cursor
       logical, allocatable :: before_origin(:)
    contains
       !> Go to a step
-      procedure :: set
+      procedure, non_overridable :: set
       !> A time at which the right-hand side may be evaluated
-      procedure :: inside
+      procedure, non_overridable :: inside
       !> All delayed values at places of the step
-      procedure :: values
+      procedure, non_overridable :: values
       !> A time in the problem's history
-      procedure :: time_before
+      procedure, non_overridable :: time_before
       !> Let one delayed value read the past step at a place, or a given past step
-      procedure :: walk_to, read_from
+      procedure, non_overridable :: walk_to, read_from
    end type cursor_type
 
    interface cursor_type

@@ -47,22 +47,22 @@ module dde_history
       real(wp), allocatable, private :: coefficients(:, :, :)
    contains
       !> Start, length and validity of a step
-      procedure :: start_of, length_of, validity_of
+      procedure, non_overridable :: start_of, length_of, validity_of
       !> One delayed value at one time, and at several
-      procedure :: value, values
+      procedure, non_overridable :: value, values
       !> Taylor series of one delayed value
-      procedure :: series
+      procedure, non_overridable :: series
       !> Store the polynomials of an accepted step, all at once or one by one
-      procedure :: append, open_step, fill
+      procedure, non_overridable :: append, open_step, fill
       !> Double a full ring, if there is memory for it
-      procedure :: make_room
+      procedure, non_overridable :: make_room
       !> Read a stored step
-      procedure :: recall
+      procedure, non_overridable :: recall
       !> Drop the steps that ended before a given time
-      procedure :: forget
+      procedure, non_overridable :: forget
       !> Highest degree of the polynomials kept
-      procedure :: degree_in_use
-      procedure, private :: double_capacity, is_full, slot_of
+      procedure, non_overridable :: degree_in_use
+      procedure, non_overridable, private :: double_capacity, is_full, slot_of
    end type history_type
 
    interface history_type
