@@ -1,7 +1,5 @@
-"""Progress: nothing when short, lines in a log, on a terminal one line that is rewritten."""
+"""Progress: nothing when short, otherwise a line every 5 per cent."""
 
-import os
-import pty
 import re
 import signal
 import subprocess
@@ -13,8 +11,6 @@ from conftest import SMOKE, Programs
 
 TOLD = re.compile(r"trajectory of torus: (\d+) %, (\d+) of (\d+), (?:\d+ min )?\d+ s (left|in all)")
 """A line of progress: per cent, samples done, samples in all."""
-CLEARED = "\r\x1b[K"
-"""The end of what a terminal receives: an empty line."""
 
 
 @pytest.fixture
@@ -33,21 +29,6 @@ def held_up_run(programs: Programs, stderr: int | IO[str]) -> subprocess.Popen[s
     time.sleep(2.5)
     run.send_signal(signal.SIGCONT)
     return run
-
-
-def on_a_terminal(programs: Programs, *, held_up: bool) -> tuple[int, str]:
-    """Exit status of a trajectory whose standard error is a terminal, and what that receives."""
-    ours, theirs = pty.openpty()
-    run = held_up_run(programs, theirs) if held_up else programs.start("trajectory", stderr=theirs)
-    os.close(theirs)
-    received = b""
-    try:
-        while some := os.read(ours, 1024):
-            received += some
-    except OSError:
-        pass  # the other end was closed
-    os.close(ours)
-    return run.wait(timeout=60), received.decode()
 
 
 def numbers_in(lines: list[str]) -> list[tuple[int, int, int]]:
@@ -70,23 +51,11 @@ def test_log_gets_a_line_every_five_per_cent(long_run):
     assert [line.endswith(" in all") for line in lines] == [False] * (len(lines) - 1) + [True]
 
 
-def test_terminal_gets_one_line_that_is_cleared(long_run):
-    """Each text overwrites the one before and fits; at the end none is left."""
-    status, received = on_a_terminal(long_run, held_up=True)
-    assert status == 0
-    assert received.endswith(CLEARED)
-    assert "\n" not in received
-    lines = [text.removesuffix("\x1b[K") for text in received.removesuffix(CLEARED).split("\r")[1:]]
-    told = numbers_in(lines)
-    assert told == sorted(told)
-    assert len(told) >= 2
-    assert max(map(len, lines)) <= 79
-
-
 def test_short_program_says_nothing(programs, good_inputs):
-    """On a terminal either."""
+    """Nothing on standard error."""
     programs.made_by("trajectory", good_inputs["trajectory"])
-    assert on_a_terminal(programs, held_up=False) == (0, "")
+    run = programs.start("trajectory", stderr=subprocess.PIPE, text=True)
+    assert run.communicate(timeout=60)[1] == ""
 
 
 def test_standard_error_that_takes_nothing_does_not_stop_the_work(long_run):

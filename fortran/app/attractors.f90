@@ -33,7 +33,6 @@ program attractors_program
    else
       call sweep_attractors(list, settings, options, findings, report)
    end if
-   call report%finish()
    call write_attractors(output_path, points, list, settings, options, findings, error)
    call stop_on(error)
 end program attractors_program

@@ -25,11 +25,9 @@ program cycles_program
    report = progress_type("branches of cycles")
    call find_cycles(settings, hopf, found, left_out, error, report)
    call stop_on(error)
-   call report%finish()
    report = progress_type("curves of their special points")
    call find_curves(settings, found, curves, error, report)
    call stop_on(error)
-   call report%finish()
    call write_cycles(output_path, settings, hopf, found, left_out, curves, error)
    call stop_on(error)
 end program cycles_program

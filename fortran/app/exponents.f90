@@ -51,7 +51,6 @@ program exponents
                           options(i), measured(i), error, progress=report)
       if (allocated(error)) exit
    end do
-   call report%finish()
    call stop_on(error)
    call write_exponents(output_path, scene, settings, options, measured, error)
    call stop_on(error)

@@ -35,7 +35,6 @@ program measure
       call time_runs(cases(i), settings%most_steps, settings%repeats, settings%least_seconds, &
                      measured(i)%runs, report)
    end do
-   call report%finish()
    call write_measured_runs(output_path, measured, error)
    call stop_on(error)
 end program measure

@@ -39,7 +39,6 @@ program reference
          call file%put(cases(i), options%disturbance, best, checking, disturbed)
       end do
    end associate
-   call report%finish()
    call file%finish(error)
    call stop_on(error)
 end program reference

@@ -1,17 +1,11 @@
-!> The program as a process: its number, whether its messages go to a terminal, and its end.
+!> The program as a process: its number and its end.
 module process
    use, intrinsic :: iso_c_binding, only: c_int
    implicit none (type, external)
    private
-   public :: end_at_once, number_of_process, standard_error_is_terminal
+   public :: end_at_once, number_of_process
 
    interface
-      integer(c_int) function c_isatty(descriptor) result(value) bind(c, name="isatty")
-         import :: c_int
-         implicit none (type, external)
-         integer(c_int), value :: descriptor
-      end function c_isatty
-
       integer(c_int) function c_getpid() result(value) bind(c, name="getpid")
          import :: c_int
          implicit none (type, external)
@@ -25,12 +19,6 @@ module process
    end interface
 
 contains
-
-   !> Whether standard error is a terminal, not a file or a pipe.
-   logical function standard_error_is_terminal() result(value)
-
-      value = c_isatty(2_c_int) == 1
-   end function standard_error_is_terminal
 
    !> The number of the process, which no other process of this computer has.
    integer function number_of_process() result(value)

@@ -1,10 +1,8 @@
-!> Progress of a long program on standard error: on a terminal one line that is rewritten, elsewhere
-!> a line every 5 %. Short programs write nothing.
+!> Progress of a long program on standard error: a line every 5 %. Short programs write nothing.
 module progress
    use, intrinsic :: iso_fortran_env, only: error_unit
    use dde_errors, only: text
    use dde_kinds, only: int64, wp
-   use process, only: standard_error_is_terminal
    use progress_receiver, only: progress_receiver_type
    implicit none (type, external)
    private
@@ -12,16 +10,10 @@ module progress
 
    !> Seconds before the first line.
    integer, parameter :: patience = 2
-   !> Lines a second on a terminal.
-   integer(int64), parameter :: lines_a_second = 5
-   !> Per cent between two lines elsewhere.
+   !> Per cent between two lines.
    integer, parameter :: step = 5
    !> Looks at the clock in one part of the work.
    integer, parameter :: looks = 1000
-   !> Letters of a line that fit on a terminal.
-   integer, parameter :: width = 79
-   !> For a terminal: go to the beginning of the line; clear what follows.
-   character(len=*), parameter :: line_start = achar(13), clear_rest = achar(27)//"[K"
 
    !> Progress of work in one part, or in several of about the same length. Programs with several
    !> threads call it from one at a time, in a critical region.
@@ -31,12 +23,10 @@ module progress
       character(len=:), allocatable :: label
       !> Number of parts, and the one being worked on
       integer :: parts = 1, part = 1
-      !> Whether lines are rewritten, and whether there is one now
-      logical :: rewritten = .false., shown = .false.
       !> Whether writing to standard error failed
       logical :: silent = .false.
-      !> When the work began, and when the last line was written, in ticks of the clock
-      integer(int64) :: begun = 0, written_at = 0
+      !> When the work began, in ticks of the clock
+      integer(int64) :: begun = 0
       !> Ticks in a second
       integer(int64) :: ticks = 1
       !> Pieces done when the clock is looked at next
@@ -47,9 +37,7 @@ module progress
       procedure :: advance
       !> Begin another part
       procedure :: begin_part
-      !> End of the work: leave an empty line on a terminal
-      procedure :: finish
-      procedure, private :: write_line, put, pieces_done, percent_of, time_left
+      procedure, private :: pieces_done, percent_of, time_left
    end type progress_type
 
    interface progress_type
@@ -68,7 +56,6 @@ contains
 
       report%label = label
       if (present(parts)) report%parts = parts
-      report%rewritten = standard_error_is_terminal()
       call system_clock(report%begun, report%ticks)
    end function new_progress
 
@@ -91,66 +78,23 @@ contains
       integer, intent(in) :: done
       !> Number of pieces in all, at least 1
       integer, intent(in) :: total
+      character(len=:), allocatable :: line
+      integer :: percent, status
       integer(int64) :: now
 
-      if (done < self%next .and. done < total) return
+      if (self%silent .or. (done < self%next .and. done < total)) return
       self%next = done + max(1, total/looks)
       call system_clock(now)
-      if (now - self%begun < patience*self%ticks) return
-      if (self%rewritten) then
-         if ((now - self%written_at)*lines_a_second >= self%ticks) then
-            call self%write_line(done, total, now)
-         end if
-      else if (self%percent_of(done, total)/step > self%percent/step) then
-         call self%write_line(done, total, now)
-      end if
-   end subroutine advance
-
-   !> Write a line.
-   subroutine write_line(self, done, total, now)
-      !> The progress
-      class(progress_type), intent(inout) :: self
-      !> Number of pieces done
-      integer, intent(in) :: done
-      !> Number of pieces in all
-      integer, intent(in) :: total
-      !> Ticks of the clock
-      integer(int64), intent(in) :: now
-      character(len=:), allocatable :: line
-
-      self%written_at = now
-      self%percent = self%percent_of(done, total)
-      line = self%label//": "//text(self%percent)//" %, "
+      percent = self%percent_of(done, total)
+      if (now - self%begun < patience*self%ticks .or. percent/step <= self%percent/step) return
+      self%percent = percent
+      line = self%label//": "//text(percent)//" %, "
       if (self%parts > 1) line = line//"part "//text(self%part)//" of "//text(self%parts)//", "
-      line = line//text(done)//" of "//text(total)//", "//self%time_left(done, total)
-      if (self%rewritten) line = line_start//line(:min(len(line), width))//clear_rest
-      call self%put(line)
-      self%shown = self%rewritten
-   end subroutine write_line
-
-   !> Leave an empty line on a terminal.
-   subroutine finish(self)
-      !> The progress
-      class(progress_type), intent(inout) :: self
-
-      if (self%shown) call self%put(line_start//clear_rest)
-      self%shown = .false.
-   end subroutine finish
-
-   !> Write to standard error. If that fails, the work goes on without reports.
-   subroutine put(self, line)
-      !> The progress
-      class(progress_type), intent(inout) :: self
-      !> What to write, on a terminal with its control characters
-      character(len=*), intent(in) :: line
-      integer :: status
-
-      if (self%silent) return
-      write (error_unit, "(a)", advance=trim(merge("no ", "yes", self%rewritten)), &
-             iostat=status) line
+      line = line//text(done)//" of "//text(total)//", "//self%time_left(done, total, now)
+      write (error_unit, "(a)", iostat=status) line
       if (status == 0) flush (error_unit, iostat=status)
       self%silent = status /= 0
-   end subroutine put
+   end subroutine advance
 
    !> Pieces done of the whole, if all parts had as many as this one.
    pure integer(int64) function pieces_done(self, done, total) result(pieces)
@@ -177,18 +121,20 @@ contains
    end function percent_of
 
    !> Time left, or of finished work all the time that it took, in words.
-   pure function time_left(self, done, total) result(words)
+   pure function time_left(self, done, total, now) result(words)
       !> The progress
       class(progress_type), intent(in) :: self
       !> Pieces of this part done
       integer, intent(in) :: done
       !> Pieces of this part
       integer, intent(in) :: total
+      !> Ticks of the clock
+      integer(int64), intent(in) :: now
       character(len=:), allocatable :: words
       integer(int64) :: pieces
       real(wp) :: taken
 
-      taken = real(self%written_at - self%begun, wp)/self%ticks
+      taken = real(now - self%begun, wp)/self%ticks
       pieces = self%pieces_done(done, total)
       if (pieces == 0) then
          words = "just begun"

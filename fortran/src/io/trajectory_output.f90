@@ -105,7 +105,6 @@ contains
       if (self%held == block_length) call self%flush()
       if (allocated(self%file%error)) then
          ! a sampler cannot end the integration
-         call self%progress%finish()
          call stop_on(self%file%error)
       end if
       self%held = self%held + 1
@@ -144,7 +143,6 @@ contains
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
 
-      call self%progress%finish()
       call self%flush()
       associate (file => self%file, scene => self%scene)
          call file%attribute("scene", trim(scene%name))
@@ -169,7 +167,6 @@ contains
       !> The writer
       class(trajectory_writer_type), intent(inout) :: self
 
-      call self%progress%finish()
       call self%file%discard()
    end subroutine discard
 end module trajectory_output
