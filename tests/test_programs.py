@@ -115,43 +115,6 @@ def test_file_without_the_group_is_refused(programs, text):
     assert "&settings" in line
 
 
-def test_key_or_group_given_twice_is_refused(programs, good_groups):
-    """Fortran would take the last of two keys, and the first of two groups."""
-    namelist = programs.write(good_groups["trajectory"])
-    text = namelist.read_text()
-    first = text.splitlines(keepends=True)[1]
-    namelist.write_text(text.replace(first, first.upper() + first, 1))
-    said = refusal(programs, programs.run("trajectory", "input.nml", "output.nc"))
-    key = first.split()[0]
-    assert f"input.nml: namelist group &settings: {key} stands in lines 2 and 3; expected" in said
-    namelist.write_text(text + text)
-    said = refusal(programs, programs.run("trajectory", "input.nml", "output.nc"))
-    lines = f"1 and {text.count(chr(10)) + 1}"
-    assert f"input.nml: namelist group &settings stands in lines {lines}; expected once" in said
-
-
-@pytest.mark.parametrize(
-    ("line", "key"),
-    [
-        ("scene%history = 0.0, 0.0, 1.1", "scene%history%theta"),
-        ("scene%variables(2) = 'u'", "scene%variables"),
-        ("scene%variables (1)\n=\n'u'", "scene%variables"),
-        ("scene%t_end = 1.0, scene%name = 'a'' ! tau = 1 /'", "scene%t_end"),
-        ("scene%t_end = 1.0 ! it's a comment /", "scene%t_end"),
-    ],
-)
-def test_key_given_in_parts_is_refused(programs, good_groups, line, key):
-    """A structure and its component, a list and its element; comments and strings have no keys."""
-    scene = good_groups["trajectory"]["scene"]
-    if "name" in line:
-        del scene["name"]
-    namelist = programs.write({"scene": scene})
-    text = namelist.read_text()
-    namelist.write_text(text.replace("&settings\n", f"&settings\n{line}\n"))
-    said = refusal(programs, programs.run("trajectory", "input.nml", "output.nc"))
-    assert re.search(rf"group &settings: {key} stands in lines [23] and \d+; expected", said)
-
-
 def test_signs_in_comments_and_strings_are_no_keys(programs, good_groups):
     """Nor groups; a file may hold other groups with the same keys."""
     scene = good_groups["trajectory"]["scene"]
@@ -164,14 +127,6 @@ def test_signs_in_comments_and_strings_are_no_keys(programs, good_groups):
     run = programs.run("trajectory", "input.nml", "output.nc")
     assert (run.returncode, run.stderr) == (0, "")
     assert xr.load_dataset(programs.output).attrs["tau"] == scene["tau"]
-
-
-def test_namelist_that_is_too_long_is_refused(programs, good_groups):
-    """Without reading it."""
-    namelist = programs.write(good_groups["trajectory"])
-    os.truncate(namelist, 10_000_000_000)
-    said = refusal(programs, programs.run("trajectory", "input.nml", "output.nc"))
-    assert "input.nml: size = 10000000000 bytes; expected a namelist of at most 1000000" in said
 
 
 def test_memory_that_cannot_be_had_is_an_error(programs, good_groups):

@@ -14,8 +14,7 @@ module netcdf_output
    private
    public :: output_file_type
 
-   !> Level of compression: trajectories shrink to 0.35 to 0.55 of their size; higher levels take
-   !> longer and save at most 1 % more
+   !> Level of compression: higher levels take longer and save at most 1 % more
    integer, parameter :: level = 4
    !> What all results are made from
    character(len=*), parameter :: paper = "S. Kostic, N. Vasovic, I. Franovic, K. Todorovic: &
@@ -126,8 +125,7 @@ contains
       if (present(coordinates)) self%axes(size(self%axes))%coordinates = coordinates
    end function dimension
 
-   !> Define a variable, compressed and with a checksum: a value that was damaged on the disk is an
-   !> error for all readers.
+   !> Define a variable, compressed and with a checksum, so that readers refuse damaged values.
    integer function variable(self, name, kind, dimensions, long_name) result(id)
       !> The file
       class(output_file_type), intent(inout) :: self
@@ -231,8 +229,7 @@ contains
       call self%put(self%integer_variable(name, dimension, long_name), values)
    end subroutine column_of_integers
 
-   !> Define and write a variable of words over one dimension; shorter words end with null
-   !> characters, which readers drop.
+   !> Define and write a variable of words over one dimension, filled up with null characters.
    subroutine words(self, dimension, name, values, long_name)
       !> The file
       class(output_file_type), intent(inout) :: self
@@ -300,8 +297,7 @@ contains
       end do
    end function joined
 
-   !> Define and write a variable of nondimensional real numbers over two dimensions; NaN is a
-   !> missing value.
+   !> Define and write nondimensional real numbers over two dimensions; NaN is a missing value.
    subroutine table(self, dimensions, name, values, long_name)
       !> The file
       class(output_file_type), intent(inout) :: self
@@ -342,8 +338,8 @@ contains
       type is (real(wp))
          call self%note(nf90_put_att(self%id, owner, name, value))
       type is (integer(int64))
+         ! NetCDF's Fortran interface takes no longer integers
          if (abs(value) > huge(1)) then
-            ! NetCDF's Fortran interface takes no longer integers
             call self%note(nf90_put_att(self%id, owner, name, real(value, wp)))
          else
             call self%note(nf90_put_att(self%id, owner, name, int(value)))
@@ -362,13 +358,10 @@ contains
       !> Values of the variable
       real(wp), intent(in) :: values(:)
       !> Index of the first, 1 if it is left out
-      integer, intent(in), optional :: first
-      integer :: start
+      integer, intent(in), optional :: first(1)
 
       if (allocated(self%error)) return
-      start = 1
-      if (present(first)) start = first
-      call self%note(nf90_put_var(self%id, variable, values, start=[start]))
+      call self%note(nf90_put_var(self%id, variable, values, start=first))
    end subroutine put_reals
 
    !> Write integers.
@@ -392,9 +385,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       if (.not. allocated(self%error)) call self%note(nf90_close(self%id))
-      if (.not. allocated(self%error)) then
-         call self%place%publish(self%error)
-      end if
+      if (.not. allocated(self%error)) call self%place%publish(self%error)
       if (allocated(self%error)) allocate (error, source=self%error)
    end subroutine finish
 
@@ -402,9 +393,8 @@ contains
    subroutine discard(self)
       !> The file
       class(output_file_type), intent(inout) :: self
-      integer :: status
 
-      status = nf90_close(self%id)
+      if (nf90_close(self%id) == nf90_noerr) self%id = -1
       call self%place%discard()
    end subroutine discard
 end module netcdf_output

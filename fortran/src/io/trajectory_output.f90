@@ -128,7 +128,7 @@ contains
       integer :: i
 
       do i = 0, size(self%wanted)
-         call self%file%put(self%ids(i), self%block(:self%held, i), first=self%written + 1)
+         call self%file%put(self%ids(i), self%block(:self%held, i), first=[self%written + 1])
       end do
       self%written = self%written + self%held
       self%held = 0
