@@ -70,7 +70,6 @@ module dde_step
       pure subroutine attempt_step(self, context, error)
          import :: step_context, step_type, wp
          implicit none (type, external)
-         !> The step
          class(step_type), intent(inout) :: self
          !> The context of the step
          type(step_context), intent(inout) :: context
@@ -82,7 +81,6 @@ module dde_step
       pure subroutine give_polynomial(self, i, a)
          import :: step_type, wp
          implicit none (type, external)
-         !> The step
          class(step_type), intent(in) :: self
          !> Number of the component
          integer, intent(in) :: i
@@ -94,7 +92,6 @@ module dde_step
       pure subroutine go_to_end(self)
          import :: step_type
          implicit none (type, external)
-         !> The step
          class(step_type), intent(inout) :: self
       end subroutine go_to_end
    end interface
@@ -103,9 +100,7 @@ contains
 
    !> Storage of what all steps have, and the state at the initial time.
    pure subroutine allocate_state(self, problem)
-      !> The step
       class(step_type), intent(inout) :: self
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
 
       associate (n => problem%n, delays => size(problem%lag))
@@ -116,9 +111,7 @@ contains
 
    !> Evaluate the slope at the start of the step on which the cursor stands.
    pure subroutine restart(self, context)
-      !> The step
       class(step_type), intent(inout) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
 
       call context%delayed_values([0.0_wp], self%z)
@@ -128,15 +121,12 @@ contains
 
    !> There is nothing to forget unless a method says so.
    pure subroutine reset(self)
-      !> The step
       class(step_type), intent(inout) :: self
    end subroutine reset
 
    !> The step size remains as it is unless a method knows better before it attempts the step.
    pure subroutine propose(self, context, h)
-      !> The step
       class(step_type), intent(inout) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
       !> Step size: proposed so far, then by the method
       real(wp), intent(inout) :: h
@@ -144,25 +134,19 @@ contains
 
    !> An accepted step is finished unless a method says otherwise.
    pure subroutine complete(self, context)
-      !> The step
       class(step_type), intent(inout) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
    end subroutine complete
 
    !> The polynomial needs no preparation unless a method says so.
    pure subroutine extend(self, context)
-      !> The step
       class(step_type), intent(inout) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
    end subroutine extend
 
    !> Step control proposes the next step size from the error, unless a method knows better.
    pure subroutine next_length(self, control, h, error)
-      !> The step, accepted
       class(step_type), intent(in) :: self
-      !> Step control
       type(controller_type), intent(inout) :: control
       !> Length of the step, replaced by the next
       real(wp), intent(inout) :: h
@@ -174,7 +158,6 @@ contains
 
    !> A method that cannot see stiffness reports none.
    pure logical function stiff(self) result(value)
-      !> The step, accepted and complete
       class(step_type), intent(in) :: self
 
       value = .false.
@@ -182,7 +165,6 @@ contains
 
    !> Slope at the present state, from the left: `advance` sets the slope at the next start.
    pure function slope_here(self) result(slope)
-      !> The step
       class(step_type), intent(in) :: self
       real(wp) :: slope(size(self%y))
 

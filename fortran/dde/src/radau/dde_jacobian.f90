@@ -36,10 +36,7 @@ module dde_jacobian
       !> Moved arguments, shapes (n) and (delayed values)
       real(wp), allocatable, private :: moved_y(:), moved_z(:)
    contains
-      !> Evaluate the Jacobian at a place
-      procedure :: evaluate
-      !> Norm of the Jacobian: the largest sum of a row
-      procedure :: find_norm
+      procedure :: evaluate, find_norm
       procedure, private :: prepare, find_rows
    end type jacobian_type
 
@@ -47,18 +44,11 @@ contains
 
    !> The Jacobian at a place, as the problem gives it or by forward differences.
    pure subroutine evaluate(self, problem, tolerance, work, t, y, z, with_delays, finite)
-      !> The Jacobian
       class(jacobian_type), intent(inout) :: self
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
-      !> Work so far
       type(work_type), intent(inout) :: work
-      !> Time
-      real(wp), intent(in) :: t
-      !> State, shape (n)
-      real(wp), intent(in) :: y(:)
+      real(wp), intent(in) :: t, y(:)
       !> Delayed values, shape (delayed values)
       real(wp), intent(in) :: z(:)
       !> Whether `by_z` is needed
@@ -105,9 +95,7 @@ contains
 
    !> Rows of a column that may differ from 0: row i is at (shift + i, j).
    pure subroutine find_rows(self, j, first, last, shift)
-      !> The Jacobian
       class(jacobian_type), intent(in) :: self
-      !> Number of the column
       integer, intent(in) :: j
       !> First and last row, and the shift of all rows
       integer, intent(out) :: first, last, shift
@@ -150,9 +138,7 @@ contains
 
    !> Storage, when it is first needed.
    pure subroutine prepare(self, problem, with_delays)
-      !> The Jacobian
       class(jacobian_type), intent(inout) :: self
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Whether `by_z` is needed
       logical, intent(in) :: with_delays
@@ -177,11 +163,8 @@ contains
 
    !> Size of a component, to which its difference is proportional.
    pure real(wp) function size_of(tolerance, i, value) result(size)
-      !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
-      !> Number of the component
       integer, intent(in) :: i
-      !> Value of the component
       real(wp), intent(in) :: value
 
       size = max(abs(value), small_share*tolerance%absolute(i)/tolerance%level, &
@@ -190,9 +173,7 @@ contains
 
    !> The largest sum of a row of absolute values.
    pure subroutine find_norm(self, norm)
-      !> The Jacobian
       class(jacobian_type), intent(inout) :: self
-      !> The norm
       real(wp), intent(out) :: norm
       integer :: first, j, last, shift
 

@@ -53,7 +53,6 @@ contains
    pure subroutine solve_real(a, pivot, first, last, b)
       !> Rows exchanged, shape (n)
       integer, intent(in) :: pivot(:)
-      !> Factors
       real(wp), intent(in) :: a(size(pivot), size(pivot))
       !> Right-hand side, replaced by the solution
       real(wp), intent(inout) :: b(size(pivot))
@@ -65,7 +64,6 @@ contains
    pure subroutine solve_complex(a, pivot, first, last, b)
       !> Rows exchanged, shape (n)
       integer, intent(in) :: pivot(:)
-      !> Factors
       complex(wp), intent(in) :: a(size(pivot), size(pivot))
       !> Right-hand side, replaced by the solution
       complex(wp), intent(inout) :: b(size(pivot))
@@ -75,7 +73,6 @@ contains
 
    !> Size of a real number.
    elemental real(wp) function size_of_real(x) result(value)
-      !> The number
       real(wp), intent(in) :: x
 
       value = abs(x)
@@ -83,7 +80,6 @@ contains
 
    !> Size of a complex number.
    elemental real(wp) function size_of_complex(z) result(value)
-      !> The number
       complex(wp), intent(in) :: z
 
       value = abs(real(z)) + abs(aimag(z))
