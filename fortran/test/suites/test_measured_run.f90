@@ -13,7 +13,7 @@ module test_measured_run
    use measured_run, only: measure_run, run_type, time_runs
    use progress_recorder, only: expect_counted, recorder
    use test_problems, only: linear, sine
-   use undelayed_problems, only: falls_out, oscillator, without_delays
+   use undelayed_problems, only: falls_out, swing
    implicit none (type, external)
    private
    public :: collect_measured_run
@@ -60,11 +60,8 @@ contains
    !> An oscillator, where both are the same method.
    subroutine test_order_without_delay(error)
       type(error_type), allocatable, intent(out) :: error
-      type(oscillator) :: problem
 
-      problem = oscillator(n=2, past=[1.0_wp, 0.0_wp], first=[1.0_wp, 0.0_wp])
-      call without_delays(problem)
-      call expect_between(error, order_of(problem, .false., 2.0_wp, cos(2.0_wp), 0.05_wp), &
+      call expect_between(error, order_of(swing(), .false., 2.0_wp, cos(2.0_wp), 0.05_wp), &
                           3.8_wp, 4.2_wp, "order")
    end subroutine test_order_without_delay
 
@@ -133,15 +130,12 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
-      type(falls_out) :: no_number
       type(sine) :: problem
 
       problem = sine()
       call integrate_rk4(problem, 10.0_wp, 2.0_wp, .true., outcome, failure)
       call expect_failure(error, failure, "longer than the shortest delay, 1.570796")
-      no_number = falls_out(n=1, past=[0.0_wp], first=[0.0_wp])
-      call without_delays(no_number)
-      call integrate_rk4(no_number, 2.0_wp, 0.1_wp, .true., outcome, failure)
+      call integrate_rk4(falls_out(0.0_wp), 2.0_wp, 0.1_wp, .true., outcome, failure)
       call expect_failure(error, failure, "not finite")
       call expect(error, outcome%reason == value_not_finite, "the reason says so")
       call expect_close(error, outcome%t, 0.9_wp, 1.0e-12_wp, "time reached")

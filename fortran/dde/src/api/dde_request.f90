@@ -149,7 +149,6 @@ contains
    pure subroutine check_span(t_start, t_end, error, continuation)
       real(wp), intent(in) :: t_start, t_end
       type(error_type), allocatable, intent(out) :: error
-      !> Where an earlier run ended
       type(continuation_type), intent(in), optional :: continuation
       type(instant) :: start
 
@@ -213,7 +212,6 @@ contains
    !> Refuse tolerances of components out of range.
    pure subroutine check_each(n, options, error)
       integer, intent(in) :: n
-      !> What the caller chose
       type(integration_options), intent(in) :: options
       type(error_type), allocatable, intent(out) :: error
 
@@ -230,9 +228,7 @@ contains
    !> Refuse a list of tolerances of wrong size or out of range.
    pure subroutine check_list(n, name, values, range, allowed, error)
       integer, intent(in) :: n
-      !> Name of the list
       character(len=*), intent(in) :: name
-      !> The list
       real(wp), intent(in) :: values(:)
       !> What is allowed
       character(len=*), intent(in) :: range

@@ -123,14 +123,8 @@ contains
       real(wp), intent(in) :: t
       !> State of the stage, completed here
       real(wp), intent(inout) :: stage(context%problem%n)
-      !> Weight of the newest slope
-      real(wp), intent(in) :: weight
-      !> The newest slope
-      real(wp), intent(in) :: newest(context%problem%n)
-      real(wp), intent(in) :: z(size(context%problem%lag))
-      !> Slope of the stage
+      real(wp), intent(in) :: weight, newest(context%problem%n), z(size(context%problem%lag))
       real(wp), intent(inout) :: slope(context%problem%n)
-      !> Whether all slopes so far are finite
       logical, intent(inout) :: finite
 
       stage = stage + weight*newest
@@ -202,7 +196,6 @@ contains
       integer, intent(in) :: n
       !> Errors of the embedded methods, finite
       real(wp), intent(in) :: e3(n), e5(n)
-      !> Tolerance of each component, shape (n)
       real(wp), intent(in) :: scale(n)
       real(wp) :: of_3, of_5
       integer :: i

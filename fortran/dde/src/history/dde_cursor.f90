@@ -113,9 +113,7 @@ contains
    pure real(wp) function time_before(self, past, lag, ahead) result(time)
       class(cursor_type), intent(in) :: self
       type(history_type), intent(in) :: past
-      real(wp), intent(in) :: lag
-      !> Time since the start of the step
-      real(wp), intent(in) :: ahead
+      real(wp), intent(in) :: lag, ahead
       real(wp) :: margin
 
       time = self%t + (ahead - lag)

@@ -61,7 +61,6 @@ contains
    !> An empty past that begins at `origin`.
    pure function new_history(problem, origin) result(past)
       class(dde_problem_type), intent(in) :: problem
-      !> Initial time of the integration
       type(instant), intent(in) :: origin
       type(history_type) :: past
       integer, allocatable :: row_of(:)
@@ -117,7 +116,6 @@ contains
       class(history_type), intent(in) :: self
       integer(int64), intent(in) :: step
       integer, intent(in) :: k
-      !> Time since the start of the step
       real(wp), intent(in) :: time
       integer :: slot
 
@@ -135,7 +133,6 @@ contains
       real(wp), intent(in) :: offset
       !> Time since the start of the step up to which its polynomial is read
       real(wp), intent(in) :: limit
-      !> Times, ascending
       real(wp), contiguous, intent(in) :: ahead(:)
       !> First time to read; on return the first that lies beyond the limit
       integer, intent(inout) :: first
@@ -156,7 +153,6 @@ contains
       integer, intent(in) :: k
       !> Where the series begins, as time since the start of the step
       real(wp), intent(in) :: time
-      !> The unit of time
       real(wp), intent(in) :: unit
       !> Coefficients; higher ones than its size are left out
       real(wp), contiguous, intent(out) :: coefficients(0:)
@@ -227,11 +223,9 @@ contains
       class(history_type), intent(inout) :: self
       type(instant), intent(in) :: start
       real(wp), intent(in) :: length
-      !> Newton nodes of its polynomials
       real(wp), contiguous, intent(in) :: nodes(:)
       !> Whether all of them are 0
       logical, intent(in) :: powers
-      !> Time from `start` for which they are valid; the length if that is longer
       real(wp), intent(in) :: valid_for
       integer :: slot
 

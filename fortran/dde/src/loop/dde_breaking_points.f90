@@ -52,12 +52,7 @@ contains
       class(breaking_points), intent(inout) :: self
       !> Kinks so far and to come, in any order
       type(kink_type), intent(in) :: kinks(:)
-      !> Initial time of the first run
-      type(instant), intent(in) :: origin
-      type(instant), intent(in) :: now
-      !> End of the run
-      type(instant), intent(in) :: finish
-      !> Delays, > 0
+      type(instant), intent(in) :: origin, now, finish
       real(wp), intent(in) :: lag(:)
       !> Passages after which a kink is too smooth for the order of the method
       integer, intent(in) :: most_passages

@@ -74,7 +74,6 @@ contains
    pure subroutine reject(self, method, safety, h, error)
       class(controller_type), intent(inout) :: self
       type(method_constants), intent(in) :: method
-      !> Factor below the step size at which the error would be equal to the tolerance
       real(wp), intent(in) :: safety
       !> Length of the step, replaced by the next attempt
       real(wp), intent(inout) :: h

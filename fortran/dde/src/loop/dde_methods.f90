@@ -54,7 +54,6 @@ contains
    !> copy of another one.
    pure real(wp) function memory_of(problem, method) result(bytes)
       class(dde_problem_type), intent(in) :: problem
-      !> Name of the method, not `auto`
       character(len=8), intent(in) :: method
       real(wp) :: delays, matrix, n, stages
 

@@ -103,7 +103,6 @@ contains
       class(run_type), intent(inout) :: self
       type(instant), intent(in) :: start, finish
       type(integration_options), intent(in) :: options
-      !> Bytes that could not be allocated, or 0
       real(wp), intent(out) :: lacking
       type(kink_type) :: first
       integer :: k
@@ -136,7 +135,6 @@ contains
       class(run_type), intent(inout) :: self
       type(instant), intent(in) :: finish
       type(integration_options), intent(in) :: options
-      !> Bytes that could not be allocated, or 0
       real(wp), intent(out) :: lacking
       !> Where the earlier run ended
       type(continuation_type), intent(in) :: continuation
@@ -237,7 +235,6 @@ contains
    !> Continue by the other method of `auto`.
    subroutine change_to_other(self, lacking)
       class(run_type), intent(inout) :: self
-      !> Bytes that could not be allocated, or 0
       real(wp), intent(out) :: lacking
 
       call change_method(self%context%problem, self%context%tolerance, self%step, lacking)
@@ -251,7 +248,6 @@ contains
       class(run_type), intent(inout) :: self
       !> Number of the breaking point at which the step should have ended
       integer, intent(in) :: goal
-      !> Whether the step ends at this breaking point
       logical, intent(in) :: landing
       type(instant), intent(in) :: step_end
       type(instant) :: horizon

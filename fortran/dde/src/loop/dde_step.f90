@@ -37,30 +37,11 @@ module dde_step
       !> Time from the start of the step for which its polynomial is valid, if longer than the step
       real(wp) :: valid_for = 0.0_wp
    contains
-      !> Storage of the components above, and the initial state
-      procedure :: allocate_state
-      !> Start at a kink: evaluate the slope there
-      procedure :: restart
-      !> Forget what earlier steps have shown
-      procedure :: reset
-      !> Propose a step size before an attempt
-      procedure :: propose
-      !> Attempt a step
+      procedure :: allocate_state, restart, reset, propose, complete, extend, next_length
+      procedure :: slope_here, stiff
       procedure(attempt_step), deferred :: attempt
-      !> Finish an accepted step
-      procedure :: complete
-      !> Prepare the polynomial of an accepted step
-      procedure :: extend
-      !> Polynomial of one component
       procedure(give_polynomial), deferred :: interpolant
-      !> Propose the size of the next step after an accepted one
-      procedure :: next_length
-      !> Whether stability rather than accuracy limits explicit steps here
-      procedure :: stiff
-      !> Make the end of an accepted step the start of the next
       procedure(go_to_end), deferred :: advance
-      !> Slope at the present state
-      procedure :: slope_here
    end type step_type
 
    abstract interface
@@ -119,7 +100,7 @@ contains
       call self%reset()
    end subroutine restart
 
-   !> There is nothing to forget unless a method says so.
+   !> Forget what earlier steps have shown: nothing, unless a method says so.
    pure subroutine reset(self)
       class(step_type), intent(inout) :: self
    end subroutine reset
@@ -156,7 +137,8 @@ contains
       call control%accept(self%constants, self%safety, h, error)
    end subroutine next_length
 
-   !> A method that cannot see stiffness reports none.
+   !> Whether stability rather than accuracy limits explicit steps here. A method that cannot see it
+   !> reports none.
    pure logical function stiff(self) result(value)
       class(step_type), intent(in) :: self
 

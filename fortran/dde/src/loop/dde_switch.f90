@@ -62,9 +62,7 @@ contains
    !> One more step.
    pure subroutine add(self, time, work)
       class(stretch_type), intent(inout) :: self
-      real(wp), intent(in) :: time
-      !> Work of the step
-      real(wp), intent(in) :: work
+      real(wp), intent(in) :: time, work
 
       self%steps = self%steps + 1
       self%time = self%time + time
@@ -82,9 +80,7 @@ contains
    pure subroutine judge(self, problem, step, work_done, shortest_delay, h_next, left, other)
       class(switch_type), intent(inout) :: self
       class(dde_problem_type), intent(in) :: problem
-      !> The step, accepted and complete
       class(step_type), intent(in) :: step
-      !> All work so far
       real(wp), intent(in) :: work_done
       !> Shortest delay, where an implicit step may be longer than it
       real(wp), intent(in) :: shortest_delay
@@ -92,7 +88,6 @@ contains
       real(wp), intent(in) :: h_next
       !> Time left to the end of the run, as far as there is one
       real(wp), intent(in) :: left
-      !> Whether the other method takes over
       logical, intent(out) :: other
       logical :: limited, pace_is_known
       real(wp) :: pace, work
@@ -129,7 +124,6 @@ contains
    !> The other method takes over.
    pure subroutine end_visit(self, pace)
       class(switch_type), intent(inout) :: self
-      !> Pace of the method that is left
       real(wp), intent(in) :: pace
 
       if (self%visit%pace() < worth*self%pace_of_other) then
@@ -143,9 +137,7 @@ contains
    !> stability or a delay; of the implicit one nothing, where an explicit step could be as long.
    pure logical function is_limited(problem, step, shortest_delay, h_next) result(limited)
       class(dde_problem_type), intent(in) :: problem
-      !> The step, accepted
       class(step_type), intent(in) :: step
-      !> Shortest delay, where an implicit step may be longer than it
       real(wp), intent(in) :: shortest_delay
       !> Length proposed for the next
       real(wp), intent(in) :: h_next
@@ -163,7 +155,6 @@ contains
    !> Whether fast components are in balance all along a step, for a problem that gives its series.
    pure logical function in_balance(problem, step) result(value)
       class(dde_problem_type), intent(in) :: problem
-      !> The step, accepted
       class(step_type), intent(in) :: step
 
       value = problem%analytic .and. step%h*problem%relaxation_rate(step%t + step%h, step%y_new) &

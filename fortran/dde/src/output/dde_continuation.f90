@@ -186,7 +186,6 @@ contains
    pure subroutine store(self, past, kinks)
       class(continuation_type), intent(inout) :: self
       type(history_type), intent(in) :: past
-      !> Kinks up to now, ascending
       type(kink_type), intent(in) :: kinks(:)
       type(instant) :: start
       integer(int64) :: step
@@ -216,7 +215,6 @@ contains
       class(continuation_type), intent(in) :: self
       !> The past, empty
       type(history_type), intent(inout) :: past
-      !> Kinks in it, ascending
       type(kink_type), allocatable, intent(out) :: kinks(:)
       integer :: i
 
@@ -236,7 +234,6 @@ contains
    !> empty.
    pure logical function has_rate(self, slope) result(value)
       class(continuation_type), intent(in) :: self
-      !> The right-hand side, shape (n)
       real(wp), intent(in) :: slope(:)
 
       value = size(self%rate) == 0

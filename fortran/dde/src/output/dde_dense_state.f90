@@ -29,7 +29,7 @@ module dde_dense_state
       !> State at its end, shape (components)
       real(wp), allocatable, private :: y_end(:)
       !> Newton nodes of its dense output, shape (degree)
-      real(wp), allocatable, private :: nodes(:)
+      real(wp), allocatable :: nodes(:)
       !> Whether all of them are 0
       logical, private :: powers = .false.
       !> Newton coefficients, shape (0:degree, components)
@@ -40,7 +40,7 @@ module dde_dense_state
       !> (components)
       logical, allocatable, private :: straight(:)
    contains
-      procedure :: begin, take_up, go_to, degree, find_bounds
+      procedure :: begin, take_up, go_to, find_bounds
    end type dense_state
 
 contains
@@ -97,7 +97,6 @@ contains
    !> Go to a place of the step.
    pure subroutine go_to(self, place)
       class(dense_state), intent(inout) :: self
-      !> The place, 0..1
       real(wp), intent(in) :: place
       real(wp) :: slope
       integer :: i, j
@@ -113,13 +112,6 @@ contains
          self%slope(i) = slope/self%h
       end do
    end subroutine go_to
-
-   !> Degree of dense output.
-   pure integer function degree(self) result(value)
-      class(dense_state), intent(in) :: self
-
-      value = size(self%nodes)
-   end function degree
 
    !> Bounds over the step: by powers of x = 2 s - 1, all of them at most 1.
    pure subroutine find_bounds(self)

@@ -69,7 +69,6 @@ contains
       type(instant), intent(inout) :: step_end
       !> Share of the step up to there, 0..1
       real(wp), intent(out) :: share
-      !> Whether an event ends the run
       logical, intent(out) :: ended
       integer :: side(size(self%side))
       integer :: i
@@ -124,7 +123,7 @@ contains
       real(wp) :: bend, half_rise, place
       integer :: i, k, last
 
-      last = max(self%here%degree() + 1, ceiling(self%here%h/watcher%look_every))
+      last = max(size(self%here%nodes) + 1, ceiling(self%here%h/watcher%look_every))
       allocate (grid(size(self%g), 0:last))
       do k = 0, last
          call self%go_to(watcher, k*1.0_wp/last)
@@ -153,11 +152,9 @@ contains
    subroutine report(self, watcher, before, share, side)
       class(event_search), intent(inout) :: self
       class(event_watcher_type), intent(inout) :: watcher
-      !> The earlier place
       real(wp), intent(in) :: before
       !> The later place; the event that ends the run, if one does
       real(wp), intent(inout) :: share
-      !> Signs at the later place
       integer, intent(in) :: side(:)
       real(wp) :: root(size(side))
       logical :: passed(size(side))
@@ -241,7 +238,6 @@ contains
    pure subroutine go_to(self, watcher, place)
       class(event_search), intent(inout) :: self
       class(event_watcher_type), intent(in) :: watcher
-      !> The place, 0..1
       real(wp), intent(in) :: place
 
       call self%here%go_to(place)

@@ -35,9 +35,7 @@ contains
 
    !> Storage.
    pure function new_coupling(n, unknowns) result(coupling)
-      integer, intent(in) :: n
-      !> Number of unknowns q
-      integer, intent(in) :: unknowns
+      integer, intent(in) :: n, unknowns
       type(coupling_type) :: coupling
 
       allocate (coupling%weights(n, unknowns), coupling%solutions(n, unknowns))
@@ -57,7 +55,6 @@ contains
    !> Factorise 1 - w b, the matrix of the system for q.
    pure subroutine prepare(self, singular)
       class(coupling_type), intent(inout) :: self
-      !> Whether the coupling has no solution
       logical, intent(out) :: singular
       integer :: i, j
 

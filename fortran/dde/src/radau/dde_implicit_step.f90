@@ -66,7 +66,6 @@ contains
    !> Storage, and the constants that follow from the method.
    pure function new_step(problem, stages) result(step)
       class(dde_problem_type), intent(in) :: problem
-      !> Number of stages: 3, 5 or 7
       integer, intent(in) :: stages
       type(implicit_step_type) :: step
 
@@ -178,7 +177,6 @@ contains
    pure subroutine confirm(self, context, confirmed)
       class(implicit_step_type), intent(inout) :: self
       type(step_context), intent(inout) :: context
-      !> Whether the step is confirmed
       logical, intent(out) :: confirmed
       real(wp) :: allowed, t_end
       logical :: finite, singular

@@ -36,8 +36,8 @@ module dde_jacobian
       !> Moved arguments, shapes (n) and (delayed values)
       real(wp), allocatable, private :: moved_y(:), moved_z(:)
    contains
-      procedure :: evaluate, find_norm
-      procedure, private :: prepare, find_rows
+      procedure :: evaluate, find_norm, find_rows
+      procedure, private :: prepare
    end type jacobian_type
 
 contains
@@ -51,9 +51,7 @@ contains
       real(wp), intent(in) :: t, y(:)
       !> Delayed values, shape (delayed values)
       real(wp), intent(in) :: z(:)
-      !> Whether `by_z` is needed
       logical, intent(in) :: with_delays
-      !> Whether the Jacobian is finite
       logical, intent(out) :: finite
       integer :: apart, first, group, j, k, last, shift
 
@@ -140,7 +138,6 @@ contains
    pure subroutine prepare(self, problem, with_delays)
       class(jacobian_type), intent(inout) :: self
       class(dde_problem_type), intent(in) :: problem
-      !> Whether `by_z` is needed
       logical, intent(in) :: with_delays
 
       if (.not. allocated(self%by_y)) then

@@ -114,7 +114,6 @@ contains
       real(wp), contiguous, intent(in) :: last_differences(0:, :)
       !> Length of the last step; 0 where its polynomial must not be extrapolated
       real(wp), intent(in) :: last_h
-      !> Length of this step
       real(wp), intent(in) :: h
       real(wp) :: place, rise
       integer :: i, k
@@ -139,7 +138,6 @@ contains
    pure subroutine expect_delayed(self, components, y)
       class(stage_iteration), intent(inout) :: self
       integer, intent(in) :: components(:)
-      !> State at the start of the step
       real(wp), intent(in) :: y(:)
       integer :: i, k
 
@@ -160,18 +158,13 @@ contains
       class(stage_iteration), intent(inout) :: self
       type(step_context), intent(inout) :: context
       type(radau_tableau), intent(in) :: method
-      !> State at its start, shape (n)
-      real(wp), intent(in) :: y(:)
-      real(wp), intent(in) :: scale(:)
+      real(wp), intent(in) :: y(:), scale(:)
       !> Tolerance of the error estimate
       real(wp), intent(in) :: tolerance
       !> Factor below the step size at which the error would be equal to the tolerance; it is
       !> smaller after many iterations
       real(wp), intent(inout) :: safety
-      !> Whether the iteration converged
-      logical, intent(out) :: converged
-      !> Whether all evaluations were finite
-      logical, intent(out) :: finite
+      logical, intent(out) :: converged, finite
       real(wp) :: last_norm, last_rate, limit, norm, rate, rounding
       integer :: iteration, most, stage
 
@@ -234,9 +227,7 @@ contains
       class(stage_iteration), intent(inout) :: self
       type(step_context), intent(inout) :: context
       type(radau_tableau), intent(in) :: method
-      !> State at its start
       real(wp), intent(in) :: y(:)
-      !> Whether all are finite
       logical, intent(out) :: finite
       real(wp) :: t, t_end
       integer :: i

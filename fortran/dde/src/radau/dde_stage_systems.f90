@@ -95,7 +95,6 @@ contains
       !> Weights of the stage increments in those, shape (stages, delayed values, stages)
       real(wp), intent(in) :: own_weights(:, :, :)
       type(work_type), intent(inout) :: work
-      !> Whether a system has no solution
       logical, intent(out) :: singular
       integer :: pair
 
@@ -128,7 +127,6 @@ contains
       !> Weights of the stage increments in those
       real(wp), intent(in) :: own_weights(:, :, :)
       type(work_type), intent(inout) :: work
-      !> Whether a system has no solution
       logical, intent(out) :: singular
       integer :: i, j, k, unknown
 

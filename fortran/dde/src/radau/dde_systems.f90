@@ -80,26 +80,9 @@ contains
    !> Replace a right-hand side by the solution.
    pure subroutine solve_complex(self, b)
       class(complex_system), intent(in) :: self
-      !> Right-hand side, replaced by the solution, shape (n)
       complex(wp), contiguous, intent(inout) :: b(:)
       include "solve_system.inc"
    end subroutine solve_complex
-
-   !> Rows of a column that may differ from 0: row i is at (shift + i, j).
-   pure subroutine find_rows(self, j, first, last, shift)
-      class(linear_system), intent(in) :: self
-      integer, intent(in) :: j
-      !> First and last row, and the shift of all rows
-      integer, intent(out) :: first, last, shift
-
-      first = 1
-      last = size(self%row)
-      shift = 0
-      if (.not. self%banded) return
-      first = max(1, j - self%upper)
-      last = min(last, j + self%lower)
-      shift = 1 + self%lower + self%upper - j
-   end subroutine find_rows
 
    !> Additions and multiplications of a factorisation, in real numbers.
    pure real(wp) function factor_operations(n, banded, lower, upper) result(operations)

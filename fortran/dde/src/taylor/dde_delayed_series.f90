@@ -89,7 +89,6 @@ contains
    pure subroutine confirm(self, context, unit, h)
       class(delayed_series), intent(in) :: self
       type(step_context), intent(inout) :: context
-      !> Unit of time of the powers
       real(wp), intent(in) :: unit
       !> Length of the step: proposed, then possible
       real(wp), intent(inout) :: h
@@ -188,7 +187,6 @@ contains
    pure function skipped_integral(context, k, first, value) result(integral)
       type(step_context), intent(in) :: context
       integer, intent(in) :: k
-      !> Number of the first past step that is skipped
       integer(int64), intent(in) :: first
       !> The value that is read at the start of the step
       real(wp), intent(in) :: value

@@ -49,7 +49,6 @@ contains
       class(slow_series), intent(inout) :: self
       !> How far the series of the state reaches, times the relaxation rate
       real(wp), intent(in) :: measure
-      !> Whether to search
       logical, intent(out) :: value
 
       value = .false.
@@ -64,13 +63,9 @@ contains
    pure subroutine find(self, context, t, unit, degree, z, scale, rate, y)
       class(slow_series), intent(inout) :: self
       type(step_context), intent(inout) :: context
-      real(wp), intent(in) :: t
-      !> Unit of time of the powers
-      real(wp), intent(in) :: unit
+      real(wp), intent(in) :: t, unit
       integer, intent(in) :: degree
-      !> Coefficients of the delayed values
-      real(wp), intent(in) :: z(0:degree, size(context%problem%lag))
-      real(wp), intent(in) :: scale(context%problem%n), rate
+      real(wp), intent(in) :: z(0:degree, size(context%problem%lag)), scale(context%problem%n), rate
       !> Coefficients, of which y(0, :) is given, the state; the slow series if it holds
       real(wp), intent(inout) :: y(0:degree, context%problem%n)
       real(wp) :: distance, open
@@ -112,9 +107,7 @@ contains
    !> Largest term of several series at s, in units of their scales.
    pure real(wp) function largest_term(degree, n, coefficients, scale, s) result(largest)
       integer, intent(in) :: degree, n
-      real(wp), intent(in) :: coefficients(0:degree, n), scale(n)
-      !> Place
-      real(wp), intent(in) :: s
+      real(wp), intent(in) :: coefficients(0:degree, n), scale(n), s
       real(wp) :: power
       integer :: i, k
 
