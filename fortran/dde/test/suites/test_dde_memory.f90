@@ -7,7 +7,7 @@ module test_dde_memory
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use test_problems, only: fill, linear
-   use undelayed_problems, only: decay
+   use undelayed_problems, only: undelayed
    use solving, only: at_tolerance
    implicit none (type, external)
    private
@@ -40,7 +40,7 @@ contains
       character(len=8), parameter :: methods(3) = [character(len=8) :: "radau5", "radau9", &
                                                    "radau13"]
       integer, parameter :: n = 2000000
-      type(decay) :: problem
+      type(undelayed) :: problem
       integer :: i
 
       call fill(problem, n, spread(0.0_wp, 1, n), spread(0.0_wp, 1, n))

@@ -10,7 +10,7 @@ module test_dde_order
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use rooted_trees, only: grow_trees, tree_counts, tree_system
    use single_step, only: interpolated, take_step
-   use undelayed_problems, only: decay
+   use undelayed_problems, only: decay, undelayed
    implicit none (type, external)
    private
    public :: collect_dde_order
@@ -150,7 +150,7 @@ contains
    !> tolerance, not even near 5.66, where e5 changes its sign and e3 is large.
    subroutine test_long_steps(error)
       type(error_type), allocatable, intent(out) :: error
-      type(decay) :: problem
+      type(undelayed) :: problem
       type(explicit_step_type) :: step
       real(wp) :: estimate, tolerance, worst
       integer :: digits, i

@@ -15,7 +15,7 @@ module test_dde_taylor
    use single_step, only: interpolated, new_context
    use solving, only: at_tolerance, run, solve
    use test_problems, only: sine
-   use undelayed_problems, only: blow_up
+   use undelayed_problems, only: blow_up, undelayed
    implicit none (type, external)
    private
    public :: collect_dde_taylor
@@ -80,7 +80,7 @@ contains
    subroutine take_step(tolerance, h, step)
       real(wp), intent(in) :: tolerance, h
       type(taylor_step_type), intent(out) :: step
-      type(blow_up), target :: problem
+      type(undelayed), target :: problem
       type(step_context) :: context
       real(wp) :: estimate, length
 
