@@ -28,9 +28,7 @@ contains
 
    !> The delayed term -s (1 + epsilon) (gamma^2/xi) exp(-s tau).
    pure complex(wp) function delayed_term(p, s) result(value)
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
-      !> Point of the complex plane
       complex(wp), intent(in) :: s
 
       value = -s*(1.0_wp + p%epsilon)*(p%gamma**2/p%xi)*exp(-s*p%tau)
@@ -93,9 +91,7 @@ contains
 
    !> Derivative of Delta by xi.
    pure complex(wp) function delta_by_xi(p, s) result(value)
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
-      !> Point of the complex plane
       complex(wp), intent(in) :: s
 
       value = -(p%gamma/p%xi)**2*s*(s + 1.0_wp - (1.0_wp + p%epsilon)*exp(-s*p%tau))
@@ -103,9 +99,7 @@ contains
 
    !> Derivative of a root by tau.
    pure complex(wp) function root_by_tau(p, s) result(value)
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
-      !> The root
       complex(wp), intent(in) :: s
 
       value = -delta_by_tau(p, s)/delta_by_s(p, s)
@@ -113,9 +107,7 @@ contains
 
    !> Derivative of a root by epsilon.
    pure complex(wp) function root_by_epsilon(p, s) result(value)
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
-      !> The root
       complex(wp), intent(in) :: s
 
       value = -delta_by_epsilon(p, s)/delta_by_s(p, s)

@@ -18,7 +18,6 @@ contains
    elemental type(block_parameters_type) function block_with_pair(omega, xi, gamma, k) result(p)
       !> Frequency of the pair > 0, spring constant, frequency of the block
       real(wp), intent(in) :: omega, xi, gamma
-      !> Branch
       integer, intent(in) :: k
 
       p = block_parameters_type(tau=closed_tau(omega, xi, gamma, k), xi=xi, gamma=gamma, &
@@ -29,10 +28,7 @@ contains
    elemental real(wp) function closed_epsilon(omega, xi, gamma) result(epsilon)
       !> Frequency of the pair, > 0
       real(wp), intent(in) :: omega
-      !> Spring constant
-      real(wp), intent(in) :: xi
-      !> Frequency of the block
-      real(wp), intent(in) :: gamma
+      real(wp), intent(in) :: xi, gamma
 
       epsilon = sqrt((1.0_wp + omega**2)*(1.0_wp + ratio(omega, xi, gamma)**2)) - 1.0_wp
    end function closed_epsilon
@@ -41,11 +37,7 @@ contains
    elemental real(wp) function closed_tau(omega, xi, gamma, k) result(tau)
       !> Frequency of the pair, > 0
       real(wp), intent(in) :: omega
-      !> Spring constant
-      real(wp), intent(in) :: xi
-      !> Frequency of the block
-      real(wp), intent(in) :: gamma
-      !> Branch
+      real(wp), intent(in) :: xi, gamma
       integer, intent(in) :: k
 
       tau = (atan(ratio(omega, xi, gamma)) - atan(omega) + turn*k)/omega
@@ -55,11 +47,7 @@ contains
    elemental real(wp) function closed_xi(omega, tau, gamma, k) result(xi)
       !> Frequency of the pair, > 0, not gamma
       real(wp), intent(in) :: omega
-      !> Delay
-      real(wp), intent(in) :: tau
-      !> Frequency of the block
-      real(wp), intent(in) :: gamma
-      !> Branch
+      real(wp), intent(in) :: tau, gamma
       integer, intent(in) :: k
       real(wp) :: angle
 

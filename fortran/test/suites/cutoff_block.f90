@@ -48,11 +48,9 @@ contains
    !> A block of step 1.
    pure type(cutoff_block_type) function build_cutoff_block(parameters, history, cutoff) &
       result(block)
-      !> Parameters of the block
       type(block_parameters_type), intent(in) :: parameters
       !> Values for t <= 0
       type(block_history_type), intent(in) :: history
-      !> The cut-off
       real(wp), intent(in) :: cutoff
 
       call block%set(parameters, history, cutoff)
@@ -60,13 +58,10 @@ contains
 
    !> Fill in all components: of the three equations one is delayed, or none without delay.
    pure subroutine set(self, parameters, history, cutoff)
-      !> The block
       class(cutoff_block_type), intent(inout) :: self
-      !> Parameters of the block
       type(block_parameters_type), intent(in) :: parameters
       !> Values for t <= 0
       type(block_history_type), intent(in) :: history
-      !> The cut-off
       real(wp), intent(in) :: cutoff
 
       self%n = 3
@@ -79,7 +74,6 @@ contains
 
    !> State at t = 0: the end of the history.
    pure subroutine state_at_zero(self, y)
-      !> The block
       class(cutoff_block_type), intent(in) :: self
       !> theta, u, ln v at t = 0
       real(wp), intent(out) :: y(self%n)
@@ -89,11 +83,9 @@ contains
 
    !> Constant history.
    pure function constant_history(self, t, component) result(value)
-      !> The block
       class(cutoff_block_type), intent(in) :: self
       !> Time <= 0, without influence
       real(wp), intent(in) :: t
-      !> Index into the state
       integer, intent(in) :: component
       real(wp) :: value
 
@@ -102,20 +94,14 @@ contains
 
    !> L(v) of w = ln v.
    elemental real(wp) function cut_logarithm(w, c) result(value)
-      !> ln v
-      real(wp), intent(in) :: w
-      !> The cut-off
-      real(wp), intent(in) :: c
+      real(wp), intent(in) :: w, c
 
       value = log((1.0_wp + c)/(exp(-w) + c))
    end function cut_logarithm
 
    !> Its derivative by w.
    elemental real(wp) function cut_slope(w, c) result(value)
-      !> ln v
-      real(wp), intent(in) :: w
-      !> The cut-off
-      real(wp), intent(in) :: c
+      real(wp), intent(in) :: w, c
 
       value = 1.0_wp/(1.0_wp + c*exp(w))
    end function cut_slope
@@ -126,15 +112,12 @@ contains
    !>     u'     =  v - 1
    !>     w'     = -(gamma^2/v) [u + (theta + L(w))/xi]
    pure subroutine equation_with_cutoff(self, t, y, z, dydt)
-      !> The block
       class(cutoff_block_type), intent(in) :: self
       !> Time, without influence
       real(wp), intent(in) :: t
-      !> theta, u, w
       real(wp), intent(in) :: y(self%n)
       !> w(t - tau), or nothing
       real(wp), intent(in) :: z(size(self%lag))
-      !> Time derivatives of theta, u, w
       real(wp), intent(out) :: dydt(self%n)
       real(wp) :: delayed_w, v
 
@@ -151,15 +134,12 @@ contains
 
    !> Derivatives of the right-hand side by theta, u, w and by w(t - tau).
    pure subroutine derivatives(self, t, y, z, by_y, by_z)
-      !> The block
       class(with_jacobian_type), intent(in) :: self
       !> Time, without influence
       real(wp), intent(in) :: t
-      !> theta, u, w
       real(wp), intent(in) :: y(self%n)
       !> w(t - tau), or nothing
       real(wp), intent(in) :: z(size(self%lag))
-      !> Derivatives by theta, u, w
       real(wp), intent(out) :: by_y(self%n, self%n)
       !> Derivatives by w(t - tau)
       real(wp), intent(out) :: by_z(self%n, size(self%lag))
@@ -189,13 +169,10 @@ contains
    !> Taylor series of the solution: each coefficient from those before it. With e = exp(-w),
    !> e' = -e w' and (e + c) L' = -e'.
    pure subroutine series_with_cutoff(self, t, unit, degree, z, y)
-      !> The block
       class(with_series_type), intent(in) :: self
       !> Time, without influence
       real(wp), intent(in) :: t
-      !> Unit of time of the powers
       real(wp), intent(in) :: unit
-      !> Degree of the series
       integer, intent(in) :: degree
       !> Coefficients of w(t - tau), or nothing
       real(wp), intent(in) :: z(0:degree, size(self%lag))
@@ -226,9 +203,7 @@ contains
 
    !> Coefficient k of a product.
    pure real(wp) function product_term(k, a, b) result(term)
-      !> Which
       integer, intent(in) :: k
-      !> Coefficients of the factors
       real(wp), intent(in) :: a(0:), b(0:)
 
       term = dot_product(a(:k), b(k:0:-1))
@@ -236,13 +211,10 @@ contains
 
    !> Coefficient k of exp(sign w) from those before it.
    pure subroutine extend_exponential(k, w, sign_of_w, e)
-      !> Which
       integer, intent(in) :: k
-      !> Coefficients of w
       real(wp), intent(in) :: w(0:)
       !> 1 or -1
       real(wp), intent(in) :: sign_of_w
-      !> Coefficients of the exponential
       real(wp), intent(inout) :: e(0:)
       integer :: j
 
@@ -255,15 +227,10 @@ contains
 
    !> Coefficient k of exp(-w) and of L(w) from those before them.
    pure subroutine extend_logarithm(k, w, c, e, cut)
-      !> Which
       integer, intent(in) :: k
-      !> Coefficients of w
-      real(wp), intent(in) :: w(0:)
-      !> The cut-off
-      real(wp), intent(in) :: c
+      real(wp), intent(in) :: w(0:), c
       !> Coefficients of exp(-w)
       real(wp), intent(inout) :: e(0:)
-      !> Coefficients of L
       real(wp), intent(inout) :: cut(0:)
       integer :: j
 
@@ -277,15 +244,12 @@ contains
 
    !> Series of the constant history.
    pure subroutine constant_series(self, t, component, unit, y)
-      !> The block
       class(with_series_type), intent(in) :: self
       !> Time <= 0, without influence
       real(wp), intent(in) :: t
-      !> Index into the state
       integer, intent(in) :: component
       !> Unit of time of the powers, without influence
       real(wp), intent(in) :: unit
-      !> Coefficients
       real(wp), intent(out) :: y(0:)
 
       y = 0.0_wp

@@ -28,16 +28,10 @@ contains
    subroutine find_cycle(parameters, omega, q, amplitude, epsilon, frequency, error)
       !> Parameters; epsilon is the first guess
       type(block_parameters_type), intent(in) :: parameters
-      !> First guess of the frequency
       real(wp), intent(in) :: omega
-      !> Eigenvector
       complex(wp), intent(in) :: q(3)
-      !> Coefficient of cos t in ln v
       real(wp), intent(in) :: amplitude
-      !> Epsilon at which there is this cycle
-      real(wp), intent(out) :: epsilon
-      !> Its frequency
-      real(wp), intent(out) :: frequency
+      real(wp), intent(out) :: epsilon, frequency
       !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       type(failure_type), allocatable :: failure

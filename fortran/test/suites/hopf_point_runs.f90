@@ -43,9 +43,7 @@ contains
 
    !> Special points of a kind in a plane of Figures 2 and 3.
    subroutine find_points(i, kind, plane, found, error)
-      !> Number of the plane
       integer, intent(in) :: i
-      !> Kind
       character(len=*), intent(in) :: kind
       type(curve_plane_type), intent(out) :: plane
       type(hopf_point_type), allocatable, intent(out) :: found(:)
@@ -69,9 +67,7 @@ contains
    !> The parameters at which both pairs have given growth rates, to first order.
    type(block_parameters_type) function parameters_at(plane, point, mu) result(there)
       type(curve_plane_type), intent(in) :: plane
-      !> The double Hopf point
       type(hopf_point_type), intent(in) :: point
-      !> Growth rates
       real(wp), intent(in) :: mu(2)
 
       associate (p => point%parameters, &
@@ -83,14 +79,11 @@ contains
    !> A fold of cycles near a generalised Hopf point.
    subroutine predict_fold(plane, omega, k, unfolding, amplitude, cycle_at_fold, error)
       type(curve_plane_type), intent(in) :: plane
-      !> Frequency of the pair at the point
       real(wp), intent(in) :: omega
-      !> Branch of the curve
       integer, intent(in) :: k
       type(unfolding_type), intent(in) :: unfolding
       real(wp), intent(in) :: amplitude
       type(cycle_type), intent(out) :: cycle_at_fold
-      !> No coefficient
       type(failure_type), allocatable, intent(out) :: error
       complex(wp) :: c1, slopes(2)
       real(wp) :: epsilon_step, r, there
@@ -113,7 +106,6 @@ contains
    type(cycle_type) function predict_torus(plane, parameters, unfolding, pair, amplitude) &
       result(cycle_at_torus)
       type(curve_plane_type), intent(in) :: plane
-      !> Parameters of the point
       type(block_parameters_type), intent(in) :: parameters
       type(unfolding_type), intent(in) :: unfolding
       !> The pair, 1 or 2
@@ -135,9 +127,7 @@ contains
 
    !> z q of all pairs of a point.
    function modes_of(point, z) result(mode)
-      !> The point
       type(hopf_point_type), intent(in) :: point
-      !> z of the pairs
       real(wp), intent(in) :: z(2)
       complex(wp) :: mode(3, 2)
       type(failure_type), allocatable :: failure
@@ -156,20 +146,11 @@ contains
 
    !> Least, mean and greatest maximum of ln v in the last 400 units of a run.
    subroutine run(parameters, omega, mode, time, least, mean, most, error)
-      !> Parameters
       type(block_parameters_type), intent(in) :: parameters
-      !> Frequencies of the history
       real(wp), intent(in) :: omega(2)
-      !> z q of its pairs
       complex(wp), intent(in) :: mode(3, 2)
-      !> Length of the run
       real(wp), intent(in) :: time
-      !> Least maximum
-      real(wp), intent(out) :: least
-      !> Their mean
-      real(wp), intent(out) :: mean
-      !> Greatest maximum
-      real(wp), intent(out) :: most
+      real(wp), intent(out) :: least, mean, most
       !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       type(oscillating_block) :: block
@@ -195,7 +176,6 @@ contains
    !> The state at t = 0.
    pure subroutine oscillation_at_zero(self, y)
       class(oscillating_block), intent(in) :: self
-      !> theta, u, ln v
       real(wp), intent(out) :: y(self%n)
       integer :: i
 

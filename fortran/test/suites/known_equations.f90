@@ -78,9 +78,7 @@ contains
 
    !> A small equation with its linear part.
    type(small_equation) function new_small(equation, p, delays) result(made)
-      !> The equation
       integer, intent(in) :: equation
-      !> Coefficients
       real(wp), intent(in) :: p(:)
       !> Lags > 0, in the order of the equation
       real(wp), intent(in), optional :: delays(:)

@@ -30,9 +30,7 @@ contains
    !> An orbit on a uniform mesh, without its nodes.
    pure type(periodic_orbit_type) function new_orbit(degree, points, intervals, period, &
                                                      parameters) result(orbit)
-      !> Degree, kind of points and intervals
       integer, intent(in) :: degree, points, intervals
-      !> Period and parameters
       real(wp), intent(in) :: period, parameters(:)
 
       orbit%basis = collocation_basis_type(degree, points)
@@ -43,7 +41,6 @@ contains
 
    !> Problems without a free parameter.
    type(free_family_type) function fix_parameters(problems) result(family)
-      !> The problems
       class(problem_family_type), intent(in) :: problems
 
       family = free_family_type(problems, [integer ::], [real(wp) ::])
@@ -51,13 +48,9 @@ contains
 
    !> Correct an orbit at fixed parameters.
    subroutine correct(problems, orbit, newton, failure)
-      !> The problems
       class(problem_family_type), intent(in) :: problems
-      !> The orbit
       type(periodic_orbit_type), intent(inout) :: orbit
-      !> The method
       type(newton_type), intent(inout) :: newton
-      !> No convergence
       type(failure_type), allocatable, intent(out) :: failure
       type(orbit_change_type) :: no_direction(0)
       type(periodic_orbit_type) :: reference
@@ -69,16 +62,12 @@ contains
 
    !> Go on with a run, and note the maxima of a component.
    subroutine advance(problem, from, to, place, error, component, maxima)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Times
       real(wp), intent(in) :: from, to
       !> Where the run is
       type(continuation_type), intent(inout) :: place
       type(error_type), allocatable, intent(inout) :: error
-      !> The component
       integer, intent(in), optional :: component
-      !> Its maxima
       real(wp), allocatable, intent(out), optional :: maxima(:)
       type(event_table) :: found
       type(failure_type), allocatable :: failure
@@ -100,13 +89,9 @@ contains
 
    !> The orbit of a block that a trajectory has reached, before its correction.
    subroutine orbit_of_block(block, t_end, degree, points, intervals, orbit, error)
-      !> The block
       type(spring_block_type), intent(in) :: block
-      !> Time of the trajectory
       real(wp), intent(in) :: t_end
-      !> Degree, kind of points and intervals
       integer, intent(in) :: degree, points, intervals
-      !> The orbit
       type(periodic_orbit_type), intent(out) :: orbit
       type(error_type), allocatable, intent(inout) :: error
       type(continuation_type) :: arrived
@@ -126,15 +111,10 @@ contains
 
    !> The orbit of a block that a trajectory has reached, corrected, with its multipliers.
    subroutine cycle_of_block(block, t_end, degree, points, intervals, orbit, multipliers, error)
-      !> The block
       type(spring_block_type), intent(in) :: block
-      !> Time of the trajectory
       real(wp), intent(in) :: t_end
-      !> Degree, kind of points and intervals
       integer, intent(in) :: degree, points, intervals
-      !> The orbit
       type(periodic_orbit_type), intent(out) :: orbit
-      !> Its multipliers
       type(multipliers_type), intent(out) :: multipliers
       type(error_type), allocatable, intent(inout) :: error
       type(failure_type), allocatable :: failure
@@ -157,16 +137,12 @@ contains
    subroutine branch_from(orbit, settings, direction, branch, special, error, tangent)
       !> Approximation of the first orbit
       type(periodic_orbit_type), intent(in) :: orbit
-      !> How far and how
       type(follow_settings_type), intent(in) :: settings
       !> 1 or -1
       integer, intent(in) :: direction
-      !> The branch
       type(branch_type), intent(out) :: branch
-      !> The points
       type(special_point_type), allocatable, intent(out) :: special(:)
       type(error_type), allocatable, intent(inout) :: error
-      !> Tangent at the start
       type(orbit_change_type), intent(in), optional :: tangent
       type(failure_type), allocatable :: failure
 
@@ -181,13 +157,10 @@ contains
    !> The branch from a Hopf point.
    subroutine branch_from_hopf(settings, parameters, state, omega, amplitude, branch, special, &
                                error)
-      !> How far and how
       type(follow_settings_type), intent(in) :: settings
       !> Parameters and stationary state of the Hopf point, its frequency, first amplitude
       real(wp), intent(in) :: parameters(:), state(:), omega, amplitude
-      !> The branch
       type(branch_type), intent(out) :: branch
-      !> Its special points
       type(special_point_type), allocatable, intent(out) :: special(:)
       type(error_type), allocatable, intent(inout) :: error
       type(failure_type), allocatable :: failure

@@ -163,7 +163,6 @@ contains
 
    !> Whether the bits are the same.
    pure logical function same_bits(a, b) result(value)
-      !> Some numbers
       real(wp), intent(in) :: a(:)
       !> As many others
       real(wp), intent(in) :: b(:)
@@ -214,7 +213,6 @@ contains
 
    !> A point that starts near steady sliding, gamma = 0.8.
    elemental type(point_type) function near_sliding(tau, epsilon, xi) result(point)
-      !> Parameters
       real(wp), intent(in) :: tau, epsilon, xi
 
       point = point_type(block_parameters_type(tau=tau, epsilon=epsilon, xi=xi, gamma=0.8_wp), &
@@ -227,7 +225,6 @@ contains
       !> The points in the order of the sweep
       type(point_type), intent(in) :: points(:)
       type(attractor_settings_type), intent(in) :: settings
-      !> The maxima
       real(wp), intent(out) :: largest(:)
       type(finding_type), allocatable :: findings(:)
       integer :: i

@@ -307,7 +307,6 @@ contains
    !> A torus that is certain late, but not later than a given time.
    subroutine find_late_torus(block, latest, error)
       type(spring_block_type), intent(in) :: block
-      !> Latest time at which it is certain
       real(wp), intent(in) :: latest
       type(error_type), allocatable, intent(inout) :: error
       type(attractor_settings_type) :: settings

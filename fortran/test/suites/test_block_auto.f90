@@ -126,7 +126,6 @@ contains
    !> A block at gamma = 1000 without delay and without slow series, its w a little above balance,
    !> sliding at rest but for that.
    pure type(plain_block) function near_balance(above) result(problem)
-      !> How much
       real(wp), intent(in) :: above
 
       problem%spring_block_type = build_block(tau=0.0_wp, epsilon=0.0_wp, xi=1.0_wp, &

@@ -105,13 +105,9 @@ contains
 
    !> The Hopf point of a kind in the plane of epsilon and tau that is nearest to a place.
    subroutine nearest_hopf_point(xi, window, kind, place, nearest, error)
-      real(wp), intent(in) :: xi
-      !> Window on epsilon, window on tau
-      real(wp), intent(in) :: window(4)
+      real(wp), intent(in) :: xi, window(4)
       character(len=*), intent(in) :: kind
-      !> epsilon, tau
       real(wp), intent(in) :: place(2)
-      !> epsilon, tau of the point
       real(wp), intent(out) :: nearest(2)
       type(error_type), allocatable, intent(inout) :: error
       type(curve_point_type), allocatable :: points(:)

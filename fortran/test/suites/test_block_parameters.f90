@@ -25,9 +25,7 @@ contains
    subroutine allow(error, quantity, value)
       !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
-      !> Which quantity
       character(len=*), intent(in) :: quantity
-      !> Its value
       real(wp), intent(in) :: value
       type(failure_type), allocatable :: failure
 
@@ -39,11 +37,8 @@ contains
    subroutine refuse(error, quantity, value, words, key)
       !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
-      !> Which quantity
       character(len=*), intent(in) :: quantity
-      !> Its value
       real(wp), intent(in) :: value
-      !> Part of the message
       character(len=*), intent(in) :: words
       !> Its key, if it is not the quantity's name
       character(len=*), intent(in), optional :: key

@@ -58,7 +58,6 @@ contains
    pure function polynomial(coefficient, s) result(value)
       !> Coefficients, shape (0:degree, polynomials)
       real(wp), intent(in) :: coefficient(0:, :)
-      !> Place
       real(wp), intent(in) :: s
       real(wp) :: value(size(coefficient, 2))
       integer :: k

@@ -119,7 +119,6 @@ contains
 
       !> H.
       pure real(wp) function conserved(u, w) result(value)
-         !> Displacement and ln v
          real(wp), intent(in) :: u, w
 
          value = exp(-xi*u)*(1.0_wp/xi + 1.0_wp + u - w - exp(-w))

@@ -65,10 +65,7 @@ contains
    subroutine compare(error, epsilon, within, states)
       !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
-      !> Sensitivity of the velocity relaxation
-      real(wp), intent(in) :: epsilon
-      !> Largest difference
-      real(wp), intent(in) :: within
+      real(wp), intent(in) :: epsilon, within
       !> GSL's states
       real(wp), intent(out) :: states(3, size(times))
       type(spring_block_type) :: block

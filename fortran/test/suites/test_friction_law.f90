@@ -137,7 +137,6 @@ contains
 
    !> Step 4, the linear part at steady sliding, whose determinant is the characteristic function.
    pure type(linear_system_type) function linear_part(block) result(system)
-      !> The block, with a delay
       class(with_jacobian_type), intent(in) :: block
       real(wp) :: by_z(3, 1)
 

@@ -63,7 +63,6 @@ contains
 
    !> Three exponents of it in four intervals of a given length, each a block.
    pure type(growth_settings_type) function four_intervals(interval) result(settings)
-      !> Length of an interval
       real(wp), intent(in) :: interval
 
       settings = growth_settings_type(exponents=3, t_begin=1.0_wp, t_end=1.0_wp + 4*interval, &
@@ -149,13 +148,11 @@ contains
 
    !> Growth in one go is that from where a run ended, which is left as it was.
    subroutine compare_goes(alone, t_arrived, continued, tolerance, error)
-      !> Of the one go
       type(growth_settings_type), intent(in) :: alone
       !> End of the run before the other
       real(wp), intent(in) :: t_arrived
       !> Of the other
       type(growth_settings_type), intent(in) :: continued
-      !> Difference allowed
       real(wp), intent(in) :: tolerance
       type(error_type), allocatable, intent(inout) :: error
       type(continuation_type) :: arrived
@@ -243,7 +240,6 @@ contains
       real(wp), intent(in) :: time
       type(integration_options), intent(in) :: options
       type(integration_result), intent(out) :: outcome
-      !> The run ended before its time
       type(failure_type), allocatable, intent(out) :: error
       !> Where the run stands
       type(continuation_type), intent(inout) :: continuation

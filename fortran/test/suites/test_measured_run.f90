@@ -71,12 +71,7 @@ contains
    !> Order 4 with a cubic history and 2 with a linear one.
    subroutine expect_orders(problem, t_end, known, h, error)
       class(dde_problem_type), intent(in) :: problem
-      !> Last time
-      real(wp), intent(in) :: t_end
-      !> First component there
-      real(wp), intent(in) :: known
-      !> Length of the longer steps
-      real(wp), intent(in) :: h
+      real(wp), intent(in) :: t_end, known, h
       type(error_type), allocatable, intent(inout) :: error
 
       call expect_between(error, order_of(problem, .true., t_end, known, h), 3.8_wp, 4.2_wp, &
@@ -90,12 +85,7 @@ contains
       class(dde_problem_type), intent(in) :: problem
       !> Cubic history, or linear
       logical, intent(in) :: cubic
-      !> Last time
-      real(wp), intent(in) :: t_end
-      !> First component there
-      real(wp), intent(in) :: known
-      !> Length of the longer steps
-      real(wp), intent(in) :: h
+      real(wp), intent(in) :: t_end, known, h
       type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
       real(wp) :: misfit(2)

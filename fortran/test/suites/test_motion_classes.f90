@@ -33,10 +33,8 @@ contains
    !> Exponents with these values and errors tell this class.
    subroutine expect_class(error, values, errors, class)
       type(error_type), allocatable, intent(inout) :: error
-      !> Values, descending
-      real(wp), intent(in) :: values(:)
-      !> Standard errors
-      real(wp), intent(in) :: errors(:)
+      !> Values, descending; standard errors
+      real(wp), intent(in) :: values(:), errors(:)
       integer, intent(in) :: class
       character(len=:), allocatable :: words
       integer :: found, i
@@ -52,10 +50,8 @@ contains
 
    !> Exponents with their errors.
    pure function exponents_of(values, errors) result(exponents)
-      !> Values, descending
-      real(wp), intent(in) :: values(:)
-      !> Standard errors
-      real(wp), intent(in) :: errors(:)
+      !> Values, descending; standard errors
+      real(wp), intent(in) :: values(:), errors(:)
       type(exponent_type) :: exponents(size(values))
 
       exponents%value = values
@@ -133,11 +129,8 @@ contains
    !> Exponents with one error bar must be clear, or not.
    subroutine expect_clear(error, values, bar, time, expected)
       type(error_type), allocatable, intent(inout) :: error
-      !> Values, descending
-      real(wp), intent(in) :: values(:)
-      !> Standard error of each
-      real(wp), intent(in) :: bar
-      !> Time in which they were measured
+      !> Values, descending; standard error of each
+      real(wp), intent(in) :: values(:), bar
       real(wp), intent(in) :: time
       !> Whether they are clear
       logical, intent(in) :: expected

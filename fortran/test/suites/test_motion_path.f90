@@ -141,7 +141,6 @@ contains
 
    !> How attractors are found here.
    pure type(attractor_settings_type) function observed(t_path) result(settings)
-      !> Time of the path
       real(wp), intent(in) :: t_path
 
       settings = fine_settings(2000.0_wp, 1000.0_wp)

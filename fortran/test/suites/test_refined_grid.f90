@@ -27,10 +27,7 @@ contains
    !> Refine a map. No point is asked for twice, and more and more of them have a kind.
    subroutine refine(error, map, refinements, grid)
       type(error_type), allocatable, intent(inout) :: error
-      !> Kinds of all points
-      integer, intent(in) :: map(:, :)
-      !> How often
-      integer, intent(in) :: refinements
+      integer, intent(in) :: map(:, :), refinements
       type(refined_grid_type), intent(out) :: grid
       integer, allocatable :: wanted(:)
       integer :: asked(size(map)), kinds(size(map)), settled
@@ -92,7 +89,6 @@ contains
 
    !> Every 2**refinements-th line, and the last one if it is not among them.
    pure integer function first_lines(places, refinements) result(lines)
-      !> Number of all lines
       integer, intent(in) :: places, refinements
 
       lines = 1 + (places - 1 + 2**refinements - 1)/2**refinements

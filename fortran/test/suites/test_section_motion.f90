@@ -42,17 +42,13 @@ contains
    pure real(wp) function roughness(points, times, bases) result(value)
       !> Points, shape (2, points)
       real(wp), intent(in) :: points(:, :)
-      !> When each was met
-      real(wp), intent(in) :: times(:)
-      !> Fundamental frequencies
-      real(wp), intent(in) :: bases(2)
+      real(wp), intent(in) :: times(:), bases(2)
 
       value = section_roughness(points, times, reach, bases)
    end function roughness
 
    !> A number of times, one each turn of the first phase.
    pure function turns(n) result(times)
-      !> How many
       integer, intent(in) :: n
       real(wp) :: times(n)
       integer :: i
@@ -62,10 +58,7 @@ contains
 
    !> Points of a cycle: random ones that come again.
    pure function cycle(period, n) result(points)
-      !> Points after which it repeats
-      integer, intent(in) :: period
-      !> Number of points
-      integer, intent(in) :: n
+      integer, intent(in) :: period, n
       real(wp) :: points(2, n)
       real(wp) :: one(2, period)
       integer :: i
@@ -86,9 +79,7 @@ contains
    !> Two numbers in each point, even around zero.
    pure function noise(seed, most, n) result(points)
       integer, intent(in) :: seed
-      !> Largest
       real(wp), intent(in) :: most
-      !> Number of points
       integer, intent(in) :: n
       real(wp) :: points(2, n)
 

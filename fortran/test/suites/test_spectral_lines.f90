@@ -69,11 +69,7 @@ contains
    !> exceed what the default configuration asks for.
    subroutine analyse(error, amplitudes, lines, noise, segments, found)
       type(error_type), allocatable, intent(inout) :: error
-      !> Amplitudes and frequencies of the sines
-      real(wp), intent(in) :: amplitudes(:), lines(:)
-      !> Greatest value of the noise
-      real(wp), intent(in) :: noise
-      !> Number of segments
+      real(wp), intent(in) :: amplitudes(:), lines(:), noise
       integer, intent(in) :: segments
       type(analysed_type), intent(out) :: found
       type(failure_type), allocatable :: failure
@@ -179,12 +175,9 @@ contains
    !> The peaks of a spectrum are in these bins.
    subroutine expect_bins(error, power, floor, prominence, bins)
       type(error_type), allocatable, intent(inout) :: error
-      !> Spectrum
       real(wp), intent(in) :: power(:)
-      !> Least height over the highest peak's
-      real(wp), intent(in) :: floor
-      !> Least height over the higher of the two valleys
-      real(wp), intent(in) :: prominence
+      !> Least height over the highest peak's, least height over the higher of the two valleys
+      real(wp), intent(in) :: floor, prominence
       integer, intent(in) :: bins(:)
       type(peak_type), allocatable :: peaks(:)
       integer :: i
@@ -354,7 +347,6 @@ contains
       integer, intent(in) :: kinds(:)
       !> Multiples of the first base known
       integer, intent(in) :: multiples(:)
-      !> Multiples of the second base known
       integer, intent(in) :: second_multiples(:)
       !> Bases known, over f
       real(wp), intent(in) :: known(2)
@@ -509,9 +501,7 @@ contains
       real(wp), intent(in) :: amplitudes(:)
       !> Frequencies over f
       real(wp), intent(in) :: lines(:)
-      !> Greatest value of the noise
       real(wp), intent(in) :: noise
-      !> Name of the kind
       character(len=*), intent(in) :: known, what
       type(analysed_type) :: found
 
@@ -523,12 +513,9 @@ contains
    !> A spectrum is of this kind.
    subroutine expect_kind(error, power, peaks, bases, known, what)
       type(error_type), allocatable, intent(inout) :: error
-      !> Power spectral density
       real(wp), intent(in) :: power(:)
-      !> Labelled peaks
       type(peak_type), intent(in) :: peaks(:)
       type(bases_type), intent(in) :: bases
-      !> Name of the kind
       character(len=*), intent(in) :: known, what
       character(len=:), allocatable :: name
 

@@ -185,17 +185,11 @@ contains
    !> Level and scatter of a spectrum of white noise.
    subroutine expect_noise(error, signal, interval, window_name, segments, overlap, scatter)
       type(error_type), allocatable, intent(inout) :: error
-      !> The noise
-      real(wp), intent(in) :: signal(:)
-      !> Time between samples
-      real(wp), intent(in) :: interval
+      real(wp), intent(in) :: signal(:), interval
       character(len=*), intent(in) :: window_name
-      !> Number of segments
       integer, intent(in) :: segments
-      !> Share of a segment that the next one repeats
-      real(wp), intent(in) :: overlap
-      !> Scatter known, over the mean
-      real(wp), intent(in) :: scatter
+      !> Share of a segment that the next one repeats; scatter known, over the mean
+      real(wp), intent(in) :: overlap, scatter
       real(wp), allocatable :: frequency(:), power(:)
       character(len=:), allocatable :: what
 
@@ -236,7 +230,6 @@ contains
 
       !> The highest power in the spectrum of the first samples.
       real(wp) function highest(samples) result(value)
-         !> How many
          integer, intent(in) :: samples
          type(failure_type), allocatable :: failure
          real(wp), allocatable :: frequency(:), power(:)
@@ -267,18 +260,12 @@ contains
    !> A spectrum that must not fail.
    subroutine spectrum_of(error, signal, interval, window_name, segments, overlap, frequency, power)
       type(error_type), allocatable, intent(inout) :: error
-      !> Samples
-      real(wp), intent(in) :: signal(:)
-      !> Time between samples
-      real(wp), intent(in) :: interval
+      real(wp), intent(in) :: signal(:), interval
       character(len=*), intent(in) :: window_name
-      !> Number of segments
       integer, intent(in) :: segments
       !> Share of a segment that the next one repeats
       real(wp), intent(in) :: overlap
-      real(wp), allocatable, intent(out) :: frequency(:)
-      !> Power spectral density
-      real(wp), allocatable, intent(out) :: power(:)
+      real(wp), allocatable, intent(out) :: frequency(:), power(:)
       type(failure_type), allocatable :: failure
 
       call power_spectrum(signal, interval, window_name, segments, overlap, frequency, power, &
@@ -289,7 +276,6 @@ contains
 
    !> Mean square of the distance to the mean.
    pure real(wp) function variance(x) result(value)
-      !> Samples
       real(wp), intent(in) :: x(:)
 
       value = sum((x - sum(x)/size(x))**2)/size(x)

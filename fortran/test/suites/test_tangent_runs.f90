@@ -130,11 +130,8 @@ contains
 
    !> y' = -y(t - 1) with 1 as its past, run to a time and given its start vectors.
    subroutine start_after(time, vectors, tangent, undisturbed, continuation, error)
-      !> End of the run
       real(wp), intent(in) :: time
-      !> Number of vectors
       integer, intent(in) :: vectors
-      !> The equation with its vectors
       type(tangent_problem_type), intent(out) :: tangent
       !> Where the run ended, without and with the vectors
       type(continuation_type), intent(out) :: undisturbed, continuation
@@ -172,9 +169,7 @@ contains
    !> the first takes.
    subroutine compare(problem, vectors, length, methods, error)
       type(spring_block_type), intent(in) :: problem
-      !> Number of vectors
       integer, intent(in) :: vectors
-      !> Time from their start
       real(wp), intent(in) :: length
       character(len=8), intent(in) :: methods(:)
       type(error_type), allocatable, intent(inout) :: error
@@ -301,9 +296,7 @@ contains
    !> Exponents with vectors across the flow, and with one more vector and none across.
    subroutine compare_across(problem, transient, zeros, error)
       type(spring_block_type), intent(in) :: problem
-      !> Time at which measuring begins
       real(wp), intent(in) :: transient
-      !> Number of exponents that are zero
       integer, intent(in) :: zeros
       type(error_type), allocatable, intent(inout) :: error
       type(exponent_type), allocatable :: across(:), all_directions(:)
@@ -367,7 +360,6 @@ contains
 
    !> Coefficients by powers of s of a polynomial of Newton's form.
    pure function powers_of(x, a) result(c)
-      !> Nodes
       real(wp), intent(in) :: x(:)
       !> Coefficients of Newton's form
       real(wp), intent(in) :: a(0:size(x))
@@ -389,7 +381,6 @@ contains
 
    !> Coefficients of the derivative.
    pure function slope_of(c) result(slope)
-      !> Coefficients by powers
       real(wp), intent(in) :: c(0:)
       real(wp) :: slope(0:ubound(c, 1))
       integer :: k
@@ -399,10 +390,7 @@ contains
 
    !> Newton's form: the remainders of division by s - x(1), s - x(2), ..., one after the other.
    pure function newton_form(c, x) result(a)
-      !> Coefficients by powers
-      real(wp), intent(in) :: c(0:)
-      !> Nodes
-      real(wp), intent(in) :: x(:)
+      real(wp), intent(in) :: c(0:), x(:)
       real(wp) :: a(0:size(x))
       integer :: j, k
 

@@ -89,19 +89,14 @@ contains
    !> Disturbances of the state and of the delayed values against differences of solutions, degree
    !> by degree.
    subroutine compare(problem, unit, degree, state, vectors, iterations, what, error)
-      !> The problem
       class(problem_with_tangents), intent(in) :: problem
-      !> Unit of time of the powers
       real(wp), intent(in) :: unit
-      !> Degree of the series
       integer, intent(in) :: degree
       !> State, shape (n)
       real(wp), intent(in) :: state(:)
-      !> Number of disturbances
       integer, intent(in) :: vectors
       !> Iterations of the slow series; 0 for the series itself
       integer, intent(in) :: iterations
-      !> Which problem
       character(len=*), intent(in) :: what
       !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
@@ -148,7 +143,6 @@ contains
 
       !> Series of the solution that is a multiple of disturbance i away.
       pure function solution(times) result(series)
-         !> How many times
          real(wp), intent(in) :: times
          real(wp) :: series(0:degree, problem%n)
          integer :: iteration

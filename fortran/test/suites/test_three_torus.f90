@@ -55,7 +55,6 @@ contains
 
    !> So many oscillators.
    pure type(oscillators_type) function oscillators(n) result(problem)
-      !> How many
       integer, intent(in) :: n
       integer :: i
 
@@ -104,7 +103,6 @@ contains
 
    !> A point of the unit circle.
    pure complex(wp) function turned(phase) result(z)
-      !> Its phase, in turns
       real(wp), intent(in) :: phase
 
       z = exp(cmplx(0.0_wp, turn*phase, kind=wp))
@@ -165,13 +163,9 @@ contains
    !> by its spectrum, the section is met when the first phase is 0.
    subroutine find_third(error, frequency, amplitude, noise, third, roughness)
       type(error_type), allocatable, intent(inout) :: error
-      !> Frequencies, of falling amplitude
       real(wp), intent(in) :: frequency(:)
-      !> Amplitude of the last one beside 1
-      real(wp), intent(in) :: amplitude
-      !> A part of the section that is chaotic, shape (points)
-      real(wp), intent(in) :: noise(:)
-      !> Third fundamental frequency
+      !> Amplitude of the last one beside 1; a part of the section that is chaotic, shape (points)
+      real(wp), intent(in) :: amplitude, noise(:)
       real(wp), intent(out) :: third, roughness
       type(bases_type) :: bases
       type(failure_type), allocatable :: failure

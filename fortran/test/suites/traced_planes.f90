@@ -29,9 +29,7 @@ contains
    !> delay, pieces up to the largest omega there can be, branches up to the highest, and a large
    !> gamma.
    subroutine trace(i, traced, error)
-      !> Number of the plane
       integer, intent(in) :: i
-      !> The plane and its curves
       type(traced_plane), intent(out) :: traced
       !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
@@ -72,11 +70,8 @@ contains
 
    !> (epsilon, ordinate) of branch k at omega in closed form.
    pure function known_point(plane, omega, k) result(point)
-      !> The plane
       type(curve_plane_type), intent(in) :: plane
-      !> Frequency of the pair
       real(wp), intent(in) :: omega
-      !> Branch
       integer, intent(in) :: k
       real(wp) :: point(2)
 
@@ -93,9 +88,7 @@ contains
 
    !> (epsilon, ordinate) in units of the window.
    pure function place_of(plane, point) result(place)
-      !> The plane
       type(curve_plane_type), intent(in) :: plane
-      !> epsilon and ordinate
       real(wp), intent(in) :: point(2)
       real(wp) :: place(2)
 
@@ -109,9 +102,7 @@ contains
    pure complex(wp) function closed_delta(point, tau, s) result(value)
       !> Parameters but the delay
       type(curve_point_type), intent(in) :: point
-      !> Delay
       real(wp), intent(in) :: tau
-      !> Place
       complex(wp), intent(in) :: s
 
       associate (p => point%parameters, rate => point%parameters%gamma**2/point%parameters%xi)
@@ -121,9 +112,7 @@ contains
 
    !> The characteristic root near a point's i omega at another delay, by Newton's method.
    complex(wp) function root_near(point, tau) result(s)
-      !> The point
       type(curve_point_type), intent(in) :: point
-      !> The delay
       real(wp), intent(in) :: tau
       complex(wp) :: slope
       integer :: i

@@ -21,11 +21,8 @@ module linear_map
       subroutine image_of_vector(self, vector, image)
          import :: linear_map_type, wp
          implicit none (type, external)
-         !> The map, with its work space
          class(linear_map_type), intent(inout) :: self
-         !> The vector
          real(wp), intent(in) :: vector(:)
-         !> Image of the vector, of the same size
          real(wp), intent(out) :: image(:)
       end subroutine image_of_vector
    end interface
@@ -44,10 +41,8 @@ contains
    subroutine solve_by_gmres(map, right, tolerance, solution, error)
       !> The map
       class(linear_map_type), intent(inout) :: map
-      !> Right-hand side
-      real(wp), intent(in) :: right(:)
-      !> Norm of the residual over that of the right-hand side
-      real(wp), intent(in) :: tolerance
+      !> Right-hand side, norm of the residual over that of the right-hand side
+      real(wp), intent(in) :: right(:), tolerance
       !> The solution
       real(wp), intent(out) :: solution(:)
       !> The tolerance was not reached
@@ -104,10 +99,8 @@ contains
    subroutine leading_eigenvalues(map, n, wanted, tolerance, values, vectors, error)
       !> The map
       class(linear_map_type), intent(inout) :: map
-      !> Size of its vectors
-      integer, intent(in) :: n
-      !> Number of eigenvalues
-      integer, intent(in) :: wanted
+      !> Size of its vectors, number of eigenvalues
+      integer, intent(in) :: n, wanted
       !> Norm of the residual of an eigenvector of norm 1, over the modulus of the first eigenvalue
       real(wp), intent(in) :: tolerance
       !> The eigenvalues: the number wanted, or a few less or more where pairs would be separated or

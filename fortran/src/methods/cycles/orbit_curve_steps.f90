@@ -85,7 +85,6 @@ contains
       real(wp), intent(in) :: ahead
       !> Most that the root may lie beside it
       real(wp), intent(in) :: most
-      !> The point, of known kind
       type(special_point_type), intent(inout) :: point
       integer, intent(out) :: evaluations
       type(error_type), allocatable, intent(out) :: error

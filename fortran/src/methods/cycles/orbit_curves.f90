@@ -178,7 +178,6 @@ contains
       type(special_point_type), intent(in) :: points(:)
       integer, intent(in) :: last
       real(wp), intent(in) :: step
-      !> Why, where it ends
       character(len=:), allocatable, intent(inout) :: reason
 
       value = .true.

@@ -178,7 +178,6 @@ contains
    !> The past less the past a period later, and the values of the conditions.
    subroutine defect_of_change(self, vector, image)
       class(orbit_map_type), intent(inout) :: self
-      !> Past, changes of the period and of the free parameters
       real(wp), intent(in) :: vector(:)
       real(wp), intent(out) :: image(:)
 
@@ -188,9 +187,7 @@ contains
    !> Defect of a change, plus a multiple of the residual of the orbit.
    subroutine find_defects(self, vector, residual, image)
       class(orbit_map_type), intent(inout) :: self
-      !> Past, changes of the period and of the free parameters
-      real(wp), intent(in) :: vector(:)
-      real(wp), intent(in) :: residual
+      real(wp), intent(in) :: vector(:), residual
       real(wp), intent(out) :: image(:)
       integer :: i, past
 

@@ -75,7 +75,6 @@ contains
    !> parameter from the torus point, to first order; coefficient and growth must be known.
    pure real(wp) function torus_amplitude(self, component) result(value)
       class(special_point_type), intent(in) :: self
-      !> Which component
       integer, intent(in) :: component
 
       value = 2.0_wp*self%disturbed(component)*sqrt(abs(self%growth/self%coefficient))

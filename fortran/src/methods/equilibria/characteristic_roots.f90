@@ -101,7 +101,6 @@ contains
    pure function generator(system, intervals, unit) result(matrix)
       type(linear_system_type), intent(in) :: system
       integer, intent(in) :: intervals
-      !> Unit of time: the longest lag
       real(wp), intent(in) :: unit
       real(wp), allocatable :: matrix(:, :)
       real(wp) :: row(0:intervals), weight(0:intervals), x(0:intervals)

@@ -39,7 +39,6 @@ module delay_equation
       pure function derivative_form(self, x) result(form)
          import :: delay_equation_type, wp
          implicit none (type, external)
-         !> The equation
          class(delay_equation_type), intent(in) :: self
          !> Histories at all lags, shape (n, number of lags, order)
          complex(wp), intent(in) :: x(:, :, :)
@@ -88,7 +87,6 @@ contains
    !> Delta(s), singular at characteristic roots.
    pure function characteristic_matrix(self, s) result(matrix)
       class(linear_system_type), intent(in) :: self
-      !> Point of the complex plane
       complex(wp), intent(in) :: s
       complex(wp) :: matrix(size(self%a, 1), size(self%a, 1))
       integer :: i
@@ -105,7 +103,6 @@ contains
    !> Derivative of Delta(s).
    pure function characteristic_slope(self, s) result(matrix)
       class(linear_system_type), intent(in) :: self
-      !> Point of the complex plane
       complex(wp), intent(in) :: s
       complex(wp) :: matrix(size(self%a, 1), size(self%a, 1))
       integer :: i

@@ -55,10 +55,8 @@ contains
       type(linear_system_type), intent(in) :: linear
       !> The root
       complex(wp), intent(in) :: s
-      !> Right vector, shape (n)
-      complex(wp), intent(out) :: q(:)
-      !> Left vector, shape (n)
-      complex(wp), intent(out) :: p(:)
+      !> Right vector, shape (n); left vector, shape (n)
+      complex(wp), intent(out) :: q(:), p(:)
       !> No convergence
       type(error_type), allocatable, intent(out) :: error
       complex(wp) :: delta(size(q), size(q))

@@ -88,19 +88,14 @@ module lyapunov_spectrum
          import :: continuation_type, dde_problem_type, error_type, integration_options, &
                    integration_result, interval_observer_type, wp
          implicit none (type, external)
-         !> The observer
          class(interval_observer_type), intent(inout) :: self
          !> The problem, which may have further components after those observed
          class(dde_problem_type), intent(in) :: problem
          !> Time at which the interval ends
          real(wp), intent(in) :: time
-         !> Method and tolerances
          type(integration_options), intent(in) :: options
-         !> The result
          type(integration_result), intent(out) :: outcome
-         !> The run ended before its time
          type(error_type), allocatable, intent(out) :: error
-         !> Where the run stands
          type(continuation_type), intent(inout) :: continuation
       end subroutine observe_interval
 
@@ -108,7 +103,6 @@ module lyapunov_spectrum
       subroutine keep_interval(self)
          import :: interval_observer_type
          implicit none (type, external)
-         !> The observer
          class(interval_observer_type), intent(inout) :: self
       end subroutine keep_interval
    end interface
@@ -117,7 +111,6 @@ contains
 
    !> Number of vectors: that of exponents, less that of the flow.
    pure integer function number_of_vectors(self) result(vectors)
-      !> What growth is measured over
       class(growth_settings_type), intent(in) :: self
 
       vectors = self%exponents - merge(1, 0, self%across_flow)
@@ -218,25 +211,14 @@ contains
    !> that is nearly a multiple of them does not look like a slow drift.
    subroutine go_on(tangent, settings, options, t_end, intervals, done, measured, error, &
                     progress, observer)
-      !> The problem with its tangent vectors
       type(tangent_problem_type), intent(in) :: tangent
-      !> How many exponents
       type(growth_settings_type), intent(in) :: settings
-      !> Method and tolerances
       type(integration_options), intent(in) :: options
-      !> Where to end
       real(wp), intent(in) :: t_end
-      !> Number of intervals up to there
-      integer, intent(in) :: intervals
-      !> Intervals done before
-      integer, intent(in) :: done
-      !> The growth
+      integer, intent(in) :: intervals, done
       type(growth_type), intent(inout) :: measured
-      !> Error if the growth cannot be measured
       type(error_type), allocatable, intent(out) :: error
-      !> Receiver of the number of intervals done
       class(progress_receiver_type), intent(inout), optional :: progress
-      !> Receiver of the solution
       class(interval_observer_type), intent(inout), optional :: observer
       real(wp), allocatable :: growth(:, :)
       real(wp) :: time(0:intervals)
@@ -260,7 +242,6 @@ contains
 
    !> An irregular number between -0.35 and 0.35: a fraction of the golden ratio times a square.
    elemental real(wp) function uneven(i) result(value)
-      !> Place of the number in the sequence
       integer, intent(in) :: i
       real(wp), parameter :: golden = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp)
 
@@ -269,9 +250,7 @@ contains
 
    !> Number of intervals in a time, equal in all blocks.
    pure integer function intervals_in(time, settings) result(intervals)
-      !> The time
       real(wp), intent(in) :: time
-      !> Blocks, and the length of an interval
       type(growth_settings_type), intent(in) :: settings
 
       associate (blocks => settings%blocks)
@@ -283,23 +262,15 @@ contains
    !> the others on the way.
    recursive subroutine pass(tangent, settings, options, time, halvings, measured, growth, error, &
                              observer)
-      !> The problem with its tangent vectors
       type(tangent_problem_type), intent(in) :: tangent
       !> Size of the vectors, and what to do where one is lost
       type(growth_settings_type), intent(in) :: settings
-      !> Method and tolerances
       type(integration_options), intent(in) :: options
-      !> Time at which the interval ends
       real(wp), intent(in) :: time
-      !> How often the interval may be halved
       integer, intent(in) :: halvings
-      !> Position of the vectors, and work done
       type(growth_type), intent(inout) :: measured
-      !> Logarithm of the growth of each vector
       real(wp), intent(out) :: growth(:)
-      !> Error if the growth cannot be measured
       type(error_type), allocatable, intent(out) :: error
-      !> Receiver of the solution
       class(interval_observer_type), intent(inout), optional :: observer
       type(continuation_type) :: before
       type(integration_result) :: outcome
@@ -348,11 +319,8 @@ contains
 
    !> Refuse what cannot be measured.
    pure subroutine check(problem, settings, error)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> How many exponents, and when
       type(growth_settings_type), intent(in) :: settings
-      !> What is wrong
       type(error_type), allocatable, intent(out) :: error
 
       if (settings%vectors() < 1) then
