@@ -1,7 +1,7 @@
-!> Special points of the Hopf curves of Figures 2 and 3, and runs of the block beside them.
+!> Special points of the Hopf curves of Figures 2 and 3, and cycles that their normal forms predict.
 module hopf_point_runs
    use block_equation, only: block_equation_type
-   use block_parameters, only: block_history_type, block_parameters_type
+   use block_parameters, only: block_parameters_type
    use centre_manifold, only: normal_form_coefficient
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
@@ -12,23 +12,10 @@ module hopf_point_runs
    use hopf_unfoldings, only: unfolding_type, way_to_growth
    use mctc_env_testing, only: error_type
    use normal_form, only: critical_vectors
-   use solving, only: at_tolerance, solve
-   use spring_block, only: index_of_ln_v, spring_block_type
    use traced_planes, only: trace, traced_plane
    implicit none (type, external)
    private
-   public :: cycle_type, find_points, modes_of, parameters_at, predict_fold, predict_torus, run
-
-   !> The block with a history of oscillations, sum over pairs of 2 Re(z q exp(i omega t)).
-   type, extends(spring_block_type) :: oscillating_block
-      !> Frequencies
-      real(wp) :: omega(2) = 0.0_wp
-      !> z q of the pairs
-      complex(wp) :: mode(3, 2) = 0.0_wp
-   contains
-      procedure :: initial => oscillation_at_zero
-      procedure :: history => oscillation
-   end type oscillating_block
+   public :: cycle_type, find_points, modes_of, predict_fold, predict_torus
 
    !> A cycle near a special point.
    type :: cycle_type
@@ -63,18 +50,6 @@ contains
       plane = traced%plane
       found = pack(all_points, all_points%kind == kind .or. kind == "")
    end subroutine find_points
-
-   !> The parameters at which both pairs have given growth rates, to first order.
-   type(block_parameters_type) function parameters_at(plane, point, mu) result(there)
-      type(curve_plane_type), intent(in) :: plane
-      type(hopf_point_type), intent(in) :: point
-      real(wp), intent(in) :: mu(2)
-
-      associate (p => point%parameters, &
-                 way => way_to_growth(plane, point%parameters, point%omega, mu))
-         there = plane%parameters(p%epsilon + way(1), plane%ordinate(p) + way(2))
-      end associate
-   end function parameters_at
 
    !> A fold of cycles near a generalised Hopf point.
    subroutine predict_fold(plane, omega, k, unfolding, amplitude, cycle_at_fold, error)
@@ -143,53 +118,4 @@ contains
          mode(:, j) = z(j)*q
       end do
    end function modes_of
-
-   !> Least, mean and greatest maximum of ln v in the last 400 units of a run.
-   subroutine run(parameters, omega, mode, time, least, mean, most, error)
-      type(block_parameters_type), intent(in) :: parameters
-      real(wp), intent(in) :: omega(2)
-      complex(wp), intent(in) :: mode(3, 2)
-      real(wp), intent(in) :: time
-      real(wp), intent(out) :: least, mean, most
-      !> The first failure of the test
-      type(error_type), allocatable, intent(inout) :: error
-      type(oscillating_block) :: block
-      real(wp), allocatable :: maxima(:), values(:, :)
-      integer, parameter :: samples = 20000
-      integer :: i
-
-      block%spring_block_type = spring_block_type(parameters, block_history_type())
-      block%omega = omega
-      block%mode = mode
-      call solve(block, [(time - 0.02_wp*(samples - i), i=1, samples)], &
-                 at_tolerance(1.0e-8_wp), values, error)
-      if (allocated(error)) return
-      associate (w => values(index_of_ln_v, :))
-         allocate (maxima, source=pack(w(2:samples - 1), w(2:samples - 1) > w(1:samples - 2) &
-                                       .and. w(2:samples - 1) >= w(3:samples)))
-      end associate
-      mean = sum(maxima)/size(maxima)
-      least = minval(maxima)
-      most = maxval(maxima)
-   end subroutine run
-
-   !> The state at t = 0.
-   pure subroutine oscillation_at_zero(self, y)
-      class(oscillating_block), intent(in) :: self
-      real(wp), intent(out) :: y(self%n)
-      integer :: i
-
-      y = [(self%history(0.0_wp, i), i=1, 3)]
-   end subroutine oscillation_at_zero
-
-   !> The sum of the oscillations.
-   pure function oscillation(self, t, component) result(value)
-      class(oscillating_block), intent(in) :: self
-      !> Time <= 0
-      real(wp), intent(in) :: t
-      integer, intent(in) :: component
-      real(wp) :: value
-
-      value = 2.0_wp*sum(real(self%mode(component, :)*exp(cmplx(0.0_wp, self%omega*t, kind=wp))))
-   end function oscillation
 end module hopf_point_runs

@@ -41,7 +41,6 @@ contains
                    new_unittest("hysteresis on a sweep", test_hysteresis), &
                    new_unittest("sweep of the delay up and down", test_delay), &
                    new_unittest("sweep from and to no delay", test_no_delay), &
-                   new_unittest("sweep of one point", test_one_point), &
                    new_unittest("a longer run", test_longer_run), &
                    new_unittest("sweep after a failed point", test_failed_point)]
    end subroutine collect_attractor_points
@@ -295,24 +294,6 @@ contains
       call expect_close(error, maxval(findings(3)%attractor%motion%maxima), &
                         maxval(findings(1)%attractor%motion%maxima), 1.0e-4_wp, "the same cycle")
    end subroutine test_no_delay
-
-   !> A sweep of one point is a run from the history.
-   subroutine test_one_point(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(attractor_type) :: alone
-      type(failure_type), allocatable :: failure
-      type(finding_type), allocatable :: findings(:)
-
-      call sweep_attractors([near_sliding(10.0_wp, 0.5_wp, 0.8_wp)], coarse_settings(200.0_wp), &
-                            at_tolerance(1.0e-7_wp, "auto"), findings)
-      call expect_success(error, findings(1)%problem)
-      call find_attractor(disturbed_block(10.0_wp, 0.5_wp, 0.8_wp), coarse_settings(200.0_wp), &
-                          at_tolerance(1.0e-7_wp, "auto"), alone, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
-      call expect_close(error, findings(1)%attractor%motion%maxima, alone%motion%maxima, 0.0_wp, &
-                        "maxima")
-   end subroutine test_one_point
 
    !> An attractor found from where a run ended has the maxima of one longer run, and ends where
    !> that one ends.

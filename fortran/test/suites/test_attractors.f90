@@ -30,12 +30,10 @@ contains
                    new_unittest("cycles", test_cycles), &
                    new_unittest("chaos of the paper", test_chaos), &
                    new_unittest("chaos that becomes clear", test_clear_chaos), &
-                   new_unittest("a true torus", test_true_torus), &
                    new_unittest("another torus, time doubled", test_doublings), &
                    new_unittest("a 3-torus", test_three_torus), &
                    new_unittest("tori after another motion", test_late_tori), &
                    new_unittest("unstable steady sliding", test_unstable), &
-                   new_unittest("approach shorter than the delay", test_short_approach), &
                    new_unittest("a run that ends early", test_failed_run), &
                    new_unittest("too few samples", test_few_samples), &
                    new_unittest("maxima of a stuck block", test_stuck)]
@@ -181,18 +179,6 @@ contains
                   .and. all(found%bases <= 0.0_wp), "nothing of the first judgement")
    end subroutine test_clear_chaos
 
-   !> The delay of Fig. 5a made longer. The section is a closed curve.
-   subroutine test_true_torus(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(attractor_settings_type) :: settings
-      type(attractor_type) :: found
-
-      settings = after(8000.0_wp, 6000.0_wp)
-      settings%doublings = 1
-      call find(disturbed(12.5_wp, 0.5_wp, 0.8_wp), settings, torus, found, error)
-      call expect_torus(error, found)
-   end subroutine test_true_torus
-
    !> Two zero exponents, two bases and a smooth section.
    subroutine expect_torus(error, found)
       type(error_type), allocatable, intent(inout) :: error
@@ -278,18 +264,6 @@ contains
       call expect(error, size(found%motion%maxima) == 0 .and. &
                   size(found%motion%section_time) == 0, "no events")
    end subroutine test_unstable
-
-   !> Tangent vectors wait until the delay is over. On the way to a cycle, which is all that is seen
-   !> then, the exponents tell it, and nothing says that it is anything else.
-   subroutine test_short_approach(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(attractor_type) :: found
-
-      call search(disturbed(10.0_wp, 0.5_wp, 0.8_wp), after(4.0_wp, 3000.0_wp), found, error)
-      if (allocated(error)) return
-      call expect(error, size(found%exponents) == 4, "four exponents")
-      call expect(error, found%by_exponents == cycle_motion, "a cycle by exponents")
-   end subroutine test_short_approach
 
    !> Tori that are reached after another motion, with the settings of the atlas. The approach to
    !> the first is certain chaos for a while by exponents and spectrum. The second is a torus also

@@ -3,7 +3,7 @@ module test_block_auto
    use block_builder, only: build_block
    use dde, only: continuation_type, integrate, integration_result
    use dde_errors, only: failure_type => error_type, text
-   use dde_kinds, only: int64, wp
+   use dde_kinds, only: wp
    use expectations, only: expect, expect_success
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use plain_blocks, only: plain_block
@@ -23,10 +23,8 @@ contains
       testsuite = [new_unittest("at the limit of stability", test_stability), &
                    new_unittest("at rest", test_rest), &
                    new_unittest("a damped oscillation", test_damped), &
-                   new_unittest("a stiff block", test_stiff), &
                    new_unittest("near the end", test_end), &
-                   new_unittest("failed tries", test_vain), &
-                   new_unittest("the better method", test_auto)]
+                   new_unittest("failed tries", test_vain)]
    end subroutine collect_block_auto
 
    !> A block without slow series, on its way to balance and within the tolerance of it.
@@ -62,23 +60,6 @@ contains
          call expect(error, outcome%implicit_steps == 0, "1e-"//text(digits))
       end do
    end subroutine test_damped
-
-   !> A stiff block without slow series is left to implicit steps soon.
-   subroutine test_stiff(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
-      integer :: digits
-
-      do digits = 3, 11, 2
-         call integrate(near_balance(1.0e-2_wp), 0.0_wp, 100.0_wp, &
-                        at_tolerance(10.0_wp**(-digits), "auto"), outcome, failure)
-         call expect_success(error, failure)
-         call expect(error, outcome%accepted < 600, "1e-"//text(digits)//": " &
-                     //text(outcome%accepted)//" steps")
-         call expect(error, outcome%implicit_steps > 10, "implicit ones")
-      end do
-   end subroutine test_stiff
 
    !> Where few explicit steps are left no implicit one is tried, however much they are held back,
    !> unless the run may go on.
@@ -131,25 +112,4 @@ contains
       problem%spring_block_type = build_block(tau=0.0_wp, epsilon=0.0_wp, xi=1.0_wp, &
                                               gamma=1.0e3_wp, v=exp(above))
    end function near_balance
-
-   !> A mild scene stays explicit; a stiff one without its slow series takes few evaluations.
-   subroutine test_auto(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
-      type(plain_block) :: stiff
-
-      call integrate(build_block(tau=10.0_wp, epsilon=0.35_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp), &
-                     0.0_wp, 200.0_wp, at_tolerance(1.0e-9_wp, "auto"), outcome, failure)
-      call expect_success(error, failure)
-      call expect(error, outcome%implicit_steps == 0, "the mild scene stays explicit")
-      stiff%spring_block_type = build_block(tau=1.0_wp, epsilon=0.7_wp, xi=0.5_wp, &
-                                            gamma=1.0e6_wp, v=1.5_wp)
-      call integrate(stiff, 0.0_wp, 100.0_wp, at_tolerance(1.0e-9_wp, "auto"), outcome, failure)
-      call expect_success(error, failure)
-      call expect(error, outcome%implicit_steps > 50 .and. outcome%switches >= 1, &
-                  "the stiff scene turns implicit")
-      call expect(error, outcome%evaluations < 20000_int64 .and. outcome%factorisations > 0, &
-                  "evaluations: "//text(outcome%evaluations))
-   end subroutine test_auto
 end module test_block_auto

@@ -23,8 +23,7 @@ contains
    subroutine collect_block_runs(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("the block by other methods", test_block), &
-                   new_unittest("error follows tolerance", test_proportional), &
+      testsuite = [new_unittest("error follows tolerance", test_proportional), &
                    new_unittest("a series that is not finite", test_not_finite), &
                    new_unittest("stiff blocks", test_blocks), &
                    new_unittest("the stick before a slip", test_stick), &
@@ -32,31 +31,6 @@ contains
                    new_unittest("steps longer than the delay", test_short_delay), &
                    new_unittest("at rest", test_rest)]
    end subroutine collect_block_runs
-
-   !> The torus of the paper: as by the implicit method of order 13, without a rejection, with a
-   !> series a step, and with less than a sixth as many of them as the explicit pair evaluates
-   !> right-hand sides; `auto` stays with it.
-   subroutine test_block(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: explicit, known, outcome
-      integer :: i
-
-      call integrate(torus(), 0.0_wp, 100.0_wp, at_tolerance(1.0e-13_wp, "radau13"), known, failure)
-      call expect_success(error, failure)
-      call integrate(torus(), 0.0_wp, 100.0_wp, at_tolerance(1.0e-10_wp), explicit, failure)
-      call expect_success(error, failure)
-      do i = 1, size(both)
-         call integrate(torus(), 0.0_wp, 100.0_wp, at_tolerance(1.0e-10_wp, both(i)), outcome, &
-                        failure)
-         call expect_success(error, failure)
-         call expect_close(error, outcome%y, known%y, 1.0e-8_wp, both(i))
-         call expect(error, outcome%rejected == 0, both(i)//" rejects no step")
-         call expect(error, outcome%implicit_steps == 0, both(i)//" takes no implicit step")
-         call expect_between(error, real(outcome%evaluations, wp), real(outcome%accepted, wp), &
-                             real(explicit%evaluations, wp)/6, both(i)//", series")
-      end do
-   end subroutine test_block
 
    !> The error at t = 100 stays below 100 times the tolerance, and falls with it.
    subroutine test_proportional(error)

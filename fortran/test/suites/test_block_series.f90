@@ -18,8 +18,7 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("series of the block", test_taylor_series), &
-                   new_unittest("slow series of the block", test_slow_series), &
-                   new_unittest("jacobian of the block", test_jacobian)]
+                   new_unittest("slow series of the block", test_slow_series)]
    end subroutine collect_block_series
 
    !> The series of the block, with a delayed value that is a polynomial, solves its equations: its
@@ -104,36 +103,4 @@ contains
          end do
       end do
    end subroutine test_slow_series
-
-   !> The block's own derivatives against central differences.
-   subroutine test_jacobian(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(spring_block_type) :: block_model
-      real(wp) :: above(3), below(3), by_y(3, 3), moved(3)
-      real(wp), allocatable :: by_z(:, :), z(:)
-      real(wp), parameter :: y(3) = [0.7_wp, -1.3_wp, -0.4_wp], step = 1.0e-5_wp
-      integer :: i, j
-
-      do i = 0, 1
-         block_model = build_block(tau=7.0_wp*i, epsilon=0.7_wp, xi=0.5_wp, gamma=0.8_wp, &
-                                   v=1.1_wp)
-         allocate (z(i), source=0.2_wp)
-         allocate (by_z(3, i))
-         call block_model%jacobian(0.0_wp, y, z, by_y, by_z)
-         do j = 1, 3
-            moved = y
-            moved(j) = y(j) + step
-            call block_model%rhs(0.0_wp, moved, z, above)
-            moved(j) = y(j) - step
-            call block_model%rhs(0.0_wp, moved, z, below)
-            call expect_close(error, by_y(:, j), (above - below)/(2.0_wp*step), 1.0e-8_wp, "by y")
-         end do
-         do j = 1, i
-            call block_model%rhs(0.0_wp, y, z + step, above)
-            call block_model%rhs(0.0_wp, y, z - step, below)
-            call expect_close(error, by_z(:, j), (above - below)/(2.0_wp*step), 1.0e-8_wp, "by z")
-         end do
-         deallocate (z, by_z)
-      end do
-   end subroutine test_jacobian
 end module test_block_series

@@ -1,7 +1,6 @@
 !> The worked example of docs/friction-law.md: each step of it against a computation that does not
 !> use the step.
 module test_friction_law
-   use block_builder, only: build_block
    use block_parameters, only: block_history_type, block_parameters_type
    use block_state, only: index_of_ln_v
    use characteristic_roots, only: find_roots

@@ -32,7 +32,6 @@ contains
                    new_unittest("derivatives of (5)", test_derivatives), &
                    new_unittest("residual", test_residual), &
                    new_unittest("curves in closed form", test_curves), &
-                   new_unittest("Hopf point without delay", test_no_delay), &
                    new_unittest("equation (10) as printed", test_printed)]
    end subroutine collect_hopf_condition
 
@@ -151,24 +150,6 @@ contains
          end associate
       end do
    end subroutine test_curves
-
-   !> At tau = 0 the cubic has a pair i omega where, after Routh and Hurwitz, epsilon
-   !> = gamma^2 xi/(xi + gamma^2) and omega^2 is the same; it lies on branch 0.
-   subroutine test_no_delay(error)
-      type(error_type), allocatable, intent(out) :: error
-      real(wp) :: omega, x(3)
-      integer :: i
-
-      do i = 1, points
-         x = random_omega(i)
-         associate (xi => x(2), gamma => x(3), epsilon => x(3)**2*x(2)/(x(2) + x(3)**2))
-            omega = sqrt(epsilon)
-            call expect_close(error, hopf_epsilon(omega, xi, gamma)/epsilon, 1.0_wp, 1.0e-11_wp, &
-                              "epsilon without delay over the known one")
-            call expect_close(error, hopf_tau(omega, xi, gamma, 0), 0.0_wp, 1.0e-12_wp, "tau")
-         end associate
-      end do
-   end subroutine test_no_delay
 
    !> (10) as printed, by hand at xi = gamma = 1, and its residual: nowhere a root.
    subroutine test_printed(error)

@@ -31,8 +31,7 @@ contains
       testsuite = [new_unittest("points in the window, on the curve", test_points), &
                    new_unittest("pieces are all there", test_pieces), &
                    new_unittest("both halves of each loop", test_halves), &
-                   new_unittest("crossing by theorem and by Newton's method", test_crossing), &
-                   new_unittest("curve as printed", test_printed)]
+                   new_unittest("crossing by theorem and by Newton's method", test_crossing)]
    end subroutine collect_hopf_curves
 
    !> Every point lies in the window and on its branch's curve, and solves (5). Within a piece omega
@@ -179,29 +178,6 @@ contains
       call expect(error, count_of(-1) > 100 .and. count_of(1) > 100, "both signs occur")
       call expect(error, followed > 0.9_wp*points, "most roots move visibly")
    end subroutine test_crossing
-
-   !> The curve of (10) as printed has its residual, which is large where the curve proper
-   !> has none.
-   subroutine test_printed(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(traced_plane) :: traced
-      complex(wp) :: s
-      integer :: j
-
-      call trace(1, traced, error)
-      if (allocated(error)) return
-      do j = 1, size(traced%points)
-         associate (point => traced%points(j))
-            s = cmplx(0.0_wp, point%omega, kind=wp)
-            call expect_between(error, point%printed_residual, 1.0e-4_wp, 2.0_wp, &
-                                "residual as printed")
-            call expect_between(error, abs(closed_delta(point, point%printed_tau, s)), 1.0e-4_wp, &
-                                huge(1.0_wp), "Delta as printed")
-         end associate
-      end do
-      call expect(error, count(traced%points%printed_residual > 1.0e-3_wp) &
-                  > 0.95_wp*size(traced%points), "most residuals as printed exceed a thousandth")
-   end subroutine test_printed
 
    !> The omegas at which branch k enters and leaves the window.
    function ends_by_scan(plane, k) result(ends)

@@ -1,5 +1,5 @@
 !> What the normal forms predict beside special points of the Hopf curves, against roots of (5) and
-!> against cycles by simulation and by harmonic balance.
+!> against cycles by harmonic balance.
 module test_hopf_unfoldings
    use block_equation, only: block_equation_type
    use block_parameters, only: block_parameters_type
@@ -10,8 +10,7 @@ module test_hopf_unfoldings
    use harmonic_balance, only: find_cycle
    use hopf_condition, only: two_pi
    use hopf_planes, only: curve_plane_type
-   use hopf_point_runs, only: cycle_type, find_points, modes_of, parameters_at, predict_fold, &
-                              predict_torus, run
+   use hopf_point_runs, only: cycle_type, find_points, modes_of, predict_fold, predict_torus
    use hopf_points, only: hopf_point_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use spring_block, only: index_of_ln_v
@@ -27,7 +26,6 @@ contains
 
       testsuite = [new_unittest("directions against roots", test_directions), &
                    new_unittest("folds leave along the curve", test_fold_direction), &
-                   new_unittest("torus between its lines", test_torus), &
                    new_unittest("folds against harmonic balance", test_fold), &
                    new_unittest("cycles at their torus", test_cycle_at_torus)]
    end subroutine collect_hopf_unfoldings
@@ -98,70 +96,6 @@ contains
          end do
       end do
    end subroutine test_fold_direction
-
-   !> Beside all double Hopf points whose tori attract, but for two at which that takes too long:
-   !> between the lines both pairs live on, so that the maxima of ln v are of many sizes; beyond the
-   !> line of a cycle with stable tori the other pair dies out and the maxima become equal. The
-   !> history is of both pairs.
-   subroutine test_torus(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(hopf_point_type), allocatable :: found(:)
-      type(curve_plane_type) :: plane
-      integer :: i, n, pair, tested
-
-      tested = 0
-      do n = 1, 2
-         call find_points(n, "double_hopf", plane, found, error)
-         if (allocated(error)) return
-         do i = 1, size(found)
-            associate (form => found(i)%unfolding%form)
-               do pair = 1, 2
-                  if (found(i)%unstable_pairs > 0 .or. form%torus_stability(pair) /= "stable" &
-                      .or. real(form%g(1, 1)) > -1.0e-3_wp .or. form%unfolding() == "Ia") cycle
-                  call check_line(plane, found(i), pair, error)
-                  tested = tested + 1
-               end do
-            end associate
-         end do
-      end do
-      call expect(error, tested == 4, "four lines")
-   end subroutine test_torus
-
-   !> On both sides of the line at which the torus of a cycle is born.
-   subroutine check_line(plane, point, pair, error)
-      type(curve_plane_type), intent(in) :: plane
-      type(hopf_point_type), intent(in) :: point
-      integer, intent(in) :: pair
-      type(error_type), allocatable, intent(inout) :: error
-      complex(wp) :: mode(3, 2)
-      real(wp) :: known_mean, known_range, least, mean, most, mu(2), r(2)
-      real(wp), parameter :: size_of_cycle = 0.05_wp, time = 3.0e4_wp
-      character(len=:), allocatable :: where
-
-      where = " of cycle "//text(pair)//" at tau = "//text(point%parameters%tau)
-      associate (g => real(point%unfolding%form%g))
-         ! |z_j|^2 of tori is positive for both pairs between the lines, negative for one beyond
-         r = 0.3_wp*size_of_cycle
-         r(pair) = size_of_cycle
-         mode = modes_of(point, sqrt(r))
-         mu = -matmul(g, r)
-         call run(parameters_at(plane, point, mu), point%omega, mode, time, least, mean, most, &
-                  error)
-         ! to first order, from the difference to the sum of both amplitudes
-         known_range = 4.0_wp*minval(abs(mode(index_of_ln_v, :)))
-         call expect_close(error, most - least, known_range, 0.3_wp*known_range, &
-                           "range of the maxima on the torus"//where)
-         r(3 - pair) = -r(3 - pair)
-         mu = -matmul(g, r)
-         call run(parameters_at(plane, point, mu), point%omega, mode, time, least, mean, most, &
-                  error)
-         known_mean = 2.0_wp*abs(mode(index_of_ln_v, pair)) &
-                      *sqrt(-mu(pair)/g(pair, pair)/size_of_cycle)
-         call expect_between(error, most - least, 0.0_wp, 1.0e-3_wp*mean, &
-                             "range of the maxima"//where)
-         call expect_close(error, mean, known_mean, 0.15_wp*known_mean, "maximum"//where)
-      end associate
-   end subroutine check_line
 
    !> Epsilon along cycles of growing amplitude has its extreme at the fold. With the share of the
    !> square of the predicted amplitude it is a parabola, the depth of which is the distance from

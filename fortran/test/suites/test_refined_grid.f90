@@ -14,14 +14,12 @@ contains
    subroutine collect_refined_grid(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [ &
-         new_unittest("no refinement", test_no_refinement), &
-         new_unittest("sizes", test_sizes), &
-         new_unittest("first lines", test_first_lines), &
-         new_unittest("borders", test_borders), &
-         new_unittest("snake", test_snake), &
-         new_unittest("islands", test_islands), &
-         new_unittest("uncertain", test_uncertain)]
+      testsuite = [new_unittest("no refinement", test_no_refinement), &
+                   new_unittest("sizes", test_sizes), &
+                   new_unittest("borders", test_borders), &
+                   new_unittest("snake", test_snake), &
+                   new_unittest("islands", test_islands), &
+                   new_unittest("uncertain", test_uncertain)]
    end subroutine collect_refined_grid
 
    !> Refine a map. No point is asked for twice, and more and more of them have a kind.
@@ -93,19 +91,6 @@ contains
 
       lines = 1 + (places - 1 + 2**refinements - 1)/2**refinements
    end function first_lines
-
-   !> Which points are computed first.
-   subroutine test_first_lines(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(refined_grid_type) :: grid
-      integer, allocatable :: wanted(:)
-
-      grid = refined_grid_type(6, 5, refinements=2)
-      call grid%next(wanted)
-      call expect(error, size(wanted) == 6, "two lines of three points")
-      if (allocated(error)) return
-      call expect(error, all(wanted == [1, 5, 6, 25, 29, 30]), "first, fifth and last")
-   end subroutine test_first_lines
 
    !> Regions larger than the first distance are found exactly, at less cost.
    subroutine test_borders(error)

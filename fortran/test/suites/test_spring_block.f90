@@ -2,7 +2,7 @@
 module test_spring_block
    use block_builder, only: build_block
    use dde_errors, only: text
-   use expectations, only: expect, expect_close
+   use expectations, only: expect_close
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use pseudo_random, only: uniform
@@ -19,9 +19,7 @@ contains
 
       testsuite = [new_unittest("equation (4)", test_equation_4), &
                    new_unittest("equation (3)", test_equation_3), &
-                   new_unittest("rest", test_steady_sliding), &
-                   new_unittest("delayed values", test_delayed_values), &
-                   new_unittest("start and history", test_start)]
+                   new_unittest("rest", test_steady_sliding)]
    end subroutine collect_spring_block
 
    !> With a delay, at random states and parameters; dw/dt = (dv/dt)/v.
@@ -79,34 +77,4 @@ contains
       call block%rhs(0.0_wp, y, [block%history(-10.0_wp, index_of_ln_v)], dydt)
       call expect_close(error, dydt, [0.0_wp, 0.0_wp, 0.0_wp], 0.0_wp, "derivatives")
    end subroutine test_steady_sliding
-
-   !> Without a delay there are no delayed values, with one there is one: that of ln v.
-   subroutine test_delayed_values(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(spring_block_type) :: block
-
-      block = build_block(tau=0.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp)
-      call expect(error, block%n == 3, "three equations")
-      call expect(error, size(block%lag) == 0 .and. size(block%component) == 0, "no delayed value")
-      block = build_block(tau=7.5_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp)
-      call expect_close(error, block%lag, [7.5_wp], 0.0_wp, "delay")
-      call expect(error, size(block%component) == 1, "one delayed value")
-      call expect(error, all(block%component == index_of_ln_v), "that of ln v")
-   end subroutine test_delayed_values
-
-   !> The state at t = 0 and before is the one given, v as its logarithm.
-   subroutine test_start(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(spring_block_type) :: block
-      real(wp) :: past(3), y(3)
-      integer :: i
-
-      block = build_block(tau=7.5_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, theta=0.25_wp, &
-                          u=-0.5_wp, v=exp(2.0_wp))
-      call block%initial(y)
-      call expect_close(error, y([index_of_theta, index_of_u, index_of_ln_v]), &
-                        [0.25_wp, -0.5_wp, 2.0_wp], 1.0e-15_wp, "state at t = 0")
-      past = [(block%history(-3.0_wp, i), i=1, 3)]
-      call expect_close(error, past, y, 0.0_wp, "history")
-   end subroutine test_start
 end module test_spring_block

@@ -3,17 +3,14 @@ module test_steady_sliding
    use block_builder, only: build_block
    use block_parameters, only: block_parameters_type
    use closed_form, only: block_with_pair
-   use dde, only: continuation_type, integrate, integration_result
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_close, expect_success
-   use exponent_averages, only: average_growth, exponent_type
+   use exponent_averages, only: exponent_type
    use dde_kinds, only: wp
    use lapack, only: eigenvalues
-   use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use steady_sliding, only: settles, sliding_exponents
    use root_counts, only: pairs_beside
-   use solving, only: at_tolerance
    use spring_block, only: spring_block_type
    implicit none (type, external)
    private
@@ -27,9 +24,7 @@ contains
 
       testsuite = [new_unittest("decay, growth and neither", test_signals), &
                    new_unittest("roots of the cubic", test_cubic), &
-                   new_unittest("Hopf points in closed form", test_hopf_points), &
-                   new_unittest("measured exponents with delay", test_measured), &
-                   new_unittest("roots beyond the last bound", test_beyond)]
+                   new_unittest("Hopf points in closed form", test_hopf_points)]
    end subroutine collect_steady_sliding
 
    !> A block at the steady state.
@@ -141,60 +136,4 @@ contains
          end do
       end do
    end subroutine test_hopf_points
-
-   !> With tau = 10 exponents measured along a motion that has reached rest are the roots.
-   subroutine test_measured(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(exponent_type), allocatable :: exponents(:), measured_ones(:)
-      type(continuation_type) :: arrived
-      type(growth_type) :: measured
-      type(integration_result) :: outcome
-      type(spring_block_type) :: block
-      integer, parameter :: number = 5
-
-      block = build_block(tau=10.0_wp, epsilon=0.1_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp)
-      call integrate(block, 0.0_wp, 300.0_wp, at_tolerance(1.0e-9_wp), outcome, failure, &
-                     continuation=arrived)
-      call expect_success(error, failure)
-      if (allocated(error)) return
-      call measure_growth(block, growth_settings_type(exponents=number, t_turning=300.0_wp, &
-                                                      t_end=1200.0_wp, interval=5.0_wp, blocks=4), &
-                          at_tolerance(1.0e-9_wp), measured, failure, arrived)
-      call expect_success(error, failure)
-      call sliding_exponents(block, number, exponents, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
-      call expect(error, size(exponents) == number, "as many exponents as asked for")
-      measured_ones = average_growth(measured%growth, measured%length, 4, flow=.false.)
-      call expect_close(error, measured_ones%value, exponents%value, 1.0e-3_wp, "exponents")
-   end subroutine test_measured
-
-   !> The cubic's third root is below -8 where gamma is large: two exponents are found, the others
-   !> are not made up.
-   subroutine test_beyond(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(exponent_type), allocatable :: exponents(:)
-
-      call sliding_exponents(steady(0.0_wp, 0.3_wp, 1.0_wp, 10.0_wp), 3, exponents, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
-      call expect(error, size(exponents) == 2, "two exponents")
-      ! s^3 + 101 s^2 + 70 s + 100: all three sum to -101
-      call expect_close(error, exponents%value, spread(-0.5_wp*(101.0_wp + real_root()), 1, 2), &
-                        1.0e-9_wp, "the pair")
-
-   contains
-
-      !> The real root by Newton's iteration.
-      pure real(wp) function real_root() result(s)
-         integer :: iteration
-
-         s = -101.0_wp
-         do iteration = 1, 50
-            s = s - (((s + 101.0_wp)*s + 70.0_wp)*s + 100.0_wp)/((3.0_wp*s + 202.0_wp)*s + 70.0_wp)
-         end do
-      end function real_root
-   end subroutine test_beyond
 end module test_steady_sliding

@@ -1,12 +1,13 @@
 !> Motions with known frequencies: 3-tori by exponents and by the section, and what is none.
 module test_three_torus
+   use analytic_problems, only: analytic_problem
    use base_frequencies, only: bases_type, label_peaks
-   use dde, only: dde_problem_type
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_success
-   use exponent_averages, only: average_growth, exponent_type
-   use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
+   use exponent_runs, only: find_exponents
+   use exponent_averages, only: exponent_type
+   use lyapunov_spectrum, only: growth_settings_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use motion_classes, only: class_by_exponents, three_torus, torus
    use pseudo_random, only: uniform
@@ -32,11 +33,12 @@ module test_three_torus
    !>     z' = z (1 + i w - |z|^2) + strength [exp(i w lag) z(t - lag) - z],
    !>
    !> each on its cycle z = exp(i w t). The state is Re z and Im z of each in turn.
-   type, extends(dde_problem_type) :: oscillators_type
+   type, extends(analytic_problem) :: oscillators_type
       !> Their frequencies
       real(wp), allocatable :: frequency(:)
    contains
-      procedure :: initial, history, rhs, jacobian
+      procedure :: history
+      procedure :: slope => slope_of
    end type oscillators_type
 
 contains
@@ -62,16 +64,8 @@ contains
       problem%lag = spread(lag, 1, 2*n)
       problem%component = [(i, i=1, 2*n)]
       problem%frequency = known(:n)
+      problem%first = [(problem%history(0.0_wp, i), i=1, 2*n)]
    end function oscillators
-
-   !> On the cycles.
-   pure subroutine initial(self, y)
-      class(oscillators_type), intent(in) :: self
-      real(wp), intent(out) :: y(self%n)
-      integer :: i
-
-      y = [(self%history(0.0_wp, i), i=1, self%n)]
-   end subroutine initial
 
    !> On the cycles.
    pure function history(self, t, component) result(value)
@@ -84,59 +78,28 @@ contains
                   - merge(0.0_wp, 0.25_wp*turn, modulo(component, 2) == 1))
    end function history
 
-   !> Their equation.
-   pure subroutine rhs(self, t, y, z, dydt)
+   !> Their equation by real and imaginary parts.
+   pure function slope_of(self, y, z) result(slope)
       class(oscillators_type), intent(in) :: self
-      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
-      real(wp), intent(out) :: dydt(self%n)
-      complex(wp) :: delayed, now, slope
+      complex(wp), intent(in) :: y(:), z(:)
+      complex(wp) :: slope(size(y))
       integer :: i
 
-      do i = 1, self%n, 2
-         now = cmplx(y(i), y(i + 1), kind=wp)
-         delayed = cmplx(z(i), z(i + 1), kind=wp)*turned(self%frequency((i + 1)/2)*lag)
-         slope = now*cmplx(1.0_wp - abs(now)**2, turn*self%frequency((i + 1)/2), kind=wp) &
-                 + strength*(delayed - now)
-         dydt(i:i + 1) = [real(slope), aimag(slope)]
-      end do
-   end subroutine rhs
-
-   !> A point of the unit circle.
-   pure complex(wp) function turned(phase) result(z)
-      real(wp), intent(in) :: phase
-
-      z = exp(cmplx(0.0_wp, turn*phase, kind=wp))
-   end function turned
-
-   !> Derivatives of the right-hand side.
-   pure subroutine jacobian(self, t, y, z, by_y, by_z)
-      class(oscillators_type), intent(in) :: self
-      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
-      real(wp), intent(out) :: by_y(self%n, self%n), by_z(self%n, size(self%lag))
-      complex(wp) :: delay
-      integer :: i
-
-      by_y = 0.0_wp
-      by_z = 0.0_wp
       do i = 1, self%n, 2
          associate (a => y(i), b => y(i + 1), w => turn*self%frequency((i + 1)/2))
-            by_y(i, i:i + 1) = [1.0_wp - strength - 3.0_wp*a**2 - b**2, -w - 2.0_wp*a*b]
-            by_y(i + 1, i:i + 1) = [w - 2.0_wp*a*b, 1.0_wp - strength - a**2 - 3.0_wp*b**2]
+            slope(i) = a*(1.0_wp - strength - a**2 - b**2) - w*b &
+                       + strength*(cos(w*lag)*z(i) - sin(w*lag)*z(i + 1))
+            slope(i + 1) = b*(1.0_wp - strength - a**2 - b**2) + w*a &
+                           + strength*(sin(w*lag)*z(i) + cos(w*lag)*z(i + 1))
          end associate
-         delay = strength*turned(self%frequency((i + 1)/2)*lag)
-         by_z(i, i:i + 1) = [real(delay), -aimag(delay)]
-         by_z(i + 1, i:i + 1) = [aimag(delay), real(delay)]
       end do
-   end subroutine jacobian
+   end function slope_of
 
    !> Two and three oscillators: a zero exponent each, the next one is the root of
    !> s + 2 + strength = strength exp(-s lag) that a disturbance of |z| has.
    subroutine test_exponents(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(exponent_type), allocatable :: exponents(:)
-      type(growth_settings_type) :: settings
-      type(growth_type) :: measured
       integer, parameter :: classes(2:3) = [torus, three_torus]
       integer :: i, n
       real(wp) :: s
@@ -146,13 +109,12 @@ contains
          s = s - (s + 2.0_wp + strength*(1.0_wp - exp(-s*lag)))/(1.0_wp + strength*lag*exp(-s*lag))
       end do
       do n = 2, 3
-         settings = growth_settings_type(exponents=n + 1, t_begin=50.0_wp, t_end=450.0_wp, &
-                                         t_turning=40.0_wp, interval=2.0_wp, across_flow=.true.)
-         call measure_growth(oscillators(n), settings, at_tolerance(1.0e-8_wp, "auto"), measured, &
-                             failure)
-         call expect_success(error, failure)
+         call find_exponents( &
+            oscillators(n), &
+            growth_settings_type(exponents=n + 1, t_begin=50.0_wp, t_end=450.0_wp, &
+                                 t_turning=40.0_wp, interval=2.0_wp, across_flow=.true.), &
+            at_tolerance(1.0e-8_wp, "auto"), exponents, error)
          if (allocated(error)) return
-         exponents = average_growth(measured%growth, measured%length, blocks=1, flow=.true.)
          call expect_close(error, exponents%value, [(0.0_wp, i=1, n), s], 1.0e-6_wp, "exponents")
          call expect(error, class_by_exponents(exponents, 3.0e-5_wp, 1.0e-3_wp) == classes(n), &
                      "class")
