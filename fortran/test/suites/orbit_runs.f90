@@ -8,6 +8,7 @@ module orbit_runs
    use dde_kinds, only: wp
    use expectations, only: expect_success
    use floquet_multipliers, only: find_multipliers, multipliers_type
+   use problem_runs, only: run
    use mctc_env_testing, only: error_type
    use orbit_branch, only: branch_type, follow_branch
    use orbit_change, only: orbit_change_type
@@ -98,9 +99,7 @@ contains
       type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
 
-      call integrate(block, 0.0_wp, t_end, at_tolerance(1.0e-9_wp, "auto"), outcome, failure, &
-                     continuation=arrived)
-      call expect_success(error, failure)
+      call run(block, t_end, at_tolerance(1.0e-9_wp, "auto"), outcome, error, continuation=arrived)
       if (allocated(error)) return
       call orbit_of_trajectory(block, at_tolerance(1.0e-9_wp, "auto"), arrived, index_of_ln_v, &
                                100.0_wp, collocation_basis_type(degree, points), intervals, orbit, &

@@ -3,11 +3,11 @@
 !> none.
 module test_attractor_points
    use attractor_points, only: find_attractors, finding_type, point_type, sweep_attractors
-   use attractor_searches, only: coarse_settings, disturbed_block
-   use attractors, only: attractor_settings_type, attractor_type, find_attractor
+   use attractor_searches, only: coarse_settings
+   use attractors, only: attractor_settings_type
    use block_parameters, only: block_history_type, block_parameters_type
-   use dde, only: continuation_type, integrate, integration_options, integration_result
-   use dde_errors, only: failure_type => error_type, text
+   use dde, only: integration_options
+   use dde_errors, only: text
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use dde_kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
@@ -15,7 +15,6 @@ module test_attractor_points
    use omp_lib, only: omp_get_max_threads, omp_get_num_threads, omp_set_num_threads
    use progress_recorder, only: expect_counted, recorder
    use solving, only: at_tolerance
-   use spring_block, only: spring_block_type
    implicit none (type, external)
    private
    public :: collect_attractor_points
@@ -37,11 +36,9 @@ contains
       testsuite = [new_unittest("in threads", test_threads), &
                    new_unittest("on a grid", test_grid), &
                    new_unittest("a point that cannot be run", test_problem), &
-                   new_unittest("no run can be finished", test_all_problems), &
                    new_unittest("hysteresis on a sweep", test_hysteresis), &
                    new_unittest("sweep of the delay up and down", test_delay), &
                    new_unittest("sweep from and to no delay", test_no_delay), &
-                   new_unittest("a longer run", test_longer_run), &
                    new_unittest("sweep after a failed point", test_failed_point)]
    end subroutine collect_attractor_points
 
@@ -193,23 +190,6 @@ contains
       call expect(error, same_bits(all_of(findings(3)), all_of(alone(1))), "the same alone")
    end subroutine test_problem
 
-   !> Too few steps are allowed for any. So none has the class of its neighbours.
-   subroutine test_all_problems(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(finding_type), allocatable :: findings(:)
-      type(integration_options) :: options
-      integer :: i
-
-      options = at_tolerance(1.0e-6_wp, "auto")
-      options%most_steps = 5
-      call find_attractors(some_points(), quickly(), options, findings, columns=4, refinements=1)
-      call expect(error, all(findings%computed), "all are computed")
-      do i = 1, size(findings)
-         call expect_failure(error, findings(i)%problem, "5 steps (most_steps) were used up")
-         call expect(error, findings(i)%attractor%class == undecided, "undecided")
-      end do
-   end subroutine test_all_problems
-
    !> A point that starts near steady sliding, gamma = 0.8.
    elemental type(point_type) function near_sliding(tau, epsilon, xi) result(point)
       real(wp), intent(in) :: tau, epsilon, xi
@@ -294,35 +274,6 @@ contains
       call expect_close(error, maxval(findings(3)%attractor%motion%maxima), &
                         maxval(findings(1)%attractor%motion%maxima), 1.0e-4_wp, "the same cycle")
    end subroutine test_no_delay
-
-   !> An attractor found from where a run ended has the maxima of one longer run, and ends where
-   !> that one ends.
-   subroutine test_longer_run(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(attractor_type) :: in_parts, whole
-      type(continuation_type) :: end_in_parts, end_of_whole, start
-      type(failure_type), allocatable :: failure
-      type(integration_options) :: options
-      type(integration_result) :: outcome
-      type(spring_block_type) :: block_model
-
-      options = at_tolerance(1.0e-9_wp, "auto")
-      block_model = disturbed_block(10.0_wp, 0.5_wp, 0.8_wp)
-      call integrate(block_model, 0.0_wp, 300.0_wp, options, outcome, failure, continuation=start)
-      call expect_success(error, failure)
-      call find_attractor(block_model, coarse_settings(200.0_wp), options, in_parts, failure, &
-                          start, end_in_parts)
-      call expect_success(error, failure)
-      call find_attractor(block_model, coarse_settings(500.0_wp), options, whole, failure, &
-                          arrived=end_of_whole)
-      call expect_success(error, failure)
-      if (allocated(error)) return
-      call expect_close(error, in_parts%motion%maxima, whole%motion%maxima, 1.0e-6_wp, "maxima")
-      call expect_close(error, in_parts%motion%section_time, &
-                        whole%motion%section_time, 1.0e-4_wp, "times")
-      call expect_close(error, end_in_parts%time, [1050.0_wp, 0.0_wp], 0.0_wp, "end")
-      call expect_close(error, end_in_parts%y, end_of_whole%y, 1.0e-5_wp, "last state")
-   end subroutine test_longer_run
 
    !> A point that cannot be run gives its reason; the next starts from where it started. Explicit
    !> steps are no longer than the delay.

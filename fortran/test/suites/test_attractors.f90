@@ -4,11 +4,12 @@ module test_attractors
    use attractor_verdict, only: judge
    use attractor_searches, only: disturbed => disturbed_block, after => fine_settings, search
    use attractors, only: attractor_settings_type, attractor_type, find_attractor
-   use dde, only: integrate, integration_options, integration_result
+   use dde, only: integration_options, integration_result
    use dde_errors, only: failure_type => error_type
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: growth_type
+   use problem_runs, only: run
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use motion_classes, only: chaos, class_names, cycle_motion, fixed_point, none, three_torus, &
                              torus, undecided
@@ -350,9 +351,7 @@ contains
       options = at_tolerance(1.0e-6_wp, "auto")
       do i = 1, size(motion)
          stuck = disturbed(delays(i), epsilons(i), 0.5_wp)
-         call integrate(stuck, 0.0_wp, 1000.0_wp, options, outcome, failure, &
-                        continuation=motion(i)%continuation)
-         call expect_success(error, failure)
+         call run(stuck, 1000.0_wp, options, outcome, error, continuation=motion(i)%continuation)
          if (allocated(error)) return
          motion(i)%sample_interval = 0.1_wp
          call motion(i)%clear()

@@ -28,8 +28,7 @@ contains
       testsuite = [new_unittest("Hopf points on lines", test_hopf_starts), &
                    new_unittest("folds start at a generalised Hopf point", test_folds), &
                    new_unittest("tori start at a double Hopf point", test_tori), &
-                   new_unittest("a closed branch", test_closed), &
-                   new_unittest("lines along xi and gamma", test_other_lines)]
+                   new_unittest("a closed branch", test_closed)]
    end subroutine collect_block_cycles
 
    !> They fulfil (5) and lie on the line. A line in tau through one meets it.
@@ -69,39 +68,6 @@ contains
          end do
       end do
    end subroutine test_hopf_starts
-
-   !> The cycle that a trajectory reaches is on the branch from a Hopf point.
-   subroutine test_other_lines(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(cycle_settings_type) :: settings
-      type(cycles_type), allocatable :: found(:)
-      type(left_out_type), allocatable :: left_out(:)
-      type(failure_type), allocatable :: failure
-      type(hopf_start_type), allocatable :: hopf(:)
-      integer, parameter :: along(2) = [along_xi, along_gamma]
-      real(wp) :: at(4)
-      integer :: i
-
-      do i = 1, size(along)
-         settings = settings_on(along(i), [10.0_wp, 0.35_wp, 0.8_wp, 0.8_wp], [0.5_wp, 1.2_wp])
-         settings%most_orbits = 20
-         settings%start_v = [1.1_wp]
-         call find_hopf_starts(settings%line, hopf, failure)
-         call expect_success(error, failure)
-         call expect(error, size(hopf) == 1, "one Hopf point")
-         if (allocated(error)) return
-         at = vector_of(hopf(1)%parameters)
-         ! the scene `oscillation`, a cycle, is at 0.8
-         settings%starts = [0.8_wp]
-         call find_cycles(settings, hopf, found, left_out, failure)
-         call expect_success(error, failure)
-         call expect(error, size(found) == 1 .and. size(left_out) == 1, "one branch")
-         if (allocated(error)) return
-         call expect(error, left_out(1)%reason == "its cycle is on a branch", "the trajectory")
-         call expect_close(error, found(1)%branch%orbits(1)%parameters(along(i)), at(along(i)), &
-                           1.0e-2_wp, "the start of the branch")
-      end do
-   end subroutine test_other_lines
 
    !> The Hopf point of a kind in the plane of epsilon and tau that is nearest to a place.
    subroutine nearest_hopf_point(xi, window, kind, place, nearest, error)

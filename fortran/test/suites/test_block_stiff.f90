@@ -3,12 +3,13 @@
 module test_block_stiff
    use block_builder, only: build_block
    use block_state, only: index_of_ln_v
-   use dde, only: continuation_type, event_met, event_table, integrate, integration_result
-   use dde_errors, only: failure_type => error_type, text
+   use dde, only: continuation_type, event_met, event_table, integration_result
+   use dde_errors, only: text
    use dde_methods, only: price_of_trial
    use dde_tolerance, only: tolerance_type
    use dde_kinds, only: wp
-   use expectations, only: expect, expect_between, expect_close, expect_success
+   use expectations, only: expect, expect_between, expect_close
+   use problem_runs, only: run
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use solving, only: at_tolerance
    use spring_block, only: spring_block_type
@@ -38,7 +39,6 @@ contains
    !> true one forces balance before and after.
    subroutine test_fall(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
       type(spring_block_type) :: block_model
       real(wp), parameter :: tolerance(3) = [1.0e-4_wp, 1.0e-6_wp, 1.0e-9_wp]
@@ -47,9 +47,7 @@ contains
       block_model = build_block(tau=0.0_wp, epsilon=5.0_wp, xi=0.5_wp, gamma=1.0e4_wp, v=1.1_wp)
       do j = 1, size(tolerance)
          do i = 1, size(methods)
-            call integrate(block_model, 0.0_wp, 50.0_wp, at_tolerance(tolerance(j), methods(i)), &
-                           outcome, failure)
-            call expect_success(error, failure)
+            call run(block_model, 50.0_wp, at_tolerance(tolerance(j), methods(i)), outcome, error)
             associate (theta => outcome%y(1), u => outcome%y(2), w => outcome%y(3))
                call expect_between(error, abs(u), 0.0_wp, 1000.0_wp, trim(methods(i))//": u")
                call expect_close(error, [u + (theta + w)/0.5_wp], [0.0_wp], &
@@ -66,7 +64,6 @@ contains
    !> ten times what is allowed, ten tolerances; at gamma = 1e8 and 1e12 no drift may exceed these.
    subroutine test_conserved(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
       type(spring_block_type) :: block_model
       real(wp), parameter :: xi = 0.5_wp, w0 = 1.2_wp, tolerance = 1.0e-12_wp
@@ -79,9 +76,7 @@ contains
             associate (square => 10.0_wp**powers(j))
                block_model = build_block(tau=0.0_wp, epsilon=xi, xi=xi, gamma=sqrt(square), &
                                          theta=-w0, v=exp(w0))
-               call integrate(block_model, 0.0_wp, 30.0_wp, at_tolerance(tolerance, methods(i)), &
-                              outcome, failure)
-               call expect_success(error, failure)
+               call run(block_model, 30.0_wp, at_tolerance(tolerance, methods(i)), outcome, error)
                if (allocated(error)) return
                drift = conserved(outcome%y(2), outcome%y(3)) - conserved(0.0_wp, w0)
                if (j == 1) times_square = drift*square
@@ -109,7 +104,6 @@ contains
    subroutine test_maxima(error)
       type(error_type), allocatable, intent(out) :: error
       type(event_table) :: one, other
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
       type(spring_block_type) :: block_model
       integer :: i
@@ -117,12 +111,9 @@ contains
       block_model = build_block(tau=1.0_wp, epsilon=0.7_wp, xi=0.5_wp, gamma=1.0e6_wp, v=1.5_wp)
       one = event_table([index_of_ln_v], [0.0_wp], [-1], of_slope=[.true.])
       other = one
-      call integrate(block_model, 0.0_wp, 20.0_wp, at_tolerance(1.0e-11_wp, "auto"), outcome, &
-                     failure, watcher=one)
-      call expect_success(error, failure)
-      call integrate(block_model, 0.0_wp, 20.0_wp, at_tolerance(1.0e-12_wp, "radau13"), outcome, &
-                     failure, watcher=other)
-      call expect_success(error, failure)
+      call run(block_model, 20.0_wp, at_tolerance(1.0e-11_wp, "auto"), outcome, error, events=one)
+      call run(block_model, 20.0_wp, at_tolerance(1.0e-12_wp, "radau13"), outcome, error, &
+               events=other)
       do i = 1, one%received
          if (one%time(i)%hi < 1.0e-9_wp) cycle
          associate (theta => one%y(1, i), u => one%y(2, i), w => one%y(3, i))
@@ -145,7 +136,6 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(continuation_type) :: continuation
       type(event_table) :: table
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome, whole
       type(spring_block_type) :: problem
       real(wp), parameter :: t_end = 40.0_wp
@@ -155,16 +145,12 @@ contains
                             v=1.1_wp)
       do i = 1, size(methods)
          if (any(methods(i) == ["explicit", "taylor  "])) cycle
-         call integrate(problem, 0.0_wp, t_end, at_tolerance(1.0e-10_wp, methods(i)), whole, &
-                        failure)
-         call expect_success(error, failure)
+         call run(problem, t_end, at_tolerance(1.0e-10_wp, methods(i)), whole, error)
          continuation = continuation_type()
          table = event_table([3], [20.0_wp], [0], terminal=[.true.])
          do runs = 1, 1000
-            call integrate(problem, continuation%time(1), t_end, &
-                           at_tolerance(1.0e-10_wp, methods(i)), outcome, failure, &
-                           watcher=table, continuation=continuation)
-            call expect_success(error, failure)
+            call run(problem, t_end, at_tolerance(1.0e-10_wp, methods(i)), outcome, error, &
+                     events=table, continuation=continuation)
             if (outcome%reason /= event_met .or. allocated(error)) exit
          end do
          call expect_between(error, real(runs, wp), 3.0_wp, 3.0_wp, "runs of "//methods(i))
@@ -176,7 +162,6 @@ contains
    !> one: another method finds the same.
    subroutine test_short_delay(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(integration_result) :: auto, radau
       real(wp), parameter :: v(3) = [0.7_wp, 1.1_wp, 1.5_wp], xi(3) = [0.3_wp, 0.5_wp, 0.8_wp]
       real(wp), parameter :: tolerances(3) = [1.0e-3_wp, 1.0e-4_wp, 3.0e-5_wp]
@@ -187,13 +172,9 @@ contains
          do j = 1, size(v)
             block_model = build_block(tau=1.0e-3_wp, epsilon=0.1_wp, xi=xi(i), gamma=1.0e12_wp, &
                                       v=v(j))
-            call integrate(block_model, 0.0_wp, 20.0_wp, at_tolerance(1.0e-10_wp, "radau9"), &
-                           radau, failure)
-            call expect_success(error, failure)
+            call run(block_model, 20.0_wp, at_tolerance(1.0e-10_wp, "radau9"), radau, error)
             do k = 1, size(tolerances)
-               call integrate(block_model, 0.0_wp, 20.0_wp, at_tolerance(tolerances(k), "auto"), &
-                              auto, failure)
-               call expect_success(error, failure)
+               call run(block_model, 20.0_wp, at_tolerance(tolerances(k), "auto"), auto, error)
                if (allocated(error)) return
                call expect_close(error, auto%y, radau%y, 10*tolerances(k), "xi "//text(xi(i)) &
                                  //", v "//text(v(j))//" at "//text(tolerances(k)))
@@ -206,7 +187,6 @@ contains
    !> two prices.
    subroutine test_tight(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(integration_result) :: auto, radau
       real(wp), parameter :: tau(2) = [1.0_wp, 7.0_wp]
       real(wp), parameter :: tolerances(3) = [3.0e-13_wp, 1.0e-13_wp, 1.0e-14_wp]
@@ -219,12 +199,8 @@ contains
             block_model = build_block(tau=tau(i), epsilon=0.7_wp, xi=0.5_wp, gamma=10.0_wp**power, &
                                       v=1.5_wp)
             do j = 1, size(tolerances)
-               call integrate(block_model, 0.0_wp, 20.0_wp, &
-                              at_tolerance(tolerances(j), "radau13"), radau, failure)
-               call expect_success(error, failure)
-               call integrate(block_model, 0.0_wp, 20.0_wp, at_tolerance(tolerances(j), "auto"), &
-                              auto, failure)
-               call expect_success(error, failure)
+               call run(block_model, 20.0_wp, at_tolerance(tolerances(j), "radau13"), radau, error)
+               call run(block_model, 20.0_wp, at_tolerance(tolerances(j), "auto"), auto, error)
                if (allocated(error)) return
                price = price_of_trial(block_model, tolerance_type(3, tolerances(j), tolerances(j)))
                call expect(error, auto%work <= 2*(radau%work + price), text(auto%work) &

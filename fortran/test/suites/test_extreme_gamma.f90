@@ -27,7 +27,6 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("roots in quadruple precision", test_quadruple), &
-                   new_unittest("roots at infinite gamma", test_infinite_gamma), &
                    new_unittest("l1 at infinite gamma", test_coefficient), &
                    new_unittest("a narrow range of frequencies", test_narrow)]
    end subroutine collect_extreme_gamma
@@ -106,44 +105,6 @@ contains
          value = value*value
       end do
    end function exponential
-
-   !> To first order in 1/gamma^2 a root is s0 + s1/gamma^2, where F(s0) = 0 and
-   !> s1 = -(s0^3 + s0^2)/F'(s0), with F(s) = s^2/xi + s (1 + 1/xi) + 1
-   !> - s (1 + epsilon)/xi exp(-s tau).
-   subroutine test_infinite_gamma(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(block_parameters_type) :: p
-      type(block_equation_type) :: equation
-      complex(wp), allocatable :: limit(:), roots(:)
-      complex(wp) :: delayed, slope
-      integer :: i, k
-
-      p = block_parameters_type(tau=7.0_wp, epsilon=0.7_wp, xi=0.5_wp, gamma=1.0e12_wp)
-      equation = block_equation_type(p)
-      call find_roots(equation%linear, -0.2_wp, limit, failure)
-      call expect_success(error, failure)
-      call expect(error, size(limit) > 4, "three pairs")
-      do k = 3, 5
-         p%gamma = 10.0_wp**k
-         equation = block_equation_type(p)
-         call find_roots(equation%linear, -0.2_wp, roots, failure)
-         call expect_success(error, failure)
-         call expect(error, size(roots) == size(limit), "as many roots")
-         if (allocated(error)) return
-         do i = 1, size(roots)
-            associate (s => limit(i))
-               delayed = (1.0_wp + p%epsilon)/p%xi*exp(-s*p%tau)
-               call expect_close(error, abs(s**2/p%xi + s*(1.0_wp + 1.0_wp/p%xi) + 1.0_wp &
-                                            - s*delayed), 0.0_wp, 1.0e-12_wp, "residual in F")
-               slope = 2.0_wp*s/p%xi + 1.0_wp + 1.0_wp/p%xi - (1.0_wp - s*p%tau)*delayed
-               call expect_close(error, abs((roots(i) - s)*p%gamma**2 + s**2*(s + 1.0_wp)/slope), &
-                                 0.0_wp, 1.0e-3_wp*abs(s**2/slope), "root "//text(i) &
-                                 //" at gamma = "//text(p%gamma))
-            end associate
-         end do
-      end do
-   end subroutine test_infinite_gamma
 
    !> l1 differs from its value at infinite gamma by terms of size 1/gamma^2.
    subroutine test_coefficient(error)

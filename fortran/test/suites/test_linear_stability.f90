@@ -26,14 +26,11 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("branches of Lambert's W", test_lambert), &
-                   new_unittest("two lags", test_two_lags), &
-                   new_unittest("no delay", test_no_delay), &
                    new_unittest("roots of the block", test_block_roots), &
                    new_unittest("roots on Hopf curves", test_curve_roots), &
                    new_unittest("number of roots at large parameters", test_extremes), &
                    new_unittest("refusals", test_refusals), &
                    new_unittest("two neurons", test_neurons), &
-                   new_unittest("linear part of the block", test_linear_part), &
                    new_unittest("coordinates do not matter", test_coordinates)]
    end subroutine collect_linear_stability
 
@@ -57,40 +54,6 @@ contains
                            "distance to its partner")
       end do
    end subroutine test_lambert
-
-   !> x' = x/2 - x(t - 0.3) - x(t - 1)/5: every root solves its equation, and a real one is there.
-   subroutine test_two_lags(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      complex(wp), allocatable :: roots(:)
-
-      call find_roots(scalar_system([0.5_wp, -1.0_wp, -0.2_wp], [0.0_wp, 0.3_wp, 1.0_wp]), &
-                      -4.0_wp, roots, failure)
-      call expect_success(error, failure)
-      call expect(error, size(roots) >= 2, "there are roots")
-      call expect_close(error, maxval(abs(roots - 0.5_wp + exp(-0.3_wp*roots) &
-                                          + 0.2_wp*exp(-roots))), 0.0_wp, 1.0e-12_wp, "residual")
-   end subroutine test_two_lags
-
-   !> Eigenvalues -1, 0.5 +- 2 i of a matrix split over two terms without lag.
-   subroutine test_no_delay(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(linear_system_type) :: system
-      complex(wp), allocatable :: roots(:)
-
-      allocate (system%a(3, 3, 2))
-      system%a(:, :, 1) = reshape([0.0_wp, 2.0_wp, 0.0_wp, -2.0_wp, 0.5_wp, 0.0_wp, 0.0_wp, &
-                                   3.0_wp, -1.0_wp], [3, 3])
-      system%a(:, :, 2) = 0.0_wp
-      system%a(1, 1, 2) = 0.5_wp
-      system%lag = [0.0_wp, 0.0_wp]
-      call find_roots(system, -2.0_wp, roots, failure)
-      call expect_success(error, failure)
-      call expect_close(error, real(roots), [0.5_wp, 0.5_wp, -1.0_wp], 1.0e-14_wp, "real parts")
-      call expect_close(error, aimag(roots), [2.0_wp, -2.0_wp, 0.0_wp], 1.0e-14_wp, &
-                        "imaginary parts")
-   end subroutine test_no_delay
 
    !> The roots of random blocks solve (5), and there are as many as the principle of the argument
    !> says.
@@ -211,25 +174,6 @@ contains
       call expect_success(error, failure)
       call expect_close(error, l1, -0.39615712_wp, 1.0e-8_wp, "l1")
    end subroutine test_neurons
-
-   !> From the Jacobian of the block that is integrated, and by hand.
-   subroutine test_linear_part(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(block_parameters_type) :: p
-      type(block_equation_type) :: equation
-      real(wp) :: by_hand(3, 3, 2)
-
-      p = block_parameters_type(tau=3.0_wp, epsilon=0.4_wp, xi=0.6_wp, gamma=1.7_wp)
-      equation = block_equation_type(p)
-      by_hand = 0.0_wp
-      by_hand(1, 1, 1) = -1.0_wp
-      by_hand(2, 3, 1) = 1.0_wp
-      by_hand(3, :, 1) = -p%gamma**2*[1.0_wp/p%xi, 1.0_wp, 1.0_wp/p%xi]
-      by_hand(1, 3, 2) = -(1.0_wp + p%epsilon)
-      call expect_close(error, maxval(abs(equation%linear%a - by_hand)), 0.0_wp, 1.0e-15_wp, &
-                        "difference of the matrices")
-      call expect_close(error, equation%linear%lag, [0.0_wp, p%tau], 0.0_wp, "lags")
-   end subroutine test_linear_part
 
    !> l1 is the same in v and in ln v, which differ by a change of coordinates near the identity.
    subroutine test_coordinates(error)

@@ -10,6 +10,7 @@ module test_lyapunov_spectrum
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, &
                                 interval_observer_type, measure_growth
+   use problem_runs, only: run
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use progress_recorder, only: expect_counted, recorder
    use steady_sliding, only: sliding_exponents
@@ -127,9 +128,8 @@ contains
 
       call measure_growth(oscillation(), alone, at_tolerance(1.0e-8_wp), one_go, failure)
       call expect_success(error, failure)
-      call integrate(oscillation(), 0.0_wp, t_arrived, at_tolerance(1.0e-8_wp), outcome, failure, &
-                     continuation=arrived)
-      call expect_success(error, failure)
+      call run(oscillation(), t_arrived, at_tolerance(1.0e-8_wp), outcome, error, &
+               continuation=arrived)
       call measure_growth(oscillation(), continued, at_tolerance(1.0e-8_wp), two_goes, failure, &
                           arrived)
       call expect_success(error, failure)
@@ -243,9 +243,8 @@ contains
       samples = table_sampler([index_of_ln_v], &
                               [((1.0_wp - real(i, wp)/n)*settings%t_begin &
                                 + real(i, wp)/n*settings%t_end, i=0, n)])
-      call integrate(stiff(-1.0_wp), 0.0_wp, settings%t_end, at_tolerance(1.0e-8_wp, "radau9"), &
-                     outcome, failure, sampler=samples)
-      call expect_success(error, failure)
+      call run(stiff(-1.0_wp), settings%t_end, at_tolerance(1.0e-8_wp, "radau9"), outcome, error, &
+               samples=samples)
       if (allocated(error)) return
       w = samples%values(1, :)
       rate = -exp(w) - 100.0_wp**2/0.5_wp*exp(-w)

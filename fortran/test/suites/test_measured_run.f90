@@ -3,7 +3,7 @@ module test_measured_run
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use block_parameters, only: block_history_type, block_parameters_type
    use dde, only: dde_problem_type, integration_result, table_sampler, value_not_finite
-   use double_numbers, only: as_double, evenly_spaced
+   use double_numbers, only: evenly_spaced
    use dde_errors, only: failure_type => error_type
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use fixed_step_rk4, only: integrate_rk4
@@ -13,7 +13,7 @@ module test_measured_run
    use measured_run, only: measure_run, run_type, time_runs
    use progress_recorder, only: expect_counted, recorder
    use test_problems, only: linear, sine
-   use undelayed_problems, only: falls_out, oscillator, without_delays
+   use undelayed_problems, only: falls_out, without_delays
    implicit none (type, external)
    private
    public :: collect_measured_run
@@ -28,10 +28,8 @@ contains
 
       testsuite = [new_unittest("order of rk4, kinks on the grid", test_order_kinks), &
                    new_unittest("order of rk4, delay off the grid", test_order_off_grid), &
-                   new_unittest("order of rk4 without delay", test_order_without_delay), &
                    new_unittest("samples of rk4", test_rk4_samples), &
                    new_unittest("refusals of rk4", test_rk4_refusals), &
-                   new_unittest("double numbers", test_double_numbers), &
                    new_unittest("sample times", test_sample_times), &
                    new_unittest("measured run", test_one_run), &
                    new_unittest("measured run that stops", test_stopped_run), &
@@ -56,17 +54,6 @@ contains
       problem = sine()
       call expect_orders(problem, 50*h, sin(50*h), h, error)
    end subroutine test_order_off_grid
-
-   !> An oscillator, where both are the same method.
-   subroutine test_order_without_delay(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(oscillator) :: problem
-
-      problem = oscillator(n=2, past=[1.0_wp, 0.0_wp], first=[1.0_wp, 0.0_wp])
-      call without_delays(problem)
-      call expect_between(error, order_of(problem, .false., 2.0_wp, cos(2.0_wp), 0.05_wp), &
-                          3.8_wp, 4.2_wp, "order")
-   end subroutine test_order_without_delay
 
    !> Order 4 with a cubic history and 2 with a linear one.
    subroutine expect_orders(problem, t_end, known, h, error)
@@ -136,14 +123,6 @@ contains
       call expect(error, outcome%reason == value_not_finite, "the reason says so")
       call expect_close(error, outcome%t, 0.9_wp, 1.0e-12_wp, "time reached")
    end subroutine test_rk4_refusals
-
-   !> In double precision every number stays what it is.
-   subroutine test_double_numbers(error)
-      type(error_type), allocatable, intent(out) :: error
-      real(wp), parameter :: numbers(6) = [0.0_wp, 0.1_wp, -pi, 1.0e-300_wp, 1.0e300_wp, 7.0_wp]
-
-      call expect_close(error, as_double(numbers), numbers, 0.0_wp, "numbers")
-   end subroutine test_double_numbers
 
    !> The last one is t_end, also where the quotient rounds down.
    subroutine test_sample_times(error)

@@ -14,8 +14,7 @@ contains
    subroutine collect_refined_grid(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("no refinement", test_no_refinement), &
-                   new_unittest("sizes", test_sizes), &
+      testsuite = [new_unittest("sizes", test_sizes), &
                    new_unittest("borders", test_borders), &
                    new_unittest("snake", test_snake), &
                    new_unittest("islands", test_islands), &
@@ -46,22 +45,6 @@ contains
       call expect(error, all(asked == merge(1, 0, reshape(grid%computed, [size(map)]))), &
                   "computed once")
    end subroutine refine
-
-   !> All points at once.
-   subroutine test_no_refinement(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(refined_grid_type) :: grid
-      integer, allocatable :: wanted(:)
-      integer :: i
-
-      grid = refined_grid_type(4, 3, refinements=0)
-      call grid%next(wanted)
-      call expect(error, size(wanted) == 12 .and. all(wanted == [(i, i=1, 12)]), "in order")
-      call grid%put(wanted, wanted)
-      call grid%next(wanted)
-      call expect(error, size(wanted) == 0 .and. all(grid%computed), "no more")
-      call expect(error, all(grid%kinds == reshape([(i, i=1, 12)], [4, 3])), "where they belong")
-   end subroutine test_no_refinement
 
    !> Lines, single points, and numbers of lines that the distance does not divide.
    subroutine test_sizes(error)

@@ -5,11 +5,10 @@ module test_slip_events
    use dde, only: dde_problem_type
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
-   use expectations, only: expect, expect_close, expect_failure, expect_success
+   use expectations, only: expect, expect_close, expect_success
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use slip_events, only: find_slip_events, slip_events_type
    use solving, only: at_tolerance
-   use spring_block, only: spring_block_type
    implicit none (type, external)
    private
    public :: collect_slip_events
@@ -33,8 +32,7 @@ contains
       testsuite = [new_unittest("known slip", test_known), &
                    new_unittest("two maxima in an event", test_two_maxima), &
                    new_unittest("transient and unfinished events", test_ends), &
-                   new_unittest("no event", test_none), &
-                   new_unittest("bad tolerance", test_bad_tolerance)]
+                   new_unittest("no event", test_none)]
    end subroutine collect_slip_events
 
    !> At t = 0.
@@ -128,29 +126,15 @@ contains
       call expect_close(error, events%onset, [4.0_wp*pi], bound, "onset")
    end subroutine test_ends
 
-   !> A block that slides steadily.
-   pure type(spring_block_type) function steady() result(block)
-      block = build_block(tau=1.0_wp, epsilon=0.1_wp, xi=0.5_wp, gamma=0.8_wp)
-   end function steady
-
    !> Without motion there is no event.
    subroutine test_none(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(slip_events_type) :: events
 
-      call find_slip_events(steady(), 0.0_wp, 50.0_wp, at_tolerance(tolerance), events, failure)
+      call find_slip_events(build_block(1.0_wp, 0.1_wp, 0.5_wp, 0.8_wp), 0.0_wp, 50.0_wp, &
+                            at_tolerance(tolerance), events, failure)
       call expect_success(error, failure)
       call expect(error, size(events%onset) == 0, "none")
    end subroutine test_none
-
-   !> The solver's refusal is passed on.
-   subroutine test_bad_tolerance(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(slip_events_type) :: events
-
-      call find_slip_events(steady(), 0.0_wp, 50.0_wp, at_tolerance(-1.0_wp), events, failure)
-      call expect_failure(error, failure, "relative")
-   end subroutine test_bad_tolerance
 end module test_slip_events

@@ -1,11 +1,12 @@
 !> Tangent vectors: their equations, norm and restart; runs by Taylor series beside other methods.
 module test_tangent_runs
    use block_builder, only: build_block
-   use dde, only: continuation_type, integrate, integration_result
-   use dde_errors, only: failure_type => error_type, text
+   use dde, only: continuation_type, integration_result
+   use dde_errors, only: text
    use dde_kinds, only: wp
-   use expectations, only: expect, expect_between, expect_close, expect_success
+   use expectations, only: expect, expect_between, expect_close
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use problem_runs, only: run
    use pseudo_random, only: uniform
    use solving, only: at_tolerance
    use spring_block, only: spring_block_type
@@ -91,7 +92,6 @@ contains
    !> Other vectors of the same solutions make no kink.
    subroutine test_smooth_restart(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(continuation_type) :: alone, continuation, undisturbed
       type(integration_result) :: outcome
       type(tangent_problem_type) :: tangent
@@ -100,19 +100,13 @@ contains
       call start_after(20.3_wp, 2, tangent, undisturbed, continuation, error)
       if (allocated(error)) return
       continuation%rate = [undisturbed%rate, 0.0_wp, 0.0_wp]
-      call integrate(tangent, 20.3_wp, 40.3_wp, at_tolerance(1.0e-9_wp), outcome, failure, &
-                     continuation=continuation)
-      call expect_success(error, failure)
+      call run(tangent, 40.3_wp, at_tolerance(1.0e-9_wp), outcome, error, continuation=continuation)
       call expect(error, outcome%breaking_points == 7, "the start makes a kink")
       call orthonormalise(tangent, 1.0_wp, .false., continuation, norm, share)
       alone = undisturbed_part(continuation, 1)
-      call integrate(tangent, 40.3_wp, 50.3_wp, at_tolerance(1.0e-9_wp), outcome, failure, &
-                     continuation=continuation)
-      call expect_success(error, failure)
+      call run(tangent, 50.3_wp, at_tolerance(1.0e-9_wp), outcome, error, continuation=continuation)
       call expect(error, outcome%breaking_points == 0, "orthonormalisation makes none")
-      call integrate(tangent%base, 40.3_wp, 50.3_wp, at_tolerance(1.0e-9_wp), outcome, failure, &
-                     continuation=alone)
-      call expect_success(error, failure)
+      call run(tangent%base, 50.3_wp, at_tolerance(1.0e-9_wp), outcome, error, continuation=alone)
       if (allocated(error)) return
       call expect(error, outcome%breaking_points == 0, "nor does going on without vectors")
       call expect_close(error, alone%y, continuation%y(:1), 1.0e-8_wp, "the same solution")
@@ -126,14 +120,11 @@ contains
       !> Where the run ended, without and with the vectors
       type(continuation_type), intent(out) :: undisturbed, continuation
       type(error_type), allocatable, intent(inout) :: error
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
       type(linear) :: problem
 
       problem = linear(n=1, lag=[1.0_wp], component=[1], past=[1.0_wp], first=[1.0_wp])
-      call integrate(problem, 0.0_wp, time, at_tolerance(1.0e-9_wp), outcome, failure, &
-                     continuation=undisturbed)
-      call expect_success(error, failure)
+      call run(problem, time, at_tolerance(1.0e-9_wp), outcome, error, continuation=undisturbed)
       if (allocated(error)) return
       tangent = tangent_problem_type(problem, vectors)
       call start_vectors(tangent, undisturbed, continuation)
@@ -164,24 +155,21 @@ contains
       character(len=8), intent(in) :: methods(:)
       type(error_type), allocatable, intent(inout) :: error
       type(continuation_type) :: continuation, start, undisturbed
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
       type(tangent_problem_type) :: tangent
       real(wp), allocatable :: known(:)
       integer :: i
 
       tangent = tangent_problem_type(problem, vectors)
-      call integrate(problem, 0.0_wp, 20.0_wp, at_tolerance(1.0e-11_wp, methods(1)), outcome, &
-                     failure, continuation=undisturbed)
-      call expect_success(error, failure)
+      call run(problem, 20.0_wp, at_tolerance(1.0e-11_wp, methods(1)), outcome, error, &
+               continuation=undisturbed)
       if (allocated(error)) return
       call start_vectors(tangent, undisturbed, start)
       start%rate = [undisturbed%rate, (0.0_wp, i=1, tangent%n - problem%n)]
       do i = 1, size(methods)
          continuation = start
-         call integrate(tangent, 20.0_wp, 20.0_wp + length, at_tolerance(1.0e-11_wp, methods(i)), &
-                        outcome, failure, continuation=continuation)
-         call expect_success(error, failure)
+         call run(tangent, 20.0_wp + length, at_tolerance(1.0e-11_wp, methods(i)), outcome, error, &
+                  continuation=continuation)
          if (allocated(error)) return
          if (i == 1) then
             call expect(error, outcome%implicit_steps == 0, trim(methods(i))//" stays with series")

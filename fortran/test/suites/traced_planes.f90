@@ -10,7 +10,7 @@ module traced_planes
    use mctc_env_testing, only: error_type
    implicit none (type, external)
    private
-   public :: closed_delta, known_point, new_plane, place_of, planes, root_near, trace, traced_plane
+   public :: closed_delta, known_point, new_plane, place_of, planes, trace, traced_plane
 
    !> Number of planes.
    integer, parameter :: planes = 7
@@ -109,21 +109,4 @@ contains
          value = (s + 1.0_wp)*(s**2 + s*rate + p%gamma**2) - s*(1.0_wp + p%epsilon)*rate*exp(-s*tau)
       end associate
    end function closed_delta
-
-   !> The characteristic root near a point's i omega at another delay, by Newton's method.
-   complex(wp) function root_near(point, tau) result(s)
-      type(curve_point_type), intent(in) :: point
-      real(wp), intent(in) :: tau
-      complex(wp) :: slope
-      integer :: i
-
-      s = cmplx(0.0_wp, point%omega, kind=wp)
-      do i = 1, 6
-         associate (p => point%parameters, rate => point%parameters%gamma**2/point%parameters%xi)
-            slope = s**2 + s*rate + p%gamma**2 + (s + 1.0_wp)*(2.0_wp*s + rate) &
-                    - (1.0_wp - s*tau)*(1.0_wp + p%epsilon)*rate*exp(-s*tau)
-         end associate
-         s = s - closed_delta(point, tau, s)/slope
-      end do
-   end function root_near
 end module traced_planes
