@@ -3,7 +3,7 @@
 module test_hopf_condition
    use block_builder, only: build_block
    use block_parameters, only: block_parameters_type
-   use characteristic_function, only: delta, delta_by_epsilon, delta_by_s, delta_by_tau, &
+   use characteristic_function, only: by_epsilon, by_tau, by_xi, delta, delta_by, delta_by_s, &
                                       relative_residual
    use closed_form, only: closed_epsilon, closed_tau
    use dde_errors, only: text
@@ -68,44 +68,38 @@ contains
       end do
    end subroutine test_linearisation
 
-   !> Derivatives by s, tau and epsilon against differences of fourth order; in epsilon Delta is
-   !> linear.
+   !> Derivatives by s and by parameters against differences of fourth order.
    subroutine test_derivatives(error)
       type(error_type), allocatable, intent(out) :: error
-      type(block_parameters_type) :: other, p
-      complex(wp) :: by_differences, s
-      real(wp), parameter :: h = 2.0e-3_wp
-      integer :: i
+      type(block_parameters_type) :: p
+      complex(wp) :: known, s
+      integer :: by, i
 
       do i = 1, points
          call random_point(i, p, s)
-         by_differences = (8.0_wp*(delta(p, s + h) - delta(p, s - h)) &
-                           - (delta(p, s + 2.0_wp*h) - delta(p, s - 2.0_wp*h)))/(12.0_wp*h)
-         call expect_close(error, abs(delta_by_s(p, s) - by_differences)/size_of(p, s), 0.0_wp, &
-                           1.0e-7_wp, "misfit of the derivative by s at point "//text(i))
-         by_differences = (8.0_wp*(at_tau(h) - at_tau(-h)) &
-                           - (at_tau(2.0_wp*h) - at_tau(-2.0_wp*h)))/(12.0_wp*h)
-         call expect_close(error, abs(delta_by_tau(p, s) - by_differences)/size_of(p, s), 0.0_wp, &
-                           1.0e-9_wp, "misfit of the derivative by tau at point "//text(i))
-         other = p
-         other%epsilon = p%epsilon + 1.0_wp
-         by_differences = delta(other, s) - delta(p, s)
-         call expect_close(error, abs(delta_by_epsilon(p, s) - by_differences)/size_of(p, s), &
-                           0.0_wp, 1.0e-13_wp, &
-                           "misfit of the derivative by epsilon at point "//text(i))
+         do by = by_epsilon, by_xi + 1
+            if (by <= by_xi) known = delta_by(by, p, s)
+            if (by > by_xi) known = delta_by_s(p, s)
+            call expect_close(error, abs(known - (8.0_wp*(beside(1) - beside(-1)) &
+                                                  - (beside(2) - beside(-2)))/12.0e-3_wp) &
+                              /size_of(p, s), 0.0_wp, 1.0e-7_wp, "misfit at point "//text(i) &
+                              //", derivative "//text(by))
+         end do
       end do
 
    contains
 
-      !> Delta at a neighbouring delay.
-      complex(wp) function at_tau(shift) result(value)
-         real(wp), intent(in) :: shift
-         type(block_parameters_type) :: neighbour
+      !> Delta at a place beside.
+      complex(wp) function beside(steps) result(value)
+         integer, intent(in) :: steps
+         type(block_parameters_type) :: there
 
-         neighbour = p
-         neighbour%tau = p%tau + shift
-         value = delta(neighbour, s)
-      end function at_tau
+         there = p
+         if (by == by_epsilon) there%epsilon = p%epsilon + 1.0e-3_wp*steps
+         if (by == by_tau) there%tau = p%tau + 1.0e-3_wp*steps
+         if (by == by_xi) there%xi = p%xi + 1.0e-3_wp*steps
+         value = delta(there, s + merge(1.0e-3_wp*steps, 0.0_wp, by > by_xi))
+      end function beside
    end subroutine test_derivatives
 
    !> By hand: at s = 1 with xi = gamma = 1, epsilon = tau = 0 the terms are 1, 2, 2, 1 and -1; at a
