@@ -13,7 +13,6 @@ module hopf_condition
    public :: frequency_condition, hopf_epsilon, hopf_gamma, hopf_tau, hopf_xi, largest_omega, &
              partner_omega, printed_tau, two_pi
 
-   !> One turn.
    real(wp), parameter :: two_pi = 2.0_wp*acos(-1.0_wp)
 
 contains

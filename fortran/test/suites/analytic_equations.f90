@@ -10,7 +10,6 @@ module analytic_equations
    !> Points on a circle, and its radius in units of the argument.
    integer, parameter :: points = 64
    real(wp), parameter :: radius = 0.2_wp
-   !> One turn.
    real(wp), parameter :: two_pi = 2.0_wp*acos(-1.0_wp)
 
    !> An equation that is 0 at rest.

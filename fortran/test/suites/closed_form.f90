@@ -9,7 +9,6 @@ module closed_form
    private
    public :: block_with_pair, closed_epsilon, closed_tau, closed_xi
 
-   !> One turn.
    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
 
 contains
@@ -26,18 +25,14 @@ contains
 
    !> epsilon of the pair i omega.
    elemental real(wp) function closed_epsilon(omega, xi, gamma) result(epsilon)
-      !> Frequency of the pair, > 0
-      real(wp), intent(in) :: omega
-      real(wp), intent(in) :: xi, gamma
+      real(wp), intent(in) :: omega, xi, gamma
 
       epsilon = sqrt((1.0_wp + omega**2)*(1.0_wp + ratio(omega, xi, gamma)**2)) - 1.0_wp
    end function closed_epsilon
 
    !> Delay of the pair on branch k; no delay where it is negative.
    elemental real(wp) function closed_tau(omega, xi, gamma, k) result(tau)
-      !> Frequency of the pair, > 0
-      real(wp), intent(in) :: omega
-      real(wp), intent(in) :: xi, gamma
+      real(wp), intent(in) :: omega, xi, gamma
       integer, intent(in) :: k
 
       tau = (atan(ratio(omega, xi, gamma)) - atan(omega) + turn*k)/omega
@@ -45,9 +40,7 @@ contains
 
    !> Spring constant of the pair on branch k at a given delay; -1 where there is none.
    elemental real(wp) function closed_xi(omega, tau, gamma, k) result(xi)
-      !> Frequency of the pair, > 0, not gamma
-      real(wp), intent(in) :: omega
-      real(wp), intent(in) :: tau, gamma
+      real(wp), intent(in) :: omega, tau, gamma
       integer, intent(in) :: k
       real(wp) :: angle
 
@@ -59,9 +52,7 @@ contains
 
    !> B.
    elemental real(wp) function ratio(omega, xi, gamma) result(b)
-      !> Frequency of the pair, > 0
-      real(wp), intent(in) :: omega
-      real(wp), intent(in) :: xi, gamma
+      real(wp), intent(in) :: omega, xi, gamma
 
       b = xi*(gamma**2 - omega**2)/(gamma**2*omega)
    end function ratio

@@ -49,7 +49,6 @@ contains
    pure type(cutoff_block_type) function build_cutoff_block(parameters, history, cutoff) &
       result(block)
       type(block_parameters_type), intent(in) :: parameters
-      !> Values for t <= 0
       type(block_history_type), intent(in) :: history
       real(wp), intent(in) :: cutoff
 
@@ -60,7 +59,6 @@ contains
    pure subroutine set(self, parameters, history, cutoff)
       class(cutoff_block_type), intent(inout) :: self
       type(block_parameters_type), intent(in) :: parameters
-      !> Values for t <= 0
       type(block_history_type), intent(in) :: history
       real(wp), intent(in) :: cutoff
 
@@ -84,7 +82,6 @@ contains
    !> Constant history.
    pure function constant_history(self, t, component) result(value)
       class(cutoff_block_type), intent(in) :: self
-      !> Time <= 0, without influence
       real(wp), intent(in) :: t
       integer, intent(in) :: component
       real(wp) :: value
@@ -113,11 +110,7 @@ contains
    !>     w'     = -(gamma^2/v) [u + (theta + L(w))/xi]
    pure subroutine equation_with_cutoff(self, t, y, z, dydt)
       class(cutoff_block_type), intent(in) :: self
-      !> Time, without influence
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      !> w(t - tau), or nothing
-      real(wp), intent(in) :: z(size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
       real(wp) :: delayed_w, v
 
@@ -135,14 +128,8 @@ contains
    !> Derivatives of the right-hand side by theta, u, w and by w(t - tau).
    pure subroutine derivatives(self, t, y, z, by_y, by_z)
       class(with_jacobian_type), intent(in) :: self
-      !> Time, without influence
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      !> w(t - tau), or nothing
-      real(wp), intent(in) :: z(size(self%lag))
-      real(wp), intent(out) :: by_y(self%n, self%n)
-      !> Derivatives by w(t - tau)
-      real(wp), intent(out) :: by_z(self%n, size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: by_y(self%n, self%n), by_z(self%n, size(self%lag))
       real(wp) :: dydt(3), v
 
       associate (p => self%parameters, c => self%cutoff, w => y(index_of_ln_v))
@@ -170,13 +157,9 @@ contains
    !> e' = -e w' and (e + c) L' = -e'.
    pure subroutine series_with_cutoff(self, t, unit, degree, z, y)
       class(with_series_type), intent(in) :: self
-      !> Time, without influence
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: unit
+      real(wp), intent(in) :: t, unit
       integer, intent(in) :: degree
-      !> Coefficients of w(t - tau), or nothing
       real(wp), intent(in) :: z(0:degree, size(self%lag))
-      !> Coefficients of theta, u, w; y(0, :) is given
       real(wp), intent(inout) :: y(0:degree, self%n)
       !> Coefficients of v, of exp(-w), of L, of both for the delayed w, and of the two brackets
       real(wp), dimension(0:degree) :: v, e, cut, delayed_e, delayed_cut, friction, force
@@ -212,9 +195,7 @@ contains
    !> Coefficient k of exp(sign w) from those before it.
    pure subroutine extend_exponential(k, w, sign_of_w, e)
       integer, intent(in) :: k
-      real(wp), intent(in) :: w(0:)
-      !> 1 or -1
-      real(wp), intent(in) :: sign_of_w
+      real(wp), intent(in) :: w(0:), sign_of_w
       real(wp), intent(inout) :: e(0:)
       integer :: j
 
@@ -229,9 +210,7 @@ contains
    pure subroutine extend_logarithm(k, w, c, e, cut)
       integer, intent(in) :: k
       real(wp), intent(in) :: w(0:), c
-      !> Coefficients of exp(-w)
-      real(wp), intent(inout) :: e(0:)
-      real(wp), intent(inout) :: cut(0:)
+      real(wp), intent(inout) :: e(0:), cut(0:)
       integer :: j
 
       call extend_exponential(k, w, -1.0_wp, e)
@@ -245,10 +224,8 @@ contains
    !> Series of the constant history.
    pure subroutine constant_series(self, t, component, unit, y)
       class(with_series_type), intent(in) :: self
-      !> Time <= 0, without influence
       real(wp), intent(in) :: t
       integer, intent(in) :: component
-      !> Unit of time of the powers, without influence
       real(wp), intent(in) :: unit
       real(wp), intent(out) :: y(0:)
 

@@ -8,7 +8,6 @@ module known_equations
    public :: block_by_values, duffing_with_pair, layers, lienard, neurons, new_block_by_values, &
              new_small, new_transformed, quadratic, small_equation, transformed
 
-   !> One turn.
    real(wp), parameter :: two_pi = 2.0_wp*acos(-1.0_wp)
 
    !> Small equations, their coefficients p and delays:

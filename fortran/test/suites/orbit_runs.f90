@@ -65,7 +65,6 @@ contains
    subroutine advance(problem, from, to, place, error, component, maxima)
       class(dde_problem_type), intent(in) :: problem
       real(wp), intent(in) :: from, to
-      !> Where the run is
       type(continuation_type), intent(inout) :: place
       type(error_type), allocatable, intent(inout) :: error
       integer, intent(in), optional :: component
@@ -134,10 +133,8 @@ contains
 
    !> A branch from an orbit, and its special points.
    subroutine branch_from(orbit, settings, direction, branch, special, error, tangent)
-      !> Approximation of the first orbit
       type(periodic_orbit_type), intent(in) :: orbit
       type(follow_settings_type), intent(in) :: settings
-      !> 1 or -1
       integer, intent(in) :: direction
       type(branch_type), intent(out) :: branch
       type(special_point_type), allocatable, intent(out) :: special(:)
@@ -157,7 +154,6 @@ contains
    subroutine branch_from_hopf(settings, parameters, state, omega, amplitude, branch, special, &
                                error)
       type(follow_settings_type), intent(in) :: settings
-      !> Parameters and stationary state of the Hopf point, its frequency, first amplitude
       real(wp), intent(in) :: parameters(:), state(:), omega, amplitude
       type(branch_type), intent(out) :: branch
       type(special_point_type), allocatable, intent(out) :: special(:)

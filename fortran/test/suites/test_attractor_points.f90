@@ -29,7 +29,6 @@ module test_attractor_points
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_attractor_points(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -159,9 +158,7 @@ contains
 
    !> Whether the bits are the same.
    pure logical function same_bits(a, b) result(value)
-      real(wp), intent(in) :: a(:)
-      !> As many others
-      real(wp), intent(in) :: b(:)
+      real(wp), intent(in) :: a(:), b(:)
 
       value = size(a) == size(b) .and. all(transfer(a, [0_int64]) == transfer(b, [0_int64]))
    end function same_bits
@@ -201,7 +198,6 @@ contains
    !> Largest maximum of v at each point.
    subroutine largest_maxima(error, points, settings, largest)
       type(error_type), allocatable, intent(inout) :: error
-      !> The points in the order of the sweep
       type(point_type), intent(in) :: points(:)
       type(attractor_settings_type), intent(in) :: settings
       real(wp), intent(out) :: largest(:)

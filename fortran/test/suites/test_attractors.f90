@@ -22,7 +22,6 @@ module test_attractors
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_attractors(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

@@ -9,19 +9,18 @@ module test_block_cycles
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_success
-   use hopf_curves, only: curve_point_type, trace_curves
+   use hopf_curves, only: curve_point_type
    use hopf_planes, only: curve_plane_type
-   use hopf_points, only: find_hopf_points, hopf_point_type, judge_points
+   use hopf_points, only: hopf_point_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use special_points, only: fold, torus_bifurcation
-   use traced_planes, only: new_plane
+   use traced_planes, only: find_points, new_plane
    implicit none (type, external)
    private
    public :: collect_block_cycles
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_block_cycles(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -77,19 +76,13 @@ contains
       real(wp), intent(out) :: nearest(2)
       type(error_type), allocatable, intent(inout) :: error
       type(curve_point_type), allocatable :: points(:)
-      type(failure_type), allocatable :: failure
       type(hopf_point_type), allocatable :: found(:)
       type(curve_plane_type) :: plane
       integer :: i
 
       nearest = 1000.0_wp
       plane = new_plane(along_tau, 0.8_wp, xi, window)
-      call trace_curves(plane, points, failure)
-      call expect_success(error, failure)
-      call judge_points(points, failure)
-      call expect_success(error, failure)
-      call find_hopf_points(plane, points, found, failure)
-      call expect_success(error, failure)
+      call find_points(plane, points, found, error)
       if (allocated(error)) return
       do i = 1, size(found)
          associate (p => found(i)%parameters)
@@ -102,9 +95,7 @@ contains
    !> The curves of a kind that start on a line end at the Hopf point of another kind.
    subroutine expect_end(line, window, kind, ending, error)
       type(cycle_settings_type), intent(in) :: line
-      !> Window of the curves on epsilon, and on tau
       real(wp), intent(in) :: window(4)
-      !> Kind of the curve and of the Hopf point
       character(len=*), intent(in) :: kind, ending
       type(error_type), allocatable, intent(inout) :: error
       type(cycle_settings_type) :: settings

@@ -22,7 +22,6 @@ module test_block_runs
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_block_runs(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

@@ -22,7 +22,6 @@ module test_block_stiff
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_block_stiff(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

@@ -28,7 +28,6 @@ module test_exponents
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_exponents(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -229,10 +228,7 @@ contains
 
    !> Exponents with vectors across the flow, and with one more vector and none across.
    subroutine compare_across(tau, transient, zeros, error)
-      real(wp), intent(in) :: tau
-      !> Time at which measuring begins
-      real(wp), intent(in) :: transient
-      !> Number of exponents that are zero
+      real(wp), intent(in) :: tau, transient
       integer, intent(in) :: zeros
       type(error_type), allocatable, intent(inout) :: error
       type(exponent_type), allocatable :: across(:), all_directions(:)

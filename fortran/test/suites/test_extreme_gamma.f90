@@ -22,7 +22,6 @@ module test_extreme_gamma
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_extreme_gamma(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -70,7 +69,6 @@ contains
    !> The root near a start in quadruple precision, rounded.
    pure complex(wp) function quadruple_root(p, start) result(root)
       type(block_parameters_type), intent(in) :: p
-      !> Where to start
       complex(wp), intent(in) :: start
       complex(real128) :: delayed, s, square
       real(real128) :: inverse, tau, xi
@@ -93,7 +91,6 @@ contains
    !> exp(z), for |z| up to 100, by its series at z/1024 and ten squares: not every compiler has the
    !> intrinsic function in quadruple precision.
    pure complex(real128) function exponential(z) result(value)
-      !> Where
       complex(real128), intent(in) :: z
       integer :: i
 

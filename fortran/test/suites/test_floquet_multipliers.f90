@@ -28,7 +28,6 @@ module test_floquet_multipliers
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_floquet_multipliers(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

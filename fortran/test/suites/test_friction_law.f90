@@ -26,7 +26,6 @@ module test_friction_law
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_friction_law(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

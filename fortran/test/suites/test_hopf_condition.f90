@@ -19,12 +19,10 @@ module test_hopf_condition
 
    !> Number of random points.
    integer, parameter :: points = 200
-   !> One turn.
    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_hopf_condition(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -73,6 +71,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(block_parameters_type) :: p
       complex(wp) :: known, s
+      real(wp), parameter :: h = 5.0e-4_wp
       integer :: by, i
 
       do i = 1, points
@@ -81,7 +80,7 @@ contains
             if (by <= by_xi) known = delta_by(by, p, s)
             if (by > by_xi) known = delta_by_s(p, s)
             call expect_close(error, abs(known - (8.0_wp*(beside(1) - beside(-1)) &
-                                                  - (beside(2) - beside(-2)))/12.0e-3_wp) &
+                                                  - (beside(2) - beside(-2)))/(12.0_wp*h)) &
                               /size_of(p, s), 0.0_wp, 1.0e-7_wp, "misfit at point "//text(i) &
                               //", derivative "//text(by))
          end do
@@ -95,10 +94,10 @@ contains
          type(block_parameters_type) :: there
 
          there = p
-         if (by == by_epsilon) there%epsilon = p%epsilon + 1.0e-3_wp*steps
-         if (by == by_tau) there%tau = p%tau + 1.0e-3_wp*steps
-         if (by == by_xi) there%xi = p%xi + 1.0e-3_wp*steps
-         value = delta(there, s + merge(1.0e-3_wp*steps, 0.0_wp, by > by_xi))
+         if (by == by_epsilon) there%epsilon = p%epsilon + h*steps
+         if (by == by_tau) there%tau = p%tau + h*steps
+         if (by == by_xi) there%xi = p%xi + h*steps
+         value = delta(there, s + merge(h*steps, 0.0_wp, by > by_xi))
       end function beside
    end subroutine test_derivatives
 

@@ -23,7 +23,6 @@ module test_hopf_curves
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_hopf_curves(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

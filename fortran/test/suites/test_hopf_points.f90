@@ -1,5 +1,5 @@
 !> Special points of Hopf curves and the number of unstable pairs in the planes of Figures 2 and 3;
-!> what the normal forms predict beside them, against roots of (5) and cycles by harmonic balance.
+!> what the normal forms predict beside them, against roots of (5) and points of the curves.
 module test_hopf_points
    use block_equation, only: block_equation_type
    use block_parameters, only: block_parameters_type
@@ -8,23 +8,20 @@ module test_hopf_points
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_success
-   use harmonic_balance, only: find_cycle
-   use hopf_condition, only: hopf_epsilon, partner_omega, two_pi
+   use hopf_condition, only: hopf_epsilon, partner_omega
+   use hopf_curves, only: curve_point_type
    use hopf_planes, only: curve_plane_type
-   use hopf_point_runs, only: cycle_type, find_points, modes_of, predict_fold, predict_torus
-   use hopf_points, only: find_hopf_points, hopf_point_type, judge_points
+   use hopf_points, only: hopf_point_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use pseudo_random, only: uniform
-   use spring_block, only: index_of_ln_v
    use stability_map, only: middles, unstable_pairs
-   use traced_planes, only: trace, traced_plane
+   use traced_planes, only: find_points, plane_number
    implicit none (type, external)
    private
    public :: collect_hopf_points
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_hopf_points(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -32,9 +29,7 @@ contains
                    new_unittest("special points of Figures 2 and 3", test_figures), &
                    new_unittest("map of unstable pairs", test_map), &
                    new_unittest("directions against roots", test_directions), &
-                   new_unittest("folds leave along the curve", test_fold_direction), &
-                   new_unittest("folds against harmonic balance", test_fold), &
-                   new_unittest("cycles at their torus", test_cycle_at_torus)]
+                   new_unittest("folds leave along the curve", test_fold_direction)]
    end subroutine collect_hopf_points
 
    !> Both frequencies have the same epsilon, each is the other's partner.
@@ -90,16 +85,10 @@ contains
       integer, intent(in) :: i
       type(hopf_point_type), allocatable, intent(out) :: found(:)
       type(error_type), allocatable, intent(inout) :: error
-      type(failure_type), allocatable :: failure
-      type(traced_plane) :: traced
+      type(curve_point_type), allocatable :: points(:)
       integer :: j, k
 
-      call trace(i, traced, error)
-      if (allocated(error)) return
-      call judge_points(traced%points, failure)
-      call expect_success(error, failure)
-      call find_hopf_points(traced%plane, traced%points, found, failure)
-      call expect_success(error, failure)
+      call find_points(plane_number(i), points, found, error)
       if (allocated(error)) return
       do j = 1, size(found)
          associate (p => found(j)%parameters, omega => found(j)%omega)
@@ -120,43 +109,35 @@ contains
             end select
          end associate
       end do
-      call expect(error, all([(sign_is_kept(traced, j), j=1, size(traced%points) - 1)]), &
-                  "l1 changes its sign at generalised points only")
-
-   contains
-
-      !> Whether between two points l1 keeps its sign or a generalised point lies.
-      logical function sign_is_kept(traced, j) result(kept)
-         type(traced_plane), intent(in) :: traced
-         integer, intent(in) :: j
-
-         associate (p => traced%points(j), q => traced%points(j + 1))
-            kept = p%piece /= q%piece .or. p%l1*q%l1 > 0.0_wp .or. &
-                   any(found%kind == "generalised_hopf" .and. found%omega(1) > p%omega &
-                       .and. found%omega(1) < q%omega .and. found%branch(1) == p%branch)
+      do j = 1, size(points) - 1
+         associate (p => points(j), q => points(j + 1))
+            if (p%piece /= q%piece .or. p%l1*q%l1 > 0.0_wp) cycle
+            call expect(error, any(found%kind == "generalised_hopf" .and. found%omega(1) > p%omega &
+                                   .and. found%omega(1) < q%omega &
+                                   .and. found%branch(1) == p%branch), &
+                        "l1 changes its sign at generalised points only")
          end associate
-      end function sign_is_kept
+      end do
    end subroutine check_points
 
    !> Cells of a map, against the roots themselves.
    subroutine test_map(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
-      type(traced_plane) :: traced
+      type(curve_plane_type) :: plane
       type(block_equation_type) :: equation
       complex(wp), allocatable :: roots(:)
       integer, parameter :: cells = 6
       integer :: i, j, k, pairs(cells, cells)
 
       do k = 1, 2
-         call trace(k, traced, error)
-         if (allocated(error)) return
-         pairs = unstable_pairs(traced%plane, cells)
-         associate (x => middles(traced%plane%epsilon_window, cells), &
-                    y => middles(traced%plane%ordinate_window, cells))
+         plane = plane_number(k)
+         pairs = unstable_pairs(plane, cells)
+         associate (x => middles(plane%epsilon_window, cells), &
+                    y => middles(plane%ordinate_window, cells))
             do j = 1, cells
                do i = 1, cells
-                  equation = block_equation_type(traced%plane%parameters(x(i), y(j)))
+                  equation = block_equation_type(plane%parameters(x(i), y(j)))
                   call find_roots(equation%linear, 0.0_wp, roots, failure)
                   call expect_success(error, failure)
                   if (allocated(error)) return
@@ -176,6 +157,7 @@ contains
       type(failure_type), allocatable :: failure
       type(hopf_point_type), allocatable :: found(:)
       type(curve_plane_type) :: plane
+      type(curve_point_type), allocatable :: points(:)
       complex(wp), allocatable :: roots(:)
       type(block_equation_type) :: equation
       real(wp), parameter :: step = 1.0e-5_wp
@@ -183,9 +165,11 @@ contains
       integer :: i, j, n, pair
 
       do n = 1, 2
-         call find_points(n, "double_hopf", plane, found, error)
+         plane = plane_number(n)
+         call find_points(plane, points, found, error)
          if (allocated(error)) return
          do i = 1, size(found)
+            if (found(i)%kind /= "double_hopf") cycle
             do pair = 1, 2
                associate (p => found(i)%parameters, u => found(i)%unfolding)
                   equation = block_equation_type(plane%parameters( &
@@ -215,14 +199,17 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(hopf_point_type), allocatable :: found(:)
       type(curve_plane_type) :: plane
+      type(curve_point_type), allocatable :: points(:)
       type(block_parameters_type) :: there
       real(wp) :: way(2)
       integer :: i, n, side
 
       do n = 1, 2
-         call find_points(n, "generalised_hopf", plane, found, error)
+         plane = plane_number(n)
+         call find_points(plane, points, found, error)
          if (allocated(error)) return
          do i = 1, size(found)
+            if (found(i)%kind /= "generalised_hopf") cycle
             associate (p => found(i)%parameters, u => found(i)%unfolding)
                ! c1 = 0 here
                side = nint(-sign(1.0_wp, real(u%c2)*u%c1_slope))
@@ -235,83 +222,4 @@ contains
          end do
       end do
    end subroutine test_fold_direction
-
-   !> Epsilon along cycles of growing amplitude has its extreme at the fold. With the share of the
-   !> square of the predicted amplitude it is a parabola, the depth of which is the distance from
-   !> the Hopf curve. The period there, by its change along the cycles.
-   subroutine test_fold(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(hopf_point_type), allocatable :: found(:)
-      type(curve_plane_type) :: plane
-      type(cycle_type) :: fold
-      complex(wp) :: mode(3, 2)
-      real(wp), parameter :: amplitude = 0.02_wp, shares(-1:1) = [0.5_wp, 1.0_wp, 1.5_wp]
-      real(wp) :: curvature, epsilon(-1:1), frequency(-1:1), period_error(-1:1), slope
-      integer :: i, j, n
-
-      do n = 1, 2
-         call find_points(n, "generalised_hopf", plane, found, error)
-         if (allocated(error)) return
-         do i = 1, size(found)
-            associate (point => found(i))
-               call predict_fold(plane, point%omega(1), point%branch(1), point%unfolding, &
-                                 amplitude, fold, failure)
-               call expect_success(error, failure)
-               mode = modes_of(point, [1.0_wp, 0.0_wp])
-               do j = -1, 1
-                  call find_cycle(fold%parameters, point%omega(1), mode(:, 1), &
-                                  2.0_wp*abs(mode(index_of_ln_v, 1))*amplitude*sqrt(shares(j)), &
-                                  epsilon(j), frequency(j), error)
-               end do
-               if (allocated(error)) return
-            end associate
-            slope = epsilon(1) - epsilon(-1)
-            curvature = 4.0_wp*(epsilon(1) - 2.0_wp*epsilon(0) + epsilon(-1))
-            call expect_between(error, -slope/curvature, -0.01_wp, 0.01_wp, &
-                                "share at the fold less 1")
-            call expect_close(error, epsilon(0), fold%parameters%epsilon, &
-                              0.01_wp*abs(0.5_wp*curvature), "epsilon of the fold")
-            period_error = two_pi/frequency - fold%period
-            call expect_between(error, period_error(0)/period_error(-1), -0.01_wp, 0.01_wp, &
-                                "error of the period over its change")
-         end do
-      end do
-   end subroutine test_fold
-
-   !> The cycle of the predicted amplitude has the predicted epsilon and period, by their distances
-   !> from the double Hopf point.
-   subroutine test_cycle_at_torus(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(hopf_point_type), allocatable :: found(:)
-      type(curve_plane_type) :: plane
-      type(cycle_type) :: torus
-      complex(wp) :: mode(3, 2)
-      real(wp), parameter :: amplitude = 0.02_wp
-      real(wp) :: epsilon, frequency
-      integer :: i, j, n
-
-      do n = 1, 2
-         call find_points(n, "double_hopf", plane, found, error)
-         if (allocated(error)) return
-         do i = 1, size(found)
-            mode = modes_of(found(i), [1.0_wp, 1.0_wp])
-            do j = 1, 2
-               associate (point => found(i), omega => found(i)%omega(j))
-                  torus = predict_torus(plane, point%parameters, point%unfolding, j, amplitude)
-                  call find_cycle(torus%parameters, omega, mode(:, j), &
-                                  2.0_wp*abs(mode(index_of_ln_v, j))*amplitude, epsilon, &
-                                  frequency, error)
-                  if (allocated(error)) return
-                  call expect_between(error, (epsilon - torus%parameters%epsilon) &
-                                      /(torus%parameters%epsilon - point%parameters%epsilon), &
-                                      -2.0e-3_wp, 2.0e-3_wp, "error of epsilon over its change")
-                  call expect_between(error, (two_pi/frequency - torus%period) &
-                                      /(torus%period - two_pi/omega), -2.0e-3_wp, 2.0e-3_wp, &
-                                      "error of the period over its change")
-               end associate
-            end do
-         end do
-      end do
-   end subroutine test_cycle_at_torus
 end module test_hopf_points

@@ -21,7 +21,6 @@ module test_linear_stability
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_linear_stability(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

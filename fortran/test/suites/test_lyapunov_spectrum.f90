@@ -33,7 +33,6 @@ module test_lyapunov_spectrum
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_lyapunov_spectrum(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -54,7 +53,6 @@ contains
 
    !> A block without delay whose third vector shrinks by exp(-2e4) in a unit of time.
    pure type(spring_block_type) function stiff(u) result(block)
-      !> Displacement for t <= 0
       real(wp), intent(in) :: u
 
       block = build_block(tau=0.0_wp, epsilon=0.3_wp, xi=0.5_wp, gamma=100.0_wp, u=u)
@@ -115,9 +113,7 @@ contains
    !> Growth in one go is that from where a run ended, which is left as it was.
    subroutine compare_goes(alone, t_arrived, continued, tolerance, error)
       type(growth_settings_type), intent(in) :: alone
-      !> End of the run before the other
       real(wp), intent(in) :: t_arrived
-      !> Of the other
       type(growth_settings_type), intent(in) :: continued
       real(wp), intent(in) :: tolerance
       type(error_type), allocatable, intent(inout) :: error
@@ -201,12 +197,10 @@ contains
    subroutine observe_interval(self, problem, time, options, outcome, error, continuation)
       class(witness_type), intent(inout) :: self
       class(dde_problem_type), intent(in) :: problem
-      !> Where to
       real(wp), intent(in) :: time
       type(integration_options), intent(in) :: options
       type(integration_result), intent(out) :: outcome
       type(failure_type), allocatable, intent(out) :: error
-      !> Where the run stands
       type(continuation_type), intent(inout) :: continuation
 
       self%last = [continuation%time(1), time]

@@ -22,7 +22,6 @@ module test_measured_run
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_measured_run(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -70,7 +69,6 @@ contains
    !> How the error falls from steps of length h to half of that.
    real(wp) function order_of(problem, cubic, t_end, known, h) result(order)
       class(dde_problem_type), intent(in) :: problem
-      !> Cubic history, or linear
       logical, intent(in) :: cubic
       real(wp), intent(in) :: t_end, known, h
       type(failure_type), allocatable :: failure

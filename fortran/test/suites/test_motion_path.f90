@@ -21,7 +21,6 @@ module test_motion_path
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_motion_path(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -29,9 +28,7 @@ contains
                    new_unittest("fast slip events", test_slip_events), &
                    new_unittest("path of an attractor", test_attractor), &
                    new_unittest("no path", test_none), &
-                   new_unittest("line of few points", test_few), &
-                   new_unittest("line of corners", test_corners), &
-                   new_unittest("line on its way back", test_way_back), &
+                   new_unittest("lines", test_lines), &
                    new_unittest("line of circle", test_circle)]
    end subroutine collect_motion_path
 
@@ -141,57 +138,42 @@ contains
       settings%exponents = 3
    end function observed
 
-   !> None, one and two points, the last two at one place.
-   subroutine test_few(error)
-      type(error_type), allocatable, intent(out) :: error
-      integer :: n
-      real(wp) :: points(2, 3)
-
-      points = 1.0_wp
-      do n = 0, 2
-         associate (kept => find_kept_points(points(:, :n), 0.1_wp))
-            call expect(error, size(kept) == n .and. all(kept), "all of "//text(n))
-         end associate
-      end do
-      call expect(error, all(find_kept_points(points, 0.1_wp) .eqv. [.true., .false., .true.]), &
-                  "three points at one place")
-   end subroutine test_few
-
-   !> Of a line with two corners and points between them the ends and the corners are kept, and a
-   !> point beside the line if it is further away than the tolerance.
-   subroutine test_corners(error)
+   !> None, one and two points, three at one place. Of a line with two corners and points between
+   !> them the ends and the corners are kept, and a point beside the line if it is further away than
+   !> the tolerance. A line that turns back on itself keeps its end.
+   subroutine test_lines(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: points(2, 9)
 
+      points = 1.0_wp
+      call check(points(:, :0), [integer ::])
+      call check(points(:, :1), [1])
+      call check(points(:, :2), [1, 2])
+      call check(points(:, :3), [1, 3])
       points(1, :) = [0.0_wp, 1.0_wp, 2.0_wp, 3.0_wp, 3.0_wp, 3.0_wp, 4.0_wp, 5.0_wp, 6.0_wp]
       points(2, :) = [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 2.0_wp, 2.0_wp, 2.0_wp, 2.0_wp]
-      call expect(error, all(places(0.1_wp) == [1, 4, 6, 9]), "ends and corners")
+      call check(points, [1, 4, 6, 9])
       points(2, 8) = 2.09_wp
-      call expect(error, all(places(0.1_wp) == [1, 4, 6, 9]), "within the tolerance")
+      call check(points, [1, 4, 6, 9])
       points(2, 8) = 2.11_wp
-      call expect(error, all(places(0.1_wp) == [1, 4, 6, 8, 9]), "beyond the tolerance")
+      call check(points, [1, 4, 6, 8, 9])
+      call check(reshape([0.0_wp, 1.0_wp, 2.0_wp, 1.0_wp, 1.0_wp], [1, 5]), [1, 3, 5])
 
    contains
 
-      !> Numbers of the points that are kept.
-      function places(tolerance) result(numbers)
-         real(wp), intent(in) :: tolerance
-         integer, allocatable :: numbers(:)
+      !> These points are kept.
+      subroutine check(line, known)
+         real(wp), intent(in) :: line(:, :)
+         integer, intent(in) :: known(:)
          integer :: i
 
-         numbers = pack([(i, i=1, size(points, 2))], find_kept_points(points, tolerance))
-      end function places
-   end subroutine test_corners
-
-   !> A line that turns back on itself keeps its end, although the line through it is straight.
-   subroutine test_way_back(error)
-      type(error_type), allocatable, intent(out) :: error
-      real(wp) :: points(1, 5)
-
-      points(1, :) = [0.0_wp, 1.0_wp, 2.0_wp, 1.0_wp, 1.0_wp]
-      call expect(error, all(find_kept_points(points, 0.1_wp) &
-                             .eqv. [.true., .false., .true., .false., .true.]), "turning point")
-   end subroutine test_way_back
+         associate (kept => pack([(i, i=1, size(line, 2))], find_kept_points(line, 0.1_wp)))
+            call expect(error, size(kept) == size(known), text(size(known))//" points")
+            if (allocated(error)) return
+            call expect(error, all(kept == known), "the points of "//text(size(line, 2)))
+         end associate
+      end subroutine check
+   end subroutine test_lines
 
    !> Of 1001 points on half a circle those left out are within the tolerance of the line, and there
    !> are about pi/sqrt(8 tolerance) chords: a chord over the angle a is a**2/8 from the circle.

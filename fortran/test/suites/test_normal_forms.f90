@@ -21,7 +21,6 @@ module test_normal_forms
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_normal_forms(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

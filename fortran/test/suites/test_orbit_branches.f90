@@ -26,7 +26,6 @@ module test_orbit_branches
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_orbit_branches(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -44,7 +43,6 @@ contains
                               error)
       real(wp), intent(in) :: tau, epsilon
       type(follow_settings_type), intent(in) :: settings
-      !> Degree and kind of points, 1 or -1
       integer, intent(in) :: degree, points, direction
       type(branch_type), intent(out) :: branch
       type(special_point_type), allocatable, intent(out) :: special(:)
@@ -60,7 +58,6 @@ contains
    subroutine last_maxima(problem, component, start, duration, last, maxima, error)
       class(dde_problem_type), intent(in) :: problem
       integer, intent(in) :: component
-      !> Where the run starts; not changed
       type(continuation_type), intent(in) :: start
       !> Its duration, and that of its last part
       real(wp), intent(in) :: duration, last

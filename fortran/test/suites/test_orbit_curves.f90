@@ -20,7 +20,6 @@ module test_orbit_curves
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_orbit_curves(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -45,7 +44,6 @@ contains
    !> The curve that starts at the first point of a kind on the branch from a Hopf point.
    subroutine curve_of_duffing(b, turns, kind, known, within, curve, error)
       real(wp), intent(in) :: b
-      !> Full turns of omega tau at the Hopf point
       integer, intent(in) :: turns
       character(len=*), intent(in) :: kind
       !> b and tau at the end of the curve, and the accuracy to which they are published

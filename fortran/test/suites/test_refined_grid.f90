@@ -10,7 +10,6 @@ module test_refined_grid
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_refined_grid(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

@@ -11,7 +11,6 @@ module test_section_motion
    private
    public :: collect_section_motion
 
-   !> One turn.
    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
    !> Two fundamental frequencies, their ratio the golden mean's inverse.
    real(wp), parameter :: f1 = 0.37_wp, f2 = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp)*f1
@@ -21,7 +20,6 @@ module test_section_motion
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_section_motion(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -37,9 +35,7 @@ contains
 
    !> Roughness of a section.
    pure real(wp) function roughness(points, times, bases) result(value)
-      !> Points, shape (2, points)
-      real(wp), intent(in) :: points(:, :)
-      real(wp), intent(in) :: times(:), bases(2)
+      real(wp), intent(in) :: points(:, :), times(:), bases(2)
 
       value = section_roughness(points, times, reach, bases)
    end function roughness

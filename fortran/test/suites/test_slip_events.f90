@@ -25,7 +25,6 @@ module test_slip_events
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_slip_events(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

@@ -19,7 +19,6 @@ module test_spectral_lines
    !> Samples in a segment and time between them: a bin is 1/200.
    integer, parameter :: length = 4000
    real(wp), parameter :: interval = 0.05_wp, width = 1.0_wp/(length*interval)
-   !> One turn.
    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
    !> Fundamental frequency, between two bins.
    real(wp), parameter :: f = 0.4017_wp
@@ -37,7 +36,6 @@ module test_spectral_lines
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_spectral_lines(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -213,7 +211,6 @@ contains
 
       !> Lines at multiples of f have these labels and bases.
       subroutine check(amplitudes, lines, kinds, multiples, second_multiples, known)
-         !> Frequencies and known bases over f
          real(wp), intent(in) :: amplitudes(:), lines(:), known(2)
          integer, intent(in) :: kinds(:), multiples(:), second_multiples(:)
          type(analysed_type) :: found

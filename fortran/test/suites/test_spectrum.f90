@@ -11,12 +11,10 @@ module test_spectrum
    private
    public :: collect_spectrum
 
-   !> One turn.
    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_spectrum(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

@@ -38,7 +38,6 @@ module test_spring_block
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_spring_block(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -143,9 +142,7 @@ contains
 
    !> Polynomials at s.
    pure function polynomial(coefficient, s) result(value)
-      !> Coefficients, shape (0:degree, polynomials)
-      real(wp), intent(in) :: coefficient(0:, :)
-      real(wp), intent(in) :: s
+      real(wp), intent(in) :: coefficient(0:, :), s
       real(wp) :: value(size(coefficient, 2))
       integer :: k
 
@@ -254,13 +251,11 @@ contains
       class(problem_with_tangents), intent(in) :: problem
       real(wp), intent(in) :: unit
       integer, intent(in) :: degree
-      !> State, shape (n)
       real(wp), intent(in) :: state(:)
       integer, intent(in) :: vectors
       !> Iterations of the slow series; 0 for the series itself
       integer, intent(in) :: iterations
       character(len=*), intent(in) :: what
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       real(wp), dimension(0:degree, problem%n) :: before, change, y
       real(wp), dimension(0:degree, problem%n, vectors) :: dy, first

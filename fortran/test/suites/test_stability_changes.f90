@@ -23,7 +23,6 @@ module test_stability_changes
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_stability_changes(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -64,9 +63,7 @@ contains
    !> Crossings ascend, join, have their pair on the axis, and the roots between them are counted.
    subroutine check_changes(changes, places, ends, error)
       type(stability_change_type), intent(in) :: changes(:)
-      !> Where: tau or epsilon
-      real(wp), intent(in) :: places(:)
-      real(wp), intent(in) :: ends(2)
+      real(wp), intent(in) :: places(:), ends(2)
       type(error_type), allocatable, intent(inout) :: error
       type(block_parameters_type) :: p
       real(wp) :: edges(0:size(changes) + 1)

@@ -19,7 +19,6 @@ module test_tangent_runs
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_tangent_runs(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -117,7 +116,6 @@ contains
       real(wp), intent(in) :: time
       integer, intent(in) :: vectors
       type(tangent_problem_type), intent(out) :: tangent
-      !> Where the run ended, without and with the vectors
       type(continuation_type), intent(out) :: undisturbed, continuation
       type(error_type), allocatable, intent(inout) :: error
       type(integration_result) :: outcome

@@ -16,7 +16,6 @@ module test_velocity_step
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_velocity_step(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

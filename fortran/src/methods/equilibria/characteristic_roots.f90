@@ -22,7 +22,6 @@ module characteristic_roots
    !> Most iterations of Newton's method, and the step after which it ends, relative to 1 + |s|.
    integer, parameter :: most_iterations = 30
    real(wp), parameter :: last_step = 1.0e-14_wp
-   !> Half a turn.
    real(wp), parameter :: pi = acos(-1.0_wp)
 
 contains

@@ -17,7 +17,6 @@ module double_hopf
 
    !> Letters of a word.
    integer, parameter :: word_length = 20
-   !> One turn.
    real(wp), parameter :: two_pi = 2.0_wp*acos(-1.0_wp)
 
    !> The coefficients.
