@@ -34,7 +34,6 @@ contains
                    new_unittest("a 3-torus", test_three_torus), &
                    new_unittest("tori after another motion", test_late_tori), &
                    new_unittest("unstable steady sliding", test_unstable), &
-                   new_unittest("a run that ends early", test_failed_run), &
                    new_unittest("too few samples", test_few_samples), &
                    new_unittest("maxima of a stuck block", test_stuck)]
    end subroutine collect_attractors
@@ -297,27 +296,6 @@ contains
       call expect(error, found%class == torus, "a torus")
       call expect_between(error, found%time, 1.5e4_wp, latest, "time: another motion came before")
    end subroutine find_late_torus
-
-   !> A run that takes too many steps is an error and leaves the class undecided, in the approach
-   !> as in the observation.
-   subroutine test_failed_run(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(attractor_type) :: found
-      type(integration_options) :: options
-      real(wp), parameter :: t_transient(2) = [100.0_wp, 0.1_wp]
-      integer :: i
-
-      do i = 1, size(t_transient)
-         options = at_tolerance(1.0e-8_wp, "auto")
-         options%most_steps = 5
-         call find_attractor(disturbed(10.0_wp, 0.5_wp, 0.8_wp), after(t_transient(i), 500.0_wp), &
-                             options, found, failure)
-         call expect_failure(error, failure, "5 steps (most_steps) were used up")
-         call expect(error, found%class == undecided .and. .not. allocated(found%exponents), &
-                     "nothing found")
-      end do
-   end subroutine test_failed_run
 
    !> No spectrum: an error, no class.
    subroutine test_few_samples(error)

@@ -14,7 +14,6 @@ module test_hopf_points
    use hopf_points, only: hopf_point_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use pseudo_random, only: uniform
-   use stability_map, only: middles, unstable_pairs
    use traced_planes, only: find_points, plane_number
    implicit none (type, external)
    private
@@ -27,7 +26,6 @@ contains
 
       testsuite = [new_unittest("second frequency", test_partner), &
                    new_unittest("special points of Figures 2 and 3", test_figures), &
-                   new_unittest("map of unstable pairs", test_map), &
                    new_unittest("directions against roots", test_directions), &
                    new_unittest("folds leave along the curve", test_fold_direction)]
    end subroutine collect_hopf_points
@@ -119,36 +117,6 @@ contains
          end associate
       end do
    end subroutine check_points
-
-   !> Cells of a map, against the roots themselves.
-   subroutine test_map(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(curve_plane_type) :: plane
-      type(block_equation_type) :: equation
-      complex(wp), allocatable :: roots(:)
-      integer, parameter :: cells = 6
-      integer :: i, j, k, pairs(cells, cells)
-
-      do k = 1, 2
-         plane = plane_number(k)
-         pairs = unstable_pairs(plane, cells)
-         associate (x => middles(plane%epsilon_window, cells), &
-                    y => middles(plane%ordinate_window, cells))
-            do j = 1, cells
-               do i = 1, cells
-                  equation = block_equation_type(plane%parameters(x(i), y(j)))
-                  call find_roots(equation%linear, 0.0_wp, roots, failure)
-                  call expect_success(error, failure)
-                  if (allocated(error)) return
-                  call expect(error, size(roots) == 2*pairs(i, j), "unstable pairs at epsilon = " &
-                              //text(x(i))//", ordinate "//text(y(j)))
-               end do
-            end do
-         end associate
-         call expect(error, minval(pairs) == 0 .and. maxval(pairs) >= 4, "none and many")
-      end do
-   end subroutine test_map
 
    !> A small way from a double Hopf point along the start of a curve of tori, the growth rates of
    !> both pairs have the ratio that the normal form gives, with p_jj and mu_j of different sign.

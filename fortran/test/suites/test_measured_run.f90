@@ -1,6 +1,5 @@
 !> The baseline with fixed steps on problems with exact solutions, and measured runs.
 module test_measured_run
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use block_parameters, only: block_history_type, block_parameters_type
    use dde, only: dde_problem_type, integration_result, table_sampler, value_not_finite
    use double_numbers, only: evenly_spaced
@@ -31,7 +30,6 @@ contains
                    new_unittest("refusals of rk4", test_rk4_refusals), &
                    new_unittest("sample times", test_sample_times), &
                    new_unittest("measured run", test_one_run), &
-                   new_unittest("measured run that stops", test_stopped_run), &
                    new_unittest("progress of runs", test_progress)]
    end subroutine collect_measured_run
 
@@ -161,28 +159,6 @@ contains
          call expect_between(error, runs(i)%seconds, 1.0e-7_wp, 1.0_wp, "seconds")
       end do
    end subroutine test_one_run
-
-   !> It keeps its samples and says why it ended.
-   subroutine test_stopped_run(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(run_type) :: run(1)
-      type(case_type) :: case
-
-      case = case_type(name="stiff", history=block_history_type(v=1.1_wp), t_end=50.0_wp, &
-                       parameters=block_parameters_type(tau=1.0_wp, epsilon=0.7_wp, xi=0.5_wp, &
-                                                        gamma=1.0e2_wp), sample_interval=0.05_wp)
-      run%method = "explicit"
-      run%setting = 1.0e-8_wp
-      call measure_run(case, 0.0_wp, 500_int64, run(1))
-      call expect(error, run(1)%status == "too_many_steps", "too many steps")
-      call expect(error, index(run(1)%reason, "500 steps (most_steps) were used up") > 0, &
-                  run(1)%reason)
-      call expect(error, .not. any(ieee_is_nan(run(1)%samples(:, 1:3))), "samples that it reached")
-      call expect(error, all(ieee_is_nan(run(1)%samples(:, 1001))), "none at the end")
-      run%seconds = -1.0_wp
-      call time_runs(case, 500_int64, 3, 0.0_wp, run)
-      call expect_close(error, run%seconds, [-1.0_wp], 0.0_wp, "seconds of a run that stopped")
-   end subroutine test_stopped_run
 
    !> 21 samples of a run, and three turns of two runs.
    subroutine test_progress(error)

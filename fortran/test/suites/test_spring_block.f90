@@ -42,8 +42,6 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("equation (4)", test_equation_4), &
-                   new_unittest("equation (3)", test_equation_3), &
-                   new_unittest("rest", test_rest), &
                    new_unittest("series of the block", test_taylor_series), &
                    new_unittest("slow series of the block", test_slow_series), &
                    new_unittest("tangents of the block", test_tangents), &
@@ -77,36 +75,6 @@ contains
          end associate
       end do
    end subroutine test_equation_4
-
-   !> Without one, the velocity itself takes the place of the delayed one.
-   subroutine test_equation_3(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(spring_block_type) :: block
-      real(wp) :: dydt(3)
-
-      block = build_block(tau=0.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=2.0_wp)
-      call block%rhs(0.0_wp, [0.3_wp, -0.2_wp, log(2.0_wp)], [real(wp) ::], dydt)
-      call expect_close(error, dydt(index_of_theta), -0.6_wp - 3.0_wp*log(2.0_wp), 1.0e-15_wp, &
-                        "dtheta/dt")
-      call expect_close(error, dydt(index_of_u), 1.0_wp, 1.0e-15_wp, "du/dt")
-      call expect_close(error, 2.0_wp*dydt(index_of_ln_v), &
-                        0.8_wp - 5.0_wp*(0.3_wp + log(2.0_wp)), 1.0e-14_wp, "dv/dt")
-   end subroutine test_equation_3
-
-   !> At theta = 0, u = 0, v = 1 nothing moves, with and without delay.
-   subroutine test_rest(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(spring_block_type) :: block
-      real(wp) :: dydt(3), y(3)
-
-      block = build_block(tau=0.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=1.0e6_wp)
-      call block%initial(y)
-      call block%rhs(0.0_wp, y, [real(wp) ::], dydt)
-      call expect_close(error, dydt, [0.0_wp, 0.0_wp, 0.0_wp], 0.0_wp, "derivatives")
-      block = build_block(tau=10.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=1.0e6_wp)
-      call block%rhs(0.0_wp, y, [block%history(-10.0_wp, index_of_ln_v)], dydt)
-      call expect_close(error, dydt, [0.0_wp, 0.0_wp, 0.0_wp], 0.0_wp, "derivatives")
-   end subroutine test_rest
 
    !> The series of the block, with a delayed value that is a polynomial, solves its equations: its
    !> derivative is the right-hand side, but for what follows the last term.

@@ -28,10 +28,6 @@ module delay_equation
    contains
       !> The derivative of any order from 2 on
       procedure(derivative_form), deferred :: derivative
-      !> B(x, y)
-      procedure :: second => second_form
-      !> C(x, y, z)
-      procedure :: third => third_form
    end type delay_equation_type
 
    abstract interface
@@ -66,23 +62,6 @@ contains
       end do
       linear%lag = [0.0_wp, problem%lag]
    end function linear_part
-    !> Second derivative.
-   pure function second_form(self, x, y) result(form)
-      class(delay_equation_type), intent(in) :: self
-      complex(wp), intent(in) :: x(:, :), y(:, :)
-      complex(wp) :: form(size(x, 1))
-
-      form = self%derivative(reshape([x, y], [shape(x), 2]))
-   end function second_form
-
-   !> Third derivative.
-   pure function third_form(self, x, y, z) result(form)
-      class(delay_equation_type), intent(in) :: self
-      complex(wp), intent(in) :: x(:, :), y(:, :), z(:, :)
-      complex(wp) :: form(size(x, 1))
-
-      form = self%derivative(reshape([x, y, z], [shape(x), 3]))
-   end function third_form
 
    !> Delta(s), singular at characteristic roots.
    pure function characteristic_matrix(self, s) result(matrix)

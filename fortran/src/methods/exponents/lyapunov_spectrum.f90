@@ -60,8 +60,6 @@ module lyapunov_spectrum
       real(wp), allocatable :: length(:)
       !> Least share of a vector that was orthogonal to those before it
       real(wp) :: least_share = 1.0_wp
-      !> Whether growth of the last vectors is only bounded from above
-      logical :: bounds = .false.
       !> Right-hand sides evaluated, with their variational equations
       integer(int64) :: evaluations = 0
       !> Time passed with the vectors
@@ -298,7 +296,6 @@ contains
          growth = log(norm/settings%vector_size)
          if (present(observer)) call observer%keep_interval()
       else if (halvings == 0 .and. settings%bounds) then
-         measured%bounds = .true.
          growth = log(max(norm, tiny(1.0_wp))/settings%vector_size)
          if (present(observer)) call observer%keep_interval()
       else if (halvings == 0) then
