@@ -8,23 +8,19 @@
 module cutoff_block
    use block_parameters, only: block_history_type, block_parameters_type
    use block_state, only: index_of_ln_v, index_of_theta, index_of_u
-   use dde, only: dde_problem_type
    use dde_kinds, only: wp
+   use test_problems, only: constant_past
    implicit none (type, external)
    private
    public :: build_cutoff_block, cutoff_block_type, with_jacobian_type, with_series_type
 
    !> Step 1, the right-hand side alone.
-   type, extends(dde_problem_type) :: cutoff_block_type
+   type, extends(constant_past) :: cutoff_block_type
       !> Parameters of the block
       type(block_parameters_type) :: parameters
-      !> State theta, u, ln v for t <= 0
-      real(wp) :: past(3) = 0.0_wp
       !> c, the cut-off, >= 0
       real(wp) :: cutoff = 0.0_wp
    contains
-      procedure :: initial => state_at_zero
-      procedure :: history => constant_history
       procedure :: rhs => equation_with_cutoff
       !> Fill in all components
       procedure :: set
@@ -40,7 +36,6 @@ module cutoff_block
    type, extends(with_jacobian_type) :: with_series_type
    contains
       procedure :: series => series_with_cutoff
-      procedure :: past_series => constant_series
    end type with_series_type
 
 contains
@@ -67,27 +62,9 @@ contains
       self%component = pack([index_of_ln_v], parameters%tau > 0.0_wp)
       self%parameters = parameters
       self%past = [history%theta, history%u, log(history%v)]
+      self%first = self%past
       self%cutoff = cutoff
    end subroutine set
-
-   !> State at t = 0: the end of the history.
-   pure subroutine state_at_zero(self, y)
-      class(cutoff_block_type), intent(in) :: self
-      !> theta, u, ln v at t = 0
-      real(wp), intent(out) :: y(self%n)
-
-      y = self%past
-   end subroutine state_at_zero
-
-   !> Constant history.
-   pure function constant_history(self, t, component) result(value)
-      class(cutoff_block_type), intent(in) :: self
-      real(wp), intent(in) :: t
-      integer, intent(in) :: component
-      real(wp) :: value
-
-      value = self%past(component)
-   end function constant_history
 
    !> L(v) of w = ln v.
    elemental real(wp) function cut_logarithm(w, c) result(value)
@@ -220,16 +197,4 @@ contains
          cut(k) = -(k*e(k) + sum([(j*cut(j)*e(k - j), j=1, k - 1)]))/(k*(e(0) + c))
       end if
    end subroutine extend_logarithm
-
-   !> Series of the constant history.
-   pure subroutine constant_series(self, t, component, unit, y)
-      class(with_series_type), intent(in) :: self
-      real(wp), intent(in) :: t
-      integer, intent(in) :: component
-      real(wp), intent(in) :: unit
-      real(wp), intent(out) :: y(0:)
-
-      y = 0.0_wp
-      y(0) = self%past(component)
-   end subroutine constant_series
 end module cutoff_block

@@ -36,7 +36,6 @@ contains
                    new_unittest("roots at rest", test_rest), &
                    new_unittest("mackey-glass", test_mackey_glass), &
                    new_unittest("exponents across the flow", test_across), &
-                   new_unittest("error control", test_error_control), &
                    new_unittest("averages", test_averages), &
                    new_unittest("errors of averages", test_errors), &
                    new_unittest("dimension", test_dimension)]
@@ -118,27 +117,6 @@ contains
       if (allocated(error)) return
       call expect_close(error, exponents%value, roots, 1.0e-6_wp, "exponents")
    end subroutine test_two_delays
-
-   !> Exponents are the same whether the vectors claim their part of the tolerance or, made a
-   !> hundred times smaller, less; and at another tolerance.
-   subroutine test_error_control(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(exponent_type), allocatable :: exponents(:), others(:)
-      type(growth_settings_type) :: settings
-      type(spring_block_type) :: oscillation
-
-      oscillation = build_block(tau=10.0_wp, epsilon=0.35_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp)
-      settings = growth_settings_type(exponents=3, t_begin=300.0_wp, t_end=500.0_wp, &
-                                      t_turning=2000.0_wp, interval=5.0_wp, blocks=2)
-      call solve(oscillation, settings, at_tolerance(1.0e-8_wp), exponents, error)
-      settings%vector_size = 1.0e-4_wp
-      call solve(oscillation, settings, at_tolerance(1.0e-8_wp), others, error)
-      if (allocated(error)) return
-      call expect_close(error, others%value, exponents%value, 1.0e-6_wp, "without the vectors")
-      call solve(oscillation, settings, at_tolerance(1.0e-6_wp), others, error)
-      if (allocated(error)) return
-      call expect_close(error, others%value, exponents%value, 1.0e-5_wp, "at another tolerance")
-   end subroutine test_error_control
 
    !> Where steady sliding attracts, exponents are the real parts of characteristic roots, at gamma
    !> = 0.8 as at 1e6 to 1e12, and a unit of time costs hardly more steps. The vectors begin before

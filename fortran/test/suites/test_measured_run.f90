@@ -10,7 +10,6 @@ module test_measured_run
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use measured_case, only: case_type
    use measured_run, only: measure_run, run_type, time_runs
-   use progress_recorder, only: expect_counted, recorder
    use test_problems, only: linear, sine
    use undelayed_problems, only: falls_out, without_delays
    implicit none (type, external)
@@ -29,8 +28,7 @@ contains
                    new_unittest("samples of rk4", test_rk4_samples), &
                    new_unittest("refusals of rk4", test_rk4_refusals), &
                    new_unittest("sample times", test_sample_times), &
-                   new_unittest("measured run", test_one_run), &
-                   new_unittest("progress of runs", test_progress)]
+                   new_unittest("measured run", test_one_run)]
    end subroutine collect_measured_run
 
    !> y' = -y(t-1), y = 1 up to t = 0, at t = 10.
@@ -159,22 +157,4 @@ contains
          call expect_between(error, runs(i)%seconds, 1.0e-7_wp, 1.0_wp, "seconds")
       end do
    end subroutine test_one_run
-
-   !> 21 samples of a run, and three turns of two runs.
-   subroutine test_progress(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(case_type) :: case
-      type(recorder) :: samples, turns
-      type(run_type) :: runs(2)
-
-      case = case_type(name="short", parameters=block_parameters_type(tau=1.0_wp, epsilon=0.5_wp), &
-                       history=block_history_type(v=1.1_wp), t_end=10.0_wp, sample_interval=0.5_wp)
-      runs = run_type("explicit", 1.0e-6_wp)
-      call measure_run(case, 0.0_wp, 100000_int64, runs(1))
-      call measure_run(case, 0.0_wp, 100000_int64, runs(2), samples)
-      call expect(error, all(runs%status == "ok"), "status")
-      call expect_counted(error, samples, 21)
-      call time_runs(case, 100000_int64, 3, 0.0_wp, runs, turns)
-      call expect_counted(error, turns, 3)
-   end subroutine test_progress
 end module test_measured_run

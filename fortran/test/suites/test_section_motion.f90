@@ -28,7 +28,6 @@ contains
                    new_unittest("torus of several loops", test_several_loops), &
                    new_unittest("noise", test_noise), &
                    new_unittest("logistic map", test_logistic), &
-                   new_unittest("few points and many", test_number_of_points), &
                    new_unittest("the last points of a cycle", test_tail), &
                    new_unittest("drift of maxima", test_drift)]
    end subroutine collect_section_motion
@@ -179,25 +178,6 @@ contains
                      "the logistic map at "//text(r(k)))
       end do
    end subroutine test_logistic
-
-   !> Fewer than 40 points tell nothing; of many the last 1000 count.
-   subroutine test_number_of_points(error)
-      type(error_type), allocatable, intent(out) :: error
-      integer, parameter :: n = 1500
-      real(wp) :: points(2, n), times(n)
-
-      times = turns(n)
-      points = loop(f2*times)
-      call expect_close(error, roughness(points(:, :39), times(:39), both), not_measured, 0.0_wp, &
-                        "39 points")
-      call expect_between(error, roughness(points(:, :40), times(:40), both), 0.0_wp, &
-                          torus_roughness, "40 points")
-      points(:, :500) = noise(8, 1.0_wp, 500)
-      call expect_close(error, roughness(points, times, both), &
-                        roughness(points(:, 501:), times(501:), both), 0.0_wp, "the last 1000")
-      call expect(error, roughness(points(:, :1000), times(:1000), both) > torus_roughness, &
-                  "half of them noise")
-   end subroutine test_number_of_points
 
    !> A cycle is reached where the last points repeat within 1e-5, closer and closer, whatever came
    !> before; a slow drift is none, and neither are points that move away from it.

@@ -2,13 +2,13 @@
 module test_slip_events
    use block_builder, only: build_block
    use block_state, only: index_of_ln_v, index_of_theta, index_of_u
-   use dde, only: dde_problem_type
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
    use expectations, only: expect, expect_close, expect_success
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use slip_events, only: find_slip_events, slip_events_type
    use solving, only: at_tolerance
+   use test_problems, only: constant_past, fill
    implicit none (type, external)
    private
    public :: collect_slip_events
@@ -16,11 +16,11 @@ module test_slip_events
    real(wp), parameter :: pi = acos(-1.0_wp), tolerance = 1.0e-12_wp, bound = 1.0e-9_wp
 
    !> u' = v - 1 with ln v = a sin t + b sin 3t.
-   type, extends(dde_problem_type) :: prescribed_type
+   type, extends(constant_past) :: prescribed_type
       !> Amplitudes
       real(wp) :: a = 1.0_wp, b = 0.0_wp
    contains
-      procedure :: initial, history, rhs
+      procedure :: rhs
    end type prescribed_type
 
 contains
@@ -33,23 +33,6 @@ contains
                    new_unittest("transient and unfinished events", test_ends), &
                    new_unittest("no event", test_none)]
    end subroutine collect_slip_events
-
-   !> At t = 0.
-   pure subroutine initial(self, y)
-      class(prescribed_type), intent(in) :: self
-      real(wp), intent(out) :: y(self%n)
-
-      y = 0.0_wp
-   end subroutine initial
-
-   !> Before, without influence.
-   pure real(wp) function history(self, t, component) result(value)
-      class(prescribed_type), intent(in) :: self
-      real(wp), intent(in) :: t
-      integer, intent(in) :: component
-
-      value = 0.0_wp
-   end function history
 
    !> Time derivatives.
    pure subroutine rhs(self, t, y, z, dydt)
@@ -70,10 +53,9 @@ contains
       type(failure_type), allocatable :: failure
       type(prescribed_type) :: problem
 
-      problem%n = 3
+      call fill(problem, 3, spread(0.0_wp, 1, 3), spread(0.0_wp, 1, 3), [real(wp) ::], [integer ::])
       problem%a = a
       problem%b = b
-      allocate (problem%lag(0), problem%component(0))
       call find_slip_events(problem, t_transient, t_end, at_tolerance(tolerance), events, failure)
       call expect_success(error, failure)
    end subroutine events_of

@@ -14,6 +14,9 @@ module lyapunov_spectrum
    public :: extend_growth, growth_settings_type, growth_type, interval_observer_type, &
              measure_growth
 
+   !> Norm of the vectors after orthonormalisation. They need fewer digits than the solution: the
+   !> absolute tolerance over this is their relative one.
+   real(wp), parameter :: vector_size = 0.01_wp
    !> A part smaller than this number of tolerances of the vector it is taken from is noise.
    real(wp), parameter :: noise = 10.0_wp
    !> How often an interval in which a vector is lost to noise is halved, before that is an error.
@@ -33,9 +36,6 @@ module lyapunov_spectrum
       real(wp) :: interval = 0.0_wp
       !> The number of intervals is a multiple of this
       integer :: blocks = 2
-      !> Norm of the vectors after orthonormalisation. They need fewer digits than the solution: the
-      !> absolute tolerance over this is their relative one.
-      real(wp) :: vector_size = 0.01_wp
       !> Whether a vector lost to noise gives a bound: what is left of it, noise and all, is its
       !> growth, and it goes on from there. Otherwise that is an error.
       logical :: bounds = .false.
@@ -165,7 +165,7 @@ contains
       if (allocated(error)) return
       tangent = tangent_problem_type(problem, settings%vectors())
       call start_vectors(tangent, approach, measured%continuation)
-      call orthonormalise(tangent, settings%vector_size, settings%across_flow, &
+      call orthonormalise(tangent, vector_size, settings%across_flow, &
                           measured%continuation, norm, share)
       ! no solution of the variational equations yet: a kink
       measured%continuation%rate = [approach%rate, (0.0_wp, i=1, tangent%n - problem%n)]
@@ -261,7 +261,6 @@ contains
    recursive subroutine pass(tangent, settings, options, time, halvings, measured, growth, error, &
                              observer)
       type(tangent_problem_type), intent(in) :: tangent
-      !> Size of the vectors, and what to do where one is lost
       type(growth_settings_type), intent(in) :: settings
       type(integration_options), intent(in) :: options
       real(wp), intent(in) :: time
@@ -275,7 +274,7 @@ contains
       real(wp) :: first_half(size(growth)), lost, norm(size(growth)), share
 
       growth = 0.0_wp
-      lost = noise*max(options%relative, epsilon(1.0_wp))/min(1.0_wp, settings%vector_size)
+      lost = noise*max(options%relative, epsilon(1.0_wp))/vector_size
       before = measured%continuation
       if (present(observer)) then
          call observer%observe_interval(tangent, time, options, outcome, error, &
@@ -289,14 +288,14 @@ contains
       measured%time = measured%time + (time - before%time(1))
       measured%steps = measured%steps + outcome%accepted
       measured%implicit_steps = measured%implicit_steps + outcome%implicit_steps
-      call orthonormalise(tangent, settings%vector_size, settings%across_flow, &
+      call orthonormalise(tangent, vector_size, settings%across_flow, &
                           measured%continuation, norm, share)
       if (share > lost) then
          measured%least_share = min(measured%least_share, share)
-         growth = log(norm/settings%vector_size)
+         growth = log(norm/vector_size)
          if (present(observer)) call observer%keep_interval()
       else if (halvings == 0 .and. settings%bounds) then
-         growth = log(max(norm, tiny(1.0_wp))/settings%vector_size)
+         growth = log(max(norm, tiny(1.0_wp))/vector_size)
          if (present(observer)) call observer%keep_interval()
       else if (halvings == 0) then
          call raise(error, "exponents: at t = "//text(time)//" a share of "//text(share) &
