@@ -7,7 +7,7 @@ module test_quadruple
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use solving, only: at_tolerance, solve
    use test_problems, only: linear
-   use undelayed_problems, only: oscillator, without_delays
+   use undelayed_problems, only: swing
    implicit none (type, external)
    private
    public :: collect_quadruple
@@ -76,14 +76,11 @@ contains
    !> y = cos t.
    subroutine test_oscillator(error)
       type(error_type), allocatable, intent(out) :: error
-      type(oscillator) :: problem
       real(wp), allocatable :: y(:, :)
       integer :: i
 
-      problem = oscillator(n=2, past=[1.0_wp, 0.0_wp], first=[1.0_wp, 0.0_wp])
-      call without_delays(problem)
       do i = 1, size(methods)
-         call solve(problem, [3.0_wp], at_tolerance(tolerance, methods(i)), y, error)
+         call solve(swing(), [3.0_wp], at_tolerance(tolerance, methods(i)), y, error)
          call expect_close(error, y(1, :), [cos(3.0_wp)], within, methods(i))
       end do
    end subroutine test_oscillator

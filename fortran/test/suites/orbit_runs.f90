@@ -8,7 +8,6 @@ module orbit_runs
    use dde_kinds, only: wp
    use expectations, only: expect_success
    use floquet_multipliers, only: find_multipliers, multipliers_type
-   use problem_runs, only: run
    use mctc_env_testing, only: error_type
    use orbit_branch, only: branch_type, follow_branch
    use orbit_change, only: orbit_change_type
@@ -18,7 +17,7 @@ module orbit_runs
    use orbit_start, only: orbit_at_hopf_point, orbit_of_trajectory
    use periodic_orbit, only: periodic_orbit_type
    use problem_family, only: free_family_type, problem_family_type
-   use solving, only: at_tolerance
+   use solving, only: at_tolerance, run
    use special_points, only: special_point_type
    use spring_block, only: index_of_ln_v, spring_block_type
    implicit none (type, external)
@@ -98,7 +97,8 @@ contains
       type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
 
-      call run(block, t_end, at_tolerance(1.0e-9_wp, "auto"), outcome, error, continuation=arrived)
+      call run(error, block, 0.0_wp, t_end, at_tolerance(1.0e-9_wp, "auto"), outcome, &
+               continuation=arrived)
       if (allocated(error)) return
       call orbit_of_trajectory(block, at_tolerance(1.0e-9_wp, "auto"), arrived, index_of_ln_v, &
                                100.0_wp, collocation_basis_type(degree, points), intervals, orbit, &

@@ -9,12 +9,11 @@ module test_attractors
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: growth_type
-   use problem_runs, only: run
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use motion_classes, only: chaos, class_names, cycle_motion, fixed_point, none, three_torus, &
                              torus, undecided
    use observed_motion, only: observed_motion_type
-   use solving, only: at_tolerance
+   use solving, only: at_tolerance, run
    use spring_block, only: spring_block_type
    implicit none (type, external)
    private
@@ -328,7 +327,8 @@ contains
       options = at_tolerance(1.0e-6_wp, "auto")
       do i = 1, size(motion)
          stuck = disturbed(delays(i), epsilons(i), 0.5_wp)
-         call run(stuck, 1000.0_wp, options, outcome, error, continuation=motion(i)%continuation)
+         call run(error, stuck, 0.0_wp, 1000.0_wp, options, outcome, &
+                  continuation=motion(i)%continuation)
          if (allocated(error)) return
          motion(i)%sample_interval = 0.1_wp
          call motion(i)%clear()

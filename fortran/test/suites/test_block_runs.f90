@@ -11,8 +11,7 @@ module test_block_runs
    use expectations, only: expect, expect_between, expect_close
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use plain_blocks, only: plain_block
-   use problem_runs, only: run
-   use solving, only: at_tolerance
+   use solving, only: at_tolerance, run
    use spring_block, only: spring_block_type
    implicit none (type, external)
    private
@@ -51,9 +50,9 @@ contains
       type(integration_result) :: known, outcome
       integer :: i
 
-      call run(torus(), 100.0_wp, at_tolerance(1.0e-13_wp, "radau13"), known, error)
+      call run(error, torus(), 0.0_wp, 100.0_wp, at_tolerance(1.0e-13_wp, "radau13"), known)
       do i = 2, 12
-         call run(torus(), 100.0_wp, at_tolerance(10.0_wp**(-i), "taylor"), outcome, error)
+         call run(error, torus(), 0.0_wp, 100.0_wp, at_tolerance(10.0_wp**(-i), "taylor"), outcome)
          call expect_close(error, outcome%y, known%y, 100*10.0_wp**(-i), "1e-"//text(i))
       end do
    end subroutine test_proportional
@@ -89,10 +88,11 @@ contains
          do delays = 0, 1
             problem = build_block(tau=1.0_wp*delays, epsilon=0.7_wp, xi=0.5_wp, gamma=gamma(i), &
                                   v=1.1_wp)
-            call run(problem, 20.0_wp, at_tolerance(1.0e-12_wp, "radau13"), known, error)
+            call run(error, problem, 0.0_wp, 20.0_wp, at_tolerance(1.0e-12_wp, "radau13"), known)
             do j = 3, 11, 2
                do k = 1, 2
-                  call run(problem, 20.0_wp, at_tolerance(10.0_wp**(-j), both(k)), outcome, error)
+                  call run(error, problem, 0.0_wp, 20.0_wp, at_tolerance(10.0_wp**(-j), both(k)), &
+                           outcome)
                   call expect_close(error, outcome%y, known%y, 100*10.0_wp**(-j), &
                                     trim(both(k))//" at gamma = "//text(gamma(i))//", 1e-"//text(j))
                   call expect_between(error, real(outcome%accepted, wp), 5.0_wp, 400.0_wp, &
@@ -114,10 +114,10 @@ contains
 
       problem = build_block(tau=0.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, u=50.0_wp, &
                             v=1.1_wp)
-      call run(problem, 45.0_wp, at_tolerance(1.0e-12_wp, "radau13"), known, error)
+      call run(error, problem, 0.0_wp, 45.0_wp, at_tolerance(1.0e-12_wp, "radau13"), known)
       do j = 4, 10, 2
          do i = 1, 2
-            call run(problem, 45.0_wp, at_tolerance(10.0_wp**(-j), both(i)), outcome, error)
+            call run(error, problem, 0.0_wp, 45.0_wp, at_tolerance(10.0_wp**(-j), both(i)), outcome)
             call expect_close(error, outcome%y, known%y, 100*10.0_wp**(-j), &
                               both(i)//" at 1e-"//text(j))
          end do
@@ -140,9 +140,9 @@ contains
       options%most_steps = 10000
       call integrate(problem, 0.0_wp, 20.0_wp, options, outcome, failure)
       call expect(error, outcome%reason == too_many_steps, "the reason is `too_many_steps`")
-      call run(problem, 20.0_wp, at_tolerance(1.0e-12_wp, "radau13"), known, error)
+      call run(error, problem, 0.0_wp, 20.0_wp, at_tolerance(1.0e-12_wp, "radau13"), known)
       do i = 3, 11, 2
-         call run(problem, 20.0_wp, at_tolerance(10.0_wp**(-i), "auto"), outcome, error)
+         call run(error, problem, 0.0_wp, 20.0_wp, at_tolerance(10.0_wp**(-i), "auto"), outcome)
          call expect_close(error, outcome%y, known%y, 1000*10.0_wp**(-i), "1e-"//text(i))
          call expect_between(error, real(outcome%accepted, wp), 30.0_wp, 400.0_wp, "steps")
          call expect(error, outcome%implicit_steps > 10, "implicit steps")
@@ -154,8 +154,9 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(integration_result) :: outcome
 
-      call run(build_block(tau=1.0e-3_wp, epsilon=0.7_wp, xi=0.5_wp, gamma=1.0e6_wp, v=1.1_wp), &
-               20.0_wp, at_tolerance(1.0e-6_wp, "auto"), outcome, error)
+      call run(error, &
+               build_block(tau=1.0e-3_wp, epsilon=0.7_wp, xi=0.5_wp, gamma=1.0e6_wp, v=1.1_wp), &
+               0.0_wp, 20.0_wp, at_tolerance(1.0e-6_wp, "auto"), outcome)
       call expect_between(error, real(outcome%accepted, wp), 20.0_wp, 2000.0_wp, "steps")
       call expect(error, outcome%implicit_steps > 5, "implicit steps")
    end subroutine test_short_delay
@@ -168,9 +169,8 @@ contains
 
       do i = 0, 1
          do j = 4, 10, 2
-            call run( &
-                     build_block(10.0_wp*i, 0.2_wp, 0.8_wp, 0.8_wp, v=1.1_wp), &
-                     1.0e6_wp, at_tolerance(10.0_wp**(-j), "auto"), outcome, error)
+            call run(error, build_block(10.0_wp*i, 0.2_wp, 0.8_wp, 0.8_wp, v=1.1_wp), 0.0_wp, &
+                     1.0e6_wp, at_tolerance(10.0_wp**(-j), "auto"), outcome)
             call expect_between(error, real(outcome%accepted, wp), 20.0_wp, 4000.0_wp, &
                                 "steps at 1e-"//text(j))
          end do
@@ -187,7 +187,8 @@ contains
 
       problem = build_block(tau=0.0_wp, epsilon=0.3_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp)
       do digits = 5, 11, 2
-         call run(problem, 400.0_wp, at_tolerance(10.0_wp**(-digits), "auto"), outcome, error)
+         call run(error, problem, 0.0_wp, 400.0_wp, at_tolerance(10.0_wp**(-digits), "auto"), &
+                  outcome)
          call expect(error, outcome%implicit_steps == 0, "1e-"//text(digits))
       end do
    end subroutine test_damped
@@ -205,7 +206,8 @@ contains
       block_model = build_block(tau=0.0_wp, epsilon=5.0_wp, xi=0.5_wp, gamma=1.0e4_wp, v=1.1_wp)
       do j = 1, size(tolerance)
          do i = 1, size(methods)
-            call run(block_model, 50.0_wp, at_tolerance(tolerance(j), methods(i)), outcome, error)
+            call run(error, block_model, 0.0_wp, 50.0_wp, at_tolerance(tolerance(j), methods(i)), &
+                     outcome)
             associate (theta => outcome%y(1), u => outcome%y(2), w => outcome%y(3))
                call expect_between(error, abs(u), 0.0_wp, 1000.0_wp, trim(methods(i))//": u")
                call expect_close(error, [u + (theta + w)/0.5_wp], [0.0_wp], &
@@ -234,7 +236,8 @@ contains
             associate (square => 10.0_wp**powers(j))
                block_model = build_block(tau=0.0_wp, epsilon=xi, xi=xi, gamma=sqrt(square), &
                                          theta=-w0, v=exp(w0))
-               call run(block_model, 30.0_wp, at_tolerance(tolerance, methods(i)), outcome, error)
+               call run(error, block_model, 0.0_wp, 30.0_wp, at_tolerance(tolerance, methods(i)), &
+                        outcome)
                if (allocated(error)) return
                drift = conserved(outcome%y(2), outcome%y(3)) - conserved(0.0_wp, w0)
                if (j == 1) times_square = drift*square
@@ -271,12 +274,13 @@ contains
                             v=1.1_wp)
       do i = 1, size(methods)
          if (any(methods(i) == ["explicit", "taylor  "])) cycle
-         call run(problem, t_end, at_tolerance(1.0e-10_wp, methods(i)), whole, error)
+         call run(error, problem, 0.0_wp, t_end, at_tolerance(1.0e-10_wp, methods(i)), whole)
          continuation = continuation_type()
          table = event_table([3], [20.0_wp], [0], terminal=[.true.])
          do runs = 1, 1000
-            call run(problem, t_end, at_tolerance(1.0e-10_wp, methods(i)), outcome, error, &
-                     events=table, continuation=continuation)
+            call run(error, problem, continuation%time(1), t_end, &
+                     at_tolerance(1.0e-10_wp, methods(i)), outcome, watcher=table, &
+                     continuation=continuation)
             if (outcome%reason /= event_met .or. allocated(error)) exit
          end do
          call expect_between(error, real(runs, wp), 3.0_wp, 3.0_wp, "runs of "//methods(i))
@@ -298,9 +302,10 @@ contains
          do j = 1, size(v)
             block_model = build_block(tau=1.0e-3_wp, epsilon=0.1_wp, xi=xi(i), gamma=1.0e12_wp, &
                                       v=v(j))
-            call run(block_model, 20.0_wp, at_tolerance(1.0e-10_wp, "radau9"), radau, error)
+            call run(error, block_model, 0.0_wp, 20.0_wp, at_tolerance(1.0e-10_wp, "radau9"), radau)
             do k = 1, size(tolerances)
-               call run(block_model, 20.0_wp, at_tolerance(tolerances(k), "auto"), auto, error)
+               call run(error, block_model, 0.0_wp, 20.0_wp, at_tolerance(tolerances(k), "auto"), &
+                        auto)
                if (allocated(error)) return
                call expect_close(error, auto%y, radau%y, 10*tolerances(k), "xi "//text(xi(i)) &
                                  //", v "//text(v(j))//" at "//text(tolerances(k)))
@@ -325,8 +330,10 @@ contains
             block_model = build_block(tau=tau(i), epsilon=0.7_wp, xi=0.5_wp, gamma=10.0_wp**power, &
                                       v=1.5_wp)
             do j = 1, size(tolerances)
-               call run(block_model, 20.0_wp, at_tolerance(tolerances(j), "radau13"), radau, error)
-               call run(block_model, 20.0_wp, at_tolerance(tolerances(j), "auto"), auto, error)
+               call run(error, block_model, 0.0_wp, 20.0_wp, &
+                        at_tolerance(tolerances(j), "radau13"), radau)
+               call run(error, block_model, 0.0_wp, 20.0_wp, at_tolerance(tolerances(j), "auto"), &
+                        auto)
                if (allocated(error)) return
                price = price_of_trial(block_model, tolerance_type(3, tolerances(j), tolerances(j)))
                call expect(error, auto%work <= 2*(radau%work + price), text(auto%work) &

@@ -63,7 +63,7 @@ contains
       character(len=8), parameter :: names(2) = ["explicit", "radau9  "]
 
       do method = 1, size(names)
-         call solve(linear(n=1, lag=[1.0_wp], component=[1], past=[1.0_wp], first=[1.0_wp]), &
+         call solve(linear(), &
                     growth_settings_type(exponents=6, t_begin=50.0_wp, t_end=350.0_wp, &
                                          t_turning=49.0_wp, interval=0.04_wp, blocks=3), &
                     at_tolerance(1.0e-10_wp, names(method)), exponents, error)
@@ -107,9 +107,7 @@ contains
             s = s - (s - exp(-lag*s))/(1.0_wp + lag*exp(-lag*s))
          end associate
       end do
-      problem%wille_baker = wille_baker(n=3, lag=[1.0_wp, 0.2_wp], component=[1, 2], &
-                                        past=[1.0_wp, 1.0_wp, 1.0_wp], &
-                                        first=[1.0_wp, 1.0_wp, 1.0_wp])
+      problem%wille_baker = wille_baker()
       call solve(problem, &
                  growth_settings_type(exponents=3, t_begin=80.0_wp, t_end=100.0_wp, &
                                       t_turning=70.0_wp, interval=0.5_wp, blocks=2), &
@@ -184,7 +182,7 @@ contains
 
       do j = 1, size(tau)
          call solve( &
-            mackey_glass(n=1, lag=tau(j:j), component=[1], past=[1.2_wp], first=[1.2_wp]), &
+            mackey_glass(lag=tau(j:j)), &
             growth_settings_type(exponents=4, t_begin=1000.0_wp, t_end=25000.0_wp, &
                                  t_turning=700.0_wp, interval=20.0_wp, blocks=4), &
             at_tolerance(1.0e-6_wp, "taylor"), exponents, error)

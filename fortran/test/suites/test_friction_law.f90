@@ -13,9 +13,8 @@ module test_friction_law
    use dde_kinds, only: wp
    use expectations, only: expect, expect_close, expect_success
    use fixed_step_rk4, only: integrate_rk4
-   use problem_runs, only: run
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use solving, only: at_tolerance, solve
+   use solving, only: at_tolerance, run, solve
    use spring_block, only: spring_block_type
    implicit none (type, external)
    private
@@ -60,7 +59,7 @@ contains
       call integrate_rk4(block, 20.0_wp, 0.005_wp, .true., fixed, failure)
       call expect_success(error, failure)
       do i = 1, size(tried)
-         call run(block, 20.0_wp, at_tolerance(1.0e-10_wp, tried(i)), outcome, error)
+         call run(error, block, 0.0_wp, 20.0_wp, at_tolerance(1.0e-10_wp, tried(i)), outcome)
          if (allocated(error)) return
          call expect_close(error, outcome%y, fixed%y, 1.0e-7_wp, "state by "//trim(tried(i)))
       end do

@@ -10,11 +10,10 @@ module test_lyapunov_spectrum
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, &
                                 interval_observer_type, measure_growth
-   use problem_runs, only: run
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use progress_recorder, only: expect_counted, recorder
    use steady_sliding, only: sliding_exponents
-   use solving, only: at_tolerance
+   use solving, only: at_tolerance, run
    use spring_block, only: index_of_ln_v, spring_block_type
    use test_problems, only: linear
    implicit none (type, external)
@@ -124,7 +123,7 @@ contains
 
       call measure_growth(oscillation(), alone, at_tolerance(1.0e-8_wp), one_go, failure)
       call expect_success(error, failure)
-      call run(oscillation(), t_arrived, at_tolerance(1.0e-8_wp), outcome, error, &
+      call run(error, oscillation(), 0.0_wp, t_arrived, at_tolerance(1.0e-8_wp), outcome, &
                continuation=arrived)
       call measure_growth(oscillation(), continued, at_tolerance(1.0e-8_wp), two_goes, failure, &
                           arrived)
@@ -236,8 +235,8 @@ contains
       samples = table_sampler([index_of_ln_v], &
                               [((1.0_wp - real(i, wp)/n)*settings%t_begin &
                                 + real(i, wp)/n*settings%t_end, i=0, n)])
-      call run(stiff(-1.0_wp), settings%t_end, at_tolerance(1.0e-8_wp, "radau9"), outcome, error, &
-               samples=samples)
+      call run(error, stiff(-1.0_wp), 0.0_wp, settings%t_end, at_tolerance(1.0e-8_wp, "radau9"), &
+               outcome, sampler=samples)
       if (allocated(error)) return
       w = samples%values(1, :)
       rate = -exp(w) - 100.0_wp**2/0.5_wp*exp(-w)
@@ -318,7 +317,7 @@ contains
       type(linear) :: problem
       type(recorder) :: receiver
 
-      problem = linear(n=1, lag=[1.0_wp], component=[1], past=[1.0_wp], first=[1.0_wp])
+      problem = linear()
       settings = growth_settings_type(exponents=2, t_begin=6.0_wp, t_end=26.0_wp, &
                                       t_turning=5.0_wp, interval=0.5_wp, blocks=4)
       call measure_growth(problem, settings, at_tolerance(1.0e-6_wp), watched, failure, &

@@ -11,7 +11,7 @@ module test_measured_run
    use measured_case, only: case_type
    use measured_run, only: measure_run, run_type, time_runs
    use test_problems, only: linear, sine
-   use undelayed_problems, only: falls_out, without_delays
+   use undelayed_problems, only: falls_out
    implicit none (type, external)
    private
    public :: collect_measured_run
@@ -34,10 +34,8 @@ contains
    !> y' = -y(t-1), y = 1 up to t = 0, at t = 10.
    subroutine test_order_kinks(error)
       type(error_type), allocatable, intent(out) :: error
-      type(linear) :: problem
 
-      problem = linear(n=1, lag=[1.0_wp], component=[1], past=[1.0_wp], first=[1.0_wp])
-      call expect_orders(problem, 10.0_wp, 10493.0_wp/518400, 0.05_wp, error)
+      call expect_orders(linear(), 10.0_wp, 10493.0_wp/518400, 0.05_wp, error)
    end subroutine test_order_kinks
 
    !> y' = -y(t - pi/2) goes on as sin t; delayed values lie a third of a step off the grid points.
@@ -104,15 +102,12 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
-      type(falls_out) :: no_number
       type(sine) :: problem
 
       problem = sine()
       call integrate_rk4(problem, 10.0_wp, 2.0_wp, .true., outcome, failure)
       call expect_failure(error, failure, "longer than the shortest delay, 1.570796")
-      no_number = falls_out(n=1, past=[0.0_wp], first=[0.0_wp])
-      call without_delays(no_number)
-      call integrate_rk4(no_number, 2.0_wp, 0.1_wp, .true., outcome, failure)
+      call integrate_rk4(falls_out(0.0_wp), 2.0_wp, 0.1_wp, .true., outcome, failure)
       call expect_failure(error, failure, "not finite")
       call expect(error, outcome%reason == value_not_finite, "the reason says so")
       call expect_close(error, outcome%t, 0.9_wp, 1.0e-12_wp, "time reached")

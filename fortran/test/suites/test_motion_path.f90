@@ -9,11 +9,10 @@ module test_motion_path
    use dde_errors, only: text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close
-   use problem_runs, only: run
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use motion_classes, only: cycle_motion, fixed_point
    use motion_path, only: find_kept_points, follow_path
-   use solving, only: at_tolerance
+   use solving, only: at_tolerance, run
    use spring_block, only: index_of_ln_v, index_of_u, spring_block_type
    implicit none (type, external)
    private
@@ -47,18 +46,18 @@ contains
 
       options = at_tolerance(1.0e-10_wp, "auto")
       block_model = build_block(tau=7.0_wp, epsilon=0.7_wp, xi=0.5_wp, gamma=0.8_wp, v=1.1_wp)
-      call run(block_model, 30.0_wp, options, outcome, error, continuation=from)
+      call run(error, block_model, 0.0_wp, 30.0_wp, options, outcome, continuation=from)
       call follow_path(block_model, from, 40.0_wp, 4.0e-3_wp, options, path)
       call expect(error, allocated(path), "a path")
       if (allocated(error)) return
       passages = event_table([index_of_ln_v], level=[0.0_wp], direction=[1])
-      call run(block_model, 70.0_wp, options, outcome, error, events=passages)
+      call run(error, block_model, 0.0_wp, 70.0_wp, options, outcome, watcher=passages)
       if (allocated(error)) return
       associate (times => passages%time(:passages%received)%hi)
          start = minval(times, mask=times > 30.0_wp)
       end associate
       direct = table_sampler([index_of_u, index_of_ln_v], start + path(1, :))
-      call run(block_model, 111.0_wp, options, outcome, error, samples=direct)
+      call run(error, block_model, 0.0_wp, 111.0_wp, options, outcome, sampler=direct)
       if (allocated(error)) return
       call expect_close(error, path(2, :), direct%values(1, :), 1.0e-6_wp, "u")
       call expect_close(error, path(3, :), direct%values(2, :), 1.0e-6_wp, "ln v")
@@ -82,12 +81,13 @@ contains
 
       options = at_tolerance(1.0e-8_wp, "auto")
       block_model = build_block(tau=15.0_wp, epsilon=1.0_wp, xi=0.5_wp, gamma=1.0e8_wp, v=1.5_wp)
-      call run(block_model, 400.0_wp, options, outcome, error, continuation=from)
+      call run(error, block_model, 0.0_wp, 400.0_wp, options, outcome, continuation=from)
       call follow_path(block_model, from, 60.0_wp, 4.0e-3_wp, options, path)
       call expect(error, allocated(path), "a path")
       if (allocated(error)) return
       maxima = event_table([index_of_ln_v], level=[0.0_wp], direction=[-1], of_slope=[.true.])
-      call run(block_model, 600.0_wp, options, outcome, error, events=maxima, continuation=from)
+      call run(error, block_model, 400.0_wp, 600.0_wp, options, outcome, watcher=maxima, &
+               continuation=from)
       if (allocated(error)) return
       largest = maxval(path(3, :))
       call expect_between(error, largest, log(1.0e3_wp), log(1.0e12_wp), "ln v of an event")

@@ -53,7 +53,7 @@ contains
       type(failure_type), allocatable :: failure
       type(prescribed_type) :: problem
 
-      call fill(problem, 3, spread(0.0_wp, 1, 3), spread(0.0_wp, 1, 3), [real(wp) ::], [integer ::])
+      call fill(problem, 3, spread(0.0_wp, 1, 3), spread(0.0_wp, 1, 3))
       problem%a = a
       problem%b = b
       call find_slip_events(problem, t_transient, t_end, at_tolerance(tolerance), events, failure)

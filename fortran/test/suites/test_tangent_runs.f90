@@ -6,9 +6,8 @@ module test_tangent_runs
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use problem_runs, only: run
    use pseudo_random, only: uniform
-   use solving, only: at_tolerance
+   use solving, only: at_tolerance, run
    use spring_block, only: spring_block_type
    use tangent_problem, only: tangent_problem_type
    use tangent_vectors, only: orthonormalise, start_vectors, undisturbed_part
@@ -99,13 +98,16 @@ contains
       call start_after(20.3_wp, 2, tangent, undisturbed, continuation, error)
       if (allocated(error)) return
       continuation%rate = [undisturbed%rate, 0.0_wp, 0.0_wp]
-      call run(tangent, 40.3_wp, at_tolerance(1.0e-9_wp), outcome, error, continuation=continuation)
+      call run(error, tangent, 20.3_wp, 40.3_wp, at_tolerance(1.0e-9_wp), outcome, &
+               continuation=continuation)
       call expect(error, outcome%breaking_points == 7, "the start makes a kink")
       call orthonormalise(tangent, 1.0_wp, .false., continuation, norm, share)
       alone = undisturbed_part(continuation, 1)
-      call run(tangent, 50.3_wp, at_tolerance(1.0e-9_wp), outcome, error, continuation=continuation)
+      call run(error, tangent, 40.3_wp, 50.3_wp, at_tolerance(1.0e-9_wp), outcome, &
+               continuation=continuation)
       call expect(error, outcome%breaking_points == 0, "orthonormalisation makes none")
-      call run(tangent%base, 50.3_wp, at_tolerance(1.0e-9_wp), outcome, error, continuation=alone)
+      call run(error, tangent%base, 40.3_wp, 50.3_wp, at_tolerance(1.0e-9_wp), outcome, &
+               continuation=alone)
       if (allocated(error)) return
       call expect(error, outcome%breaking_points == 0, "nor does going on without vectors")
       call expect_close(error, alone%y, continuation%y(:1), 1.0e-8_wp, "the same solution")
@@ -121,8 +123,9 @@ contains
       type(integration_result) :: outcome
       type(linear) :: problem
 
-      problem = linear(n=1, lag=[1.0_wp], component=[1], past=[1.0_wp], first=[1.0_wp])
-      call run(problem, time, at_tolerance(1.0e-9_wp), outcome, error, continuation=undisturbed)
+      problem = linear()
+      call run(error, problem, 0.0_wp, time, at_tolerance(1.0e-9_wp), outcome, &
+               continuation=undisturbed)
       if (allocated(error)) return
       tangent = tangent_problem_type(problem, vectors)
       call start_vectors(tangent, undisturbed, continuation)
@@ -159,15 +162,15 @@ contains
       integer :: i
 
       tangent = tangent_problem_type(problem, vectors)
-      call run(problem, 20.0_wp, at_tolerance(1.0e-11_wp, methods(1)), outcome, error, &
-               continuation=undisturbed)
+      call run(error, problem, 0.0_wp, 20.0_wp, at_tolerance(1.0e-11_wp, methods(1)), &
+               outcome, continuation=undisturbed)
       if (allocated(error)) return
       call start_vectors(tangent, undisturbed, start)
       start%rate = [undisturbed%rate, (0.0_wp, i=1, tangent%n - problem%n)]
       do i = 1, size(methods)
          continuation = start
-         call run(tangent, 20.0_wp + length, at_tolerance(1.0e-11_wp, methods(i)), outcome, error, &
-                  continuation=continuation)
+         call run(error, tangent, 20.0_wp, 20.0_wp + length, &
+                  at_tolerance(1.0e-11_wp, methods(i)), outcome, continuation=continuation)
          if (allocated(error)) return
          if (i == 1) then
             call expect(error, outcome%implicit_steps == 0, trim(methods(i))//" stays with series")

@@ -36,7 +36,6 @@ contains
    !> A real number, filled up with blanks: 15 digits, which any decimal keeps in double
    !> precision, without the zeros at their end.
    pure function written_real(value) result(words)
-      !> Number to write
       real(wp), intent(in) :: value
       character(len=32) :: words
       character(len=16) :: form
@@ -63,7 +62,6 @@ contains
 
    !> An integer, filled up with blanks.
    pure function written_integer(value) result(words)
-      !> Number to write
       integer(int64), intent(in) :: value
       character(len=32) :: words
 
@@ -74,7 +72,6 @@ contains
    !> specification expression: gfortran keeps the length of an allocatable result in static
    !> storage, which threads share.
    pure function text_of_real(value) result(words)
-      !> Number to write
       real(wp), intent(in) :: value
       character(len=len_trim(written_real(value))) :: words
 
@@ -83,7 +80,6 @@ contains
 
    !> An integer.
    pure function text_of_integer(value) result(words)
-      !> Number to write
       integer, intent(in) :: value
       character(len=len_trim(written_integer(int(value, int64)))) :: words
 
@@ -92,7 +88,6 @@ contains
 
    !> A long integer.
    pure function text_of_long_integer(value) result(words)
-      !> Number to write
       integer(int64), intent(in) :: value
       character(len=len_trim(written_integer(value))) :: words
 

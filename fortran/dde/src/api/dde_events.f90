@@ -44,7 +44,6 @@ module dde_events
       pure subroutine event_values(self, t, y, slope, g)
          import :: event_watcher_type, wp
          implicit none (type, external)
-         !> The watcher
          class(event_watcher_type), intent(in) :: self
          !> Time
          real(wp), intent(in) :: t
@@ -60,7 +59,6 @@ module dde_events
       subroutine take_event(self, which, t, y, slope)
          import :: event_watcher_type, instant, wp
          implicit none (type, external)
-         !> The watcher
          class(event_watcher_type), intent(inout) :: self
          !> Number of the function
          integer, intent(in) :: which
@@ -129,11 +127,8 @@ contains
 
    !> Refuse directions and ends that cannot be.
    pure subroutine check_directions(self, n, error)
-      !> The watcher
       class(event_watcher_type), intent(in) :: self
-      !> Number of equations
       integer, intent(in) :: n
-      !> What is wrong
       type(error_type), allocatable, intent(out) :: error
       integer :: i
 
@@ -161,9 +156,7 @@ contains
 
    !> Functions in general may depend on all components.
    pure function all_components(self, n) result(components)
-      !> The watcher
       class(event_watcher_type), intent(in) :: self
-      !> Number of equations
       integer, intent(in) :: n
       integer, allocatable :: components(:)
       integer :: i
@@ -173,7 +166,6 @@ contains
 
    !> Nothing is known of functions in general.
    pure logical function not_known(self, least, most, least_slope, most_slope) result(value)
-      !> The watcher
       class(event_watcher_type), intent(in) :: self
       !> Bounds of each component, shape (n)
       real(wp), intent(in) :: least(:), most(:)
@@ -185,11 +177,8 @@ contains
 
    !> Refuse levels of components that are not there.
    pure subroutine check_table(self, n, error)
-      !> The table
       class(event_table), intent(in) :: self
-      !> Number of equations
       integer, intent(in) :: n
-      !> What is wrong
       type(error_type), allocatable, intent(out) :: error
       integer :: i
 
@@ -213,9 +202,7 @@ contains
 
    !> Components of the table. An extension may have other functions: nothing is known of those.
    pure function components_of_table(self, n) result(components)
-      !> The table
       class(event_table), intent(in) :: self
-      !> Number of equations
       integer, intent(in) :: n
       integer, allocatable :: components(:)
       type(event_table) :: plain
@@ -229,7 +216,6 @@ contains
    !> Whether components and slopes keep from their levels. An extension may have other functions:
    !> nothing is known of those.
    pure logical function never_at_level(self, least, most, least_slope, most_slope) result(value)
-      !> The table
       class(event_table), intent(in) :: self
       !> Bounds of each component, shape (n)
       real(wp), intent(in) :: least(:), most(:)
@@ -247,15 +233,12 @@ contains
 
    !> Components or slopes, less their levels.
    pure subroutine less_level(self, t, y, slope, g)
-      !> The table
       class(event_table), intent(in) :: self
       !> Time, without influence
       real(wp), intent(in) :: t
-      !> State
       real(wp), intent(in) :: y(:)
       !> Time derivative of the state
       real(wp), intent(in) :: slope(:)
-      !> The functions
       real(wp), intent(out) :: g(:)
       integer :: i
 
@@ -270,13 +253,9 @@ contains
 
    !> Fill the next row.
    subroutine take_row(self, which, t, y, slope)
-      !> The table
       class(event_table), intent(inout) :: self
-      !> Number of the function
       integer, intent(in) :: which
-      !> When
       type(instant), intent(in) :: t
-      !> State there
       real(wp), intent(in) :: y(:)
       !> Time derivative of the state, not kept
       real(wp), intent(in) :: slope(:)

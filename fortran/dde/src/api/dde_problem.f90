@@ -55,7 +55,6 @@ module dde_problem
       pure subroutine initial_state(self, y)
          import :: dde_problem_type, wp
          implicit none (type, external)
-         !> The problem
          class(dde_problem_type), intent(in) :: self
          !> y(t0), shape (n)
          real(wp), intent(out) :: y(self%n)
@@ -65,7 +64,6 @@ module dde_problem
       pure function past_value(self, t, component) result(value)
          import :: dde_problem_type, wp
          implicit none (type, external)
-         !> The problem
          class(dde_problem_type), intent(in) :: self
          !> Time
          real(wp), intent(in) :: t
@@ -78,7 +76,6 @@ module dde_problem
       pure subroutine right_hand_side(self, t, y, z, dydt)
          import :: dde_problem_type, wp
          implicit none (type, external)
-         !> The problem
          class(dde_problem_type), intent(in) :: self
          !> Time
          real(wp), intent(in) :: t
@@ -95,7 +92,6 @@ contains
 
    !> Derivatives of the right-hand side by y and z: `not_given` unless the extension gives them.
    pure subroutine no_jacobian(self, t, y, z, by_y, by_z)
-      !> The problem
       class(dde_problem_type), intent(in) :: self
       !> Time
       real(wp), intent(in) :: t
@@ -116,7 +112,6 @@ contains
    !> coefficient k + 1 of y is unit/(k + 1) times coefficient k of f. Not a number unless the
    !> extension gives it.
    pure subroutine no_series(self, t, unit, degree, z, y)
-      !> The problem
       class(dde_problem_type), intent(in) :: self
       !> Time
       real(wp), intent(in) :: t
@@ -135,7 +130,6 @@ contains
    !> Taylor series of one component, as it was before the initial time, in powers of
    !> (t' - t)/unit. Not a number unless the extension gives it.
    pure subroutine no_past_series(self, t, component, unit, y)
-      !> The problem
       class(dde_problem_type), intent(in) :: self
       !> Time, at which the series begins
       real(wp), intent(in) :: t
@@ -152,7 +146,6 @@ contains
    !> Rate at which fast components approach a balance with the others from any start:
    !> y_c' = rate (balance - y_c) near it. 0 unless the extension gives it.
    pure function no_relaxation(self, t, y) result(rate)
-      !> The problem
       class(dde_problem_type), intent(in) :: self
       !> Time
       real(wp), intent(in) :: t
@@ -169,7 +162,6 @@ contains
    !> fast components (also their values at t) are the balance minus y_c'/rate with the last y_c'.
    !> The others follow as in `series`. Not a number unless the extension gives it.
    pure subroutine no_slow_series(self, t, unit, degree, z, y)
-      !> The problem
       class(dde_problem_type), intent(in) :: self
       !> Time
       real(wp), intent(in) :: t

@@ -111,9 +111,7 @@ contains
 
    !> Refuse a problem that is not one.
    pure subroutine check_problem(problem, error)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> What is wrong
       type(error_type), allocatable, intent(out) :: error
       integer :: k
 
@@ -149,13 +147,8 @@ contains
    !> Refuse a span that is not finite or not ascending. A continued run starts exactly where the
    !> earlier one ended.
    pure subroutine check_span(t_start, t_end, error, continuation)
-      !> Initial time
-      real(wp), intent(in) :: t_start
-      !> Final time
-      real(wp), intent(in) :: t_end
-      !> What is wrong
+      real(wp), intent(in) :: t_start, t_end
       type(error_type), allocatable, intent(out) :: error
-      !> Where an earlier run ended
       type(continuation_type), intent(in), optional :: continuation
       type(instant) :: start
 
@@ -172,11 +165,8 @@ contains
 
    !> Refuse tolerances, limits and a method out of range.
    pure subroutine check_options(problem, options, error)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Method, tolerances and limits
       type(integration_options), intent(in) :: options
-      !> What is wrong
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: names
       integer :: i
@@ -221,11 +211,8 @@ contains
 
    !> Refuse tolerances of components out of range.
    pure subroutine check_each(n, options, error)
-      !> Number of equations
       integer, intent(in) :: n
-      !> What the caller chose
       type(integration_options), intent(in) :: options
-      !> What is wrong
       type(error_type), allocatable, intent(out) :: error
 
       if (allocated(options%each_relative)) then
@@ -240,17 +227,13 @@ contains
 
    !> Refuse a list of tolerances of wrong size or out of range.
    pure subroutine check_list(n, name, values, range, allowed, error)
-      !> Number of equations
       integer, intent(in) :: n
-      !> Name of the list
       character(len=*), intent(in) :: name
-      !> The list
       real(wp), intent(in) :: values(:)
       !> What is allowed
       character(len=*), intent(in) :: range
       !> Which of them are, shape of values
       logical, intent(in) :: allowed(:)
-      !> What is wrong
       type(error_type), allocatable, intent(out) :: error
       integer :: i
 
@@ -269,7 +252,6 @@ contains
 
    !> Whether a number is finite and > 0.
    elemental logical function positive(x) result(value)
-      !> The number
       real(wp), intent(in) :: x
 
       value = above_zero(x) .and. ieee_is_finite(x)
@@ -277,7 +259,6 @@ contains
 
    !> Whether a number is > 0, infinite or not.
    elemental logical function above_zero(x) result(value)
-      !> The number
       real(wp), intent(in) :: x
 
       value = .false.
@@ -286,7 +267,6 @@ contains
 
    !> Whether a number is 0.
    elemental logical function is_zero(x) result(value)
-      !> The number
       real(wp), intent(in) :: x
 
       value = .false.

@@ -32,7 +32,6 @@ module dde_sampler
       subroutine take_sample(self, y)
          import :: sampler_type, wp
          implicit none (type, external)
-         !> The sampler
          class(sampler_type), intent(inout) :: self
          !> Values of the wanted components, shape (size(wanted))
          real(wp), intent(in) :: y(:)
@@ -60,15 +59,11 @@ contains
 
    !> Refuse components outside 1..n, and samples before the run.
    pure subroutine check_wanted(self, n, t_start, goes_on, error)
-      !> The sampler
       class(sampler_type), intent(in) :: self
-      !> Number of equations
       integer, intent(in) :: n
-      !> Initial time of the run
       real(wp), intent(in) :: t_start
       !> Whether the run goes on from an earlier one
       logical, intent(in) :: goes_on
-      !> What is wrong
       type(error_type), allocatable, intent(out) :: error
       integer :: i
 
@@ -97,15 +92,11 @@ contains
 
    !> Refuse times that do not ascend, and a table that an earlier run filled.
    pure subroutine check_table(self, n, t_start, goes_on, error)
-      !> The table
       class(table_sampler), intent(in) :: self
-      !> Number of equations
       integer, intent(in) :: n
-      !> Initial time of the run
       real(wp), intent(in) :: t_start
       !> Whether the run goes on from an earlier one
       logical, intent(in) :: goes_on
-      !> What is wrong
       type(error_type), allocatable, intent(out) :: error
       integer :: i
 
@@ -148,7 +139,6 @@ contains
 
    !> Fill the next row.
    subroutine take_row(self, y)
-      !> The table
       class(table_sampler), intent(inout) :: self
       !> Values of the wanted components
       real(wp), intent(in) :: y(:)

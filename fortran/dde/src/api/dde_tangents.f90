@@ -26,7 +26,6 @@ contains
    !> Taylor series of disturbances of the solution: the derivative of `series`. Not a number unless
    !> the extension gives it.
    pure subroutine no_tangent_series(self, t, unit, degree, z, y, vectors, dz, dy)
-      !> The problem
       class(problem_with_tangents), intent(in) :: self
       !> Time
       real(wp), intent(in) :: t
@@ -51,7 +50,6 @@ contains
    !> A better series of disturbances of the slow solution: the derivative of one iteration of
    !> `slow_series`. Not a number unless the extension gives it.
    pure subroutine no_slow_tangent_series(self, t, unit, degree, z, before, y, vectors, dz, dy)
-      !> The problem
       class(problem_with_tangents), intent(in) :: self
       !> Time
       real(wp), intent(in) :: t

@@ -19,10 +19,7 @@ module dde_tolerance
       !> The largest of all of them
       real(wp) :: level = 0.0_wp
    contains
-      !> Tolerances for a state
-      procedure :: scale
-      !> Tolerance of one component
-      procedure :: of_component
+      procedure :: scale, of_component
    end type tolerance_type
 
    interface tolerance_type
@@ -34,7 +31,6 @@ contains
    !> Scalars hold for all components, lists for one each.
    pure function new_tolerance(n, relative, absolute, each_relative, each_absolute) &
       result(tolerance)
-      !> Number of equations
       integer, intent(in) :: n
       !> Relative tolerance
       real(wp), intent(in) :: relative
@@ -56,9 +52,7 @@ contains
 
    !> Tolerances for a state.
    pure subroutine scale(self, y, values)
-      !> The tolerance
       class(tolerance_type), intent(in) :: self
-      !> State, shape (n)
       real(wp), contiguous, intent(in) :: y(:)
       !> Tolerance of each component, shape (n)
       real(wp), contiguous, intent(out) :: values(:)
@@ -68,11 +62,8 @@ contains
 
    !> Tolerance of one component.
    pure real(wp) function of_component(self, i, value) result(tolerance)
-      !> The tolerance
       class(tolerance_type), intent(in) :: self
-      !> Number of the component
       integer, intent(in) :: i
-      !> Value of the component
       real(wp), intent(in) :: value
 
       tolerance = self%absolute(i) + self%relative(i)*abs(value)

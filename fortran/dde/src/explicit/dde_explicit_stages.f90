@@ -119,21 +119,12 @@ contains
    !> not finite. The addition is scalar: the evaluation has just stored the slope number by number,
    !> and a vector load would wait until all of them are in the cache.
    pure subroutine add(context, t, stage, weight, newest, z, slope, finite)
-      !> The context of the step
       type(step_context), intent(inout) :: context
-      !> Time of the stage
       real(wp), intent(in) :: t
       !> State of the stage, completed here
       real(wp), intent(inout) :: stage(context%problem%n)
-      !> Weight of the newest slope
-      real(wp), intent(in) :: weight
-      !> The newest slope
-      real(wp), intent(in) :: newest(context%problem%n)
-      !> Delayed values
-      real(wp), intent(in) :: z(size(context%problem%lag))
-      !> Slope of the stage
+      real(wp), intent(in) :: weight, newest(context%problem%n), z(size(context%problem%lag))
       real(wp), intent(inout) :: slope(context%problem%n)
-      !> Whether all slopes so far are finite
       logical, intent(inout) :: finite
 
       stage = stage + weight*newest
@@ -202,11 +193,9 @@ contains
 
    !> The largest e5^2/sqrt(e5^2 + 0.01 e3^2), with e3 and e5 over `scale`.
    pure real(wp) function combine(n, e3, e5, scale) result(error)
-      !> Number of equations
       integer, intent(in) :: n
       !> Errors of the embedded methods, finite
       real(wp), intent(in) :: e3(n), e5(n)
-      !> Tolerance of each component, shape (n)
       real(wp), intent(in) :: scale(n)
       real(wp) :: of_3, of_5
       integer :: i

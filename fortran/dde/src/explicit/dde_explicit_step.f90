@@ -31,12 +31,7 @@ module dde_explicit_step
       !> Whether all slopes so far are finite
       logical :: finite = .true.
    contains
-      procedure :: attempt
-      procedure :: complete
-      procedure :: extend
-      procedure :: interpolant
-      procedure :: stiff
-      procedure :: advance
+      procedure :: attempt, complete, extend, interpolant, stiff, advance
    end type explicit_step_type
 
    interface explicit_step_type
@@ -47,7 +42,6 @@ contains
 
    !> Storage, and the state at the initial time.
    pure function new_step(problem) result(step)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
       type(explicit_step_type) :: step
       integer :: blocks
@@ -67,11 +61,8 @@ contains
    !> Attempt a step. `error` is the 853 estimate in units of the tolerance, or not finite if an
    !> evaluation was not.
    pure subroutine attempt(self, context, error)
-      !> The step
       class(explicit_step_type), intent(inout) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
-      !> Estimated error in units of the tolerance
       real(wp), intent(out) :: error
 
       self%t = context%cursor%t
@@ -96,11 +87,8 @@ contains
 
    !> Copy n numbers. Either side may be stored in lanes.
    pure subroutine copy(n, from, to)
-      !> Number of elements
       integer, intent(in) :: n
-      !> Source
       real(wp), intent(in) :: from(n)
-      !> Copy
       real(wp), intent(inout) :: to(n)
 
       to = from
@@ -108,9 +96,7 @@ contains
 
    !> Slope 13, at the end of an accepted step.
    pure subroutine complete(self, context)
-      !> The step
       class(explicit_step_type), intent(inout) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
 
       call evaluate(context, context%cursor%inside(self%t + self%h), self%y_new, &
@@ -121,7 +107,6 @@ contains
    !> arguments, both at the end of the step (Hairer and Wanner 1996, sec. IV.2), in units of the
    !> tolerance.
    pure logical function stiff(self) result(value)
-      !> The step
       class(explicit_step_type), intent(in) :: self
       real(wp) :: distance, rise
       integer :: block, i, lane
@@ -140,7 +125,6 @@ contains
 
    !> The end becomes the start of the next step. Its slope is slope 13 of this one.
    pure subroutine advance(self)
-      !> The step
       class(explicit_step_type), intent(inout) :: self
 
       self%y = self%y_new
@@ -149,9 +133,7 @@ contains
 
    !> Slopes 14 to 16 of an accepted step.
    pure subroutine extend(self, context)
-      !> The step
       class(explicit_step_type), intent(inout) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
 
       call context%delayed_values(self%h*dense_places, self%dense_delayed)
@@ -161,11 +143,8 @@ contains
 
    !> Dense output of component `i` over an accepted and extended step, before `advance`.
    pure subroutine interpolant(self, i, a)
-      !> The step
       class(explicit_step_type), intent(in) :: self
-      !> Number of the component
       integer, intent(in) :: i
-      !> Newton coefficients over `nodes`
       real(wp), contiguous, intent(out) :: a(0:)
       real(wp) :: slopes(slope_count)
 

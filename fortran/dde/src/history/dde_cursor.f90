@@ -34,16 +34,7 @@ module dde_cursor
       !> Whether the delayed value lies before the initial time
       logical, allocatable :: before_origin(:)
    contains
-      !> Go to a step
-      procedure, non_overridable :: set
-      !> A time at which the right-hand side may be evaluated
-      procedure, non_overridable :: inside
-      !> All delayed values at places of the step
-      procedure, non_overridable :: values
-      !> A time in the problem's history
-      procedure, non_overridable :: time_before
-      !> Let one delayed value read the past step at a place, or a given past step
-      procedure, non_overridable :: walk_to, read_from
+      procedure, non_overridable :: set, inside, values, time_before, walk_to, read_from
    end type cursor_type
 
    interface cursor_type
@@ -54,7 +45,6 @@ contains
 
    !> A cursor on no step.
    pure function new_cursor(problem) result(cursor)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
       type(cursor_type) :: cursor
 
@@ -67,15 +57,10 @@ contains
    !> Go to the step from `start`, `length` long. Steps end at every time where a delayed time
    !> passes the initial time, so that a delayed value lies on one side of it for the whole step.
    pure subroutine set(self, problem, past, start, length)
-      !> The cursor
       class(cursor_type), intent(inout) :: self
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The past
       type(history_type), intent(in) :: past
-      !> Start of the step
       type(instant), intent(in) :: start
-      !> Length of the step
       real(wp), intent(in) :: length
       integer :: k
 
@@ -92,7 +77,6 @@ contains
 
    !> The time nearest to `t` at which the right-hand side may be evaluated.
    pure real(wp) function inside(self, t) result(time)
-      !> The cursor
       class(cursor_type), intent(in) :: self
       !> A time from the start of the step to its end
       real(wp), intent(in) :: t
@@ -102,11 +86,8 @@ contains
 
    !> All delayed values at places of the step, each place after the one before.
    pure subroutine values(self, problem, past, ahead, z)
-      !> The cursor
       class(cursor_type), intent(inout) :: self
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The past
       type(history_type), intent(in) :: past
       !> Times since the start of the step, ascending, 0..length, at most `most_places`
       real(wp), contiguous, intent(in) :: ahead(:)
@@ -130,14 +111,9 @@ contains
 
    !> A time in the problem's history. Where that may jump it lies between those of the step's ends.
    pure real(wp) function time_before(self, past, lag, ahead) result(time)
-      !> The cursor
       class(cursor_type), intent(in) :: self
-      !> The past
       type(history_type), intent(in) :: past
-      !> The delay
-      real(wp), intent(in) :: lag
-      !> Time since the start of the step
-      real(wp), intent(in) :: ahead
+      real(wp), intent(in) :: lag, ahead
       real(wp) :: margin
 
       time = self%t + (ahead - lag)
@@ -148,11 +124,8 @@ contains
 
    !> One delayed value at several places, ascending: step by step of the past.
    pure subroutine look_up(self, past, k, ahead, z)
-      !> The cursor
       type(cursor_type), intent(inout) :: self
-      !> The past
       type(history_type), intent(in) :: past
-      !> Number of the delayed value
       integer, intent(in) :: k
       !> Times since the start of the step, ascending
       real(wp), contiguous, intent(in) :: ahead(:)
@@ -175,11 +148,8 @@ contains
 
    !> Let delayed value k read the past step that holds a place of the current step.
    pure subroutine walk_to(self, past, k, ahead)
-      !> The cursor
       class(cursor_type), intent(inout) :: self
-      !> The past
       type(history_type), intent(in) :: past
-      !> Number of the delayed value
       integer, intent(in) :: k
       !> Time since the start of the current step
       real(wp), intent(in) :: ahead
@@ -195,13 +165,9 @@ contains
 
    !> Let delayed value k read past step number `step`.
    pure subroutine read_from(self, past, k, step)
-      !> The cursor
       class(cursor_type), intent(inout) :: self
-      !> The past
       type(history_type), intent(in) :: past
-      !> Number of the delayed value
       integer, intent(in) :: k
-      !> Number of the step
       integer(int64), intent(in) :: step
 
       self%step(k) = step

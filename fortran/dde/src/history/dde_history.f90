@@ -46,21 +46,8 @@ module dde_history
       !> degree and the usual degree are 0
       real(wp), allocatable, private :: coefficients(:, :, :)
    contains
-      !> Start, length and validity of a step
-      procedure, non_overridable :: start_of, length_of, validity_of
-      !> One delayed value at one time, and at several
-      procedure, non_overridable :: value, values
-      !> Taylor series of one delayed value
-      procedure, non_overridable :: series
-      !> Store the polynomials of an accepted step, all at once or one by one
-      procedure, non_overridable :: append, open_step, fill
-      !> Double a full ring, if there is memory for it
-      procedure, non_overridable :: make_room
-      !> Read a stored step
-      procedure, non_overridable :: recall
-      !> Drop the steps that ended before a given time
-      procedure, non_overridable :: forget
-      !> Highest degree of the polynomials kept
+      procedure, non_overridable :: start_of, length_of, validity_of, value, values, series
+      procedure, non_overridable :: append, open_step, fill, make_room, recall, forget
       procedure, non_overridable :: degree_in_use
       procedure, non_overridable, private :: double_capacity, is_full, slot_of
    end type history_type
@@ -73,9 +60,7 @@ contains
 
    !> An empty past that begins at `origin`.
    pure function new_history(problem, origin) result(past)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Initial time of the integration
       type(instant), intent(in) :: origin
       type(history_type) :: past
       integer, allocatable :: row_of(:)
@@ -96,9 +81,7 @@ contains
 
    !> Slot of step number `step`.
    pure integer function slot_of(self, step) result(slot)
-      !> The past
       class(history_type), intent(in) :: self
-      !> Number of the step
       integer(int64), intent(in) :: step
 
       slot = 1 + int(iand(step, size(self%start, kind=int64) - 1_int64))
@@ -106,9 +89,7 @@ contains
 
    !> Start of a step.
    pure type(instant) function start_of(self, step) result(start)
-      !> The past
       class(history_type), intent(in) :: self
-      !> Number of the step
       integer(int64), intent(in) :: step
 
       start = self%start(self%slot_of(step))
@@ -116,9 +97,7 @@ contains
 
    !> Length of a step.
    pure real(wp) function length_of(self, step) result(length)
-      !> The past
       class(history_type), intent(in) :: self
-      !> Number of the step
       integer(int64), intent(in) :: step
 
       length = self%length(self%slot_of(step))
@@ -126,9 +105,7 @@ contains
 
    !> Time from the start of a step for which its polynomial is valid, >= its length.
    pure real(wp) function validity_of(self, step) result(time)
-      !> The past
       class(history_type), intent(in) :: self
-      !> Number of the step
       integer(int64), intent(in) :: step
 
       time = self%valid_for(self%slot_of(step))
@@ -136,13 +113,9 @@ contains
 
    !> Delayed value number k by the polynomial of a step, at a time since the start of that step.
    pure real(wp) function value(self, step, k, time) result(z)
-      !> The past
       class(history_type), intent(in) :: self
-      !> Number of the step
       integer(int64), intent(in) :: step
-      !> Number of the delayed value
       integer, intent(in) :: k
-      !> Time since the start of the step
       real(wp), intent(in) :: time
       integer :: slot
 
@@ -153,17 +126,13 @@ contains
 
    !> Delayed value number k by the polynomial of a step, at ascending times up to a limit.
    pure subroutine values(self, step, k, offset, limit, ahead, first, z)
-      !> The past
       class(history_type), intent(in) :: self
-      !> Number of the step
       integer(int64), intent(in) :: step
-      !> Number of the delayed value
       integer, intent(in) :: k
       !> Time from the start of the step to the origin of `ahead`
       real(wp), intent(in) :: offset
       !> Time since the start of the step up to which its polynomial is read
       real(wp), intent(in) :: limit
-      !> Times, ascending
       real(wp), contiguous, intent(in) :: ahead(:)
       !> First time to read; on return the first that lies beyond the limit
       integer, intent(inout) :: first
@@ -179,15 +148,11 @@ contains
 
    !> Delayed value number k as a series in powers of a unit of time, by the polynomial of a step.
    pure subroutine series(self, step, k, time, unit, coefficients)
-      !> The past
       class(history_type), intent(in) :: self
-      !> Number of the step
       integer(int64), intent(in) :: step
-      !> Number of the delayed value
       integer, intent(in) :: k
       !> Where the series begins, as time since the start of the step
       real(wp), intent(in) :: time
-      !> The unit of time
       real(wp), intent(in) :: unit
       !> Coefficients; higher ones than its size are left out
       real(wp), contiguous, intent(out) :: coefficients(0:)
@@ -204,11 +169,8 @@ contains
 
    !> Store the polynomials of the step from `start`, `length` long.
    pure subroutine append(self, start, length, nodes, coefficients, valid_for)
-      !> The past
       class(history_type), intent(inout) :: self
-      !> Start of the step
       type(instant), intent(in) :: start
-      !> Length of the step
       real(wp), intent(in) :: length
       !> Newton nodes of its polynomials
       real(wp), contiguous, intent(in) :: nodes(:)
@@ -237,7 +199,6 @@ contains
 
    !> Double a full ring, if there is memory for it.
    subroutine make_room(self, lacking)
-      !> The past
       class(history_type), intent(inout) :: self
       !> Bytes that could not be allocated, or 0
       real(wp), intent(out) :: lacking
@@ -252,7 +213,6 @@ contains
 
    !> Whether no slot is free.
    pure logical function is_full(self) result(full)
-      !> The past
       class(history_type), intent(in) :: self
 
       full = self%newest - self%oldest + 1 == size(self%start)
@@ -260,17 +220,12 @@ contains
 
    !> Store the step from `start`, `length` long. The caller fills in its coefficients.
    pure subroutine open_step(self, start, length, nodes, powers, valid_for)
-      !> The past
       class(history_type), intent(inout) :: self
-      !> Start of the step
       type(instant), intent(in) :: start
-      !> Length of the step
       real(wp), intent(in) :: length
-      !> Newton nodes of its polynomials
       real(wp), contiguous, intent(in) :: nodes(:)
       !> Whether all of them are 0
       logical, intent(in) :: powers
-      !> Time from `start` for which they are valid; the length if that is longer
       real(wp), intent(in) :: valid_for
       integer :: slot
 
@@ -288,7 +243,6 @@ contains
 
    !> Fill in one polynomial of the newest step.
    pure subroutine fill(self, i, coefficients)
-      !> The past
       class(history_type), intent(inout) :: self
       !> Number of the component among those kept
       integer, intent(in) :: i
@@ -300,13 +254,9 @@ contains
 
    !> Step number `step`, oldest..newest, as it was stored.
    pure subroutine recall(self, step, start, length, valid_for, nodes, coefficients)
-      !> The past
       class(history_type), intent(in) :: self
-      !> Number of the step
       integer(int64), intent(in) :: step
-      !> Start of the step
       type(instant), intent(out) :: start
-      !> Length of the step
       real(wp), intent(out) :: length
       !> Time from `start` for which its polynomial is valid
       real(wp), intent(out) :: valid_for
@@ -328,7 +278,6 @@ contains
    !> Drop the steps that ended before `horizon`. The newest step stays. A step ends where the next
    !> one starts: its length is rounded, and that error may be many lengths of the next step.
    pure subroutine forget(self, horizon)
-      !> The past
       class(history_type), intent(inout) :: self
       !> Nothing before this time will be read
       type(instant), intent(in) :: horizon
@@ -341,7 +290,6 @@ contains
 
    !> Highest degree of the polynomials kept.
    pure integer function degree_in_use(self) result(degree)
-      !> The past
       class(history_type), intent(in) :: self
       integer(int64) :: step
 
@@ -354,7 +302,6 @@ contains
    !> Twice the slots of a full ring. Each step is in its old slot and, a copy, in the same slot of
    !> the second half: its number gives one of these two.
    pure subroutine double_capacity(self)
-      !> The past
       class(history_type), intent(inout) :: self
       real(wp), allocatable :: coefficients(:, :, :), nodes(:, :)
       integer :: slots

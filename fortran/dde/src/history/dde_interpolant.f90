@@ -148,9 +148,7 @@ contains
    !> From powers of x to powers of (x - s)/unit: i! b(i) = unit**i times the sum over j of
    !> (i + j)! a(i + j) s**j/j!. The sums are independent of each other.
    pure subroutine shift(degree, a, s, unit, b)
-      !> Degree
       integer, intent(in) :: degree
-      !> Coefficients
       real(wp), intent(in) :: a(0:degree)
       !> Where the new powers vanish
       real(wp), intent(in) :: s

@@ -40,27 +40,7 @@ module dde_breaking_points
       !> Short steps that the run may still take, and the most
       integer, private :: credit = 0, most_credit = 0
    contains
-      !> Begin a run with the kinks so far and those that the user gave
-      procedure :: begin
-      !> Add a kink where the run stands
-      procedure :: add
-      !> The point at which a step should end
-      procedure :: goal
-      !> Time of a breaking point
-      procedure :: at
-      !> Whether a point is the end of the run
-      procedure :: is_end
-      !> Whether the right-hand side may jump at a point
-      procedure :: is_cause
-      !> Time to the next point, landed on or not
-      procedure :: time_to_next
-      !> Time to the end of the run
-      procedure :: time_to_end
-      !> Land on a point
-      procedure :: land
-      !> Take a step that lands on none
-      procedure :: pass
-      !> Drop the points that cannot return
+      procedure :: begin, add, goal, at, is_end, is_cause, time_to_next, time_to_end, land, pass
       procedure :: forget
       procedure, private :: add_ahead, add_returns, find_due
    end type breaking_points
@@ -69,17 +49,10 @@ contains
 
    !> Begin a run.
    pure subroutine begin(self, kinks, origin, now, finish, lag, most_passages)
-      !> The points
       class(breaking_points), intent(inout) :: self
       !> Kinks so far and to come, in any order
       type(kink_type), intent(in) :: kinks(:)
-      !> Initial time of the first run
-      type(instant), intent(in) :: origin
-      !> The run stands here
-      type(instant), intent(in) :: now
-      !> End of the run
-      type(instant), intent(in) :: finish
-      !> Delays, > 0
+      type(instant), intent(in) :: origin, now, finish
       real(wp), intent(in) :: lag(:)
       !> Passages after which a kink is too smooth for the order of the method
       integer, intent(in) :: most_passages
@@ -103,9 +76,7 @@ contains
 
    !> Add a kink where the run stands.
    pure subroutine add(self, kink)
-      !> The points
       class(breaking_points), intent(inout) :: self
-      !> The kink
       type(kink_type), intent(in) :: kink
 
       self%met = merged(self%met, [kink], self%origin)
@@ -115,11 +86,8 @@ contains
 
    !> Add the points at which a kink returns, one for each delay, after `now` and before the end.
    pure subroutine add_returns(self, kink, now)
-      !> The points
       class(breaking_points), intent(inout) :: self
-      !> The kink
       type(kink_type), intent(in) :: kink
-      !> The run stands here
       type(instant), intent(in) :: now
       type(kink_type), allocatable :: children(:)
 
@@ -134,11 +102,8 @@ contains
 
    !> Add points that lie after `now` and not after the end.
    pure subroutine add_ahead(self, points, now)
-      !> The points
       class(breaking_points), intent(inout) :: self
-      !> Points, ascending
       type(kink_type), intent(in) :: points(:)
-      !> The run stands here
       type(instant), intent(in) :: now
       type(kink_type), allocatable :: new(:)
 
@@ -158,7 +123,6 @@ contains
 
    !> The first point that must be landed on.
    pure subroutine find_due(self)
-      !> The points
       class(breaking_points), intent(inout) :: self
 
       self%due = self%next
@@ -169,11 +133,8 @@ contains
 
    !> Number of the point at which a step of proposed length `h` should end.
    pure integer function goal(self, now, h) result(number)
-      !> The points
       class(breaking_points), intent(in) :: self
-      !> The run stands here
       type(instant), intent(in) :: now
-      !> Length proposed
       real(wp), intent(in) :: h
       integer :: i
       real(wp) :: gap
@@ -192,9 +153,7 @@ contains
 
    !> The time of a point.
    pure type(instant) function at(self, number) result(point)
-      !> The points
       class(breaking_points), intent(in) :: self
-      !> Number of the breaking point
       integer, intent(in) :: number
 
       point = self%ahead(number)%at
@@ -202,9 +161,7 @@ contains
 
    !> Whether a point is the end of the run.
    pure logical function is_end(self, number) result(value)
-      !> The points
       class(breaking_points), intent(in) :: self
-      !> Number of the breaking point
       integer, intent(in) :: number
 
       value = number == size(self%ahead)
@@ -212,9 +169,7 @@ contains
 
    !> Whether the right-hand side may jump at a point.
    pure logical function is_cause(self, number) result(value)
-      !> The points
       class(breaking_points), intent(in) :: self
-      !> Number of the breaking point
       integer, intent(in) :: number
 
       value = self%ahead(number)%generation == 0
@@ -222,9 +177,7 @@ contains
 
    !> Time to the next point, landed on or not.
    pure real(wp) function time_to_next(self, now) result(time)
-      !> The points
       class(breaking_points), intent(in) :: self
-      !> The run stands here
       type(instant), intent(in) :: now
 
       time = elapsed(now, self%ahead(self%next)%at)
@@ -232,9 +185,7 @@ contains
 
    !> Time to the end of the run.
    pure real(wp) function time_to_end(self, now) result(time)
-      !> The points
       class(breaking_points), intent(in) :: self
-      !> The run stands here
       type(instant), intent(in) :: now
 
       time = elapsed(now, self%ahead(size(self%ahead))%at)
@@ -242,13 +193,10 @@ contains
 
    !> Land on a point.
    pure subroutine land(self, number, proposed, h)
-      !> The points
       class(breaking_points), intent(inout) :: self
-      !> Number of the breaking point
       integer, intent(in) :: number
       !> Length proposed for the step
       real(wp), intent(in) :: proposed
-      !> Length of the step
       real(wp), intent(in) :: h
       type(kink_type) :: here
 
@@ -264,9 +212,7 @@ contains
 
    !> Take a step that lands on no point.
    pure subroutine pass(self, now)
-      !> The points
       class(breaking_points), intent(inout) :: self
-      !> The run stands here
       type(instant), intent(in) :: now
 
       self%credit = min(self%credit + 1, self%most_credit)
@@ -278,7 +224,6 @@ contains
 
    !> Drop the kinks that cannot return.
    pure subroutine forget(self, horizon)
-      !> The points
       class(breaking_points), intent(inout) :: self
       !> Nothing before this time will be read
       type(instant), intent(in) :: horizon

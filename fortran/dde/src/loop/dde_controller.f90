@@ -32,19 +32,14 @@ module dde_controller
       !> Error of the last step, if rejected, 0 where that was not finite, and its length
       real(wp), private :: rejected_error = 0.0_wp, rejected_h = 0.0_wp
    contains
-      !> Length after an accepted step
-      procedure :: accept
-      !> Length after a rejected step
-      procedure :: reject
+      procedure :: accept, reject
    end type controller_type
 
 contains
 
    !> After an accepted step: replace its length by the next.
    pure subroutine accept(self, method, safety, h, error)
-      !> Control
       class(controller_type), intent(inout) :: self
-      !> Constants of the method
       type(method_constants), intent(in) :: method
       !> Factor below the step size at which the error would be equal to the tolerance
       real(wp), intent(in) :: safety
@@ -77,11 +72,8 @@ contains
 
    !> After a rejected step: replace its length by the next attempt.
    pure subroutine reject(self, method, safety, h, error)
-      !> Control
       class(controller_type), intent(inout) :: self
-      !> Constants of the method
       type(method_constants), intent(in) :: method
-      !> Factor below the step size at which the error would be equal to the tolerance
       real(wp), intent(in) :: safety
       !> Length of the step, replaced by the next attempt
       real(wp), intent(inout) :: h

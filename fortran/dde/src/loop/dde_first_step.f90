@@ -49,7 +49,6 @@ contains
 
    !> The norm of x; huge if x is not finite.
    pure function length_of(x, scale) result(length)
-      !> Elements
       real(wp), intent(in) :: x(:)
       !> Their scales, > 0, shape of x
       real(wp), intent(in) :: scale(:)

@@ -155,7 +155,6 @@ contains
 
    !> Whether the error of a step is finite and within the tolerance.
    pure logical function accepted(error_estimate) result(value)
-      !> Error in units of the tolerance
       real(wp), intent(in) :: error_estimate
 
       value = .false.

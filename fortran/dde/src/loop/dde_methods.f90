@@ -53,9 +53,7 @@ contains
    !> Bytes that a step of a method takes, at most, counted from its components. It is made as a
    !> copy of another one.
    pure real(wp) function memory_of(problem, method) result(bytes)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Name of the method, not `auto`
       character(len=8), intent(in) :: method
       real(wp) :: delays, matrix, n, stages
 
@@ -130,7 +128,6 @@ contains
 
    !> Number of stages of the implicit method of `auto`.
    pure integer function implicit_stages(tolerance) result(stages)
-      !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
 
       stages = merge(7, 5, tolerance%level < tight)

@@ -51,16 +51,7 @@ module dde_run
       !> Time derivative of the state at the start of the run, as event functions see it, shape (n)
       real(wp), allocatable :: first_slope(:)
    contains
-      !> Begin, or continue an earlier run
-      procedure :: begin
-      !> Plan the next step
-      procedure :: plan
-      !> Continue by the other method of `auto`
-      procedure :: change_to_other
-      !> Keep what a later run needs to continue
-      procedure :: keep
-      !> Go to the end of an accepted step
-      procedure :: arrive
+      procedure :: begin, plan, change_to_other, keep, arrive
       procedure, private :: start_anew, continue_run
    end type run_type
 
@@ -68,15 +59,10 @@ contains
 
    !> Begin, or continue an earlier run.
    subroutine begin(self, problem, t_start, t_end, options, lacking, continuation)
-      !> The run
       class(run_type), intent(inout) :: self
       !> The problem, which lives as long as the run
       class(dde_problem_type), intent(in), target :: problem
-      !> Initial time
-      real(wp), intent(in) :: t_start
-      !> Final time
-      real(wp), intent(in) :: t_end
-      !> Method, tolerances and limits
+      real(wp), intent(in) :: t_start, t_end
       type(integration_options), intent(in) :: options
       !> Bytes that could not be allocated, or 0
       real(wp), intent(out) :: lacking
@@ -114,15 +100,9 @@ contains
    !> The first run. Its initial time is a kink, or a jump if a delayed component differs from its
    !> history there.
    subroutine start_anew(self, start, finish, options, lacking)
-      !> The run
       class(run_type), intent(inout) :: self
-      !> Initial time
-      type(instant), intent(in) :: start
-      !> Final time
-      type(instant), intent(in) :: finish
-      !> Method, tolerances and limits
+      type(instant), intent(in) :: start, finish
       type(integration_options), intent(in) :: options
-      !> Bytes that could not be allocated, or 0
       real(wp), intent(out) :: lacking
       type(kink_type) :: first
       integer :: k
@@ -152,13 +132,9 @@ contains
    !> Another run, with the past of the one before. If the right-hand side differs from that at the
    !> end of the earlier run, there is a kink here.
    subroutine continue_run(self, finish, options, lacking, continuation)
-      !> The run
       class(run_type), intent(inout) :: self
-      !> Final time
       type(instant), intent(in) :: finish
-      !> Method, tolerances and limits
       type(integration_options), intent(in) :: options
-      !> Bytes that could not be allocated, or 0
       real(wp), intent(out) :: lacking
       !> Where the earlier run ended
       type(continuation_type), intent(in) :: continuation
@@ -193,9 +169,7 @@ contains
 
    !> Evaluate the slope at the start of the next step.
    subroutine prepare_start(self, options)
-      !> The run
       class(run_type), intent(inout) :: self
-      !> Limits
       type(integration_options), intent(in) :: options
 
       self%may_jump = allocated(options%break_at)
@@ -216,7 +190,6 @@ contains
 
    !> The right-hand side is evaluated beside a time where it may jump, not there.
    pure subroutine bound_times(self, goal)
-      !> The run
       class(run_type), intent(inout) :: self
       !> Number of the point that the step lands on, if it lands on one
       integer, intent(in), optional :: goal
@@ -237,11 +210,9 @@ contains
    !> Plan the next step. The method proposes a length. If the next breaking point is near, one step
    !> or two equal steps end there. On return the cursor is on the step.
    pure subroutine plan(self, longest, h, goal, landing)
-      !> The run
       class(run_type), intent(inout) :: self
       !> Longest step allowed
       real(wp), intent(in) :: longest
-      !> Length of the step
       real(wp), intent(out) :: h
       !> Number of the breaking point at which it should end
       integer, intent(out) :: goal
@@ -263,9 +234,7 @@ contains
 
    !> Continue by the other method of `auto`.
    subroutine change_to_other(self, lacking)
-      !> The run, between two steps
       class(run_type), intent(inout) :: self
-      !> Bytes that could not be allocated, or 0
       real(wp), intent(out) :: lacking
 
       call change_method(self%context%problem, self%context%tolerance, self%step, lacking)
@@ -276,13 +245,10 @@ contains
 
    !> Go to the end of an accepted step.
    pure subroutine arrive(self, goal, landing, step_end)
-      !> The run
       class(run_type), intent(inout) :: self
       !> Number of the breaking point at which the step should have ended
       integer, intent(in) :: goal
-      !> Whether the step ends at this breaking point
       logical, intent(in) :: landing
-      !> End of the step
       type(instant), intent(in) :: step_end
       type(instant) :: horizon
 
@@ -304,9 +270,7 @@ contains
 
    !> Keep what a later run needs to continue from here.
    subroutine keep(self, options, continuation)
-      !> The run, ended
       class(run_type), intent(inout) :: self
-      !> Limits
       type(integration_options), intent(in) :: options
       !> What is kept
       type(continuation_type), intent(out) :: continuation

@@ -37,30 +37,11 @@ module dde_step
       !> Time from the start of the step for which its polynomial is valid, if longer than the step
       real(wp) :: valid_for = 0.0_wp
    contains
-      !> Storage of the components above, and the initial state
-      procedure :: allocate_state
-      !> Start at a kink: evaluate the slope there
-      procedure :: restart
-      !> Forget what earlier steps have shown
-      procedure :: reset
-      !> Propose a step size before an attempt
-      procedure :: propose
-      !> Attempt a step
+      procedure :: allocate_state, restart, reset, propose, complete, extend, next_length
+      procedure :: slope_here, stiff
       procedure(attempt_step), deferred :: attempt
-      !> Finish an accepted step
-      procedure :: complete
-      !> Prepare the polynomial of an accepted step
-      procedure :: extend
-      !> Polynomial of one component
       procedure(give_polynomial), deferred :: interpolant
-      !> Propose the size of the next step after an accepted one
-      procedure :: next_length
-      !> Whether stability rather than accuracy limits explicit steps here
-      procedure :: stiff
-      !> Make the end of an accepted step the start of the next
       procedure(go_to_end), deferred :: advance
-      !> Slope at the present state
-      procedure :: slope_here
    end type step_type
 
    abstract interface
@@ -70,7 +51,6 @@ module dde_step
       pure subroutine attempt_step(self, context, error)
          import :: step_context, step_type, wp
          implicit none (type, external)
-         !> The step
          class(step_type), intent(inout) :: self
          !> The context of the step
          type(step_context), intent(inout) :: context
@@ -82,7 +62,6 @@ module dde_step
       pure subroutine give_polynomial(self, i, a)
          import :: step_type, wp
          implicit none (type, external)
-         !> The step
          class(step_type), intent(in) :: self
          !> Number of the component
          integer, intent(in) :: i
@@ -94,7 +73,6 @@ module dde_step
       pure subroutine go_to_end(self)
          import :: step_type
          implicit none (type, external)
-         !> The step
          class(step_type), intent(inout) :: self
       end subroutine go_to_end
    end interface
@@ -103,9 +81,7 @@ contains
 
    !> Storage of what all steps have, and the state at the initial time.
    pure subroutine allocate_state(self, problem)
-      !> The step
       class(step_type), intent(inout) :: self
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
 
       associate (n => problem%n, delays => size(problem%lag))
@@ -116,9 +92,7 @@ contains
 
    !> Evaluate the slope at the start of the step on which the cursor stands.
    pure subroutine restart(self, context)
-      !> The step
       class(step_type), intent(inout) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
 
       call context%delayed_values([0.0_wp], self%z)
@@ -126,17 +100,14 @@ contains
       call self%reset()
    end subroutine restart
 
-   !> There is nothing to forget unless a method says so.
+   !> Forget what earlier steps have shown: nothing, unless a method says so.
    pure subroutine reset(self)
-      !> The step
       class(step_type), intent(inout) :: self
    end subroutine reset
 
    !> The step size remains as it is unless a method knows better before it attempts the step.
    pure subroutine propose(self, context, h)
-      !> The step
       class(step_type), intent(inout) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
       !> Step size: proposed so far, then by the method
       real(wp), intent(inout) :: h
@@ -144,25 +115,19 @@ contains
 
    !> An accepted step is finished unless a method says otherwise.
    pure subroutine complete(self, context)
-      !> The step
       class(step_type), intent(inout) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
    end subroutine complete
 
    !> The polynomial needs no preparation unless a method says so.
    pure subroutine extend(self, context)
-      !> The step
       class(step_type), intent(inout) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
    end subroutine extend
 
    !> Step control proposes the next step size from the error, unless a method knows better.
    pure subroutine next_length(self, control, h, error)
-      !> The step, accepted
       class(step_type), intent(in) :: self
-      !> Step control
       type(controller_type), intent(inout) :: control
       !> Length of the step, replaced by the next
       real(wp), intent(inout) :: h
@@ -172,9 +137,9 @@ contains
       call control%accept(self%constants, self%safety, h, error)
    end subroutine next_length
 
-   !> A method that cannot see stiffness reports none.
+   !> Whether stability rather than accuracy limits explicit steps here. A method that cannot see it
+   !> reports none.
    pure logical function stiff(self) result(value)
-      !> The step, accepted and complete
       class(step_type), intent(in) :: self
 
       value = .false.
@@ -182,7 +147,6 @@ contains
 
    !> Slope at the present state, from the left: `advance` sets the slope at the next start.
    pure function slope_here(self) result(slope)
-      !> The step
       class(step_type), intent(in) :: self
       real(wp) :: slope(size(self%y))
 

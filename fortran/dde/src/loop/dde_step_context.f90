@@ -24,23 +24,15 @@ module dde_step_context
       !> Work so far
       type(work_type) :: work
    contains
-      !> Go to a step
-      procedure :: go_to
-      !> All delayed values at places of the step
-      procedure :: delayed_values
-      !> Right-hand side, counted
-      procedure :: evaluate
+      procedure :: go_to, delayed_values, evaluate
    end type step_context
 
 contains
 
    !> Let the cursor go to the step from `start`, `length` long.
    pure subroutine go_to(self, start, length)
-      !> The context
       class(step_context), intent(inout) :: self
-      !> Start of the step
       type(instant), intent(in) :: start
-      !> Length of the step
       real(wp), intent(in) :: length
 
       call self%cursor%set(self%problem, self%past, start, length)
@@ -48,7 +40,6 @@ contains
 
    !> All delayed values at ascending places of the step.
    pure subroutine delayed_values(self, ahead, z)
-      !> The context
       class(step_context), intent(inout) :: self
       !> Times since the start of the step, ascending, at most 16
       real(wp), contiguous, intent(in) :: ahead(:)
@@ -60,15 +51,8 @@ contains
 
    !> Right-hand side, counted.
    pure subroutine evaluate(self, t, y, z, slope)
-      !> The context
       class(step_context), intent(inout) :: self
-      !> Time
-      real(wp), intent(in) :: t
-      !> State
-      real(wp), intent(in) :: y(self%problem%n)
-      !> Delayed values
-      real(wp), intent(in) :: z(size(self%problem%lag))
-      !> Slope
+      real(wp), intent(in) :: t, y(self%problem%n), z(size(self%problem%lag))
       real(wp), intent(inout) :: slope(self%problem%n)
 
       call self%problem%rhs(t, y, z, slope)

@@ -36,10 +36,7 @@ module dde_switch
       !> Their time, and their work in evaluations of the explicit pair
       real(wp) :: time = 0.0_wp, work = 0.0_wp
    contains
-      !> One more step
-      procedure :: add
-      !> Time per work
-      procedure :: pace
+      procedure :: add, pace
    end type stretch_type
 
    !> The choice, and what it rests on.
@@ -57,7 +54,6 @@ module dde_switch
       !> Pace of the other method when it was left
       real(wp), private :: pace_of_other = 0.0_wp
    contains
-      !> Take in a step, and see whether the other method takes over
       procedure :: judge
    end type switch_type
 
@@ -65,12 +61,8 @@ contains
 
    !> One more step.
    pure subroutine add(self, time, work)
-      !> The stretch
       class(stretch_type), intent(inout) :: self
-      !> Length of the step
-      real(wp), intent(in) :: time
-      !> Work of the step
-      real(wp), intent(in) :: work
+      real(wp), intent(in) :: time, work
 
       self%steps = self%steps + 1
       self%time = self%time + time
@@ -79,7 +71,6 @@ contains
 
    !> Time per work.
    pure real(wp) function pace(self) result(value)
-      !> The stretch
       class(stretch_type), intent(in) :: self
 
       value = self%time/max(1.0_wp, self%work)
@@ -87,13 +78,9 @@ contains
 
    !> Take in an accepted step, and see whether the other method takes over.
    pure subroutine judge(self, problem, step, work_done, shortest_delay, h_next, left, other)
-      !> The choice
       class(switch_type), intent(inout) :: self
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The step, accepted and complete
       class(step_type), intent(in) :: step
-      !> All work so far
       real(wp), intent(in) :: work_done
       !> Shortest delay, where an implicit step may be longer than it
       real(wp), intent(in) :: shortest_delay
@@ -101,7 +88,6 @@ contains
       real(wp), intent(in) :: h_next
       !> Time left to the end of the run, as far as there is one
       real(wp), intent(in) :: left
-      !> Whether the other method takes over
       logical, intent(out) :: other
       logical :: limited, pace_is_known
       real(wp) :: pace, work
@@ -137,9 +123,7 @@ contains
 
    !> The other method takes over.
    pure subroutine end_visit(self, pace)
-      !> The choice
       class(switch_type), intent(inout) :: self
-      !> Pace of the method that is left
       real(wp), intent(in) :: pace
 
       if (self%visit%pace() < worth*self%pace_of_other) then
@@ -152,11 +136,8 @@ contains
    !> Whether something else than the change of the solution limits a step: of the explicit method
    !> stability or a delay; of the implicit one nothing, where an explicit step could be as long.
    pure logical function is_limited(problem, step, shortest_delay, h_next) result(limited)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The step, accepted
       class(step_type), intent(in) :: step
-      !> Shortest delay, where an implicit step may be longer than it
       real(wp), intent(in) :: shortest_delay
       !> Length proposed for the next
       real(wp), intent(in) :: h_next
@@ -173,9 +154,7 @@ contains
 
    !> Whether fast components are in balance all along a step, for a problem that gives its series.
    pure logical function in_balance(problem, step) result(value)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The step, accepted
       class(step_type), intent(in) :: step
 
       value = problem%analytic .and. step%h*problem%relaxation_rate(step%t + step%h, step%y_new) &

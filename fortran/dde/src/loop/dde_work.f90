@@ -25,10 +25,7 @@ module dde_work
       integer(int64), private :: earlier_evaluations = 0
       real(wp), private :: earlier_cost = 0.0_wp
    contains
-      !> Another method takes over
-      procedure :: set_cost
-      !> All work, in evaluations of the explicit pair
-      procedure :: total
+      procedure :: set_cost, total
    end type work_type
 
    interface work_type
@@ -39,7 +36,6 @@ contains
 
    !> Nothing done yet.
    pure function new_work(equations) result(work)
-      !> Number of equations
       integer, intent(in) :: equations
       type(work_type) :: work
 
@@ -48,7 +44,6 @@ contains
 
    !> Another method takes over, whose evaluations have another cost.
    pure subroutine set_cost(self, cost)
-      !> The work
       class(work_type), intent(inout) :: self
       !> Cost of one evaluation, in evaluations of the explicit pair
       real(wp), intent(in) :: cost
@@ -61,7 +56,6 @@ contains
 
    !> All work, in evaluations of the explicit pair.
    pure real(wp) function total(self) result(all_work)
-      !> The work
       class(work_type), intent(in) :: self
 
       all_work = self%earlier_cost + self%cost*(self%evaluations - self%earlier_evaluations) &

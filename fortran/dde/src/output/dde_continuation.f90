@@ -55,23 +55,13 @@ module dde_continuation
       !> Newton coefficients, shape (1 + degree, kept, steps), 0 above the degree of the step
       real(wp), allocatable :: coefficients(:, :, :)
    contains
-      !> Change the state: a dose, a bounce
-      procedure :: change_state
-      !> Refuse a problem that cannot continue from here
-      procedure :: check
-      !> Whether a right-hand side is that of the end of the run
-      procedure :: has_rate
-      !> Keep the past
-      procedure :: store
-      !> Give the past back
-      procedure :: restore
+      procedure :: change_state, check, has_rate, store, restore
    end type continuation_type
 
 contains
 
    !> Change the state: a dose, a bounce. The solution jumps here, and again after each delay.
    pure subroutine change_state(self, y, error)
-      !> The continuation, filled by a run
       class(continuation_type), intent(inout) :: self
       !> New state, shape (n)
       real(wp), intent(in) :: y(:)
@@ -105,13 +95,11 @@ contains
 
    !> Refuse a problem that cannot continue from here, and arrays of inconsistent shapes.
    pure subroutine check(self, problem, t_start, error)
-      !> The continuation
       class(continuation_type), intent(in) :: self
       !> The problem of the run to come
       class(dde_problem_type), intent(in) :: problem
       !> Initial time of the run to come
       real(wp), intent(in) :: t_start
-      !> What is wrong
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: delayed, kept
       integer :: k
@@ -150,7 +138,6 @@ contains
 
    !> Whether the shapes of the arrays are consistent.
    pure logical function consistent(self) result(value)
-      !> The continuation
       type(continuation_type), intent(in) :: self
       integer :: steps
 
@@ -175,10 +162,7 @@ contains
 
    !> Whether each of some components is among the others.
    pure logical function same_set(one, other) result(value)
-      !> Some
-      integer, intent(in) :: one(:)
-      !> The others
-      integer, intent(in) :: other(:)
+      integer, intent(in) :: one(:), other(:)
       integer :: i
 
       value = all([(any(other == one(i)), i=1, size(one))]) &
@@ -187,9 +171,7 @@ contains
 
    !> Numbers as words, each with a blank before it.
    pure subroutine list(numbers, words)
-      !> Numbers
       integer, intent(in) :: numbers(:)
-      !> Words
       character(len=:), allocatable, intent(out) :: words
       integer :: i
 
@@ -202,11 +184,8 @@ contains
 
    !> Keep the steps of the past, and the kinks that may return after a delay.
    pure subroutine store(self, past, kinks)
-      !> The continuation
       class(continuation_type), intent(inout) :: self
-      !> The past
       type(history_type), intent(in) :: past
-      !> Kinks up to now, ascending
       type(kink_type), intent(in) :: kinks(:)
       type(instant) :: start
       integer(int64) :: step
@@ -233,11 +212,9 @@ contains
 
    !> Give the past back.
    pure subroutine restore(self, past, kinks)
-      !> The continuation
       class(continuation_type), intent(in) :: self
       !> The past, empty
       type(history_type), intent(inout) :: past
-      !> Kinks in it, ascending
       type(kink_type), allocatable, intent(out) :: kinks(:)
       integer :: i
 
@@ -256,9 +233,7 @@ contains
    !> Whether a right-hand side is that of the end of the run. It is not compared if `rate` is
    !> empty.
    pure logical function has_rate(self, slope) result(value)
-      !> The continuation
       class(continuation_type), intent(in) :: self
-      !> The right-hand side, shape (n)
       real(wp), intent(in) :: slope(:)
 
       value = size(self%rate) == 0

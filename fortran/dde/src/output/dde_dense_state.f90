@@ -29,7 +29,7 @@ module dde_dense_state
       !> State at its end, shape (components)
       real(wp), allocatable, private :: y_end(:)
       !> Newton nodes of its dense output, shape (degree)
-      real(wp), allocatable, private :: nodes(:)
+      real(wp), allocatable :: nodes(:)
       !> Whether all of them are 0
       logical, private :: powers = .false.
       !> Newton coefficients, shape (0:degree, components)
@@ -40,31 +40,18 @@ module dde_dense_state
       !> (components)
       logical, allocatable, private :: straight(:)
    contains
-      !> The state at the initial time
-      procedure :: begin
-      !> Take up a step, at its end
-      procedure :: take_up
-      !> Go to a place of it
-      procedure :: go_to
-      !> Degree of its dense output
-      procedure :: degree
-      !> Find the bounds
-      procedure :: find_bounds
+      procedure :: begin, take_up, go_to, find_bounds
    end type dense_state
 
 contains
 
    !> The state at the initial time, before any step.
    pure subroutine begin(self, t, y, slope, components)
-      !> The state
       class(dense_state), intent(inout) :: self
-      !> When
       type(instant), intent(in) :: t
-      !> State there, shape (n)
       real(wp), intent(in) :: y(:)
       !> Time derivative of the state, shape (n)
       real(wp), intent(in) :: slope(:)
-      !> Components to look at
       integer, intent(in) :: components(:)
 
       self%t = t
@@ -79,14 +66,9 @@ contains
 
    !> Take up an accepted and extended step. The place is its end.
    pure subroutine take_up(self, step, start, finish)
-      !> The state
       class(dense_state), intent(inout) :: self
-      !> The step
       class(step_type), intent(in) :: step
-      !> Start of the step
-      type(instant), intent(in) :: start
-      !> End of the step
-      type(instant), intent(in) :: finish
+      type(instant), intent(in) :: start, finish
       real(wp) :: ignored
       integer :: i, j
 
@@ -114,9 +96,7 @@ contains
 
    !> Go to a place of the step.
    pure subroutine go_to(self, place)
-      !> The state
       class(dense_state), intent(inout) :: self
-      !> The place, 0..1
       real(wp), intent(in) :: place
       real(wp) :: slope
       integer :: i, j
@@ -133,17 +113,8 @@ contains
       end do
    end subroutine go_to
 
-   !> Degree of dense output.
-   pure integer function degree(self) result(value)
-      !> The state, in a step
-      class(dense_state), intent(in) :: self
-
-      value = size(self%nodes)
-   end function degree
-
    !> Bounds over the step: by powers of x = 2 s - 1, all of them at most 1.
    pure subroutine find_bounds(self)
-      !> The state, in a step
       class(dense_state), intent(inout) :: self
       real(wp) :: bend, change, powers(0:highest_degree)
       integer :: i, j, k

@@ -34,12 +34,7 @@ module dde_event_search
       !> Sign of each function at the last place: -1, 1, or 0 at zero
       integer, allocatable, private :: side(:)
    contains
-      !> Evaluate the functions at the initial time
-      procedure :: begin
-      !> Search a step
-      procedure :: search_step
-      !> The slope that the functions were given last
-      procedure :: read_slope
+      procedure :: begin, search_step, read_slope
       procedure, private :: choose_places, go_to, report, locate, stays
    end type event_search
 
@@ -47,13 +42,9 @@ contains
 
    !> Signs of the functions at the initial time.
    pure subroutine begin(self, watcher, t, y, slope)
-      !> The search
       class(event_search), intent(inout) :: self
-      !> The watcher
       class(event_watcher_type), intent(in) :: watcher
-      !> Initial time
       type(instant), intent(in) :: t
-      !> State there, shape (n)
       real(wp), intent(in) :: y(:)
       !> Time derivative of the state, shape (n)
       real(wp), intent(in) :: slope(:)
@@ -70,19 +61,14 @@ contains
    !> Report the events of an accepted and extended step to the watcher. On return the search is at
    !> the end of the step, or at the event that ends the run.
    subroutine search_step(self, watcher, step, start, step_end, share, ended)
-      !> The search
       class(event_search), intent(inout) :: self
-      !> The watcher
       class(event_watcher_type), intent(inout) :: watcher
-      !> The step
       class(step_type), intent(in) :: step
-      !> Start of the step
       type(instant), intent(in) :: start
       !> End of the step; the event that ends the run, if one does
       type(instant), intent(inout) :: step_end
       !> Share of the step up to there, 0..1
       real(wp), intent(out) :: share
-      !> Whether an event ends the run
       logical, intent(out) :: ended
       integer :: side(size(self%side))
       integer :: i
@@ -114,9 +100,7 @@ contains
 
    !> Whether no function leaves its side in the step, by the functions at its end and by bounds.
    logical function stays(self, watcher) result(value)
-      !> The search, at the end of the step
       class(event_search), intent(inout) :: self
-      !> The watcher
       class(event_watcher_type), intent(in) :: watcher
 
       value = .not. any(sign_of(self%g, self%side) /= self%side)
@@ -130,11 +114,8 @@ contains
    !> Places at which functions are evaluated, ascending up to 1: an even grid, and places between
    !> where a function may pass zero twice.
    pure subroutine choose_places(self, watcher, places, g)
-      !> The search
       class(event_search), intent(inout) :: self
-      !> The watcher
       class(event_watcher_type), intent(in) :: watcher
-      !> The places
       real(wp), allocatable, intent(out) :: places(:)
       !> Event functions there, shape (functions, places)
       real(wp), allocatable, intent(out) :: g(:, :)
@@ -142,7 +123,7 @@ contains
       real(wp) :: bend, half_rise, place
       integer :: i, k, last
 
-      last = max(self%here%degree() + 1, ceiling(self%here%h/watcher%look_every))
+      last = max(size(self%here%nodes) + 1, ceiling(self%here%h/watcher%look_every))
       allocate (grid(size(self%g), 0:last))
       do k = 0, last
          call self%go_to(watcher, k*1.0_wp/last)
@@ -169,15 +150,11 @@ contains
 
    !> Report the events between two places, in order of time, up to the end of the run.
    subroutine report(self, watcher, before, share, side)
-      !> The search
       class(event_search), intent(inout) :: self
-      !> The watcher
       class(event_watcher_type), intent(inout) :: watcher
-      !> The earlier place
       real(wp), intent(in) :: before
       !> The later place; the event that ends the run, if one does
       real(wp), intent(inout) :: share
-      !> Signs at the later place
       integer, intent(in) :: side(:)
       real(wp) :: root(size(side))
       logical :: passed(size(side))
@@ -204,9 +181,7 @@ contains
    !> Replace the slope where the search is by the one that the functions were given last, of the
    !> components that they read; of all, if an event ended the run.
    pure subroutine read_slope(self, slope)
-      !> The search; nothing is replaced before it began
       class(event_search), intent(in) :: self
-      !> The slope, shape (n)
       real(wp), intent(inout) :: slope(:)
 
       if (self%ended) then
@@ -220,11 +195,8 @@ contains
    !> Oliveira and Takahashi (2020), "An Enhancement of the Bisection Method Average Performance
    !> Preserving Minmax Optimality": at most one evaluation more than bisection.
    subroutine locate(self, watcher, i, before, root)
-      !> The search
       class(event_search), intent(inout) :: self
-      !> The watcher
       class(event_watcher_type), intent(in) :: watcher
-      !> Number of the function
       integer, intent(in) :: i
       !> A place where it has its sign
       real(wp), intent(in) :: before
@@ -264,11 +236,8 @@ contains
 
    !> Evaluate the functions at one place of the step.
    pure subroutine go_to(self, watcher, place)
-      !> The search
       class(event_search), intent(inout) :: self
-      !> The watcher
       class(event_watcher_type), intent(in) :: watcher
-      !> The place, 0..1
       real(wp), intent(in) :: place
 
       call self%here%go_to(place)
@@ -277,9 +246,7 @@ contains
 
    !> Sign of a value; the last one if the value is not finite.
    elemental integer function sign_of(g, last) result(side)
-      !> The value
       real(wp), intent(in) :: g
-      !> Last sign
       integer, intent(in) :: last
 
       side = last

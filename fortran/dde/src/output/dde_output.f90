@@ -54,11 +54,9 @@ contains
 
    !> Append the delayed components' dense output to the past.
    pure subroutine remember(past, step, start, smooth, share)
-      !> The past
       type(history_type), intent(inout) :: past
       !> The step, extended
       class(step_type), intent(in) :: step
-      !> Start of the step
       type(instant), intent(in) :: start
       !> Time from there on without a kink
       real(wp), intent(in) :: smooth
@@ -97,11 +95,8 @@ contains
 
    !> The samples that lie in an accepted and extended step.
    subroutine sample(sampler, step, start, step_end)
-      !> Receiver
       class(sampler_type), intent(inout) :: sampler
-      !> The step
       class(step_type), intent(in) :: step
-      !> Start of the step
       type(instant), intent(in) :: start
       !> Where the run stands after it
       type(instant), intent(in) :: step_end
@@ -129,11 +124,9 @@ contains
 
    !> Let the next sample follow a time by no more than the sampler's share of the step.
    pure subroutine limit_next(sampler, time, step_size)
-      !> Receiver
       class(sampler_type), intent(inout) :: sampler
       !> Time of the last sample, or of the start of the step
       real(wp), intent(in) :: time
-      !> Size of the step
       real(wp), intent(in) :: step_size
 
       if (sampler%share_of_step >= huge(1.0_wp)) return

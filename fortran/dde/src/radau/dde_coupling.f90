@@ -24,12 +24,7 @@ module dde_coupling
       !> The unknowns
       real(wp), allocatable, private :: q(:)
    contains
-      !> No coupling
-      procedure :: clear
-      !> Factorise the system for q
-      procedure :: prepare
-      !> From the solution of A x = r to that with q
-      procedure :: complete
+      procedure :: clear, prepare, complete
    end type coupling_type
 
    interface coupling_type
@@ -40,10 +35,7 @@ contains
 
    !> Storage.
    pure function new_coupling(n, unknowns) result(coupling)
-      !> Size of x
-      integer, intent(in) :: n
-      !> Number of unknowns q
-      integer, intent(in) :: unknowns
+      integer, intent(in) :: n, unknowns
       type(coupling_type) :: coupling
 
       allocate (coupling%weights(n, unknowns), coupling%solutions(n, unknowns))
@@ -54,7 +46,6 @@ contains
 
    !> All weights and solutions are zero.
    pure subroutine clear(self)
-      !> The coupling
       class(coupling_type), intent(inout) :: self
 
       self%weights = 0.0_wp
@@ -63,9 +54,7 @@ contains
 
    !> Factorise 1 - w b, the matrix of the system for q.
    pure subroutine prepare(self, singular)
-      !> The coupling, its weights and solutions given
       class(coupling_type), intent(inout) :: self
-      !> Whether the coupling has no solution
       logical, intent(out) :: singular
       integer :: i, j
 
@@ -80,9 +69,7 @@ contains
 
    !> Replace the solution of A x = r by that with q.
    pure subroutine complete(self, x)
-      !> The coupling, prepared
       class(coupling_type), intent(inout) :: self
-      !> Solution
       real(wp), intent(inout) :: x(size(self%weights, 1))
       integer :: i
 

@@ -53,11 +53,7 @@ module dde_implicit_step
       !> Whether the last Jacobian can be used again
       logical :: jacobian_is_good = .false.
    contains
-      procedure :: reset
-      procedure :: attempt
-      procedure :: interpolant
-      procedure :: stiff
-      procedure :: advance
+      procedure :: reset, attempt, interpolant, stiff, advance
       procedure, private :: confirm, estimate, find_error_inside, prepare
    end type implicit_step_type
 
@@ -69,9 +65,7 @@ contains
 
    !> Storage, and the constants that follow from the method.
    pure function new_step(problem, stages) result(step)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Number of stages: 3, 5 or 7
       integer, intent(in) :: stages
       type(implicit_step_type) :: step
 
@@ -93,7 +87,6 @@ contains
 
    !> Polynomial, Jacobian and factors of earlier steps are not used again.
    pure subroutine reset(self)
-      !> The step
       class(implicit_step_type), intent(inout) :: self
 
       self%last_h = 0.0_wp
@@ -103,11 +96,8 @@ contains
 
    !> Attempt a step: iterate, check the result, estimate its error.
    pure subroutine attempt(self, context, error)
-      !> The step
       class(implicit_step_type), intent(inout) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
-      !> Estimated error in units of the tolerance
       real(wp), intent(out) :: error
       real(wp) :: asked, inside, level
       logical :: converged, finite, singular
@@ -154,9 +144,7 @@ contains
    !> Jacobian and factors, where the last ones cannot be used. The Jacobian is evaluated at the
    !> expected middle stage, which is nearer to all stages than the start of the step.
    pure subroutine prepare(self, context, singular)
-      !> The step
       class(implicit_step_type), intent(inout) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
       !> Whether there is no Jacobian or a system has no solution
       logical, intent(out) :: singular
@@ -187,11 +175,8 @@ contains
    !> Whether the last stage solves its equation by the Jacobian there too. If the Jacobian of the
    !> iteration is far too large, corrections are small without a solution.
    pure subroutine confirm(self, context, confirmed)
-      !> The step, its iteration converged
       class(implicit_step_type), intent(inout) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
-      !> Whether the step is confirmed
       logical, intent(out) :: confirmed
       real(wp) :: allowed, t_end
       logical :: finite, singular
@@ -228,11 +213,8 @@ contains
    !> Error of the embedded method of order s. The real system filters it: otherwise stiff
    !> components would dominate it (Hairer and Wanner 1996, eq. (IV.8.20)).
    pure subroutine estimate(self, context, error)
-      !> The step
       class(implicit_step_type), intent(inout) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
-      !> Estimated error in units of the tolerance
       real(wp), intent(out) :: error
       real(wp), allocatable :: slope(:)
       real(wp) :: t
@@ -264,14 +246,12 @@ contains
    !> Error between the ends, in units of the tolerance. A stiff component that follows the others
    !> at once is right at the stages however long the step, and its embedded error is filtered away.
    !> So the last term of the polynomial there, of size h**s, is compared with tol**(s/(s + 1)).
+   !> `unfiltered` is replaced by the hidden part of that term.
    pure subroutine find_error_inside(self, asked, tolerance, error)
-      !> The step, its error estimated; `unfiltered` is replaced by the hidden part of the last term
       class(implicit_step_type), intent(inout) :: self
       !> Tolerance of the estimate, to which `scale` belongs
       real(wp), intent(in) :: asked
-      !> Tolerance of the step
       real(wp), intent(in) :: tolerance
-      !> The error
       real(wp), intent(out) :: error
 
       associate (s => self%method%stages, hidden => self%unfiltered, h => self%h)
@@ -288,11 +268,8 @@ contains
    !> Collocation polynomial of component `i` plus a multiple of the bump, which gives it the slope
    !> at the start and one order more.
    pure subroutine interpolant(self, i, a)
-      !> The step
       class(implicit_step_type), intent(in) :: self
-      !> Number of the component
       integer, intent(in) :: i
-      !> Newton coefficients over `nodes`
       real(wp), contiguous, intent(out) :: a(0:)
 
       a = self%method%real_eigenvalue*self%error_vector(i)/self%bump_slope*self%bump
@@ -302,7 +279,6 @@ contains
 
    !> Whether the step is long in units of one over the norm of the Jacobian.
    pure logical function stiff(self) result(value)
-      !> The step
       class(implicit_step_type), intent(in) :: self
 
       value = .not. self%h*self%stiffness < least_stiff
@@ -310,7 +286,6 @@ contains
 
    !> The end becomes the start. Jacobian and factors are kept if the iteration converged fast.
    pure subroutine advance(self)
-      !> The step
       class(implicit_step_type), intent(inout) :: self
 
       call self%stages%slope_at_end(self%h, self%slope)

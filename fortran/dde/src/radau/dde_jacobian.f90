@@ -36,34 +36,22 @@ module dde_jacobian
       !> Moved arguments, shapes (n) and (delayed values)
       real(wp), allocatable, private :: moved_y(:), moved_z(:)
    contains
-      !> Evaluate the Jacobian at a place
-      procedure :: evaluate
-      !> Norm of the Jacobian: the largest sum of a row
-      procedure :: find_norm
-      procedure, private :: prepare, find_rows
+      procedure :: evaluate, find_norm, find_rows
+      procedure, private :: prepare
    end type jacobian_type
 
 contains
 
    !> The Jacobian at a place, as the problem gives it or by forward differences.
    pure subroutine evaluate(self, problem, tolerance, work, t, y, z, with_delays, finite)
-      !> The Jacobian
       class(jacobian_type), intent(inout) :: self
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
-      !> Work so far
       type(work_type), intent(inout) :: work
-      !> Time
-      real(wp), intent(in) :: t
-      !> State, shape (n)
-      real(wp), intent(in) :: y(:)
+      real(wp), intent(in) :: t, y(:)
       !> Delayed values, shape (delayed values)
       real(wp), intent(in) :: z(:)
-      !> Whether `by_z` is needed
       logical, intent(in) :: with_delays
-      !> Whether the Jacobian is finite
       logical, intent(out) :: finite
       integer :: apart, first, group, j, k, last, shift
 
@@ -105,9 +93,7 @@ contains
 
    !> Rows of a column that may differ from 0: row i is at (shift + i, j).
    pure subroutine find_rows(self, j, first, last, shift)
-      !> The Jacobian
       class(jacobian_type), intent(in) :: self
-      !> Number of the column
       integer, intent(in) :: j
       !> First and last row, and the shift of all rows
       integer, intent(out) :: first, last, shift
@@ -150,11 +136,8 @@ contains
 
    !> Storage, when it is first needed.
    pure subroutine prepare(self, problem, with_delays)
-      !> The Jacobian
       class(jacobian_type), intent(inout) :: self
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Whether `by_z` is needed
       logical, intent(in) :: with_delays
 
       if (.not. allocated(self%by_y)) then
@@ -177,11 +160,8 @@ contains
 
    !> Size of a component, to which its difference is proportional.
    pure real(wp) function size_of(tolerance, i, value) result(size)
-      !> Tolerance of each component
       type(tolerance_type), intent(in) :: tolerance
-      !> Number of the component
       integer, intent(in) :: i
-      !> Value of the component
       real(wp), intent(in) :: value
 
       size = max(abs(value), small_share*tolerance%absolute(i)/tolerance%level, &
@@ -190,9 +170,7 @@ contains
 
    !> The largest sum of a row of absolute values.
    pure subroutine find_norm(self, norm)
-      !> The Jacobian
       class(jacobian_type), intent(inout) :: self
-      !> The norm
       real(wp), intent(out) :: norm
       integer :: first, j, last, shift
 

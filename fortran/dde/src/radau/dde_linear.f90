@@ -31,7 +31,6 @@ contains
 
    !> Factors of a real matrix.
    pure subroutine factorise_real(a, pivot, first, last, row_scale, singular)
-      !> Rows exchanged, shape (n)
       integer, intent(out) :: pivot(:)
       !> Matrix, replaced by its factors
       real(wp), intent(inout) :: a(size(pivot), size(pivot))
@@ -41,9 +40,7 @@ contains
 
    !> Factors of a complex matrix.
    pure subroutine factorise_complex(a, pivot, first, last, row_scale, singular)
-      !> Rows exchanged, shape (n)
       integer, intent(out) :: pivot(:)
-      !> Matrix, replaced by its factors
       complex(wp), intent(inout) :: a(size(pivot), size(pivot))
       complex(wp) :: moved
       include "factorise.inc"
@@ -51,9 +48,7 @@ contains
 
    !> Solution of a factorised real system.
    pure subroutine solve_real(a, pivot, first, last, b)
-      !> Rows exchanged, shape (n)
       integer, intent(in) :: pivot(:)
-      !> Factors
       real(wp), intent(in) :: a(size(pivot), size(pivot))
       !> Right-hand side, replaced by the solution
       real(wp), intent(inout) :: b(size(pivot))
@@ -63,11 +58,8 @@ contains
 
    !> Solution of a factorised complex system.
    pure subroutine solve_complex(a, pivot, first, last, b)
-      !> Rows exchanged, shape (n)
       integer, intent(in) :: pivot(:)
-      !> Factors
       complex(wp), intent(in) :: a(size(pivot), size(pivot))
-      !> Right-hand side, replaced by the solution
       complex(wp), intent(inout) :: b(size(pivot))
       complex(wp) :: moved
       include "solve.inc"
@@ -75,7 +67,6 @@ contains
 
    !> Size of a real number.
    elemental real(wp) function size_of_real(x) result(value)
-      !> The number
       real(wp), intent(in) :: x
 
       value = abs(x)
@@ -83,7 +74,6 @@ contains
 
    !> Size of a complex number.
    elemental real(wp) function size_of_complex(z) result(value)
-      !> The number
       complex(wp), intent(in) :: z
 
       value = abs(real(z)) + abs(aimag(z))

@@ -49,18 +49,7 @@ module dde_stage_iteration
       !> does not measure theta.
       real(wp) :: remainder = 1.0_wp
    contains
-      !> Forget the contraction of earlier steps
-      procedure :: forget
-      !> Read the delayed values
-      procedure :: place_delays
-      !> Guess the increments
-      procedure :: start
-      !> Delayed values that lie in this step
-      procedure :: expect_delayed
-      !> Find the increments
-      procedure :: iterate
-      !> Slope of the solution at the end of the step
-      procedure :: slope_at_end
+      procedure :: forget, place_delays, start, expect_delayed, iterate, slope_at_end
       procedure, private :: slopes_at_stages
    end type stage_iteration
 
@@ -72,12 +61,8 @@ contains
 
    !> Storage.
    pure function new_iteration(method, n, delays) result(iteration)
-      !> The method
       type(radau_tableau), intent(in) :: method
-      !> Number of equations
-      integer, intent(in) :: n
-      !> Number of delayed values
-      integer, intent(in) :: delays
+      integer, intent(in) :: n, delays
       type(stage_iteration) :: iteration
 
       associate (s => method%stages)
@@ -93,7 +78,6 @@ contains
 
    !> Forget the contraction of earlier steps.
    pure subroutine forget(self)
-      !> The iteration
       class(stage_iteration), intent(inout) :: self
 
       self%contraction = 1.0_wp
@@ -102,11 +86,8 @@ contains
 
    !> Delayed values of all stages, and the places of those that lie in the step itself.
    pure subroutine place_delays(self, context, method)
-      !> The iteration
       class(stage_iteration), intent(inout) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
-      !> The method
       type(radau_tableau), intent(in) :: method
       integer :: i, k
 
@@ -127,15 +108,12 @@ contains
 
    !> Start of the iteration: the last step's polynomial extrapolated, or no change.
    pure subroutine start(self, method, last_differences, last_h, h)
-      !> The iteration
       class(stage_iteration), intent(inout) :: self
-      !> The method
       type(radau_tableau), intent(in) :: method
       !> Newton coefficients of the last step's increments, shape (0:stages, n)
       real(wp), contiguous, intent(in) :: last_differences(0:, :)
       !> Length of the last step; 0 where its polynomial must not be extrapolated
       real(wp), intent(in) :: last_h
-      !> Length of this step
       real(wp), intent(in) :: h
       real(wp) :: place, rise
       integer :: i, k
@@ -158,11 +136,8 @@ contains
 
    !> Delayed values that lie in this step, from the present increments.
    pure subroutine expect_delayed(self, components, y)
-      !> The iteration
       class(stage_iteration), intent(inout) :: self
-      !> Component that each delayed value is
       integer, intent(in) :: components(:)
-      !> State at the start of the step
       real(wp), intent(in) :: y(:)
       integer :: i, k
 
@@ -180,25 +155,16 @@ contains
    !> Simplified Newton iteration for the stage increments.
    pure subroutine iterate(self, context, method, y, scale, tolerance, safety, converged, &
                            finite)
-      !> The iteration, started and its systems prepared
       class(stage_iteration), intent(inout) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
-      !> The method
       type(radau_tableau), intent(in) :: method
-      !> State at its start, shape (n)
-      real(wp), intent(in) :: y(:)
-      !> Scale of each component
-      real(wp), intent(in) :: scale(:)
+      real(wp), intent(in) :: y(:), scale(:)
       !> Tolerance of the error estimate
       real(wp), intent(in) :: tolerance
       !> Factor below the step size at which the error would be equal to the tolerance; it is
       !> smaller after many iterations
       real(wp), intent(inout) :: safety
-      !> Whether the iteration converged
-      logical, intent(out) :: converged
-      !> Whether all evaluations were finite
-      logical, intent(out) :: finite
+      logical, intent(out) :: converged, finite
       real(wp) :: last_norm, last_rate, limit, norm, rate, rounding
       integer :: iteration, most, stage
 
@@ -248,11 +214,8 @@ contains
 
    !> Slope of the collocation polynomial at the end of a step of length `h`.
    pure subroutine slope_at_end(self, h, slope)
-      !> The iteration, converged
       class(stage_iteration), intent(in) :: self
-      !> Length of the step
       real(wp), intent(in) :: h
-      !> The slope, shape (n)
       real(wp), intent(out) :: slope(:)
 
       call add_up(self%systems%a_inverse(size(self%increments, 2), :), self%increments, slope)
@@ -261,15 +224,10 @@ contains
 
    !> Slopes of all stages.
    pure subroutine slopes_at_stages(self, context, method, y, finite)
-      !> The iteration
       class(stage_iteration), intent(inout) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
-      !> The method
       type(radau_tableau), intent(in) :: method
-      !> State at its start
       real(wp), intent(in) :: y(:)
-      !> Whether all are finite
       logical, intent(out) :: finite
       real(wp) :: t, t_end
       integer :: i

@@ -33,12 +33,7 @@ module dde_stage_systems
       !> (allocatable: of two components of one type, gfortran frees only the first with the step)
       type(coupling_type), allocatable, private :: of_stages, of_end
    contains
-      !> Factorise for a Jacobian and a length
-      procedure :: prepare
-      !> Newton correction of the transformed increments
-      procedure :: correct
-      !> Solution of the real system alone
-      procedure :: filter
+      procedure :: prepare, correct, filter
       procedure, private :: couple, solve_stages
    end type stage_systems
 
@@ -50,9 +45,7 @@ contains
 
    !> Storage for n equations.
    pure function new_systems(method, n) result(systems)
-      !> The method
       type(radau_tableau), intent(in) :: method
-      !> Number of equations
       integer, intent(in) :: n
       type(stage_systems) :: systems
 
@@ -66,7 +59,6 @@ contains
 
    !> inverse(A) = T L inverse(T).
    pure function inverse_of_a(method) result(a_inverse)
-      !> The method
       type(radau_tableau), intent(in) :: method
       real(wp) :: a_inverse(stage_lanes, method%stages)
       real(wp), dimension(method%stages, method%stages) :: blocks, first, second
@@ -92,24 +84,17 @@ contains
    !> Factorise the systems of a step of length `h`.
    pure subroutine prepare(self, method, h, jacobian, component, own_place, own_weights, work, &
                            singular)
-      !> The systems
       class(stage_systems), intent(inout) :: self
-      !> The method
       type(radau_tableau), intent(in) :: method
-      !> Length of the step
       real(wp), intent(in) :: h
-      !> The Jacobian
       type(jacobian_type), intent(in) :: jacobian
-      !> Component that each delayed value is
       integer, intent(in) :: component(:)
       !> Place of each stage's delayed values in the step, <= 0 in the past, shape (delayed values,
       !> stages)
       real(wp), intent(in) :: own_place(:, :)
       !> Weights of the stage increments in those, shape (stages, delayed values, stages)
       real(wp), intent(in) :: own_weights(:, :, :)
-      !> Work so far
       type(work_type), intent(inout) :: work
-      !> Whether a system has no solution
       logical, intent(out) :: singular
       integer :: pair
 
@@ -132,21 +117,16 @@ contains
 
    !> Make the delayed values that lie in the step unknowns. The others have weight 0.
    pure subroutine couple(self, method, by_z, component, own_place, own_weights, work, singular)
-      !> The systems, factorised
       class(stage_systems), intent(inout) :: self
-      !> The method
       type(radau_tableau), intent(in) :: method
       !> Jacobian by the delayed values
       real(wp), intent(in) :: by_z(:, :)
-      !> Component that each delayed value is
       integer, intent(in) :: component(:)
       !> Place of each stage's delayed values in the step
       real(wp), intent(in) :: own_place(:, :)
       !> Weights of the stage increments in those
       real(wp), intent(in) :: own_weights(:, :, :)
-      !> Work so far
       type(work_type), intent(inout) :: work
-      !> Whether a system has no solution
       logical, intent(out) :: singular
       integer :: i, j, k, unknown
 
@@ -185,11 +165,9 @@ contains
 
    !> Solution of the real and the complex systems, for transformed stages.
    pure subroutine solve_stages(self, x, work)
-      !> The systems
       class(stage_systems), intent(inout) :: self
       !> Right-hand sides, replaced by the solutions, shape (n, stages)
       real(wp), contiguous, intent(inout) :: x(:, :)
-      !> Work so far
       type(work_type), intent(inout) :: work
       integer :: i, pair
 
@@ -207,15 +185,12 @@ contains
 
    !> Newton correction of the transforms inverse(T) Z of the increments Z.
    pure subroutine correct(self, method, slopes, transforms, work, change)
-      !> The systems
       class(stage_systems), intent(inout) :: self
-      !> The method
       type(radau_tableau), intent(in) :: method
       !> Slopes at the stages, shape (n, stages)
       real(wp), contiguous, intent(in) :: slopes(:, :)
       !> Transforms of the increments, shape (n, stages)
       real(wp), intent(in) :: transforms(:, :)
-      !> Work so far
       type(work_type), intent(inout) :: work
       !> The correction, shape (n, stages)
       real(wp), contiguous, intent(out) :: change(:, :)
@@ -238,7 +213,6 @@ contains
 
    !> Replace a vector by the solution of the real system. Only its stiff components shrink.
    pure subroutine filter(self, vector)
-      !> The systems
       class(stage_systems), intent(inout) :: self
       !> Right-hand side, replaced by the solution, shape (n)
       real(wp), contiguous, intent(inout) :: vector(:)

@@ -36,9 +36,7 @@ module dde_systems
       !> Factors, shape (n, n) or (1 + 2 lower + upper, n)
       real(wp), allocatable, private :: a(:, :)
    contains
-      !> Factorise for a Jacobian
       procedure :: prepare => prepare_real
-      !> Replace a right-hand side by the solution
       procedure :: solve => solve_real
    end type real_system
 
@@ -47,9 +45,7 @@ module dde_systems
       !> Factors, shape (n, n) or (1 + 2 lower + upper, n)
       complex(wp), allocatable, private :: a(:, :)
    contains
-      !> Factorise for a Jacobian
       procedure :: prepare => prepare_complex
-      !> Replace a right-hand side by the solution
       procedure :: solve => solve_complex
    end type complex_system
 
@@ -57,9 +53,7 @@ contains
 
    !> Factorise shift - J.
    pure subroutine prepare_real(self, jacobian, shift, singular)
-      !> The system
       class(real_system), intent(inout) :: self
-      !> The shift
       real(wp), intent(in) :: shift
       !> Operations of a multiplication
       real(wp), parameter :: cost = 1.0_wp
@@ -68,7 +62,6 @@ contains
 
    !> Replace a right-hand side by the solution.
    pure subroutine solve_real(self, b)
-      !> The system, factorised
       class(real_system), intent(in) :: self
       !> Right-hand side, replaced by the solution, shape (n)
       real(wp), contiguous, intent(inout) :: b(:)
@@ -77,9 +70,7 @@ contains
 
    !> Factorise shift - J.
    pure subroutine prepare_complex(self, jacobian, shift, singular)
-      !> The system
       class(complex_system), intent(inout) :: self
-      !> The shift
       complex(wp), intent(in) :: shift
       !> Operations of a multiplication
       real(wp), parameter :: cost = complex_over_real
@@ -88,30 +79,10 @@ contains
 
    !> Replace a right-hand side by the solution.
    pure subroutine solve_complex(self, b)
-      !> The system, factorised
       class(complex_system), intent(in) :: self
-      !> Right-hand side, replaced by the solution, shape (n)
       complex(wp), contiguous, intent(inout) :: b(:)
       include "solve_system.inc"
    end subroutine solve_complex
-
-   !> Rows of a column that may differ from 0: row i is at (shift + i, j).
-   pure subroutine find_rows(self, j, first, last, shift)
-      !> The system
-      class(linear_system), intent(in) :: self
-      !> Number of the column
-      integer, intent(in) :: j
-      !> First and last row, and the shift of all rows
-      integer, intent(out) :: first, last, shift
-
-      first = 1
-      last = size(self%row)
-      shift = 0
-      if (.not. self%banded) return
-      first = max(1, j - self%upper)
-      last = min(last, j + self%lower)
-      shift = 1 + self%lower + self%upper - j
-   end subroutine find_rows
 
    !> Additions and multiplications of a factorisation, in real numbers.
    pure real(wp) function factor_operations(n, banded, lower, upper) result(operations)

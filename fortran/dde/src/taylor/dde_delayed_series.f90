@@ -26,12 +26,7 @@ module dde_delayed_series
       !> Number of the past step that each delayed value would read if none were skipped
       integer(int64), allocatable, private :: first(:)
    contains
-      !> Read them from the past
-      procedure :: read_past
-      !> Shorten a step to the length for which they agree with the past
-      procedure :: confirm
-      !> Change the unit of time
-      procedure :: change_unit
+      procedure :: read_past, confirm, change_unit
    end type delayed_series
 
    interface delayed_series
@@ -42,10 +37,7 @@ contains
 
    !> Storage.
    pure function new_series(degree, delays) result(series)
-      !> Degree
-      integer, intent(in) :: degree
-      !> Number of delayed values
-      integer, intent(in) :: delays
+      integer, intent(in) :: degree, delays
       type(delayed_series) :: series
 
       allocate (series%coefficients(0:degree, delays))
@@ -54,9 +46,7 @@ contains
 
    !> Series of the delayed values from the start of the step on.
    pure subroutine read_past(self, context, skipping, unit, valid_for)
-      !> The series
       class(delayed_series), intent(inout) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
       !> Whether very short past steps may be skipped
       logical, intent(in) :: skipping
@@ -97,11 +87,8 @@ contains
    !> from one series, although the past may consist of several polynomials there. The length is 0
    !> if the skipped past differs by more than the tolerance.
    pure subroutine confirm(self, context, unit, h)
-      !> The series, read
       class(delayed_series), intent(in) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
-      !> Unit of time of the powers
       real(wp), intent(in) :: unit
       !> Length of the step: proposed, then possible
       real(wp), intent(inout) :: h
@@ -131,7 +118,6 @@ contains
 
    !> Change the unit of time of the powers.
    pure subroutine change_unit(self, ratio)
-      !> The series
       class(delayed_series), intent(inout) :: self
       !> The new unit over the old one
       real(wp), intent(in) :: ratio
@@ -148,9 +134,7 @@ contains
    !> Let delayed value k read the past step that holds its place at the start of the step, or the
    !> next one if that is about to end.
    pure subroutine read_start(context, k)
-      !> The context of the step
       type(step_context), intent(inout) :: context
-      !> Number of the delayed value
       integer, intent(in) :: k
 
       associate (past => context%past, cursor => context%cursor)
@@ -170,9 +154,7 @@ contains
    !> are skipped. Where no step is very short, the next one is read if its start is nearer than
    !> that of the present one and no kink lies between them.
    pure subroutine skip_short(context, k, most)
-      !> The context of the step
       type(step_context), intent(inout) :: context
-      !> Number of the delayed value
       integer, intent(in) :: k
       !> Largest length of a very short step, and of all that are skipped together
       real(wp), intent(in) :: most
@@ -203,11 +185,8 @@ contains
 
    !> Integral of |skipped past - value that is read instead|.
    pure function skipped_integral(context, k, first, value) result(integral)
-      !> The context of the step
       type(step_context), intent(in) :: context
-      !> Number of the delayed value
       integer, intent(in) :: k
-      !> Number of the first past step that is skipped
       integer(int64), intent(in) :: first
       !> The value that is read at the start of the step
       real(wp), intent(in) :: value

@@ -38,10 +38,7 @@ module dde_slow_series
       !> Change of the coefficients by an iteration, shape (0:degree, n), and the state, shape (n)
       real(wp), allocatable, private :: change(:, :), state(:)
    contains
-      !> Whether to search in this step
-      procedure :: decide_search
-      !> Find it for a state
-      procedure :: find
+      procedure :: decide_search, find
    end type slow_series
 
 contains
@@ -49,11 +46,9 @@ contains
    !> Whether to search in this step. The relaxation rate must limit it, and searches become rarer
    !> after each one that failed.
    pure subroutine decide_search(self, measure, value)
-      !> The series
       class(slow_series), intent(inout) :: self
       !> How far the series of the state reaches, times the relaxation rate
       real(wp), intent(in) :: measure
-      !> Whether to search
       logical, intent(out) :: value
 
       value = .false.
@@ -66,22 +61,11 @@ contains
    !> Iterate from the state. The series holds if it converges to the tolerance over its reach and
    !> if the state is that near to it.
    pure subroutine find(self, context, t, unit, degree, z, scale, rate, y)
-      !> The series
       class(slow_series), intent(inout) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
-      !> Time
-      real(wp), intent(in) :: t
-      !> Unit of time of the powers
-      real(wp), intent(in) :: unit
-      !> Degree
+      real(wp), intent(in) :: t, unit
       integer, intent(in) :: degree
-      !> Coefficients of the delayed values
-      real(wp), intent(in) :: z(0:degree, size(context%problem%lag))
-      !> Tolerance of each component
-      real(wp), intent(in) :: scale(context%problem%n)
-      !> Relaxation rate
-      real(wp), intent(in) :: rate
+      real(wp), intent(in) :: z(0:degree, size(context%problem%lag)), scale(context%problem%n), rate
       !> Coefficients, of which y(0, :) is given, the state; the slow series if it holds
       real(wp), intent(inout) :: y(0:degree, context%problem%n)
       real(wp) :: distance, open
@@ -122,16 +106,8 @@ contains
 
    !> Largest term of several series at s, in units of their scales.
    pure real(wp) function largest_term(degree, n, coefficients, scale, s) result(largest)
-      !> Degree
-      integer, intent(in) :: degree
-      !> Number of series
-      integer, intent(in) :: n
-      !> Coefficients
-      real(wp), intent(in) :: coefficients(0:degree, n)
-      !> Scales
-      real(wp), intent(in) :: scale(n)
-      !> Place
-      real(wp), intent(in) :: s
+      integer, intent(in) :: degree, n
+      real(wp), intent(in) :: coefficients(0:degree, n), scale(n), s
       real(wp) :: power
       integer :: i, k
 

@@ -33,12 +33,7 @@ module dde_taylor_series
       !> Whether the series is that of a slow solution, and when to search for one
       type(slow_series) :: slow
    contains
-      !> Find the coefficients; delayed values and unit are given
-      procedure :: expand
-      !> The state at a time
-      procedure :: state
-      !> Slope at a time
-      procedure :: slope
+      procedure :: expand, state, slope
    end type taylor_series
 
    interface taylor_series
@@ -49,9 +44,7 @@ contains
 
    !> Storage.
    pure function new_series(problem, degree) result(series)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Degree
       integer, intent(in) :: degree
       type(taylor_series) :: series
 
@@ -63,15 +56,10 @@ contains
    !> The slow series if it holds: the state is then moved onto the slow solution. Otherwise the
    !> series of the state.
    pure subroutine expand(self, context, t, scale, y)
-      !> The series
       class(taylor_series), intent(inout) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
-      !> Time
       real(wp), intent(in) :: t
-      !> Tolerance of each component
       real(wp), contiguous, intent(in) :: scale(:)
-      !> State
       real(wp), contiguous, intent(inout) :: y(:)
       real(wp) :: rate
       logical :: trying
@@ -100,15 +88,10 @@ contains
 
    !> Take the slow series if it holds.
    pure subroutine find_slow(self, context, t, scale, rate, y)
-      !> The series
       class(taylor_series), intent(inout) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
-      !> Time
       real(wp), intent(in) :: t
-      !> Tolerance of each component
       real(wp), contiguous, intent(in) :: scale(:)
-      !> Relaxation rate
       real(wp), intent(in) :: rate
       !> State; that on the slow solution
       real(wp), contiguous, intent(inout) :: y(:)
@@ -123,11 +106,8 @@ contains
 
    !> The state at a time.
    pure subroutine state(self, time, y)
-      !> The series
       class(taylor_series), intent(in) :: self
-      !> Time since its start
       real(wp), intent(in) :: time
-      !> The state, shape (n)
       real(wp), intent(out) :: y(:)
       integer :: i
 
@@ -138,9 +118,7 @@ contains
 
    !> The slope at a time.
    pure function slope(self, time) result(value)
-      !> The series
       class(taylor_series), intent(in) :: self
-      !> Time since its start
       real(wp), intent(in) :: time
       real(wp) :: value(size(self%coefficients, 2))
       integer :: k

@@ -42,14 +42,7 @@ module dde_taylor_step
       !> Time along the series of the present state; negative if its slope was evaluated instead
       real(wp), private :: place = -1.0_wp
    contains
-      procedure :: reset
-      procedure :: propose
-      procedure :: attempt
-      procedure :: interpolant
-      procedure :: stiff
-      procedure :: next_length
-      procedure :: advance
-      procedure :: slope_here
+      procedure :: reset, propose, attempt, interpolant, stiff, next_length, advance, slope_here
    end type taylor_step_type
 
    interface taylor_step_type
@@ -60,7 +53,6 @@ contains
 
    !> Storage, and the state at the initial time.
    pure function new_step(problem, tolerance) result(step)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> Relative or absolute tolerance, the larger
       real(wp), intent(in) :: tolerance
@@ -78,7 +70,6 @@ contains
 
    !> The slope was evaluated: the last series no longer gives it.
    pure subroutine reset(self)
-      !> The step
       class(taylor_step_type), intent(inout) :: self
 
       self%place = -1.0_wp
@@ -86,11 +77,8 @@ contains
 
    !> Find the series, and the largest step for which it and the past it is made from are valid.
    pure subroutine propose(self, context, h)
-      !> The step
       class(taylor_step_type), intent(inout) :: self
-      !> The context of the step, its cursor on the longest step that is possible
       type(step_context), intent(inout) :: context
-      !> Step size: proposed so far, then possible
       real(wp), intent(inout) :: h
       real(wp) :: past_valid_for, possible, unit
       logical :: skipping
@@ -116,25 +104,19 @@ contains
 
    !> The next step size that the series would allow is near that of this one.
    pure subroutine next_length(self, control, h, error)
-      !> The step, accepted
       class(taylor_step_type), intent(in) :: self
-      !> Step control
       type(controller_type), intent(inout) :: control
-      !> Length of the step, replaced by the next
       real(wp), intent(inout) :: h
-      !> Error of the step in units of the tolerance
       real(wp), intent(in) :: error
 
       h = self%series%reach
    end subroutine next_length
 
-   !> Attempt a step. Its length was chosen so that the error is within the tolerance.
+   !> Attempt a step. Its length was chosen so that the error is within the tolerance: `error` is 0,
+   !> or not a number if the series is not finite.
    pure subroutine attempt(self, context, error)
-      !> The step
       class(taylor_step_type), intent(inout) :: self
-      !> The context of the step
       type(step_context), intent(inout) :: context
-      !> 0, or not a number if the series is not finite
       real(wp), intent(out) :: error
 
       self%t = context%cursor%t
@@ -149,11 +131,8 @@ contains
 
    !> The series of component `i`.
    pure subroutine interpolant(self, i, a)
-      !> The step
       class(taylor_step_type), intent(in) :: self
-      !> Number of the component
       integer, intent(in) :: i
-      !> Newton coefficients over `nodes`, which are all 0
       real(wp), contiguous, intent(out) :: a(0:)
 
       real(wp) :: power
@@ -173,7 +152,6 @@ contains
    !> third terms are small beside the first. They may exceed that by the truncation error, which is
    !> at the level of the tolerance, in a step at the limit of stability or in a slow series.
    pure logical function stiff(self) result(value)
-      !> The step
       class(taylor_step_type), intent(in) :: self
       real(wp) :: first, of_second, of_third, place, second, third, weight
       integer :: i
@@ -201,7 +179,6 @@ contains
 
    !> The end becomes the start.
    pure subroutine advance(self)
-      !> The step
       class(taylor_step_type), intent(inout) :: self
 
       self%y = self%y_new
@@ -210,7 +187,6 @@ contains
 
    !> The derivative of the series.
    pure function slope_here(self) result(slope)
-      !> The step
       class(taylor_step_type), intent(in) :: self
       real(wp) :: slope(size(self%y))
 

@@ -3,13 +3,12 @@ module test_dde_behaviour
    use dde, only: dde_problem_type, integrate, integration_options, integration_result, &
                   sampler_type, table_sampler
    use dde_errors, only: failure_type => error_type, text
-   use expectations, only: expect, expect_between, expect_close, expect_success
+   use expectations, only: expect, expect_between, expect_close
    use dde_kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use published_problems, only: mackey_glass
-   use solving, only: at_tolerance, solve
+   use solving, only: at_tolerance, run, solve
    use test_problems, only: linear, wille_baker
-   use undelayed_problems, only: blow_up, oscillator, swing, without_delays
+   use undelayed_problems, only: blow_up, swing
    implicit none (type, external)
    private
    public :: collect_dde_behaviour
@@ -29,13 +28,10 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("samples", test_samples), &
-                   new_unittest("samples before and after", test_samples_outside), &
                    new_unittest("samples that follow the steps", test_following), &
-                   new_unittest("a run that ends at a sample", test_end_at_sample), &
                    new_unittest("breaking points of one delay", test_one_delay), &
                    new_unittest("breaking points of two delays", test_two_delays), &
                    new_unittest("kinks are landed on", test_landing), &
-                   new_unittest("kinks of two delays are landed on", test_landing_two_delays), &
                    new_unittest("first and longest step", test_steps), &
                    new_unittest("first step chosen", test_first_step), &
                    new_unittest("work without delays", test_work_without_delays), &
@@ -43,55 +39,34 @@ contains
    end subroutine collect_dde_behaviour
 
    !> Samples are the wanted components, in their order, at the times wanted: the start, the end,
-   !> one time twice, some a hundredth of a step apart.
+   !> one time twice, some a hundredth of a step apart. Those after the end are not taken.
    subroutine test_samples(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
       type(table_sampler) :: table
       real(wp), parameter :: t_end = 0.1_wp + 0.2_wp + 7.0_wp
       real(wp), parameter :: times(8) = [0.0_wp, 1.0e-9_wp, 2.0_wp, 2.001_wp, 2.002_wp, 2.002_wp, &
                                          5.5_wp, t_end]
+      real(wp), parameter :: after(2) = [nearest(t_end, 1.0_wp), 30.0_wp]
 
-      table = table_sampler([2, 1], times)
-      call integrate(swing(), 0.0_wp, t_end, at_tolerance(1.0e-12_wp), outcome, failure, table)
-      call expect_success(error, failure)
-      call expect(error, table%received == size(times), "all samples are received")
+      table = table_sampler([2, 1], [times, after])
+      call run(error, swing(), 0.0_wp, t_end, at_tolerance(1.0e-12_wp), outcome, table)
+      call expect(error, table%received == size(times), text(table%received)//" samples")
       call expect_close(error, table%values(:, 1), [0.0_wp, 1.0_wp], 0.0_wp, "start")
-      call expect_close(error, table%values(1, :), -sin(times), 1.0e-11_wp, "-sin t")
-      call expect_close(error, table%values(2, :), cos(times), 1.0e-11_wp, "cos t")
+      call expect_close(error, table%values(1, :8), -sin(times), 1.0e-11_wp, "-sin t")
+      call expect_close(error, table%values(2, :8), cos(times), 1.0e-11_wp, "cos t")
       call expect_close(error, table%values(:, 8), outcome%y([2, 1]), 3.0e-16_wp, "end")
       call expect(error, outcome%t >= t_end .and. outcome%t <= t_end, "t is t_end")
    end subroutine test_samples
 
-   !> Samples before the start show the start; those after the end are not taken.
-   subroutine test_samples_outside(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
-      type(table_sampler) :: table
-
-      table = table_sampler([1], [0.0_wp, 0.5_wp, 1.0_wp, nearest(1.0_wp, 1.0_wp), 3.0_wp])
-      call integrate(swing(), 0.0_wp, 1.0_wp, at_tolerance(1.0e-12_wp), outcome, failure, table)
-      call expect_success(error, failure)
-      call expect(error, table%received == 3, "3 samples, but "//text(table%received))
-      call expect_close(error, table%values(1, 1:3), [1.0_wp, cos(0.5_wp), cos(1.0_wp)], &
-                        1.0e-11_wp, "sample")
-   end subroutine test_samples_outside
-
    !> y = 1/(1 - t) grows a thousandfold before the end, between two samples by a small part.
    subroutine test_following(error)
       type(error_type), allocatable, intent(out) :: error
-      type(blow_up) :: problem
-      type(failure_type), allocatable :: failure
       type(following_sampler) :: samples
       type(integration_result) :: outcome
 
-      problem = blow_up(n=1, past=[1.0_wp], first=[1.0_wp])
-      call without_delays(problem)
       samples = following_sampler(wanted=[1], share_of_step=0.25_wp, time=[0.0_wp], y=[1.0_wp])
-      call integrate(problem, 0.0_wp, 0.999_wp, at_tolerance(1.0e-9_wp), outcome, failure, samples)
-      call expect_success(error, failure)
+      call run(error, blow_up(), 0.0_wp, 0.999_wp, at_tolerance(1.0e-9_wp), outcome, samples)
       if (allocated(error)) return
       associate (t => samples%time, y => samples%y, n => size(samples%time))
          call expect(error, all(t(2:) > t(:n - 1)), "times ascend")
@@ -103,9 +78,7 @@ contains
 
    !> Append a sample.
    subroutine append_sample(self, y)
-      !> The sampler
       class(following_sampler), intent(inout) :: self
-      !> Value of the component
       real(wp), intent(in) :: y(:)
 
       self%time = [self%time, self%next]
@@ -113,35 +86,19 @@ contains
       self%next = huge(1.0_wp)
    end subroutine append_sample
 
-   !> Dense output agrees with a run that ends there.
-   subroutine test_end_at_sample(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(mackey_glass) :: problem
-      real(wp), parameter :: times(4) = [3.3_wp, 17.0_wp, 41.7_wp, 80.0_wp]
-      real(wp), allocatable :: through(:, :), until(:, :)
-      integer :: i
-
-      problem = mackey_glass(n=1, lag=[17.0_wp], component=[1], past=[1.2_wp], first=[1.2_wp])
-      call solve(problem, times, at_tolerance(1.0e-10_wp), through, error)
-      do i = 1, size(times)
-         call solve(problem, times(i:i), at_tolerance(1.0e-10_wp), until, error)
-         call expect_close(error, through(1, i), until(1, 1), 2.0e-9_wp, "y")
-      end do
-   end subroutine test_end_at_sample
-
    !> A method of order 8 needs a continuous eighth derivative: a kink is landed on 7 times, a jump
    !> 8 times, as far as the multiples of the delay lie before the end.
    subroutine test_one_delay(error)
       type(error_type), allocatable, intent(out) :: error
 
-      call expect_points(error, decay(past=1.0_wp), 30.0_wp, 7)
-      call expect_points(error, decay(past=0.0_wp), 30.0_wp, 8)
-      call expect_points(error, decay(past=1.0_wp), 3.5_wp, 3)
-      call expect_points(error, decay(past=0.0_wp), 3.5_wp, 3)
-      call expect_points(error, decay(past=1.0_wp), 3.0_wp, 2)
-      call expect_points(error, decay(past=1.0_wp), 1.0_wp, 0)
-      call expect_points(error, decay(past=0.0_wp), 8.5_wp, 8)
-      call expect_points(error, decay(past=1.0_wp), 8.5_wp, 7)
+      call expect_points(error, linear(), 30.0_wp, 7)
+      call expect_points(error, linear(past=[0.0_wp]), 30.0_wp, 8)
+      call expect_points(error, linear(), 3.5_wp, 3)
+      call expect_points(error, linear(past=[0.0_wp]), 3.5_wp, 3)
+      call expect_points(error, linear(), 3.0_wp, 2)
+      call expect_points(error, linear(), 1.0_wp, 0)
+      call expect_points(error, linear(past=[0.0_wp]), 8.5_wp, 8)
+      call expect_points(error, linear(), 8.5_wp, 7)
    end subroutine test_one_delay
 
    !> Two delays, counted by hand. Delays 1 and 0.2 to t = 2.1: 0.2, 0.4, .. 2.0, where many sums
@@ -150,13 +107,13 @@ contains
    subroutine test_two_delays(error)
       type(error_type), allocatable, intent(out) :: error
 
-      call expect_points(error, pair(1.0_wp, 0.2_wp), 2.1_wp, 10)
-      call expect_points(error, pair(1.0_wp, 0.1_wp), 1.85_wp, 14)
-      call expect_points(error, pair(1.0_wp, sqrt(2.0_wp)), 4.5_wp, 11)
+      call expect_points(error, wille_baker(), 2.1_wp, 10)
+      call expect_points(error, wille_baker(lag=[1.0_wp, 0.1_wp]), 1.85_wp, 14)
+      call expect_points(error, wille_baker(lag=[1.0_wp, sqrt(2.0_wp)]), 4.5_wp, 11)
    end subroutine test_two_delays
 
    !> Where all kinks are landed on, piecewise polynomials up to degree 7 come out exact at any
-   !> tolerance.
+   !> tolerance: with one delay and with two.
    subroutine test_landing(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: time(28)
@@ -164,23 +121,16 @@ contains
       integer :: i
 
       time = [(0.25_wp*i, i=1, size(time))]
-      call solve(decay(past=1.0_wp), time, at_tolerance(1.0_wp), y, error)
+      call solve(linear(), time, at_tolerance(1.0_wp), y, error)
       call expect_close(error, y(1, :), [(decayed(time(i) + 1.0_wp), i=1, size(time))], &
                         1.0e-14_wp, "y with a kink")
-      call solve(decay(past=0.0_wp), time, at_tolerance(1.0_wp), y, error)
+      call solve(linear(past=[0.0_wp]), time, at_tolerance(1.0_wp), y, error)
       call expect_close(error, y(1, :), [(decayed(time(i)), i=1, size(time))], 1.0e-14_wp, &
                         "y with a jump")
-   end subroutine test_landing
-
-   !> So do those of two delays.
-   subroutine test_landing_two_delays(error)
-      type(error_type), allocatable, intent(out) :: error
-      real(wp), allocatable :: y(:, :)
-
-      call solve(pair(1.0_wp, 0.2_wp), [1.0_wp], at_tolerance(1.0_wp), y, error)
+      call solve(wille_baker(), [1.0_wp], at_tolerance(1.0_wp), y, error)
       call expect_close(error, y(:, 1), [2.0_wp, 696401.0_wp/187500, 17896711.0_wp/5625000], &
                         1.0e-14_wp, "y(1)")
-   end subroutine test_landing_two_delays
+   end subroutine test_landing
 
    !> The first step is as long as asked for, no step longer.
    subroutine test_steps(error)
@@ -193,8 +143,7 @@ contains
       call integrate(swing(), 0.0_wp, 9.0_wp, options, outcome, failure)
       call expect_close(error, outcome%t, 0.125_wp, 0.0_wp, "end of the first step")
       options = integration_options("explicit", longest_step=0.03125_wp)
-      call integrate(swing(), 0.0_wp, 9.0_wp, options, outcome, failure)
-      call expect_success(error, failure)
+      call run(error, swing(), 0.0_wp, 9.0_wp, options, outcome)
       call expect_between(error, real(outcome%accepted, wp), 288.0_wp, 300.0_wp, "number of steps")
    end subroutine test_steps
 
@@ -205,16 +154,13 @@ contains
       type(failure_type), allocatable :: failure
       type(integration_options) :: options
       type(integration_result) :: outcome
-      type(oscillator) :: problem
       real(wp), parameter :: rates(2) = [1.0_wp, 1.0e6_wp]
       integer :: i
 
       options = at_tolerance(1.0e-9_wp)
       options%most_steps = 1
       do i = 1, 2
-         problem = swing()
-         problem%rate = rates(i)
-         call integrate(problem, 0.0_wp, 9.0_wp, options, outcome, failure)
+         call integrate(swing(rates(i)), 0.0_wp, 9.0_wp, options, outcome, failure)
          call expect(error, outcome%accepted == 1, "the first step passes")
          call expect_between(error, rates(i)*outcome%t, 1.0e-3_wp, 1.0_wp, "first step")
       end do
@@ -230,8 +176,7 @@ contains
       type(table_sampler) :: table
 
       options = integration_options("explicit", first_step=3.0_wp)
-      call integrate(swing(), 0.0_wp, 20.0_wp, options, outcome, failure)
-      call expect_success(error, failure)
+      call run(error, swing(), 0.0_wp, 20.0_wp, options, outcome)
       call expect(error, outcome%rejected > 0, "a first step that is too long is rejected")
       call expect(error, outcome%evaluations == 1 + 11*tries(outcome) + outcome%accepted, &
                   "evaluations without samples: "//text(outcome%evaluations))
@@ -245,19 +190,16 @@ contains
    !> With a delay each step needs dense output, and each breaking point a new first slope.
    subroutine test_work_with_delay(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
 
-      call integrate(decay(past=1.0_wp), 0.0_wp, 20.0_wp, &
-                     integration_options("explicit", first_step=0.9_wp), outcome, failure)
-      call expect_success(error, failure)
+      call run(error, linear(), 0.0_wp, 20.0_wp, &
+               integration_options("explicit", first_step=0.9_wp), outcome)
       call expect(error, outcome%evaluations == 1 + 11*tries(outcome) + 4*outcome%accepted &
                   + outcome%breaking_points, "evaluations: "//text(outcome%evaluations))
    end subroutine test_work_with_delay
 
    !> Steps tried.
    pure integer(int64) function tries(outcome) result(value)
-      !> What was done
       type(integration_result), intent(in) :: outcome
 
       value = outcome%accepted + outcome%rejected
@@ -265,34 +207,20 @@ contains
 
    !> A number of breaking points are landed on before t_end.
    subroutine expect_points(error, problem, t_end, points)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Final time
       real(wp), intent(in) :: t_end
-      !> Number of points
       integer, intent(in) :: points
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
 
-      call integrate(problem, 0.0_wp, t_end, at_tolerance(1.0e-6_wp), outcome, failure)
-      call expect_success(error, failure)
+      call run(error, problem, 0.0_wp, t_end, at_tolerance(1.0e-6_wp), outcome)
       call expect(error, outcome%breaking_points == points, text(points) &
                   //" breaking points before t = "//text(t_end)//", but " &
                   //text(outcome%breaking_points))
    end subroutine expect_points
 
-   !> y' = -y(t - 1), y(0) = 1.
-   pure type(linear) function decay(past) result(problem)
-      !> y before t = 0
-      real(wp), intent(in) :: past
-
-      problem = linear(n=1, lag=[1.0_wp], component=[1], past=[past], first=[1.0_wp])
-   end function decay
-
-   !> Its exact solution, the sum of (-1)^k (s - k)^k/k! over 0 <= k <= s, where s = t after a jump
-   !> and t + 1 without one.
+   !> Exact solution of y' = -y(t - 1), y(0) = 1: the sum of (-1)^k (s - k)^k/k! over 0 <= k <= s,
+   !> where s = t after a jump and t + 1 without one.
    pure real(wp) function decayed(s) result(y)
       !> Time since the first kink
       real(wp), intent(in) :: s
@@ -300,15 +228,4 @@ contains
 
       y = sum([((-1)**k*(s - k)**k/gamma(k + 1.0_wp), k=0, floor(s))])
    end function decayed
-
-   !> Wille and Baker's problem with any two delays.
-   pure type(wille_baker) function pair(first_lag, second_lag) result(problem)
-      !> Delay of y1
-      real(wp), intent(in) :: first_lag
-      !> Delay of y2
-      real(wp), intent(in) :: second_lag
-
-      problem = wille_baker(n=3, lag=[first_lag, second_lag], component=[1, 2], &
-                            past=[1.0_wp, 1.0_wp, 1.0_wp], first=[1.0_wp, 1.0_wp, 1.0_wp])
-   end function pair
 end module test_dde_behaviour

@@ -1,15 +1,14 @@
 !> Jumps: those that the caller declares, changes of the state between runs, and the breaking points
 !> of many delays.
 module test_dde_breaks
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use dde, only: continuation_type, integrate, integration_options, integration_result
+   use dde, only: continuation_type, integration_options, integration_result
    use dde_errors, only: failure_type => error_type, text
-   use expectations, only: expect, expect_close, expect_failure, expect_success
+   use expectations, only: expect, expect_close, expect_success
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use piecewise_problems, only: delayed_pulse, jumping_history, many_delays
    use pseudo_random, only: uniform
-   use solving, only: at_tolerance
+   use solving, only: at_tolerance, run
    use test_problems, only: fill, linear
    implicit none (type, external)
    private
@@ -26,91 +25,55 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("a pulse", test_pulse), &
-                   new_unittest("a pulse over two runs", test_pulse_in_two), &
                    new_unittest("a history that jumps", test_history), &
-                   new_unittest("refused breaks", test_refused), &
                    new_unittest("a changed state", test_changed_state), &
-                   new_unittest("refused changes", test_refused_changes), &
                    new_unittest("many delays", test_many_delays)]
    end subroutine collect_dde_breaks
 
    !> A short pulse late in the run, and what comes of it one delay later: the solution is piecewise
-   !> polynomial, so that it comes out exact at any tolerance where all jumps are landed on.
+   !> polynomial, so that it comes out exact at any tolerance where all jumps are landed on. A run
+   !> ends within the pulse and another goes on.
    subroutine test_pulse(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
+      type(continuation_type) :: state
+      type(delayed_pulse) :: problem
       type(integration_options) :: options
       type(integration_result) :: outcome
-      integer :: i
+      real(wp), parameter :: ends(4) = [50.05_wp, 50.1_wp, 51.0_wp, 55.0_wp]
+      integer :: i, part
 
+      call fill(problem, 2, [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], [1.0_wp], [1])
       do i = 1, size(methods)
          options = at_tolerance(1.0e-3_wp, methods(i))
          options%break_at = [50.1_wp, 50.0_wp, 80.0_wp]
-         call integrate(pulse(), 0.0_wp, 55.0_wp, options, outcome, failure)
-         call expect_success(error, failure)
-         if (allocated(error)) return
+         state = continuation_type()
+         do part = 1, size(ends)
+            call run(error, problem, state%time(1), ends(part), options, outcome, &
+                     continuation=state)
+            if (allocated(error)) return
+         end do
          call expect_close(error, outcome%y, [10.0_wp, 39.5_wp], 1.0e-10_wp, methods(i))
       end do
    end subroutine test_pulse
 
-   !> The same where a run ends within the pulse and another goes on.
-   subroutine test_pulse_in_two(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(continuation_type) :: state
-      type(failure_type), allocatable :: failure
-      type(integration_options) :: options
-      type(integration_result) :: outcome
-      real(wp), parameter :: ends(5) = [50.0_wp, 50.05_wp, 50.1_wp, 51.0_wp, 55.0_wp]
-      real(wp) :: start
-      integer :: i, part
-
-      do i = 1, size(methods)
-         options = at_tolerance(1.0e-3_wp, methods(i))
-         options%break_at = [50.0_wp, 50.1_wp]
-         state = continuation_type()
-         start = 0.0_wp
-         do part = 1, size(ends)
-            call integrate(pulse(), start, ends(part), options, outcome, failure, &
-                           continuation=state)
-            call expect_success(error, failure)
-            if (allocated(error)) return
-            start = ends(part)
-         end do
-         call expect_close(error, outcome%y, [10.0_wp, 39.5_wp], 1.0e-10_wp, methods(i))
-      end do
-   end subroutine test_pulse_in_two
-
    !> A jump inside the history comes back as a kink.
    subroutine test_history(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(integration_options) :: options
       type(integration_result) :: outcome
       type(jumping_history) :: problem
       integer :: i
 
       call fill(problem, 1, [0.0_wp], [0.0_wp], [1.0_wp], [1])
+      problem%rate = -1.0_wp
       do i = 1, size(methods)
          options = at_tolerance(1.0e-3_wp, methods(i))
          options%break_at = [-0.5_wp]
-         call integrate(problem, 0.0_wp, 2.5_wp, options, outcome, failure)
-         call expect_success(error, failure)
+         call run(error, problem, 0.0_wp, 2.5_wp, options, outcome)
          if (allocated(error)) return
          call expect_close(error, outcome%y, [0.875_wp], 1.0e-13_wp, methods(i))
       end do
    end subroutine test_history
-
-   !> Breaks are finite times.
-   subroutine test_refused(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(integration_options) :: options
-      type(integration_result) :: outcome
-
-      options%break_at = [1.0_wp, ieee_value(1.0_wp, ieee_quiet_nan)]
-      call integrate(pulse(), 0.0_wp, 55.0_wp, options, outcome, failure)
-      call expect_failure(error, failure, "break_at(2) = NaN; a finite time expected")
-   end subroutine test_refused
 
    !> y' = y(t - 1) from rest, put to 1 at t = 5/2: 7/2 at t = 11/2, exact at any tolerance.
    subroutine test_changed_state(error)
@@ -121,40 +84,19 @@ contains
       type(linear) :: problem
       integer :: i
 
-      problem = linear(n=1, lag=[1.0_wp], component=[1], past=[0.0_wp], first=[0.0_wp], &
-                       rate=-1.0_wp)
+      problem = linear(past=[0.0_wp], first=[0.0_wp], rate=-1.0_wp)
       do i = 1, size(methods)
          state = continuation_type()
-         call integrate(problem, 0.0_wp, 2.5_wp, at_tolerance(1.0e-3_wp, methods(i)), outcome, &
-                        failure, continuation=state)
-         call expect_success(error, failure)
+         call run(error, problem, 0.0_wp, 2.5_wp, at_tolerance(1.0e-3_wp, methods(i)), outcome, &
+                  continuation=state)
          call state%change_state([1.0_wp], failure)
          call expect_success(error, failure)
-         call integrate(problem, 2.5_wp, 5.5_wp, at_tolerance(1.0e-3_wp, methods(i)), outcome, &
-                        failure, continuation=state)
-         call expect_success(error, failure)
+         call run(error, problem, 2.5_wp, 5.5_wp, at_tolerance(1.0e-3_wp, methods(i)), outcome, &
+                  continuation=state)
          if (allocated(error)) return
          call expect_close(error, outcome%y, [3.5_wp], 1.0e-13_wp, methods(i))
       end do
    end subroutine test_changed_state
-
-   !> A change needs a run before it, and a state.
-   subroutine test_refused_changes(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(continuation_type) :: state
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
-
-      call state%change_state([1.0_wp, 2.0_wp], failure)
-      call expect_failure(error, failure, "the continuation is empty; one filled by a run expected")
-      call integrate(pulse(), 0.0_wp, 1.0_wp, integration_options(), outcome, failure, &
-                     continuation=state)
-      call expect_success(error, failure)
-      call state%change_state([1.0_wp], failure)
-      call expect_failure(error, failure, "1 components for 2 equations")
-      call state%change_state([1.0_wp, ieee_value(1.0_wp, ieee_quiet_nan)], failure)
-      call expect_failure(error, failure, "y(2) = NaN; a finite number expected")
-   end subroutine test_refused_changes
 
    !> Random delays from 1/2 to 3/2, t = 10: no more than three times the steps that landing on the
    !> first generation alone takes, which is all delays and 20 steps for 1e-6, and errors as small
@@ -162,7 +104,6 @@ contains
    subroutine test_many_delays(error)
       type(error_type), allocatable, intent(out) :: error
       integer, parameter :: counts(5) = [10, 12, 20, 50, 100]
-      type(failure_type), allocatable :: failure
       type(integration_result) :: fine, outcome
       type(many_delays) :: problem
       integer :: i, k
@@ -170,13 +111,9 @@ contains
       do i = 1, size(counts)
          call fill(problem, 1, [1.0_wp], [1.0_wp], uniform(i, counts(i), 0.5_wp, 1.5_wp), &
                    [(1, k=1, counts(i))])
-         call integrate(problem, 0.0_wp, 10.0_wp, at_tolerance(1.0e-11_wp, "explicit"), fine, &
-                        failure)
-         call expect_success(error, failure)
+         call run(error, problem, 0.0_wp, 10.0_wp, at_tolerance(1.0e-11_wp, "explicit"), fine)
          do k = 1, size(methods)
-            call integrate(problem, 0.0_wp, 10.0_wp, at_tolerance(1.0e-6_wp, methods(k)), outcome, &
-                           failure)
-            call expect_success(error, failure)
+            call run(error, problem, 0.0_wp, 10.0_wp, at_tolerance(1.0e-6_wp, methods(k)), outcome)
             if (allocated(error)) return
             associate (case_name => methods(k)//", "//text(counts(i))//" delays")
                call expect(error, outcome%accepted <= 3*(20 + counts(i)), &
@@ -187,9 +124,4 @@ contains
          end do
       end do
    end subroutine test_many_delays
-
-   !> The pulse and its delay.
-   type(delayed_pulse) function pulse() result(problem)
-      call fill(problem, 2, [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], [1.0_wp], [1])
-   end function pulse
 end module test_dde_breaks

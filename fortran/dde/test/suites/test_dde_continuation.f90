@@ -5,11 +5,10 @@ module test_dde_continuation
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_failure, &
                            expect_success
-   use files_of_continuations, only: through_file
    use dde_kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use published_problems, only: infection, mackey_glass
-   use solving, only: at_tolerance
+   use published_problems, only: infection, mackey_glass, published_infection
+   use solving, only: at_tolerance, run
    use test_problems, only: linear, sine
    use undelayed_problems, only: swing
    implicit none (type, external)
@@ -27,11 +26,8 @@ contains
 
       testsuite = [new_unittest("with a delay", test_sine), &
                    new_unittest("two delays", test_infection), &
-                   new_unittest("without delays", test_oscillator), &
                    new_unittest("kinks are landed on", test_kink), &
-                   new_unittest("kinks are counted on", test_passages), &
-                   new_unittest("another rate", test_rate), &
-                   new_unittest("another delay", test_lag), &
+                   new_unittest("another rate, a shorter delay", test_changes), &
                    new_unittest("a longer delay", test_longer_lag), &
                    new_unittest("when steps run out", test_too_many_steps), &
                    new_unittest("from event to event", test_events), &
@@ -46,16 +42,14 @@ contains
    subroutine test_names(error)
       type(error_type), allocatable, intent(out) :: error
       type(continuation_type) :: continuation
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
       integer :: i
 
       do i = 1, size(methods)
          if (methods(i) == "auto") cycle
          continuation = continuation_type()
-         call integrate(sine(), 0.0_wp, 1.0_wp, at_tolerance(1.0e-6_wp, methods(i)), outcome, &
-                        failure, continuation=continuation)
-         call expect_success(error, failure)
+         call run(error, sine(), 0.0_wp, 1.0_wp, at_tolerance(1.0e-6_wp, methods(i)), outcome, &
+                  continuation=continuation)
          call expect(error, continuation%method == methods(i), continuation%method//" for " &
                      //methods(i))
       end do
@@ -80,26 +74,11 @@ contains
       integer :: i
 
       do i = 1, size(methods)
-         call expect_end(error, infection(n=3, lag=[1.0_wp, 10.0_wp], component=[2, 2], &
-                                          past=[5.0_wp, 0.1_wp, 1.0_wp], &
-                                          first=[5.0_wp, 0.1_wp, 1.0_wp]), &
-                         ends, at_tolerance(1.0e-10_wp, methods(i)), &
-                         [0.0912491205664_wp, 0.0202995003351_wp, 5.9884513791_wp], 2.0e-8_wp, &
+         call expect_end(error, infection(), ends, at_tolerance(1.0e-10_wp, methods(i)), &
+                         published_infection, 2.0e-8_wp, &
                          trim(methods(i)))
       end do
    end subroutine test_infection
-
-   !> Without delays only state and time go on.
-   subroutine test_oscillator(error)
-      type(error_type), allocatable, intent(out) :: error
-      integer :: i
-
-      do i = 1, size(methods)
-         call expect_end(error, swing(), [0.1_wp, 5.0_wp, 20.0_wp], &
-                         at_tolerance(1.0e-10_wp, methods(i)), [cos(20.0_wp), -sin(20.0_wp)], &
-                         1.0e-8_wp, trim(methods(i)))
-      end do
-   end subroutine test_oscillator
 
    !> Where all kinks are still landed on, piecewise polynomials come out exact at any tolerance:
    !> with a kink and with a jump, which is one passage rougher.
@@ -107,70 +86,29 @@ contains
       type(error_type), allocatable, intent(out) :: error
       real(wp), parameter :: ends(6) = [0.3_wp, 1.0_wp, 2.2_wp, 2.3_wp, 4.0_wp, 5.0_wp]
 
-      call expect_end(error, decay(past=1.0_wp), ends, at_tolerance(1.0_wp), [19.0_wp/120], &
+      call expect_end(error, linear(), ends, at_tolerance(1.0_wp), [19.0_wp/120], &
                       1.0e-14_wp, "kink")
-      call expect_end(error, decay(past=0.0_wp), ends, at_tolerance(1.0_wp), [5.0_wp/24], &
+      call expect_end(error, linear(past=[0.0_wp]), ends, at_tolerance(1.0_wp), [5.0_wp/24], &
                       1.0e-14_wp, "jump")
    end subroutine test_kink
 
-   !> Seven passages of a kink and eight of a jump are landed on, three in the run before t = 3.5.
-   subroutine test_passages(error)
+   !> y' = -y(t - 1) up to t = 3/2, then -2 y(t - 1), with a kink there and at 5/2, or -y(t - 1/2):
+   !> y(3) = 1/8 and y(5/2) = -13/128 by hand.
+   subroutine test_changes(error)
       type(error_type), allocatable, intent(out) :: error
-      type(continuation_type) :: continuation
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: first, second
-      integer :: jump
-
-      do jump = 0, 1
-         continuation = continuation_type()
-         call integrate(decay(past=1.0_wp - jump), 0.0_wp, 3.5_wp, at_tolerance(1.0e-6_wp), first, &
-                        failure, continuation=continuation)
-         call expect_success(error, failure)
-         call integrate(decay(past=1.0_wp - jump), 3.5_wp, 30.0_wp, at_tolerance(1.0e-6_wp), &
-                        second, failure, continuation=continuation)
-         call expect_success(error, failure)
-         call expect(error, first%breaking_points == 3, "three in the first run")
-         call expect(error, second%breaking_points == 4 + jump, text(4 + jump) &
-                     //" in the second, but "//text(second%breaking_points))
-      end do
-   end subroutine test_passages
-
-   !> y' = -y(t - 1), and -2 y(t - 1) from 3/2 on: a kink there and at 5/2. y(3) = 1/8 by hand.
-   subroutine test_rate(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(continuation_type) :: continuation
-      type(failure_type), allocatable :: failure
+      type(continuation_type) :: faster, shorter
       type(integration_result) :: outcome
-      type(linear) :: problem
 
-      problem = decay(past=1.0_wp)
-      call integrate(problem, 0.0_wp, 1.5_wp, at_tolerance(1.0_wp), outcome, failure, &
-                     continuation=continuation)
-      problem%rate = 2.0_wp
-      call integrate(problem, 1.5_wp, 3.0_wp, at_tolerance(1.0_wp), outcome, failure, &
-                     continuation=continuation)
-      call expect_success(error, failure)
+      call run(error, linear(), 0.0_wp, 1.5_wp, at_tolerance(1.0_wp), outcome, continuation=faster)
+      shorter = faster
+      call run(error, linear(rate=2.0_wp), 1.5_wp, 3.0_wp, at_tolerance(1.0_wp), outcome, &
+               continuation=faster)
       call expect_close(error, outcome%y, [0.125_wp], 1.0e-14_wp, "y(3)")
       call expect(error, outcome%breaking_points == 2, "2 and 5/2 are landed on")
-   end subroutine test_rate
-
-   !> y' = -y(t - 1), and -y(t - 1/2) from 3/2 on. y(5/2) = -13/128 by hand.
-   subroutine test_lag(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(continuation_type) :: continuation
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
-      type(linear) :: problem
-
-      problem = decay(past=1.0_wp)
-      call integrate(problem, 0.0_wp, 1.5_wp, at_tolerance(1.0_wp), outcome, failure, &
-                     continuation=continuation)
-      problem%lag = [0.5_wp]
-      call integrate(problem, 1.5_wp, 2.5_wp, at_tolerance(1.0_wp), outcome, failure, &
-                     continuation=continuation)
-      call expect_success(error, failure)
+      call run(error, linear(lag=[0.5_wp]), 1.5_wp, 2.5_wp, at_tolerance(1.0_wp), outcome, &
+               continuation=shorter)
       call expect_close(error, outcome%y, [-13.0_wp/128], 1.0e-14_wp, "y(5/2)")
-   end subroutine test_lag
+   end subroutine test_changes
 
    !> y' = -y(t - 1/2), and -y(t - 1) from 3/2 on. y(2) = -1/6 by hand. The first run must keep a
    !> past of 1.
@@ -188,12 +126,10 @@ contains
       do i = 1, 2
          options = at_tolerance(1.0_wp)
          options%past_kept = past_kept(i)
-         problem = decay(past=1.0_wp)
+         problem = linear()
          problem%lag = [0.5_wp]
          continuation = continuation_type()
-         call integrate(problem, 0.0_wp, 1.5_wp, options, outcome, failure, &
-                        continuation=continuation)
-         call expect_success(error, failure)
+         call run(error, problem, 0.0_wp, 1.5_wp, options, outcome, continuation=continuation)
          problem%lag = [1.0_wp]
          call integrate(problem, 1.5_wp, 2.0_wp, options, outcome, failure, &
                         continuation=continuation)
@@ -237,103 +173,94 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(event_table) :: tables(2)
       type(continuation_type) :: continuation
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
+      integer, parameter :: turn(9) = [1, 2, 1, 2, 1, 2, 2, 2, 2]
+      integer, parameter :: cycle_of(9) = [0, 0, 1, 1, 2, 2, 3, 4, 5]
+      real(wp), parameter :: phase(2) = [pi/6, acos(0.3_wp)]
       integer :: i, k
 
       do i = 1, size(methods)
          continuation = continuation_type()
          tables(1) = event_table([1], [0.5_wp], [1], terminal=[.true.])
          tables(2) = event_table([1], [0.3_wp], [-1], terminal=[.true.], of_slope=[.true.])
-         do k = 0, 2
-            call integrate(sine(), continuation%time(1), 100.0_wp, &
-                           at_tolerance(1.0e-12_wp, methods(i)), outcome, failure, &
-                           watcher=tables(1), continuation=continuation)
-            call expect_success(error, failure)
+         do k = 1, size(turn)
+            call run(error, sine(), continuation%time(1), 100.0_wp, &
+                     at_tolerance(1.0e-12_wp, methods(i)), outcome, watcher=tables(turn(k)), &
+                     continuation=continuation)
             call expect(error, outcome%reason == event_met, "the reason is `event_met`")
-            call expect_close(error, outcome%t, pi/6 + 2*pi*k, 1.0e-9_wp, methods(i)//", 1/2")
-            call integrate(sine(), continuation%time(1), 100.0_wp, &
-                           at_tolerance(1.0e-12_wp, methods(i)), outcome, failure, &
-                           watcher=tables(2), continuation=continuation)
-            call expect_success(error, failure)
-            call expect_close(error, outcome%t, acos(0.3_wp) + 2*pi*k, 1.0e-9_wp, &
-                              methods(i)//", slope")
-         end do
-         do k = 3, 5
-            call integrate(sine(), continuation%time(1), 100.0_wp, &
-                           at_tolerance(1.0e-12_wp, methods(i)), outcome, failure, &
-                           watcher=tables(2), continuation=continuation)
-            call expect_success(error, failure)
-            call expect_close(error, outcome%t, acos(0.3_wp) + 2*pi*k, 1.0e-9_wp, &
-                              methods(i)//", slopes")
+            call expect_close(error, outcome%t, phase(turn(k)) + 2*pi*cycle_of(k), 1.0e-9_wp, &
+                              methods(i)//", event "//text(k))
          end do
       end do
    end subroutine test_events
 
-   !> What was written to a file and read back, as bits and as text, gives the same bits.
+   !> What was written to a file and read back gives the same bits.
    subroutine test_file(error)
       type(error_type), allocatable, intent(out) :: error
-      type(continuation_type) :: first, one, other
-      type(failure_type), allocatable :: failure
+      type(continuation_type) :: one, other
       type(integration_result) :: here, there
-      integer :: i, k
+      integer :: i
 
       do i = 1, size(methods)
-         first = continuation_type()
-         call integrate(sine(), 0.0_wp, 7.3_wp, at_tolerance(1.0e-9_wp, methods(i)), here, &
-                        failure, continuation=first)
-         call expect_success(error, failure)
-         do k = 1, 2
-            one = first
-            other = through_file(first, formatted=k == 2)
-            call integrate(sine(), 7.3_wp, 20.0_wp, at_tolerance(1.0e-9_wp, methods(i)), here, &
-                           failure, continuation=one)
-            call expect_success(error, failure)
-            call integrate(sine(), 7.3_wp, 20.0_wp, at_tolerance(1.0e-9_wp, methods(i)), there, &
-                           failure, continuation=other)
-            call expect_success(error, failure)
-            call expect_close(error, there%y, here%y, 0.0_wp, methods(i)//", file "//text(k))
-            call expect(error, there%evaluations == here%evaluations, "the same work")
-         end do
+         one = continuation_type()
+         call run(error, sine(), 0.0_wp, 7.3_wp, at_tolerance(1.0e-9_wp, methods(i)), here, &
+                  continuation=one)
+         if (allocated(error)) return
+         other = through_file(one)
+         call run(error, sine(), 7.3_wp, 20.0_wp, at_tolerance(1.0e-9_wp, methods(i)), here, &
+                  continuation=one)
+         call run(error, sine(), 7.3_wp, 20.0_wp, at_tolerance(1.0e-9_wp, methods(i)), there, &
+                  continuation=other)
+         call expect_close(error, there%y, here%y, 0.0_wp, methods(i))
+         call expect(error, there%evaluations == here%evaluations, "the same work")
       end do
    end subroutine test_file
 
+   !> What comes back from a text file that was written, with all digits, and read.
+   function through_file(kept) result(back)
+      type(continuation_type), intent(in) :: kept
+      type(continuation_type) :: back
+      integer :: unit
+
+      allocate (back%y, back%slope, back%rate, mold=kept%y)
+      allocate (back%kink, mold=kept%kink)
+      allocate (back%passages, back%generation, mold=kept%passages)
+      allocate (back%kept, mold=kept%kept)
+      allocate (back%step_start, mold=kept%step_start)
+      allocate (back%step_length, back%valid_for, mold=kept%step_length)
+      allocate (back%nodes, mold=kept%nodes)
+      allocate (back%coefficients, mold=kept%coefficients)
+      open (newunit=unit, status="scratch", action="readwrite", form="formatted")
+      write (unit, "(*(es27.17e4))") kept%time, kept%origin, kept%y, kept%slope, kept%rate, &
+         kept%next_step, kept%kink, kept%step_start, kept%step_length, kept%valid_for, &
+         kept%nodes, kept%coefficients
+      write (unit, "(a, *(1x, i0))") kept%method, kept%passages, kept%generation, kept%kept
+      rewind (unit)
+      read (unit, *) back%time, back%origin, back%y, back%slope, back%rate, &
+         back%next_step, back%kink, back%step_start, back%step_length, back%valid_for, &
+         back%nodes, back%coefficients
+      read (unit, *) back%method, back%passages, back%generation, back%kept
+      close (unit)
+   end function through_file
+
    !> Run after run from 0, the last ends in this state.
    subroutine expect_end(error, problem, ends, options, known, within, what)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> End of each run, ascending
       real(wp), intent(in) :: ends(:)
-      !> Tolerances
       type(integration_options), intent(in) :: options
-      !> Last state
-      real(wp), intent(in) :: known(:)
-      !> Largest difference
-      real(wp), intent(in) :: within
-      !> What it is
+      real(wp), intent(in) :: known(:), within
       character(len=*), intent(in) :: what
       type(continuation_type) :: continuation
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
       integer :: i
 
       do i = 1, size(ends)
-         call integrate(problem, continuation%time(1), ends(i), options, outcome, failure, &
-                        continuation=continuation)
-         call expect_success(error, failure)
+         call run(error, problem, continuation%time(1), ends(i), options, outcome, &
+                  continuation=continuation)
       end do
       call expect_close(error, outcome%y, known, within, what)
    end subroutine expect_end
-
-   !> y' = -y(t - 1), y(0) = 1.
-   pure type(linear) function decay(past) result(problem)
-      !> y before t = 0
-      real(wp), intent(in) :: past
-
-      problem = linear(n=1, lag=[1.0_wp], component=[1], past=[past], first=[1.0_wp])
-   end function decay
 
    !> A fast oscillator at t = 100, whose phase is lost with less than a spacing of t, in runs of a
    !> hundred steps.
@@ -370,19 +297,16 @@ contains
    subroutine test_pieces(error)
       type(error_type), allocatable, intent(out) :: error
       type(continuation_type) :: continuation
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome, whole
       integer, parameter :: pieces = 20
       integer(int64) :: steps
       integer :: i
 
-      call integrate(chaotic(), 0.0_wp, 600.0_wp, by_taylor(), whole, failure)
-      call expect_success(error, failure)
+      call run(error, mackey_glass(), 0.0_wp, 600.0_wp, at_tolerance(1.0e-10_wp, "taylor"), whole)
       steps = 0
       do i = 1, pieces
-         call integrate(chaotic(), (i - 1)*600.0_wp/pieces, i*600.0_wp/pieces, &
-                        by_taylor(), outcome, failure, continuation=continuation)
-         call expect_success(error, failure)
+         call run(error, mackey_glass(), (i - 1)*600.0_wp/pieces, i*600.0_wp/pieces, &
+                  at_tolerance(1.0e-10_wp, "taylor"), outcome, continuation=continuation)
          if (allocated(error)) return
          steps = steps + outcome%accepted
       end do
@@ -400,24 +324,21 @@ contains
       real(wp), parameter :: late(2) = [spacing(100.0_wp), 1.0e-9_wp]
       integer :: i
 
-      call integrate(chaotic(), 0.0_wp, 110.0_wp, by_taylor(), known, failure)
-      call expect_success(error, failure)
+      call run(error, mackey_glass(), 0.0_wp, 110.0_wp, at_tolerance(1.0e-10_wp, "taylor"), known)
       do i = 1, size(late)
          continuation = continuation_type()
          ! the end of the first run is the start of the oldest step kept by the second
-         call integrate(chaotic(), 0.0_wp, 83.0_wp, by_taylor(), outcome, failure, &
-                        continuation=continuation)
-         call expect_success(error, failure)
-         call integrate(chaotic(), 83.0_wp, 100.0_wp, by_taylor(), outcome, failure, &
-                        continuation=continuation)
-         call expect_success(error, failure)
+         call run(error, mackey_glass(), 0.0_wp, 83.0_wp, at_tolerance(1.0e-10_wp, "taylor"), &
+                  outcome, continuation=continuation)
+         call run(error, mackey_glass(), 83.0_wp, 100.0_wp, at_tolerance(1.0e-10_wp, "taylor"), &
+                  outcome, continuation=continuation)
          if (allocated(error)) return
          associate (start => continuation%step_start(:, 1))
             call expect_close(error, start, [83.0_wp, 0.0_wp], 0.0_wp, "the oldest step")
             start(1) = start(1) + late(i)
          end associate
-         call integrate(chaotic(), 100.0_wp, 110.0_wp, by_taylor(), outcome, failure, &
-                        continuation=continuation)
+         call integrate(mackey_glass(), 100.0_wp, 110.0_wp, at_tolerance(1.0e-10_wp, "taylor"), &
+                        outcome, failure, continuation=continuation)
          if (i == 1) then
             call expect_success(error, failure)
             if (allocated(error)) return
@@ -427,14 +348,4 @@ contains
          end if
       end do
    end subroutine test_rounding
-
-   !> Taylor steps.
-   type(integration_options) function by_taylor() result(options)
-      options = at_tolerance(1.0e-10_wp, "taylor")
-   end function by_taylor
-
-   !> Mackey and Glass's equation.
-   type(mackey_glass) function chaotic() result(problem)
-      problem = mackey_glass(n=1, lag=[17.0_wp], component=[1], past=[1.2_wp], first=[1.2_wp])
-   end function chaotic
 end module test_dde_continuation

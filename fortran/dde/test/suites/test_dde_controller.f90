@@ -128,7 +128,6 @@ contains
 
    !> Next step over this one, after this error of a first step.
    pure real(wp) function ratio_accepted(estimate) result(ratio)
-      !> Error in units of the tolerance
       real(wp), intent(in) :: estimate
       type(controller_type) :: control
 
@@ -138,7 +137,6 @@ contains
 
    !> The same for an error that is too large.
    pure real(wp) function ratio_rejected(estimate) result(ratio)
-      !> Error in units of the tolerance
       real(wp), intent(in) :: estimate
       type(controller_type) :: control
 

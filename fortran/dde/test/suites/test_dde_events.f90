@@ -1,16 +1,16 @@
 !> Events: where they are found, in what order, and that one can end a run.
 module test_dde_events
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use dde, only: continuation_type, elapsed, event_met, event_table, instant, integrate, &
+   use dde, only: continuation_type, elapsed, event_met, event_table, instant, &
                   integration_options, integration_result, methods, reached_end, table_sampler
-   use dde_errors, only: failure_type => error_type, text
-   use expectations, only: expect, expect_between, expect_close, expect_success
-   use dde_kinds, only: int64, wp
+   use dde_errors, only: text
+   use expectations, only: expect, expect_between, expect_close
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use published_problems, only: mackey_glass
-   use solving, only: at_tolerance
+   use solving, only: at_tolerance, run
    use test_problems, only: linear, sine
-   use undelayed_problems, only: quadrature, swing, without_delays
+   use undelayed_problems, only: quadrature, swing
    implicit none (type, external)
    private
    public :: collect_dde_events
@@ -45,20 +45,18 @@ contains
                    new_unittest("maxima", test_maxima), &
                    new_unittest("two passages in one step", test_pair), &
                    new_unittest("order of several functions", test_order), &
-                   new_unittest("at once with the end of the run", test_simultaneous), &
-                   new_unittest("a zero at the start", test_zero_at_start), &
                    new_unittest("a zero where steps meet", test_zero_at_step_end), &
                    new_unittest("a value that is not finite", test_not_finite), &
                    new_unittest("a fast function of time", test_fast), &
                    new_unittest("steps without events are not searched", test_bounds), &
-                   new_unittest("work", test_work), &
                    new_unittest("the state of an event is whole", test_whole), &
                    new_unittest("within a spacing of t", test_within_spacing), &
                    new_unittest("a slope that jumps", test_jump), &
                    new_unittest("a zero where runs meet", test_zero_between)]
    end subroutine collect_dde_events
 
-   !> sin t = 1/2 at pi/6, 5 pi/6 and 13 pi/6: rising, falling, both.
+   !> sin t = 1/2 at pi/6, 5 pi/6 and 13 pi/6: rising, falling, both. sin t = 0 at t = 0 is no
+   !> event, pi and 2 pi are.
    subroutine test_directions(error)
       type(error_type), allocatable, intent(out) :: error
       type(event_table) :: table
@@ -66,8 +64,9 @@ contains
       integer :: i
 
       do i = 1, size(methods)
-         table = event_table([1, 1, 1], [0.5_wp, 0.5_wp, 0.5_wp], [1, -1, 0])
-         call watch(error, i, table, outcome)
+         table = event_table([1, 1, 1, 1], [0.5_wp, 0.5_wp, 0.5_wp, 0.0_wp], [1, -1, 0, 0])
+         call run(error, sine(), 0.0_wp, 8.0_wp, at_tolerance(1.0e-12_wp, methods(i)), outcome, &
+                  watcher=table)
          call expect(error, outcome%reason == reached_end, "the run goes to its end")
          call expect_close(error, times_of(table, 1), [pi/6, 13*pi/6], 1.0e-10_wp, &
                            trim(methods(i))//", rising")
@@ -75,8 +74,10 @@ contains
                            trim(methods(i))//", falling")
          call expect_close(error, times_of(table, 3), [pi/6, 5*pi/6, 13*pi/6], 1.0e-10_wp, &
                            trim(methods(i))//", both")
-         call expect_close(error, table%y(1, :table%received), spread(0.5_wp, 1, 6), &
-                           1.0e-14_wp, "y")
+         call expect_close(error, times_of(table, 4), [pi, 2*pi], 1.0e-10_wp, &
+                           trim(methods(i))//", zeros")
+         call expect_close(error, table%y(1, :table%received), &
+                           table%level(table%which(:table%received)), 1.0e-14_wp, "y")
       end do
    end subroutine test_directions
 
@@ -91,7 +92,8 @@ contains
       do i = 1, size(methods)
          table = event_table([1, 1], [0.5_wp, 0.5_wp], [1, -1], terminal=[.false., .true.])
          samples = table_sampler([1], [0.0_wp, 2.6_wp, 2.61_wp, 2.62_wp, 5.0_wp])
-         call watch(error, i, table, outcome, samples)
+         call run(error, sine(), 0.0_wp, 8.0_wp, at_tolerance(1.0e-12_wp, methods(i)), outcome, &
+                  samples, table)
          call expect(error, outcome%reason == event_met, "the reason is `event_met`")
          call expect(error, table%received == 2, "two events are received")
          call expect_close(error, table%time(:2)%hi, [pi/6, 5*pi/6], 1.0e-10_wp, "times")
@@ -108,16 +110,14 @@ contains
    subroutine test_maxima(error)
       type(error_type), allocatable, intent(out) :: error
       type(event_table) :: table
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
       integer :: i, k
 
       do i = 1, size(methods)
          table = event_table([1, 1, 2], [0.0_wp, 0.0_wp, 0.0_wp], [-1, 1, -1], &
                              of_slope=[.true., .true., .true.])
-         call integrate(swing(), 0.0_wp, 20.0_wp, at_tolerance(1.0e-12_wp, methods(i)), &
-                        outcome, failure, watcher=table)
-         call expect_success(error, failure)
+         call run(error, swing(), 0.0_wp, 20.0_wp, at_tolerance(1.0e-12_wp, methods(i)), outcome, &
+                  watcher=table)
          call expect_close(error, times_of(table, 1), [(2*pi*k, k=1, 3)], 1.0e-10_wp, &
                            trim(methods(i))//", maxima of cos t")
          call expect_close(error, times_of(table, 2), [(2*pi*k - pi, k=1, 3)], 1.0e-10_wp, &
@@ -131,7 +131,6 @@ contains
    subroutine test_pair(error)
       type(error_type), allocatable, intent(out) :: error
       type(event_table) :: table
-      type(failure_type), allocatable :: failure
       type(integration_options) :: options
       type(integration_result) :: outcome
       integer :: i
@@ -139,9 +138,7 @@ contains
       do i = 1, size(methods)
          options = integration_options(methods(i), first_step=2.0_wp)
          table = event_table([1, 1], [0.25_wp, 0.01_wp], [0, 0])
-         call integrate(power_of_time(1, 1.0_wp), -1.0_wp, 1.0_wp, options, outcome, failure, &
-                        watcher=table)
-         call expect_success(error, failure)
+         call run(error, quadrature(1, 1.0_wp), -1.0_wp, 1.0_wp, options, outcome, watcher=table)
          call expect(error, outcome%accepted == 1, "one step")
          call expect(error, table%received == 4, "four events")
          if (allocated(error)) return
@@ -157,16 +154,14 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(continuation_type) :: here
       type(event_table) :: table
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
       integer :: i
 
       do i = 1, size(methods)
          here = continuation_type()
          table = event_table([1, 1], [0.5_wp, -0.5_wp], [0, 0], terminal=[.false., .true.])
-         call integrate(swing(), 0.0_wp, 8.0_wp, at_tolerance(1.0e-11_wp, methods(i)), outcome, &
-                        failure, watcher=table, continuation=here)
-         call expect_success(error, failure)
+         call run(error, swing(), 0.0_wp, 8.0_wp, at_tolerance(1.0e-11_wp, methods(i)), outcome, &
+                  watcher=table, continuation=here)
          call expect(error, table%received == 2, "two events")
          if (allocated(error)) return
          call expect_close(error, table%y(:, 1), [cos(pi/3), -sin(pi/3)], 1.0e-9_wp, &
@@ -179,62 +174,33 @@ contains
       end do
    end subroutine test_whole
 
-   !> t passes seven levels in one step, given in disorder: events come in order of time.
+   !> t passes seven levels in one step, given in disorder: events come in order of time. Of events
+   !> at one time, all are handed over, though one of them ends the run; later ones are not.
    subroutine test_order(error)
       type(error_type), allocatable, intent(out) :: error
       type(event_table) :: table
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
       real(wp), parameter :: levels(7) = [0.31_wp, 0.3_wp, 0.9_wp, 0.1_wp, 0.32_wp, 0.89_wp, 0.2_wp]
 
       table = event_table([1, 1, 1, 1, 1, 1, 1], levels, [1, 1, 1, 1, 1, 1, 1])
-      call integrate(power_of_time(0, 0.0_wp), 0.0_wp, 1.0_wp, &
-                     integration_options("explicit", first_step=1.0_wp), outcome, failure, &
-                     watcher=table)
-      call expect_success(error, failure)
+      call run(error, quadrature(0, 0.0_wp), 0.0_wp, 1.0_wp, &
+               integration_options("explicit", first_step=1.0_wp), outcome, watcher=table)
       call expect(error, table%received == 7, "seven events")
       if (allocated(error)) return
       call expect(error, all(table%which(:7) == [4, 7, 2, 1, 5, 6, 3]), "their order")
       call expect_close(error, table%time(:7)%hi, levels(table%which(:7)), 1.0e-15_wp, "times")
-   end subroutine test_order
-
-   !> Of events at one time, all are handed over, though one of them ends the run; later ones are
-   !> not.
-   subroutine test_simultaneous(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(event_table) :: table
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
-
       table = event_table([1, 1, 1], [0.51_wp, 0.5_wp, 0.5_wp], [1, 1, 1], &
                           terminal=[.false., .true., .false.])
-      call integrate(power_of_time(0, 0.0_wp), 0.0_wp, 1.0_wp, &
-                     integration_options("explicit", first_step=1.0_wp), outcome, failure, &
-                     watcher=table)
-      call expect_success(error, failure)
+      call run(error, quadrature(0, 0.0_wp), 0.0_wp, 1.0_wp, &
+               integration_options("explicit", first_step=1.0_wp), outcome, watcher=table)
       call expect(error, table%received == 2, "two events")
       call expect(error, all(table%which(:2) == [2, 3]), "which")
-   end subroutine test_simultaneous
-
-   !> sin t = 0 at t = 0 is no event, pi and 2 pi are.
-   subroutine test_zero_at_start(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(event_table) :: table
-      type(integration_result) :: outcome
-      integer :: i
-
-      do i = 1, size(methods)
-         table = event_table([1], [0.0_wp], [0])
-         call watch(error, i, table, outcome)
-         call expect_close(error, times_of(table, 1), [pi, 2*pi], 1.0e-10_wp, methods(i))
-      end do
-   end subroutine test_zero_at_start
+   end subroutine test_order
 
    !> t passes 1 and 2 where steps meet and 3 where the run ends: each once.
    subroutine test_zero_at_step_end(error)
       type(error_type), allocatable, intent(out) :: error
       type(event_table) :: table
-      type(failure_type), allocatable :: failure
       type(integration_options) :: options
       type(integration_result) :: outcome
       integer :: i
@@ -242,9 +208,7 @@ contains
       do i = 1, size(methods)
          options = integration_options(methods(i), first_step=1.0_wp, longest_step=1.0_wp)
          table = event_table([1, 1, 1], [1.0_wp, 2.0_wp, 3.0_wp], [0, 0, 0])
-         call integrate(power_of_time(0, 0.0_wp), 0.0_wp, 3.0_wp, options, outcome, failure, &
-                        watcher=table)
-         call expect_success(error, failure)
+         call run(error, quadrature(0, 0.0_wp), 0.0_wp, 3.0_wp, options, outcome, watcher=table)
          call expect(error, outcome%accepted == 3, "three steps")
          call expect(error, abs(outcome%y(1) - 3.0_wp) > 0.0_wp .or. table%received == 3, &
                      "a zero at the very end is seen")
@@ -258,24 +222,19 @@ contains
    subroutine test_not_finite(error)
       type(error_type), allocatable, intent(out) :: error
       type(partial_function) :: partial
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
 
       allocate (partial%direction, source=[0])
       allocate (partial%terminal, source=[.false.])
-      call integrate(power_of_time(0, 0.0_wp), 0.0_wp, 1.0_wp, &
-                     integration_options("explicit", first_step=1.0_wp), outcome, failure, &
-                     watcher=partial)
-      call expect_success(error, failure)
+      call run(error, quadrature(0, 0.0_wp), 0.0_wp, 1.0_wp, &
+               integration_options("explicit", first_step=1.0_wp), outcome, watcher=partial)
       call expect_close(error, times_of(partial%event_table, 1), [0.3_wp], 1.0e-15_wp, "zero")
    end subroutine test_not_finite
 
    !> t - 0.3 where 1/4 <= t <= 1/2, no number elsewhere.
    pure subroutine partial_values(self, t, y, slope, g)
       class(partial_function), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(:)
-      real(wp), intent(in) :: slope(:)
+      real(wp), intent(in) :: t, y(:), slope(:)
       real(wp), intent(out) :: g(:)
 
       g = t - 0.3_wp
@@ -286,23 +245,17 @@ contains
    !> zeros k pi/50 up to t = 100, looked at five times between two of them, at no further step.
    subroutine test_fast(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(fast_function) :: table
       type(integration_result) :: outcome, unwatched
-      type(quadrature) :: problem
       integer :: i, k
 
-      problem = quadrature(n=1, past=[1.0_wp], first=[1.0_wp])
-      call without_delays(problem)
       do i = 1, size(methods)
          table = fast_function(direction=[0], terminal=[.false.])
          table%look_every = 0.0125_wp
-         call integrate(problem, 0.0_wp, 100.0_wp, at_tolerance(1.0e-6_wp, methods(i)), unwatched, &
-                        failure)
-         call expect_success(error, failure)
-         call integrate(problem, 0.0_wp, 100.0_wp, at_tolerance(1.0e-6_wp, methods(i)), outcome, &
-                        failure, watcher=table)
-         call expect_success(error, failure)
+         call run(error, quadrature(0, 1.0_wp), 0.0_wp, 100.0_wp, &
+                  at_tolerance(1.0e-6_wp, methods(i)), unwatched)
+         call run(error, quadrature(0, 1.0_wp), 0.0_wp, 100.0_wp, &
+                  at_tolerance(1.0e-6_wp, methods(i)), outcome, watcher=table)
          if (allocated(error)) return
          call expect_close(error, table%time(:table%received)%hi, [(k*pi/50, k=1, 1591)], &
                            1.0e-9_wp, methods(i))
@@ -316,23 +269,18 @@ contains
       integer, parameter :: direction(2) = [0, 0]
       real(wp), parameter :: level(2) = [0.9_wp, 0.0_wp]
       type(event_table) :: table
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
-      type(mackey_glass) :: problem
       type(searched_table) :: searched
       integer :: i
 
-      problem = mackey_glass(n=1, lag=[17.0_wp], component=[1], past=[1.2_wp], first=[1.2_wp])
       do i = 1, size(methods)
          table = event_table([1, 1], level, direction, of_slope=[.false., .true.])
          searched = searched_table(component=[1, 1], level=level, direction=direction, &
                                    terminal=[.false., .false.], of_slope=[.false., .true.])
-         call integrate(problem, 0.0_wp, 300.0_wp, at_tolerance(1.0e-6_wp, methods(i)), outcome, &
-                        failure, watcher=table)
-         call expect_success(error, failure)
-         call integrate(problem, 0.0_wp, 300.0_wp, at_tolerance(1.0e-6_wp, methods(i)), outcome, &
-                        failure, watcher=searched)
-         call expect_success(error, failure)
+         call run(error, mackey_glass(), 0.0_wp, 300.0_wp, at_tolerance(1.0e-6_wp, methods(i)), &
+                  outcome, watcher=table)
+         call run(error, mackey_glass(), 0.0_wp, 300.0_wp, at_tolerance(1.0e-6_wp, methods(i)), &
+                  outcome, watcher=searched)
          if (allocated(error)) return
          call expect(error, searched%received > 20, "many events")
          call expect_close(error, table%time(:table%received)%hi, &
@@ -342,47 +290,9 @@ contains
       end do
    end subroutine test_bounds
 
-   !> A watcher costs three evaluations a step of the explicit method, and changes no state.
-   subroutine test_work(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(event_table) :: table
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome, watched
-
-      table = event_table([1], [0.5_wp], [0])
-      call integrate(swing(), 0.0_wp, 20.0_wp, at_tolerance(1.0e-9_wp), outcome, failure)
-      call integrate(swing(), 0.0_wp, 20.0_wp, at_tolerance(1.0e-9_wp), watched, failure, &
-                     watcher=table)
-      call expect_success(error, failure)
-      call expect(error, watched%evaluations == outcome%evaluations + 3_int64*outcome%accepted, &
-                  "evaluations: "//text(watched%evaluations))
-      call expect_close(error, watched%y, outcome%y, 0.0_wp, "state")
-   end subroutine test_work
-
-   !> y' = -y(t - pi/2) with the history sin t to t = 8, watched.
-   subroutine watch(error, method, table, outcome, sampler)
-      !> The first failure of the test
-      type(error_type), allocatable, intent(inout) :: error
-      !> Number of the method
-      integer, intent(in) :: method
-      !> The watcher
-      type(event_table), intent(inout) :: table
-      !> What was done
-      type(integration_result), intent(out) :: outcome
-      !> Receiver of samples
-      type(table_sampler), intent(inout), optional :: sampler
-      type(failure_type), allocatable :: failure
-
-      call integrate(sine(), 0.0_wp, 8.0_wp, at_tolerance(1.0e-12_wp, methods(method)), outcome, &
-                     failure, sampler, table)
-      call expect_success(error, failure)
-   end subroutine watch
-
    !> Times of the events of one function.
    pure function times_of(table, which) result(times)
-      !> The table
       type(event_table), intent(in) :: table
-      !> Number of the function
       integer, intent(in) :: which
       real(wp), allocatable :: times(:)
 
@@ -400,30 +310,17 @@ contains
       g = sin(50.0_wp*t)
    end subroutine fast_values
 
-   !> y' = (power + 1) t^power.
-   pure type(quadrature) function power_of_time(power, first) result(problem)
-      !> Power
-      integer, intent(in) :: power
-      !> y at the start
-      real(wp), intent(in) :: first
-
-      problem = quadrature(n=1, past=[first], first=[first], power=power)
-      call without_delays(problem)
-   end function power_of_time
-
    !> An oscillator at t = 100 with a period of half a spacing of t: maxima a period apart.
    subroutine test_within_spacing(error)
       type(error_type), allocatable, intent(out) :: error
       type(event_table) :: table
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
       real(wp), parameter :: period = 2.0_wp**(-47)
       integer :: i
 
       table = event_table([1], [0.0_wp], [-1], of_slope=[.true.])
-      call integrate(swing(2*pi/period), 100.0_wp, 100.0_wp + 20*period, &
-                     at_tolerance(1.0e-12_wp), outcome, failure, watcher=table)
-      call expect_success(error, failure)
+      call run(error, swing(2*pi/period), 100.0_wp, 100.0_wp + 20*period, &
+               at_tolerance(1.0e-12_wp), outcome, watcher=table)
       call expect_between(error, real(table%received, wp), 19.0_wp, 20.0_wp, "maxima")
       if (allocated(error)) return
       call expect_close(error, [(elapsed(instant(100.0_wp), table%time(i))/(i*period), i=1, 19)], &
@@ -435,16 +332,13 @@ contains
    subroutine test_jump(error)
       type(error_type), allocatable, intent(out) :: error
       type(event_table) :: table
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
       integer :: i
 
       do i = 1, size(methods)
          table = event_table([1], [-0.5_wp], [0], of_slope=[.true.])
-         call integrate(linear(n=1, lag=[1.0_wp], component=[1], past=[0.0_wp], first=[1.0_wp]), &
-                        0.0_wp, 2.9_wp, at_tolerance(1.0e-10_wp, methods(i)), outcome, failure, &
-                        watcher=table)
-         call expect_success(error, failure)
+         call run(error, linear(past=[0.0_wp]), 0.0_wp, 2.9_wp, &
+                  at_tolerance(1.0e-10_wp, methods(i)), outcome, watcher=table)
          call expect_close(error, table%time(:table%received)%hi, [1.0_wp, 2.5_wp], 1.0e-9_wp, &
                            methods(i))
          call expect_close(error, table%time(1)%hi, 1.0_wp, 0.0_wp, methods(i))
@@ -482,21 +376,14 @@ contains
 
    !> An oscillator goes on, watched.
    subroutine go_on(error, method, t_end, table, continuation)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
-      !> The method
       character(len=*), intent(in) :: method
-      !> Final time
       real(wp), intent(in) :: t_end
-      !> The watcher
       type(event_table), intent(inout) :: table
-      !> Where it stands
       type(continuation_type), intent(inout) :: continuation
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
 
-      call integrate(swing(), continuation%time(1), t_end, at_tolerance(1.0e-10_wp, method), &
-                     outcome, failure, watcher=table, continuation=continuation)
-      call expect_success(error, failure)
+      call run(error, swing(), continuation%time(1), t_end, at_tolerance(1.0e-10_wp, method), &
+               outcome, watcher=table, continuation=continuation)
    end subroutine go_on
 end module test_dde_events

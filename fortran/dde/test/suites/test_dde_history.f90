@@ -1,14 +1,15 @@
 !> The past: look-ups in a ring of polynomials of two kinds, growth, and forgetting.
 module test_dde_history
    use, intrinsic :: iso_c_binding, only: c_long
-   use dde, only: integrate, integration_options, integration_result
+   use dde, only: integration_options, integration_result
    use dde_cursor, only: cursor_type
    use dde_history, only: history_type
    use dde_time, only: instant, instant_at, later
-   use dde_errors, only: failure_type => error_type, text
-   use expectations, only: expect, expect_between, expect_close, expect_success
+   use dde_errors, only: text
+   use expectations, only: expect, expect_between, expect_close
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use solving, only: run
    use test_problems, only: linear, sine, wille_baker
    implicit none (type, external)
    private
@@ -34,25 +35,12 @@ contains
    subroutine collect_dde_history(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("components kept", test_kept), &
-                   new_unittest("before the initial time", test_before), &
+      testsuite = [new_unittest("before the initial time", test_before), &
                    new_unittest("look-ups in a ring", test_ring), &
-                   new_unittest("look-ups in a ring that doubles", test_doubling), &
-                   new_unittest("look-ups in a ring that doubles late", test_late_doubling), &
                    new_unittest("what is forgotten", test_forget), &
                    new_unittest("what is given back", test_recall), &
-                   new_unittest("memory of a ring", test_memory), &
                    new_unittest("memory of an integration", test_memory_of_integration)]
    end subroutine collect_dde_history
-
-   !> Of delayed components [3, 1, 3] two are kept.
-   subroutine test_kept(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(history_type) :: past
-
-      past = history_type(delayed([1.0_wp, 2.0_wp, 3.0_wp], [3, 1, 3]), instant_at(0.0_wp))
-      call expect_close(error, real(past%kept, wp), [1.0_wp, 3.0_wp], 0.0_wp, "components kept")
-   end subroutine test_kept
 
    !> Before the initial time the problem's history is asked, at the right time.
    subroutine test_before(error)
@@ -71,27 +59,15 @@ contains
    end subroutine test_before
 
    !> Three delays of two components over 2000 steps of different lengths, of which 50 at a time
-   !> matter.
+   !> matter; the same where 600 matter, so that the ring doubles four times; and where steps become
+   !> shorter on the way, so that the ring doubles when its oldest step lies anywhere.
    subroutine test_ring(error)
       type(error_type), allocatable, intent(out) :: error
 
       call expect_lookups(error, [0.05_wp, 1.45_wp, 0.9_wp], 2000)
-   end subroutine test_ring
-
-   !> The same where 600 steps matter at a time, so that the ring doubles four times.
-   subroutine test_doubling(error)
-      type(error_type), allocatable, intent(out) :: error
-
       call expect_lookups(error, [0.05_wp, 18.0_wp, 7.3_wp], 2000)
-   end subroutine test_doubling
-
-   !> The same where steps become shorter on the way, so that the ring doubles when its oldest step
-   !> lies anywhere.
-   subroutine test_late_doubling(error)
-      type(error_type), allocatable, intent(out) :: error
-
       call expect_lookups(error, [0.05_wp, 1.45_wp, 0.9_wp], 2000, 500)
-   end subroutine test_late_doubling
+   end subroutine test_ring
 
    !> Steps that ended before the horizon are gone, those after it are there, the newest always is:
    !> the value of each step is its number.
@@ -146,29 +122,10 @@ contains
       call expect(error, past%degree_in_use() == 12, "the step before is kept, too")
    end subroutine test_recall
 
-   !> A million steps of which ten matter at a time take no more memory than the first hundred.
-   subroutine test_memory(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(history_type) :: past
-      integer(c_long) :: before
-      integer :: i
-
-      past = history_type(delayed([10.0_wp], [1]), instant_at(0.0_wp))
-      before = 0
-      do i = 0, 1000000
-         if (i == 100) before = peak_memory()
-         call past%append(instant_at(real(i, wp)), 1.0_wp, odd_nodes, &
-                          reshape([1.0_wp, 0.0_wp], [2, 1]), valid_for=1.0_wp)
-         call past%forget(instant_at(i - 9.0_wp))
-      end do
-      call expect(error, before > 0, "memory is known")
-      call expect(error, peak_memory() - before < growth, "memory does not grow")
-   end subroutine test_memory
-
-   !> Nor do ten thousand steps of an integration with 40 delayed values, which would need 25 MB.
+   !> Ten thousand steps of an integration with 40 delayed values take no more memory than the first
+   !> hundred; to keep all of them would need 25 MB.
    subroutine test_memory_of_integration(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
       type(linear) :: problem
       integer, parameter :: n = 40
@@ -177,13 +134,9 @@ contains
 
       problem = linear(n=n, lag=[(0.01_wp, i=1, n)], component=[(i, i=1, n)], &
                        past=[(1.0_wp, i=1, n)], first=[(1.0_wp, i=1, n)])
-      call integrate(problem, 0.0_wp, 1.0_wp, integration_options("explicit"), &
-                     outcome, failure)
-      call expect_success(error, failure)
+      call run(error, problem, 0.0_wp, 1.0_wp, integration_options("explicit"), outcome)
       before = peak_memory()
-      call integrate(problem, 0.0_wp, 100.0_wp, integration_options("explicit"), &
-                     outcome, failure)
-      call expect_success(error, failure)
+      call run(error, problem, 0.0_wp, 100.0_wp, integration_options("explicit"), outcome)
       call expect(error, outcome%accepted >= 10000, "ten thousand steps")
       call expect(error, peak_memory() - before < growth, "memory does not grow by " &
                   //text(int(peak_memory() - before)))
@@ -193,11 +146,8 @@ contains
    !> step i the solution is i + s, but component 3 of an even step is i + 3 s^2 - 2 s^3:
    !> continuous, and in no step what it is in another.
    subroutine expect_lookups(error, lag, steps, long_steps)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
-      !> Delays of components 3, 1 and 3
       real(wp), intent(in) :: lag(3)
-      !> Number of steps
       integer, intent(in) :: steps
       !> Steps after which they are 20 times shorter; none if not given
       integer, intent(in), optional :: long_steps
@@ -253,7 +203,6 @@ contains
 
    !> That solution at time t.
    pure real(wp) function value_at(t, start, component) result(value)
-      !> Time
       real(wp), intent(in) :: t
       !> Starts of all steps so far, the present one last
       real(wp), intent(in) :: start(0:)
@@ -270,18 +219,11 @@ contains
 
    !> The past reads this number at time t.
    subroutine expect_number(error, past, cursor, problem, t, number)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
-      !> The past
       type(history_type), intent(in) :: past
-      !> A cursor in it
       type(cursor_type), intent(inout) :: cursor
-      !> Its problem, with one delay
       type(wille_baker), intent(in) :: problem
-      !> Time
-      real(wp), intent(in) :: t
-      !> Value known
-      real(wp), intent(in) :: number
+      real(wp), intent(in) :: t, number
       real(wp) :: z(1, 1)
 
       call cursor%set(problem, past, instant_at(t + problem%lag(1)), 0.1_wp)
@@ -291,9 +233,7 @@ contains
 
    !> A problem of three components with any delays.
    pure type(wille_baker) function delayed(lag, component) result(problem)
-      !> Delays
       real(wp), intent(in) :: lag(:)
-      !> Which component each belongs to
       integer, intent(in) :: component(:)
 
       problem = wille_baker(n=3, lag=lag, component=component, past=[-1.0_wp, -2.0_wp, -3.0_wp], &

@@ -13,7 +13,7 @@ module test_dde_implicit_order
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use pseudo_random, only: uniform
    use single_step, only: interpolated, take_step
-   use undelayed_problems, only: oscillator, quadrature, without_delays
+   use undelayed_problems, only: oscillator, swing
    implicit none (type, external)
    private
    public :: collect_dde_implicit_order
@@ -32,9 +32,7 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("conditions B, C and D", test_conditions), &
-                   new_unittest("powers of t", test_powers), &
                    new_unittest("one step of an oscillator", test_oscillator), &
-                   new_unittest("ten steps of an oscillator", test_global_order), &
                    new_unittest("a row of huge numbers", test_huge_row), &
                    new_unittest("delayed values in the step", test_coupling)]
    end subroutine collect_dde_implicit_order
@@ -72,7 +70,6 @@ contains
 
    !> Inverse of a matrix, column by column.
    pure function inverse(matrix) result(columns)
-      !> The matrix
       real(wp), intent(in) :: matrix(:, :)
       real(wp) :: columns(size(matrix, 1), size(matrix, 1))
       real(wp) :: factors(size(matrix, 1), size(matrix, 1)), row_scale(size(matrix, 1))
@@ -89,43 +86,6 @@ contains
       end do
    end function inverse
 
-   !> y' = (p + 1) t**p: the step is exact up to p = 2 s - 2, the interpolant up to p = s.
-   subroutine test_powers(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(implicit_step_type) :: step
-      type(quadrature) :: problem
-      real(wp) :: estimate, inside(1), misfit, misfit_inside
-      integer :: i, j, p
-
-      do i = 1, size(stages)
-         do p = 0, 2*stages(i) - 1
-            problem = quadrature(n=1, past=[0.0_wp], first=[0.0_wp], power=p)
-            call without_delays(problem)
-            step = implicit_step_type(problem, stages(i))
-            call take_step(problem, 0.25_wp, 0.75_wp, step, estimate, tight(stages(i)), &
-                           tight(stages(i)))
-            misfit = abs(step%y_new(1) - (1.0_wp - 0.25_wp**(p + 1)))
-            misfit_inside = 0.0_wp
-            do j = 1, size(places)
-               inside = interpolated(step, places(j))
-               misfit_inside = max(misfit_inside, &
-                                   abs(inside(1) - ((0.25_wp + 0.75_wp*places(j))**(p + 1) &
-                                                    - 0.25_wp**(p + 1))))
-            end do
-            if (p <= 2*stages(i) - 2) then
-               call expect_between(error, misfit, 0.0_wp, 1.0e-13_wp, "low power "//text(p))
-            else
-               call expect_between(error, misfit, 1.0e-10_wp, 1.0_wp, "high power "//text(p))
-            end if
-            if (p <= stages(i)) then
-               call expect_between(error, misfit_inside, 0.0_wp, 1.0e-13_wp, "inside "//text(p))
-            else if (p == stages(i) + 1) then
-               call expect_between(error, misfit_inside, 1.0e-8_wp, 1.0_wp, "inside "//text(p))
-            end if
-         end do
-      end do
-   end subroutine test_powers
-
    !> Halving h divides the error of a step by 2**(2 s), that inside the step by 2**(s + 2) and the
    !> length of the estimate by 2**(s + 1). It turns with h, so that its largest component, which
    !> counts, does not fall with a power of h.
@@ -137,8 +97,7 @@ contains
       real(wp) :: estimate, h, inside(2), misfit(2), of_estimate(2)
       integer :: i, j, k
 
-      problem = oscillator(n=2, past=[1.0_wp, 0.0_wp], first=[1.0_wp, 0.0_wp])
-      call without_delays(problem)
+      problem = swing()
       do i = 1, size(stages)
          do j = 1, 2
             h = longest(i)*0.5_wp**j
@@ -159,35 +118,6 @@ contains
          end associate
       end do
    end subroutine test_oscillator
-
-   !> After ten steps, and twice as many of half the length, the error falls with order 2 s - 1.
-   subroutine test_global_order(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(implicit_step_type) :: step
-      type(oscillator) :: problem
-      real(wp), parameter :: longest(3) = [0.5_wp, 2.0_wp, 4.0_wp]
-      real(wp) :: estimate, h, misfit(2)
-      integer :: i, j, k
-
-      problem = oscillator(n=2, past=[1.0_wp, 0.0_wp], first=[1.0_wp, 0.0_wp])
-      call without_delays(problem)
-      do i = 1, size(stages)
-         do j = 1, 2
-            h = longest(i)*0.5_wp**j
-            step = implicit_step_type(problem, stages(i))
-            do k = 1, 10*j
-               call take_step(problem, (k - 1)*h, h, step, estimate, tight(stages(i)), &
-                              tight(stages(i)))
-               call step%advance()
-            end do
-            associate (t => 10*j*h)
-               misfit(j) = norm2(step%y - [cos(t), -sin(t)])
-            end associate
-         end do
-         call expect_between(error, halvings(misfit), 2*stages(i) - 1.5_wp, 2*stages(i) - 0.5_wp, &
-                             "global order")
-      end do
-   end subroutine test_global_order
 
    !> One Newton correction of a block deep in stick (stiffness 1e23, near balance of forces), alone
    !> and with the delay inside the step: theta stays, u falls by h c. The row of ln v must not
@@ -291,7 +221,6 @@ contains
 
    !> Weights of the stage increments in the delayed values of each stage.
    pure function weights_at(method, own_place) result(weights)
-      !> The method
       type(radau_tableau), intent(in) :: method
       !> Places of the delayed values in the step, shape (delayed values, stages)
       real(wp), intent(in) :: own_place(:, :)
@@ -307,7 +236,6 @@ contains
 
    !> Tolerance at which a method of s stages asks `rounding` of its estimate of order s.
    pure real(wp) function tight(s) result(tolerance)
-      !> Number of stages
       integer, intent(in) :: s
 
       tolerance = rounding**((s + 2.0_wp)/(s + 1.0_wp))

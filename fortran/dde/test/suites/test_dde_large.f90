@@ -1,18 +1,17 @@
 !> Many equations: a delayed reaction with diffusion by the method of lines. CTest runs this suite
 !> with a stack of 512 kB, on which no array of its 100 000 equations would find place.
 module test_dde_large
-   use dde, only: integrate, integration_options, integration_result
+   use dde, only: integration_result
    use dde_jacobian, only: jacobian_type
    use dde_lapack, only: lapack_is_there
-   use dde_methods, only: price_of_trial
    use dde_tolerance, only: tolerance_type
    use dde_work, only: work_type
-   use dde_errors, only: failure_type => error_type, text
-   use expectations, only: expect, expect_close, expect_failure, expect_success
+   use dde_errors, only: text
+   use expectations, only: expect, expect_close
    use dde_kinds, only: wp
    use lines_of_cells, only: cells
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use solving, only: at_tolerance
+   use solving, only: at_tolerance, run
    implicit none (type, external)
    private
    public :: collect_dde_large
@@ -23,9 +22,7 @@ contains
    subroutine collect_dde_large(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("differences", test_differences), &
-                   new_unittest("refused bands", test_refused), &
-                   new_unittest("the cost of auto", test_auto)]
+      testsuite = [new_unittest("differences", test_differences)]
       ! a build without LAPACK refuses banded Jacobians
       if (.not. lapack_is_there) return
       testsuite = [testsuite, new_unittest("a banded Jacobian", test_banded), &
@@ -78,7 +75,6 @@ contains
       integer, parameter :: sizes(2) = [30, 80]
       character(len=8), parameter :: methods(3) = [character(len=8) :: "radau5", "radau9", &
                                                    "radau13"]
-      type(failure_type), allocatable :: failure
       type(integration_result) :: banded, full
       type(cells) :: problem
       integer :: i, k
@@ -86,14 +82,10 @@ contains
       do k = 1, size(sizes)
          do i = 1, size(methods)
             problem = cells(sizes(k), diffusion=100.0_wp, delayed=.true.)
-            call integrate(problem, 0.0_wp, 5.0_wp, at_tolerance(1.0e-7_wp, methods(i)), full, &
-                           failure)
-            call expect_success(error, failure)
+            call run(error, problem, 0.0_wp, 5.0_wp, at_tolerance(1.0e-7_wp, methods(i)), full)
             problem%lower = 1
             problem%upper = 1
-            call integrate(problem, 0.0_wp, 5.0_wp, at_tolerance(1.0e-7_wp, methods(i)), banded, &
-                           failure)
-            call expect_success(error, failure)
+            call run(error, problem, 0.0_wp, 5.0_wp, at_tolerance(1.0e-7_wp, methods(i)), banded)
             if (allocated(error)) return
             call expect_close(error, banded%y, full%y, 1.0e-6_wp, methods(i))
             call expect(error, banded%evaluations < full%evaluations, "fewer evaluations")
@@ -101,36 +93,18 @@ contains
       end do
    end subroutine test_banded
 
-   !> Both widths of a band are given, or neither.
-   subroutine test_refused(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
-      type(cells) :: problem
-
-      problem = cells(30, diffusion=1.0_wp, delayed=.true.)
-      problem%lower = 1
-      call integrate(problem, 0.0_wp, 1.0_wp, integration_options(), outcome, failure)
-      call expect_failure(error, failure, "lower = 1, upper = -1; both >= 0 expected")
-   end subroutine test_refused
-
    !> 730 equations, each with a delayed value, by a full and by a banded Jacobian.
    subroutine test_every_cell(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(integration_result) :: banded, explicit, full
       type(cells) :: problem
 
       problem = cells(730, diffusion=10.0_wp, delayed=.true.)
-      call integrate(problem, 0.0_wp, 1.5_wp, at_tolerance(1.0e-6_wp, "explicit"), explicit, &
-                     failure)
-      call expect_success(error, failure)
-      call integrate(problem, 0.0_wp, 1.5_wp, at_tolerance(1.0e-3_wp, "radau5"), full, failure)
-      call expect_success(error, failure)
+      call run(error, problem, 0.0_wp, 1.5_wp, at_tolerance(1.0e-6_wp, "explicit"), explicit)
+      call run(error, problem, 0.0_wp, 1.5_wp, at_tolerance(1.0e-3_wp, "radau5"), full)
       problem%lower = 1
       problem%upper = 1
-      call integrate(problem, 0.0_wp, 1.5_wp, at_tolerance(1.0e-6_wp, "radau9"), banded, failure)
-      call expect_success(error, failure)
+      call run(error, problem, 0.0_wp, 1.5_wp, at_tolerance(1.0e-6_wp, "radau9"), banded)
       if (allocated(error)) return
       call expect_close(error, banded%y, explicit%y, 1.0e-5_wp, "banded")
       call expect_close(error, full%y, explicit%y, 1.0e-2_wp, "full")
@@ -140,7 +114,6 @@ contains
    subroutine test_stack(error)
       type(error_type), allocatable, intent(out) :: error
       character(len=8), parameter :: methods(3) = [character(len=8) :: "explicit", "radau5", "auto"]
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
       type(cells) :: problem
       integer :: i
@@ -149,47 +122,8 @@ contains
       problem%lower = 1
       problem%upper = 1
       do i = 1, size(methods)
-         call integrate(problem, 0.0_wp, 0.1_wp, at_tolerance(1.0e-3_wp, methods(i)), outcome, &
-                        failure)
-         call expect_success(error, failure)
+         call run(error, problem, 0.0_wp, 0.1_wp, at_tolerance(1.0e-3_wp, methods(i)), outcome)
       end do
    end subroutine test_stack
 
-   !> Where the explicit method is better `auto` stays with it, however stiff steps may look; where
-   !> the implicit one is, it does not take much more.
-   subroutine test_auto(error)
-      type(error_type), allocatable, intent(out) :: error
-      real(wp), parameter :: diffusion(2) = [1.0_wp, 1000.0_wp]
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: auto, explicit, implicit
-      type(cells) :: problem
-      real(wp) :: price
-      integer :: banded, i, n
-
-      do banded = 0, merge(1, 0, lapack_is_there)
-         do n = 30, 150, 120
-            do i = 1, size(diffusion)
-               problem = cells(n, diffusion(i), delayed=.true.)
-               if (banded == 1) problem%lower = 1
-               if (banded == 1) problem%upper = 1
-               call integrate(problem, 0.0_wp, 3.0_wp, at_tolerance(1.0e-5_wp, "explicit"), &
-                              explicit, failure)
-               call expect_success(error, failure)
-               call integrate(problem, 0.0_wp, 3.0_wp, at_tolerance(1.0e-5_wp, "radau9"), &
-                              implicit, failure)
-               call expect_success(error, failure)
-               call integrate(problem, 0.0_wp, 3.0_wp, at_tolerance(1.0e-5_wp, "auto"), auto, &
-                              failure)
-               call expect_success(error, failure)
-               if (allocated(error)) return
-               associate (better => min(explicit%work, implicit%work))
-                  price = price_of_trial(problem, tolerance_type(n, 1.0e-5_wp, 1.0e-5_wp))
-                  call expect(error, auto%work <= 1.5_wp*better + 2*price, &
-                              text(auto%work)//" by auto, "//text(explicit%work) &
-                              //" by explicit, "//text(implicit%work)//" by radau9")
-               end associate
-            end do
-         end do
-      end do
-   end subroutine test_auto
 end module test_dde_large

@@ -1,24 +1,17 @@
 !> Runs that need more memory than there is end with an error.
 module test_dde_memory
    use, intrinsic :: iso_c_binding, only: c_int, c_long
-   use dde, only: dde_problem_type, integrate, integration_options, integration_result, &
-                  out_of_memory
+   use dde, only: integrate, integration_options, integration_result, out_of_memory
    use dde_errors, only: failure_type => error_type
    use expectations, only: expect, expect_failure
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
+   use test_problems, only: fill, linear
+   use undelayed_problems, only: decay
    use solving, only: at_tolerance
    implicit none (type, external)
    private
    public :: collect_dde_memory
-
-   !> y' = 0, from 0: any number of equations, none stored.
-   type, extends(dde_problem_type) :: resting
-   contains
-      procedure :: rhs
-      procedure :: history
-      procedure :: initial
-   end type resting
 
    interface
       !> Let this process take this number of bytes more, or without limit if they are negative.
@@ -46,11 +39,11 @@ contains
       type(integration_result) :: outcome
       character(len=8), parameter :: methods(3) = [character(len=8) :: "radau5", "radau9", &
                                                    "radau13"]
-      type(resting) :: problem
+      integer, parameter :: n = 2000000
+      type(decay) :: problem
       integer :: i
 
-      problem%n = 2000000
-      allocate (problem%lag(0), problem%component(0))
+      call fill(problem, n, spread(0.0_wp, 1, n), spread(0.0_wp, 1, n))
       do i = 1, size(methods)
          call integrate(problem, 0.0_wp, 1.0_wp, at_tolerance(1.0e-6_wp, methods(i)), outcome, &
                         failure)
@@ -68,12 +61,11 @@ contains
       type(failure_type), allocatable :: failure
       type(integration_options) :: options
       type(integration_result) :: outcome
-      type(resting) :: problem
+      type(linear) :: problem
       integer :: i
 
-      problem%n = n
-      problem%lag = [(1.0_wp, i=1, n)]
-      problem%component = [(i, i=1, n)]
+      problem = linear(n, spread(1.0_wp, 1, n), [(i, i=1, n)], spread(0.0_wp, 1, n), &
+                       spread(0.0_wp, 1, n))
       options = at_tolerance(1.0e-6_wp)
       options%longest_step = 1.0e-5_wp
       ! an address sanitizer cannot be limited
@@ -84,28 +76,4 @@ contains
       call expect(error, outcome%reason == out_of_memory, "the reason")
       call expect(error, outcome%t > 0.0_wp .and. size(outcome%y) == n, "the last step")
    end subroutine test_past
-
-   pure subroutine rhs(self, t, y, z, dydt)
-      class(resting), intent(in) :: self
-      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
-      real(wp), intent(out) :: dydt(self%n)
-
-      dydt = 0.0_wp
-   end subroutine rhs
-
-   pure function history(self, t, component) result(value)
-      class(resting), intent(in) :: self
-      real(wp), intent(in) :: t
-      integer, intent(in) :: component
-      real(wp) :: value
-
-      value = 0.0_wp
-   end function history
-
-   pure subroutine initial(self, y)
-      class(resting), intent(in) :: self
-      real(wp), intent(out) :: y(self%n)
-
-      y = 0.0_wp
-   end subroutine initial
 end module test_dde_memory

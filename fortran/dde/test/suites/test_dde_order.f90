@@ -4,14 +4,13 @@ module test_dde_order
    use dde_dop853_tableau, only: b1, b10, b11, b12, b6, b7, b8, b9, bhh1, bhh2, bhh3, er1, er10, &
                                  er11, er12, er6, er7, er8, er9
    use dde_explicit_step, only: explicit_step_type
-   use dde_interpolant, only: newton_value
    use dde_errors, only: text
    use expectations, only: expect, expect_between, expect_close
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use rooted_trees, only: grow_trees, tree_counts, tree_system
    use single_step, only: interpolated, take_step
-   use undelayed_problems, only: decay, quadrature, without_delays
+   use undelayed_problems, only: decay
    implicit none (type, external)
    private
    public :: collect_dde_order
@@ -33,8 +32,7 @@ contains
                    new_unittest("85 conditions of the interpolant", test_interpolant_conditions), &
                    new_unittest("conditions of the estimates", test_estimate_conditions), &
                    new_unittest("estimate of the error", test_estimate), &
-                   new_unittest("estimate of far too long steps", test_long_steps), &
-                   new_unittest("powers of t", test_powers)]
+                   new_unittest("estimate of far too long steps", test_long_steps)]
    end subroutine collect_dde_order
 
    !> The trees of each order are as many as there are known to be.
@@ -74,27 +72,30 @@ contains
    end subroutine test_step_conditions
 
    !> All over the step, the interpolant gives (s h)**order/density for every tree up to order 7,
-   !> but not for those of order 8.
+   !> but not for those of order 8; with and without the time of its stages.
    subroutine test_interpolant_conditions(error)
       type(error_type), allocatable, intent(out) :: error
       type(explicit_step_type) :: step
       type(tree_system) :: trees
       real(wp) :: estimate
       real(wp), allocatable :: misfit(:)
-      integer :: j
+      integer :: i, j
 
       trees = grow_trees(8)
-      step = explicit_step_type(trees)
-      call take_step(trees, 0.0_wp, h, step, estimate)
-      allocate (misfit(trees%n), source=0.0_wp)
-      do j = 1, size(places)
-         misfit = max(misfit, abs(interpolated(step, places(j))/h**trees%order &
-                                  - places(j)**trees%order/trees%density))
+      do i = 1, 2
+         trees%by_the_clock = i == 2
+         step = explicit_step_type(trees)
+         call take_step(trees, 0.0_wp, h, step, estimate)
+         misfit = spread(0.0_wp, 1, trees%n)
+         do j = 1, size(places)
+            misfit = max(misfit, abs(interpolated(step, places(j))/h**trees%order &
+                                     - places(j)**trees%order/trees%density))
+         end do
+         call expect_between(error, maxval(misfit, trees%order <= 7), 0.0_wp, 1.0e-14_wp, &
+                             "largest misfit of orders 1 to 7")
+         call expect_between(error, maxval(misfit, trees%order == 8), 1.0e-5_wp, 1.0e-3_wp, &
+                             "largest misfit of order 8")
       end do
-      call expect_between(error, maxval(misfit, trees%order <= 7), 0.0_wp, 1.0e-14_wp, &
-                          "largest misfit of orders 1 to 7")
-      call expect_between(error, maxval(misfit, trees%order == 8), 1.0e-5_wp, 1.0e-3_wp, &
-                          "largest misfit of order 8")
    end subroutine test_interpolant_conditions
 
    !> The estimate of order 5 vanishes for every tree up to order 5, that of order 3 up to order 3,
@@ -154,8 +155,7 @@ contains
       real(wp) :: estimate, tolerance, worst
       integer :: digits, i
 
-      problem = decay(n=1, past=[1.0_wp], first=[1.0_wp])
-      call without_delays(problem)
+      problem = decay(1.0_wp)
       do digits = 4, 12
          tolerance = 10.0_wp**(-digits)
          worst = 0.0_wp
@@ -171,39 +171,8 @@ contains
       end do
    end subroutine test_long_steps
 
-   !> y' = (p + 1) t**p: the step is exact up to p = 7, the interpolant up to p = 6.
-   subroutine test_powers(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(explicit_step_type) :: step
-      type(quadrature) :: problem
-      real(wp) :: estimate, misfit(0:12), misfit_inside(0:12)
-      integer :: j, p
-
-      do p = 0, ubound(misfit, 1)
-         problem = quadrature(n=1, past=[0.0_wp], first=[0.0_wp], power=p)
-         call without_delays(problem)
-         step = explicit_step_type(problem)
-         call take_step(problem, 0.25_wp, 0.75_wp, step, estimate)
-         misfit(p) = abs(step%y_new(1) - (1.0_wp - 0.25_wp**(p + 1)))
-         misfit_inside(p) = 0.0_wp
-         do j = 1, size(places)
-            associate (inside => interpolated(step, places(j)), t => 0.25_wp + 0.75_wp*places(j))
-               misfit_inside(p) = max(misfit_inside(p), &
-                                      abs(inside(1) - (t**(p + 1) - 0.25_wp**(p + 1))))
-            end associate
-         end do
-      end do
-      call expect_between(error, maxval(misfit(:7)), 0.0_wp, 2.0e-15_wp, "misfit for p <= 7")
-      call expect_between(error, minval(misfit(8:)), 1.0e-5_wp, 1.0_wp, "misfit for p > 7")
-      call expect_between(error, maxval(misfit_inside(:6)), 0.0_wp, 5.0e-15_wp, &
-                          "misfit inside the step for p <= 6")
-      call expect_between(error, minval(misfit_inside(7:)), 1.0e-5_wp, 1.0_wp, &
-                          "misfit inside the step for p > 6")
-   end subroutine test_powers
-
    !> Error coefficients of order 5, one for each component.
    pure function e_5(step) result(e)
-      !> A step
       type(explicit_step_type), intent(in) :: step
       real(wp) :: e(size(step%y))
 
@@ -213,7 +182,6 @@ contains
 
    !> Error coefficients of order 3, one for each component.
    pure function e_3(step) result(e)
-      !> A step
       type(explicit_step_type), intent(in) :: step
       real(wp) :: e(size(step%y))
 
@@ -223,7 +191,6 @@ contains
 
    !> Slopes 1 and 6 to 12, shape (n, 8).
    pure function slopes(step) result(k)
-      !> A step
       type(explicit_step_type), intent(in) :: step
       real(wp) :: k(size(step%y), 8)
       real(wp) :: by_component(size(step%k, 1)*size(step%k, 2), size(step%k, 3))

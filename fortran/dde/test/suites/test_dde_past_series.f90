@@ -1,7 +1,6 @@
 !> The past as Taylor series: of which step, carried how far, and how long they are valid.
 module test_dde_past_series
    use dde_delayed_series, only: delayed_series
-   use dde_interpolant, only: taylor_coefficients
    use dde_step_context, only: step_context
    use dde_time, only: instant_at
    use dde_tolerance, only: tolerance_type
@@ -27,7 +26,6 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("taylor series", test_series), &
-                   new_unittest("zeros above the degree", test_padded), &
                    new_unittest("a second node at 0", test_second_node), &
                    new_unittest("series of the next step", test_next), &
                    new_unittest("series beyond its step", test_disagreement), &
@@ -65,19 +63,6 @@ contains
          end associate
       end do
    end subroutine test_series
-
-   !> A polynomial that a continuation gives back has zeros above its degree, nodes among them.
-   subroutine test_padded(error)
-      type(error_type), allocatable, intent(out) :: error
-      real(wp) :: series(0:12), wider(0:12)
-      real(wp), parameter :: coefficients(0:3) = [1.0_wp, 0.8125_wp, -0.1875_wp, 0.0625_wp]
-      real(wp), parameter :: none(9) = 0.0_wp
-
-      call taylor_coefficients(3, nodes, .false., coefficients, 0.3_wp, 0.5_wp, series)
-      call taylor_coefficients(12, [nodes, none], .false., [coefficients, none], 0.3_wp, &
-                               0.5_wp, wider)
-      call expect_close(error, wider, series, 1.0e-15_wp, "series")
-   end subroutine test_padded
 
    !> The polynomial 1 + s (s - 1/2) has the same series if the second of its nodes is 0: it is not
    !> one of powers.
@@ -166,23 +151,16 @@ contains
 
    !> The series at a time is known.
    subroutine expect_series(error, context, t, h, unit, skipping, known, what, series, valid_for)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
-      !> The context
       type(step_context), intent(inout) :: context
-      !> Time read
       real(wp), intent(in) :: t
       !> Length of the step that reads it
       real(wp), intent(in) :: h
       !> Unit of time, shortened to the time for which the series is valid
       real(wp), intent(in) :: unit
-      !> Whether short steps may be skipped
       logical, intent(in) :: skipping
-      !> Coefficients, shape (0:degree)
       real(wp), intent(in) :: known(0:)
-      !> Name of the series
       character(len=*), intent(in) :: what
-      !> The series
       type(delayed_series), intent(out) :: series
       !> Time for which it is valid, if that is known
       real(wp), intent(in), optional :: valid_for
@@ -200,18 +178,12 @@ contains
 
    !> Length of a step for which a series agrees with the past.
    subroutine expect_length(error, context, series, unit, tolerance, known)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
-      !> The context
       type(step_context), intent(inout) :: context
-      !> The series, read
       type(delayed_series), intent(in) :: series
       !> Its unit of time, and the length proposed
       real(wp), intent(in) :: unit
-      !> Absolute tolerance
-      real(wp), intent(in) :: tolerance
-      !> The length
-      real(wp), intent(in) :: known
+      real(wp), intent(in) :: tolerance, known
       real(wp) :: h
 
       context%tolerance = tolerance_type(3, 0.0_wp, tolerance)
@@ -222,7 +194,6 @@ contains
 
    !> A past of steps 1 + t from 0 to 1, and 0.001 more from there to 3.
    function with_two_steps(problem, valid_for) result(context)
-      !> The problem
       type(wille_baker), intent(in), target :: problem
       !> Time for which the first is valid
       real(wp), intent(in) :: valid_for
@@ -236,9 +207,7 @@ contains
 
    !> Append a step in powers to the past.
    subroutine append(context, start, length, coefficients, valid_for)
-      !> The context
       type(step_context), intent(inout) :: context
-      !> Start, length and validity of the step
       real(wp), intent(in) :: start, length, valid_for
       !> Coefficients, shape (1 + degree)
       real(wp), intent(in) :: coefficients(:)

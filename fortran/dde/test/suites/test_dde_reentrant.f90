@@ -7,10 +7,10 @@ module test_dde_reentrant
    use dde_kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    !$ use omp_lib, only: omp_get_num_threads
-   use published_problems, only: enzyme, infection, mackey_glass
+   use published_problems, only: infection, mackey_glass
    use solving, only: at_tolerance
-   use test_problems, only: linear, sine, wille_baker
-   use undelayed_problems, only: oscillator, without_delays
+   use test_problems, only: sine
+   use undelayed_problems, only: swing
    implicit none (type, external)
    private
    public :: collect_dde_reentrant
@@ -106,9 +106,7 @@ contains
 
    !> Integrate another problem to its end.
    subroutine integrate_other(self, y)
-      !> The sampler
       class(busy_sampler), intent(inout) :: self
-      !> Values, without influence
       real(wp), intent(in) :: y(:)
 
       self%taken = self%taken + 1
@@ -119,49 +117,29 @@ contains
 
    !> Integration number i.
    subroutine prepare(i, run)
-      !> Number
       integer, intent(in) :: i
-      !> The integration
       type(run_type), intent(out) :: run
-      type(oscillator) :: swing
       real(wp) :: x
       integer :: k
 
       x = 1.0_wp + 0.01_wp*i
-      select case (modulo(i, 8))
+      select case (modulo(i, 5))
       case (0)
          allocate (run%problem, source=sine())
       case (1)
          allocate (run%problem, source=follower(10.0_wp*x, start=2.0_wp))
       case (2)
-         allocate (run%problem, source=mackey_glass(n=1, lag=[17.0_wp], component=[1], past=[x], &
-                                                    first=[x]))
+         allocate (run%problem, source=mackey_glass(past=[x], first=[x]))
       case (3)
-         allocate (run%problem, source=infection(n=3, lag=[1.0_wp, 10.0_wp], component=[2, 2], &
-                                                 past=[5.0_wp, 0.1_wp, x], &
-                                                 first=[5.0_wp, 0.1_wp, x]))
-      case (4)
-         allocate (run%problem, source=enzyme(n=4, lag=[4.0_wp], component=[4], &
-                                              past=[60.0_wp, 10.0_wp, 10.0_wp, 20.0_wp*x], &
-                                              first=[60.0_wp, 10.0_wp, 10.0_wp, 20.0_wp]))
-      case (5)
-         allocate (run%problem, source=linear(n=1, lag=[x], component=[1], past=[0.0_wp], &
-                                              first=[1.0_wp]))
-      case (6)
-         allocate (run%problem, source=wille_baker(n=3, lag=[x, 0.2_wp], component=[1, 2], &
-                                                   past=[0.1_wp, 0.1_wp, 0.1_wp], &
-                                                   first=[0.1_wp, 0.1_wp, 0.1_wp]))
+         allocate (run%problem, source=infection())
       case default
-         swing = oscillator(n=2, past=[x, 0.0_wp], first=[x, 0.0_wp])
-         call without_delays(swing)
-         allocate (run%problem, source=swing)
+         allocate (run%problem, source=swing(x))
       end select
       run%table = table_sampler([1], [(t_end*k/samples, k=1, samples)])
    end subroutine prepare
 
    !> Integrate.
    subroutine perform(run)
-      !> The integration
       type(run_type), intent(inout) :: run
 
       call integrate(run%problem, 0.0_wp, t_end, at_tolerance(1.0e-9_wp), run%outcome, &
@@ -170,13 +148,8 @@ contains
 
    !> Two integrations did the same to the last bit.
    subroutine expect_same(error, one, other, what)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
-      !> One
-      type(run_type), intent(in) :: one
-      !> The other
-      type(run_type), intent(in) :: other
-      !> What the one is
+      type(run_type), intent(in) :: one, other
       character(len=*), intent(in) :: what
 
       call expect_success(error, one%failure)
@@ -191,10 +164,7 @@ contains
 
    !> Whether the bits are the same.
    pure logical function same_bits(a, b) result(value)
-      !> Some numbers
-      real(wp), intent(in) :: a(:)
-      !> As many others
-      real(wp), intent(in) :: b(:)
+      real(wp), intent(in) :: a(:), b(:)
 
       value = size(a) == size(b) .and. all(transfer(a, [0_int64]) == transfer(b, [0_int64]))
    end function same_bits

@@ -1,17 +1,26 @@
-!> All methods against exact solutions and published values (tables in the texts cited in
+!> All methods against exact solutions and published values, and how errors fall with the length of
+!> the steps and with the tolerance (tables in the texts cited in
 !> test_problems; piecewise polynomials by hand).
 module test_dde_solutions
-   use dde, only: dde_problem_type, methods
-   use dde_errors, only: text
+   use dde, only: dde_problem_type, integration_options, methods
+   use dde_explicit_step, only: explicit_step_type
+   use dde_interpolant, only: newton_state
    use expectations, only: expect_between, expect_close
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use published_problems, only: enzyme, infection, mackey_glass
+   use published_problems, only: enzyme, infection, mackey_glass, published_enzyme, &
+                                 published_infection
+   use single_step, only: take_step
    use solving, only: at_tolerance, solve
    use test_problems, only: linear, sine, wille_baker
+   use undelayed_problems, only: oscillator, swing
    implicit none (type, external)
    private
    public :: collect_dde_solutions
+
+   !> Times of samples over 14 delays of `sine`.
+   real(wp), parameter :: sampling = 0.37_wp
+   integer, parameter :: samples = 60
 
 contains
 
@@ -19,102 +28,63 @@ contains
    subroutine collect_dde_solutions(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("linear, with and without a jump", test_linear), &
-                   new_unittest("sine", test_sine), &
-                   new_unittest("two delays", test_two_delays), &
-                   new_unittest("infection", test_infection), &
-                   new_unittest("enzyme kinetics", test_enzyme), &
-                   new_unittest("mackey-glass", test_mackey_glass), &
-                   new_unittest("error follows tolerance", test_proportional)]
+      testsuite = [new_unittest("exact solutions", test_exact), &
+                   new_unittest("published values", test_published), &
+                   new_unittest("interpolants join smoothly", test_smooth_joint), &
+                   new_unittest("many steps of one length", test_fixed_steps), &
+                   new_unittest("error per tolerance", test_tolerance), &
+                   new_unittest("error per tolerance, two delays", test_tolerance_two_delays)]
    end subroutine collect_dde_solutions
 
-   !> y' = -y(t - 1), y = 1 up to t = 0, or y = 0 before t = 0: piecewise polynomials.
-   subroutine test_linear(error)
-      type(error_type), allocatable, intent(out) :: error
-      real(wp), parameter :: times(4) = [1.0_wp, 2.0_wp, 5.0_wp, 10.0_wp]
-
-      call compare(error, linear(n=1, lag=[1.0_wp], component=[1], past=[1.0_wp], &
-                                 first=[1.0_wp]), times, &
-                   reshape([0.0_wp, -0.5_wp, 19.0_wp/120, 10493.0_wp/518400], [1, 4]), &
-                   [1.0e-12_wp, 1.0e-9_wp])
-      call compare(error, linear(n=1, lag=[1.0_wp], component=[1], past=[0.0_wp], &
-                                 first=[1.0_wp]), times, &
-                   reshape([1.0_wp, 0.0_wp, 5.0_wp/24, 19223.0_wp/362880], [1, 4]), &
-                   [1.0e-12_wp, 1.0e-9_wp])
-   end subroutine test_linear
-
-   !> y' = -y(t - pi/2) with the history sin t goes on as sin t: a history that varies.
-   subroutine test_sine(error)
+   !> Piecewise polynomials with and without a jump at t = 0; sin t, with a history that varies; and
+   !> two delays, whose breaking points lie so close that some Taylor steps are of the size of
+   !> rounding.
+   subroutine test_exact(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp), parameter :: pi = acos(-1.0_wp)
-      real(wp), parameter :: times(4) = [pi/6, 5*pi/6, 13*pi/6, 20.0_wp]
+      real(wp), parameter :: times(4) = [1.0_wp, 2.0_wp, 5.0_wp, 10.0_wp]
+      real(wp), parameter :: turns(4) = [pi/6, 5*pi/6, 13*pi/6, 20.0_wp]
 
-      call compare(error, sine(), times, reshape(sin(times), [1, 4]), [5.0e-12_wp, 1.0e-9_wp])
-   end subroutine test_sine
-
-   !> Wille and Baker's two delays, whose breaking points lie so close that some Taylor steps are of
-   !> the size of rounding.
-   subroutine test_two_delays(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(wille_baker) :: problem
-
-      problem = wille_baker(n=3, lag=[1.0_wp, 0.2_wp], component=[1, 2], &
-                            past=[1.0_wp, 1.0_wp, 1.0_wp], first=[1.0_wp, 1.0_wp, 1.0_wp])
-      call compare(error, problem, [1.0_wp], &
-                   reshape([2.0_wp, 696401.0_wp/187500, 17896711.0_wp/5625000], [3, 1]), &
-                   [1.0e-12_wp, 1.0e-6_wp])
-      call compare(error, problem, [5.0_wp], &
-                   reshape([767.0_wp/40, 176.42257844738032_wp, 190.34420193607042_wp], [3, 1]), &
+      call compare(error, "linear", linear(), times, &
+                   [0.0_wp, -0.5_wp, 19.0_wp/120, 10493.0_wp/518400], [1.0e-12_wp, 1.0e-9_wp])
+      call compare(error, "linear with a jump", linear(past=[0.0_wp]), times, &
+                   [1.0_wp, 0.0_wp, 5.0_wp/24, 19223.0_wp/362880], [1.0e-12_wp, 1.0e-9_wp])
+      call compare(error, "sine", sine(), turns, sin(turns), [5.0e-12_wp, 1.0e-9_wp])
+      call compare(error, "two delays", wille_baker(), [1.0_wp], &
+                   [2.0_wp, 696401.0_wp/187500, 17896711.0_wp/5625000], [1.0e-12_wp, 1.0e-6_wp])
+      call compare(error, "two delays", wille_baker(), [5.0_wp], &
+                   [767.0_wp/40, 176.42257844738032_wp, 190.34420193607042_wp], &
                    [1.0e-10_wp, 1.0e-6_wp])
-   end subroutine test_two_delays
+   end subroutine test_exact
 
-   !> Two delays of one component, and an invariant.
-   subroutine test_infection(error)
+   !> Two delays of one component, with an invariant; enzyme kinetics; the chaotic equation of
+   !> Mackey and Glass, before chaos shows.
+   subroutine test_published(error)
       type(error_type), allocatable, intent(out) :: error
-      type(infection) :: problem
       real(wp), allocatable :: y(:, :)
 
-      problem = infection(n=3, lag=[1.0_wp, 10.0_wp], component=[2, 2], &
-                          past=[5.0_wp, 0.1_wp, 1.0_wp], first=[5.0_wp, 0.1_wp, 1.0_wp])
-      call compare(error, problem, [40.0_wp], &
-                   reshape([0.0912491205664_wp, 0.0202995003351_wp, 5.9884513791_wp], [3, 1]), &
+      call compare(error, "infection", infection(), [40.0_wp], published_infection, &
                    [1.0e-10_wp, 2.0e-8_wp])
-      call solve(problem, [17.3_wp, 40.0_wp], at_tolerance(1.0e-12_wp), y, error)
+      call solve(infection(), [17.3_wp, 40.0_wp], at_tolerance(1.0e-12_wp), y, error)
       call expect_close(error, sum(y, dim=1), [6.1_wp, 6.1_wp], 1.0e-13_wp, "sum of all")
-   end subroutine test_infection
-
-   !> Enzyme kinetics.
-   subroutine test_enzyme(error)
-      type(error_type), allocatable, intent(out) :: error
-
-      call compare(error, kinetics(), [160.0_wp], reshape(published_kinetics(), [4, 1]), &
-                   [1.0e-8_wp, 1.0e-6_wp])
-   end subroutine test_enzyme
-
-   !> The chaotic equation of Mackey and Glass, before chaos shows.
-   subroutine test_mackey_glass(error)
-      type(error_type), allocatable, intent(out) :: error
-
-      call compare(error, mackey_glass(n=1, lag=[17.0_wp], component=[1], past=[1.2_wp], &
-                                       first=[1.2_wp]), [50.0_wp, 100.0_wp, 200.0_wp], &
-                   reshape([1.060954362898_wp, 1.013724016524_wp, 1.186718107117_wp], [1, 3]), &
+      call compare(error, "enzyme", enzyme(), [160.0_wp], published_enzyme, [1.0e-8_wp, 1.0e-6_wp])
+      call compare(error, "mackey-glass", mackey_glass(), [50.0_wp, 100.0_wp, 200.0_wp], &
+                   [1.060954362898_wp, 1.013724016524_wp, 1.186718107117_wp], &
                    [1.0e-10_wp, 2.0e-7_wp])
-   end subroutine test_mackey_glass
+   end subroutine test_published
 
    !> Solutions by all methods: by explicit ones at tolerance 1e-13, by implicit ones at 1e-11.
-   subroutine compare(error, problem, times, known, within)
-      !> The first failure of the test
+   subroutine compare(error, name, problem, times, known, within)
       type(error_type), allocatable, intent(inout) :: error
-      !> The problem
+      character(len=*), intent(in) :: name
       class(dde_problem_type), intent(in) :: problem
-      !> Times
       real(wp), intent(in) :: times(:)
-      !> Solution, shape (n, times)
-      real(wp), intent(in) :: known(:, :)
+      !> Solution, n numbers for each time
+      real(wp), intent(in) :: known(:)
       !> Largest error of explicit methods and of `auto`, and of implicit ones
       real(wp), intent(in) :: within(2)
       real(wp), allocatable :: y(:, :)
-      integer :: class, i, k
+      integer :: class, i
 
       do i = 1, size(methods)
          if (methods(i) == "taylor" .and. .not. problem%analytic) cycle
@@ -122,38 +92,92 @@ contains
          call solve(problem, times, at_tolerance(merge(1.0e-11_wp, 1.0e-13_wp, class == 2), &
                                                  methods(i)), y, error)
          if (allocated(error)) return
-         do k = 1, size(times)
-            call expect_close(error, y(:, k), known(:, k), within(class), &
-                              trim(methods(i))//" at t = "//text(times(k)))
-         end do
+         call expect_close(error, reshape(y, [size(y)]), known, within(class), &
+                           name//" by "//methods(i))
       end do
    end subroutine compare
 
-   !> Enzyme kinetics: the relative error at t = 160 stays below 100 times the tolerance.
-   subroutine test_proportional(error)
+   !> The interpolant has the value and the slope of the solution at both ends of its step.
+   subroutine test_smooth_joint(error)
       type(error_type), allocatable, intent(out) :: error
-      real(wp), allocatable :: y(:, :)
-      real(wp), parameter :: tolerances(4) = [1.0e-4_wp, 1.0e-6_wp, 1.0e-8_wp, 1.0e-10_wp]
+      type(explicit_step_type) :: step
+      type(oscillator) :: problem
+      real(wp), parameter :: h = 0.75_wp
+      real(wp) :: a(0:7), estimate, slope(2, 0:1), y(2, 0:1)
+      integer :: i, place
+
+      problem = swing()
+      step = explicit_step_type(problem)
+      call take_step(problem, 0.0_wp, h, step, estimate)
+      do i = 1, 2
+         call step%interpolant(i, a)
+         do place = 0, 1
+            call newton_state(step%nodes, a, real(place, wp), y(i, place), slope(i, place))
+         end do
+      end do
+      call expect_close(error, y(:, 0), [1.0_wp, 0.0_wp], 0.0_wp, "start")
+      call expect_close(error, y(:, 1), step%y_new, 2.0e-16_wp, "end")
+      call expect_close(error, slope(:, 0)/h, [0.0_wp, -1.0_wp], 1.0e-15_wp, "slope at the start")
+      call expect_close(error, slope(:, 1)/h, [step%y_new(2), -step%y_new(1)], 1.0e-15_wp, &
+                        "slope at the end")
+   end subroutine test_smooth_joint
+
+   !> With delays, and steps of lengths that the delay is no multiple of, global errors fall as the
+   !> step's order promises; with an interpolant of low order they would not.
+   subroutine test_fixed_steps(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(integration_options) :: options
+      real(wp) :: misfit(2)
       integer :: i
 
-      do i = 1, size(tolerances)
-         call solve(kinetics(), [160.0_wp], at_tolerance(tolerances(i)), y, error)
-         call expect_between(error, maxval(abs(y(:, 1)/published_kinetics() - 1.0_wp)), 0.0_wp, &
-                             100.0_wp*tolerances(i), "relative error")
+      do i = 1, 2
+         options = at_tolerance(1.0_wp)
+         options%first_step = 0.65_wp/3**(i - 1)
+         options%longest_step = options%first_step
+         call solve_sine(options, misfit(i), error)
       end do
-   end subroutine test_proportional
+      call expect_between(error, log(misfit(1)/misfit(2))/log(3.0_wp), 7.0_wp, 8.5_wp, "order")
+   end subroutine test_fixed_steps
 
-   !> Enzyme kinetics from its published start.
-   pure type(enzyme) function kinetics() result(problem)
-      problem = enzyme(n=4, lag=[4.0_wp], component=[4], &
-                       past=[60.0_wp, 10.0_wp, 10.0_wp, 20.0_wp], &
-                       first=[60.0_wp, 10.0_wp, 10.0_wp, 20.0_wp])
-   end function kinetics
+   !> The error is proportional to the tolerance over seven decades: between 0.2 and 1 times it.
+   subroutine test_tolerance(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: misfit, tolerance
+      integer :: i
 
-   !> Its published state at t = 160.
-   pure function published_kinetics() result(y)
-      real(wp) :: y(4)
+      do i = 6, 12
+         tolerance = 10.0_wp**(-i)
+         call solve_sine(at_tolerance(tolerance), misfit, error)
+         call expect_between(error, misfit/tolerance, 0.2_wp, 1.0_wp, "error per tolerance")
+      end do
+   end subroutine test_tolerance
 
-      y = [33.92579471114_wp, 22.70653713103_wp, 18.83057673173_wp, 22.26599078770_wp]
-   end function published_kinetics
+   !> The infection problem with its kinks and two delays stays below 3 times the tolerance.
+   subroutine test_tolerance_two_delays(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable :: y(:, :)
+      real(wp) :: tolerance
+      integer :: i
+
+      do i = 3, 10
+         tolerance = 10.0_wp**(-i)
+         call solve(infection(), [40.0_wp], at_tolerance(tolerance), y, error)
+         call expect_between(error, maxval(abs(y(:, 1) - published_infection))/tolerance, 0.0_wp, &
+                             3.0_wp, "error per tolerance")
+      end do
+   end subroutine test_tolerance_two_delays
+
+   !> Largest error of `sine` over all samples.
+   subroutine solve_sine(options, misfit, error)
+      type(integration_options), intent(in) :: options
+      real(wp), intent(out) :: misfit
+      type(error_type), allocatable, intent(inout) :: error
+      real(wp), allocatable :: y(:, :)
+      real(wp) :: time(samples)
+      integer :: i
+
+      time = [(sampling*i, i=1, samples)]
+      call solve(sine(), time, options, y, error)
+      misfit = maxval(abs(y(1, :) - sin(time)))
+   end subroutine solve_sine
 end module test_dde_solutions

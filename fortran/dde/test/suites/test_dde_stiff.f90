@@ -1,12 +1,11 @@
 !> Stiff runs of the implicit methods and of `auto`: accuracy at and between the ends of steps,
 !> events, and steps longer than the delay.
 module test_dde_stiff
-   use dde, only: event_table, integrate, integration_result
-   use dde_errors, only: failure_type => error_type
+   use dde, only: event_table, integration_result
    use dde_kinds, only: wp
-   use expectations, only: expect_between, expect_close, expect_success
+   use expectations, only: expect_between, expect_close
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use solving, only: at_tolerance, solve
+   use solving, only: at_tolerance, run, solve
    use stiff_problems, only: exponential_decay, prothero_robinson
    implicit none (type, external)
    private
@@ -33,15 +32,13 @@ contains
    !> order falls to s + 1 (order reduction); the error stays within a hundred tolerances.
    subroutine test_prothero_robinson(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
       integer :: i, power
 
       do power = 2, 12, 5
          do i = 1, size(methods)
-            call integrate(prothero_robinson(-10.0_wp**power), 0.0_wp, 10.0_wp, &
-                           at_tolerance(1.0e-8_wp, methods(i)), outcome, failure)
-            call expect_success(error, failure)
+            call run(error, prothero_robinson(-10.0_wp**power), 0.0_wp, 10.0_wp, &
+                     at_tolerance(1.0e-8_wp, methods(i)), outcome)
             call expect_close(error, outcome%y, [cos(10.0_wp)], 1.0e-6_wp, trim(methods(i)))
             call expect_between(error, real(outcome%accepted, wp), 5.0_wp, 800.0_wp, "steps")
          end do
@@ -72,16 +69,13 @@ contains
    subroutine test_overlap(error)
       type(error_type), allocatable, intent(out) :: error
       type(exponential_decay) :: problem
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
       integer :: i
 
       problem = exponential_decay(1.0e-4_wp)
       do i = 1, size(methods)
-         call integrate(problem, 0.0_wp, 10.0_wp, at_tolerance(1.0e-8_wp, methods(i)), outcome, &
-                        failure)
-         call expect_success(error, failure)
-         call expect_close(error, outcome%y, [exp(10.0_wp*problem%rate)], 1.0e-8_wp, &
+         call run(error, problem, 0.0_wp, 10.0_wp, at_tolerance(1.0e-8_wp, methods(i)), outcome)
+         call expect_close(error, outcome%y, [exp(10.0_wp*problem%root)], 1.0e-8_wp, &
                            trim(methods(i)))
          call expect_between(error, real(outcome%accepted, wp), 10.0_wp, 300.0_wp, "steps")
       end do
@@ -91,15 +85,13 @@ contains
    subroutine test_events(error)
       type(error_type), allocatable, intent(out) :: error
       type(event_table) :: table
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
       integer :: i
 
       do i = 1, size(methods)
          table = event_table([1], [0.5_wp], [0])
-         call integrate(prothero_robinson(-1.0e6_wp), 0.0_wp, 10.0_wp, &
-                        at_tolerance(1.0e-10_wp, methods(i)), outcome, failure, watcher=table)
-         call expect_success(error, failure)
+         call run(error, prothero_robinson(-1.0e6_wp), 0.0_wp, 10.0_wp, &
+                  at_tolerance(1.0e-10_wp, methods(i)), outcome, watcher=table)
          call expect_close(error, table%time(:table%received)%hi, &
                            [pi/3, 5*pi/3, 7*pi/3], 1.0e-8_wp, methods(i))
       end do

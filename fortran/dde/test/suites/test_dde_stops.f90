@@ -4,13 +4,13 @@ module test_dde_stops
    use dde, only: integrate, integration_options, integration_result, methods, reached_end, &
                   step_underflow, table_sampler, too_many_steps, value_not_finite
    use dde_errors, only: failure_type => error_type, text
-   use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
+   use expectations, only: expect, expect_between, expect_close, expect_failure
    use dde_kinds, only: int64, wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use piecewise_problems, only: jumping_history
-   use solving, only: at_tolerance
+   use solving, only: at_tolerance, run
    use test_problems, only: fill
-   use undelayed_problems, only: blow_up, decay, falls_out, swing, without_delays
+   use undelayed_problems, only: blow_up, decay, falls_out, swing
    implicit none (type, external)
    private
    public :: collect_dde_stops
@@ -21,10 +21,8 @@ contains
    subroutine collect_dde_stops(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("end reached", test_reached_end), &
-                   new_unittest("step underflow", test_step_underflow), &
+      testsuite = [new_unittest("step underflow", test_step_underflow), &
                    new_unittest("too many steps", test_too_many_steps), &
-                   new_unittest("just enough steps", test_enough_steps), &
                    new_unittest("value not finite", test_value_not_finite), &
                    new_unittest("value not finite from the start", test_not_finite_at_start), &
                    new_unittest("history not finite", test_not_finite_history), &
@@ -32,42 +30,25 @@ contains
                    new_unittest("below the spacing of times", test_unresolved)]
    end subroutine collect_dde_stops
 
-   !> A good end: t_end itself, the state there, no error.
-   subroutine test_reached_end(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
-
-      call integrate(swing(), 0.0_wp, 7.3_wp, at_tolerance(1.0e-11_wp), outcome, failure)
-      call expect_success(error, failure)
-      call expect(error, outcome%reason == reached_end, "the reason is `reached_end`")
-      call expect_close(error, outcome%t, 7.3_wp, 0.0_wp, "t")
-      call expect_close(error, outcome%y, [cos(7.3_wp), -sin(7.3_wp)], 1.0e-10_wp, "y")
-      call expect(error, outcome%implicit_steps == 0, "no step is implicit")
-   end subroutine test_reached_end
-
    !> y = 1/(1 - t) has no value at t = 1: the step shrinks until it cannot move time.
    subroutine test_step_underflow(error)
       type(error_type), allocatable, intent(out) :: error
-      type(blow_up) :: problem
       type(failure_type), allocatable :: failure
       type(integration_options) :: options
       type(integration_result) :: outcome
       integer :: i
 
-      problem = blow_up(n=1, past=[1.0_wp], first=[1.0_wp])
-      call without_delays(problem)
       do i = 1, size(methods)
          options = at_tolerance(1.0e-9_wp, methods(i))
-         call integrate(problem, 0.0_wp, 2.0_wp, options, outcome, failure)
+         call integrate(blow_up(), 0.0_wp, 2.0_wp, options, outcome, failure)
          call expect(error, outcome%reason == step_underflow, "the reason is `step_underflow`")
          call expect_failure(error, failure, "the step had to shrink")
          call expect_close(error, outcome%t, 1.0_wp, 1.0e-8_wp, "t by "//methods(i))
          options%most_steps = 3
-         call integrate(problem, 0.0_wp, 0.9_wp, options, outcome, failure)
+         call integrate(blow_up(), 0.0_wp, 0.9_wp, options, outcome, failure)
          call expect(error, outcome%reason == too_many_steps, methods(i)//" has three steps")
          if (methods(i) /= "explicit") cycle
-         call integrate(problem, 0.0_wp, 2.0_wp, at_tolerance(1.0e-9_wp, methods(i)), outcome, &
+         call integrate(blow_up(), 0.0_wp, 2.0_wp, at_tolerance(1.0e-9_wp, methods(i)), outcome, &
                         failure)
          call expect_failure(error, failure, "stopped at t = 1.0000")
          call expect_between(error, outcome%y(1), 1.0e15_wp, huge(1.0_wp), "y")
@@ -93,24 +74,6 @@ contains
       call expect_close(error, outcome%y, [cos(outcome%t), -sin(outcome%t)], 1.0e-9_wp, "y")
    end subroutine test_too_many_steps
 
-   !> As many steps as are needed suffice, one less does not.
-   subroutine test_enough_steps(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(integration_options) :: options
-      type(integration_result) :: outcome
-
-      options%first_step = 3.0_wp
-      call integrate(swing(), 0.0_wp, 10.0_wp, options, outcome, failure)
-      options%most_steps = outcome%accepted + outcome%rejected
-      call integrate(swing(), 0.0_wp, 10.0_wp, options, outcome, failure)
-      call expect_success(error, failure)
-      options%most_steps = options%most_steps - 1
-      call integrate(swing(), 0.0_wp, 10.0_wp, options, outcome, failure)
-      call expect(error, outcome%reason == too_many_steps, "the reason is `too_many_steps`")
-      call expect_failure(error, failure, "(most_steps)")
-   end subroutine test_enough_steps
-
    !> y = t up to t = 1, and no number beyond: it comes as near as steps can be short.
    subroutine test_value_not_finite(error)
       type(error_type), allocatable, intent(out) :: error
@@ -120,7 +83,7 @@ contains
 
       do i = 1, size(methods)
          if (methods(i) == "taylor") cycle
-         call integrate(edge(first=0.0_wp), 0.0_wp, 2.0_wp, at_tolerance(1.0e-9_wp, methods(i)), &
+         call integrate(falls_out(0.0_wp), 0.0_wp, 2.0_wp, at_tolerance(1.0e-9_wp, methods(i)), &
                         outcome, failure)
          call expect(error, outcome%reason == value_not_finite, "the reason is `value_not_finite`")
          call expect_failure(error, failure, "f(1) is NaN at t = 1.0")
@@ -135,7 +98,7 @@ contains
       type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
 
-      call integrate(edge(first=5.0_wp), 3.0_wp, 4.0_wp, at_tolerance(1.0e-9_wp), outcome, failure)
+      call integrate(falls_out(5.0_wp), 3.0_wp, 4.0_wp, at_tolerance(1.0e-9_wp), outcome, failure)
       call expect(error, outcome%reason == value_not_finite, "the reason is `value_not_finite`")
       call expect_failure(error, failure, "stopped at t = 3.0 of 4.0 after 0 steps")
       call expect_close(error, outcome%t, 3.0_wp, 0.0_wp, "t")
@@ -151,6 +114,7 @@ contains
       integer :: i
 
       call fill(problem, 1, [0.0_wp], [0.0_wp], [1.0_wp], [1])
+      problem%rate = -1.0_wp
       problem%before = ieee_value(1.0_wp, ieee_quiet_nan)
       do i = 1, size(methods)
          if (methods(i) == "taylor") cycle
@@ -164,14 +128,11 @@ contains
    !> A run of no length gives the first state and the sample there.
    subroutine test_no_length(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
       type(table_sampler) :: table
 
       table = table_sampler([1], [1.0_wp])
-      call integrate(edge(first=5.0_wp), 1.0_wp, 1.0_wp, at_tolerance(1.0e-9_wp), outcome, &
-                     failure, table)
-      call expect_success(error, failure)
+      call run(error, falls_out(5.0_wp), 1.0_wp, 1.0_wp, at_tolerance(1.0e-9_wp), outcome, table)
       call expect(error, outcome%reason == reached_end, "the reason is `reached_end`")
       call expect_close(error, outcome%y, [5.0_wp], 0.0_wp, "y")
       call expect_close(error, table%values(1, :), [5.0_wp], 0.0_wp, "the sample")
@@ -181,29 +142,14 @@ contains
    subroutine test_unresolved(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp), parameter :: starts(2) = [0.0_wp, 1.0e6_wp]
-      type(failure_type), allocatable :: failure
-      type(decay) :: problem
       type(integration_result) :: outcome
       integer :: i
 
-      problem = decay(n=1, past=[1.0_wp], first=[1.0_wp])
-      problem%rate = 1.0e12_wp
-      call without_delays(problem)
       do i = 1, size(starts)
-         call integrate(problem, starts(i), starts(i) + 1.0e-9_wp, at_tolerance(1.0e-9_wp), &
-                        outcome, failure)
-         call expect_success(error, failure)
+         call run(error, decay(1.0e12_wp), starts(i), starts(i) + 1.0e-9_wp, &
+                  at_tolerance(1.0e-9_wp), outcome)
          call expect(error, outcome%unresolved > 100 .eqv. i == 2, text(outcome%unresolved) &
                      //" from t = "//text(starts(i)))
       end do
    end subroutine test_unresolved
-
-   !> y' = 1 up to t = 1, no number after.
-   pure type(falls_out) function edge(first) result(problem)
-      !> y at the start
-      real(wp), intent(in) :: first
-
-      problem = falls_out(n=1, past=[first], first=[first])
-      call without_delays(problem)
-   end function edge
 end module test_dde_stops

@@ -1,18 +1,20 @@
-!> When `auto` changes the method, and what that costs.
+!> When `auto` changes the method, what that costs, and how work is counted.
 module test_dde_switch
-   use dde, only: dde_problem_type, integrate, integration_result
-   use dde_errors, only: failure_type => error_type, text
+   use dde, only: dde_problem_type, integration_result
+   use dde_errors, only: text
+   use dde_lapack, only: lapack_is_there
    use dde_methods, only: price_of_trial
    use dde_tolerance, only: tolerance_type
    use dde_kinds, only: wp
-   use expectations, only: expect, expect_success
+   use dde_work, only: work_type
+   use expectations, only: expect, expect_close
    use lines_of_cells, only: cells
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use piecewise_problems, only: switching, switching_kinds
    use published_problems, only: enzyme, infection, mackey_glass
    use single_step, only: held_back
-   use solving, only: at_tolerance
-   use test_problems, only: fill
+   use solving, only: at_tolerance, run
+   use test_problems, only: fill, sine
    use undelayed_problems, only: swing
    implicit none (type, external)
    private
@@ -25,7 +27,9 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("an oscillation", test_oscillation), &
-                   new_unittest("cost of changes", test_cost)]
+                   new_unittest("cost of changes", test_cost), &
+                   new_unittest("work of three methods in turn", test_methods), &
+                   new_unittest("work of a run", test_run)]
    end subroutine collect_dde_switch
 
    !> The step that the tolerance allows is not held back, a hundredth of it is.
@@ -48,7 +52,8 @@ contains
    subroutine test_cost(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp), parameter :: neighbours(5) = [0.9_wp, 0.95_wp, 1.0_wp, 1.05_wp, 1.1_wp]
-      integer :: kind, power
+      integer :: kind, n, power
+      type(cells) :: problem
 
       do kind = 1, switching_kinds
          do power = 1, 4, 3
@@ -56,31 +61,30 @@ contains
                               "switching "//text(kind)//", k = 1e"//text(power), neighbours)
          end do
       end do
-      call compare_work(error, infection(n=3, lag=[1.0_wp, 10.0_wp], component=[2, 2], &
-                                         past=[5.0_wp, 0.1_wp, 1.0_wp], &
-                                         first=[5.0_wp, 0.1_wp, 1.0_wp]), 40.0_wp, "infection")
-      call compare_work(error, enzyme(n=4, lag=[4.0_wp], component=[4], &
-                                      past=[60.0_wp, 10.0_wp, 10.0_wp, 20.0_wp], &
-                                      first=[60.0_wp, 10.0_wp, 10.0_wp, 20.0_wp]), 160.0_wp, &
-                        "enzyme")
-      call compare_work(error, mackey_glass(n=1, lag=[17.0_wp], component=[1], past=[1.2_wp], &
-                                            first=[1.2_wp]), 200.0_wp, "mackey-glass")
-      call compare_work(error, cells(60, 100.0_wp, delayed=.true.), 5.0_wp, "cells")
+      call compare_work(error, infection(), 40.0_wp, "infection")
+      call compare_work(error, enzyme(), 160.0_wp, "enzyme")
+      call compare_work(error, mackey_glass(), 200.0_wp, "mackey-glass")
+      do n = 30, 150, 120
+         do power = 0, 3, 3
+            problem = cells(n, 10.0_wp**power, delayed=.true.)
+            call compare_work(error, problem, 3.0_wp, text(n)//" cells, diffusion 1e"//text(power))
+            ! a build without LAPACK refuses banded Jacobians
+            if (.not. lapack_is_there) cycle
+            problem%lower = 1
+            problem%upper = 1
+            call compare_work(error, problem, 3.0_wp, text(n)//" cells, banded, 1e"//text(power))
+         end do
+      end do
    end subroutine test_cost
 
    !> The work of `auto` and of the methods that it chooses from.
    subroutine compare_work(error, problem, t_end, name, neighbours)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Final time
       real(wp), intent(in) :: t_end
-      !> Its name
       character(len=*), intent(in) :: name
       !> Tolerances over 1e-3 and 1e-6 whose average counts; 1 if not given
       real(wp), intent(in), optional :: neighbours(:)
-      type(failure_type), allocatable :: failure
       type(integration_result) :: auto, explicit, implicit
       real(wp), allocatable :: ratios(:)
       real(wp) :: better, price, tolerance, work
@@ -90,19 +94,15 @@ contains
       if (present(neighbours)) ratios = neighbours
 
       do digits = 3, 6, 3
-         call integrate(problem, 0.0_wp, t_end, at_tolerance(10.0_wp**(-digits), "explicit"), &
-                        explicit, failure)
-         call expect_success(error, failure)
+         call run(error, problem, 0.0_wp, t_end, at_tolerance(10.0_wp**(-digits), "explicit"), &
+                  explicit)
          work = 0.0_wp
          better = 0.0_wp
          price = 0.0_wp
          do i = 1, size(ratios)
             tolerance = ratios(i)*10.0_wp**(-digits)
-            call integrate(problem, 0.0_wp, t_end, at_tolerance(tolerance, "auto"), auto, failure)
-            call expect_success(error, failure)
-            call integrate(problem, 0.0_wp, t_end, at_tolerance(tolerance, "radau9"), implicit, &
-                           failure)
-            call expect_success(error, failure)
+            call run(error, problem, 0.0_wp, t_end, at_tolerance(tolerance, "auto"), auto)
+            call run(error, problem, 0.0_wp, t_end, at_tolerance(tolerance, "radau9"), implicit)
             if (allocated(error)) return
             work = work + auto%work/size(ratios)
             better = better + min(explicit%work, implicit%work)/size(ratios)
@@ -118,13 +118,41 @@ contains
 
    !> A problem that switches.
    type(switching) function switch(kind, k) result(problem)
-      !> Which one
       integer, intent(in) :: kind
-      !> Its fast rate
       real(wp), intent(in) :: k
 
       call fill(problem, 2, [0.5_wp, 0.5_wp], [0.5_wp, 0.5_wp], [1.0_wp, 1.0_wp], [1, 2])
       problem%kind = kind
       problem%k = k
    end function switch
+
+   !> Evaluations have the cost of the method that made them.
+   subroutine test_methods(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(work_type) :: work
+
+      work = work_type(3)
+      work%evaluations = 10
+      call expect_close(error, work%total(), 10.0_wp, 0.0_wp, "explicit")
+      call work%set_cost(4.0_wp)
+      call expect_close(error, work%total(), 10.0_wp, 0.0_wp, "none by the second")
+      work%evaluations = work%evaluations + 5
+      call work%set_cost(1.0_wp)
+      work%evaluations = work%evaluations + 7
+      call expect_close(error, work%total(), 10.0_wp + 4*5.0_wp + 7.0_wp, 0.0_wp, "after the third")
+   end subroutine test_methods
+
+   !> By the explicit pair the work is the number of evaluations, by the implicit method more, and
+   !> only that factorises.
+   subroutine test_run(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(integration_result) :: outcome
+
+      call run(error, sine(), 0.0_wp, 20.0_wp, at_tolerance(1.0e-6_wp, "explicit"), outcome)
+      call expect_close(error, outcome%work, real(outcome%evaluations, wp), 0.0_wp, "explicit")
+      call expect(error, outcome%factorisations == 0, "no factorisation")
+      call run(error, sine(), 0.0_wp, 20.0_wp, at_tolerance(1.0e-6_wp, "radau5"), outcome)
+      call expect(error, outcome%work > 4.0_wp*outcome%evaluations, "implicit, with its systems")
+      call expect(error, outcome%factorisations > 0, "factorisations")
+   end subroutine test_run
 end module test_dde_switch

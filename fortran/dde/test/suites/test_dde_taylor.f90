@@ -1,22 +1,21 @@
 !> Steps by Taylor series: order and length, slow series and the balance they keep, pasts of other
 !> methods.
 module test_dde_taylor
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
-   use dde, only: continuation_type, integrate, integration_options, integration_result
-   use dde_errors, only: failure_type => error_type, text
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use dde, only: continuation_type, integration_result
+   use dde_errors, only: text
    use dde_slow_series, only: series_reach
    use dde_step_context, only: step_context
    use dde_taylor_series, only: taylor_series
    use dde_taylor_step, only: taylor_step_type
    use dde_kinds, only: wp
-   use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
+   use expectations, only: expect, expect_between, expect_close
    use fast_problems, only: follower, pulse
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use published_problems, only: enzyme
    use single_step, only: interpolated, new_context
-   use solving, only: at_tolerance, solve
+   use solving, only: at_tolerance, run, solve
    use test_problems, only: sine
-   use undelayed_problems, only: blow_up, without_delays
+   use undelayed_problems, only: blow_up
    implicit none (type, external)
    private
    public :: collect_dde_taylor
@@ -31,9 +30,7 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("order", test_order), &
-                   new_unittest("length of a step", test_length), &
                    new_unittest("slope", test_slope), &
-                   new_unittest("no series", test_refusal), &
                    new_unittest("the past of other methods", test_pasts), &
                    new_unittest("how far series reach", test_reach), &
                    new_unittest("a follower", test_follower), &
@@ -64,21 +61,6 @@ contains
       end do
    end subroutine test_order
 
-   !> All coefficients of that series are 1, so that the last but one reaches the tolerance first.
-   subroutine test_length(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(taylor_step_type) :: step
-      real(wp) :: allowed, tolerance
-      integer :: degree
-
-      do degree = 8, 20
-         tolerance = 10.0_wp**(7 - degree)
-         call take_step(tolerance, 0.25_wp, step, allowed)
-         call expect_close(error, allowed/(0.9_wp*tolerance**(1.0_wp/(degree - 1))), 1.0_wp, &
-                           1.0e-12_wp, "length at degree "//text(degree))
-      end do
-   end subroutine test_length
-
    !> 1 + 3 s - 2 s^2 in powers of half a unit of time; what later terms are does not matter at 0.
    subroutine test_slope(error)
       type(error_type), allocatable, intent(out) :: error
@@ -95,69 +77,35 @@ contains
    end subroutine test_slope
 
    !> One step of y' = y^2 from y(0) = 1.
-   subroutine take_step(tolerance, h, step, allowed)
-      !> Absolute tolerance, which sets the degree
-      real(wp), intent(in) :: tolerance
-      !> Length
-      real(wp), intent(in) :: h
-      !> The step, taken
+   subroutine take_step(tolerance, h, step)
+      real(wp), intent(in) :: tolerance, h
       type(taylor_step_type), intent(out) :: step
-      !> How long it might have been
-      real(wp), intent(out), optional :: allowed
       type(blow_up), target :: problem
       type(step_context) :: context
       real(wp) :: estimate, length
 
-      problem = blow_up(n=1, past=[1.0_wp], first=[1.0_wp])
-      call without_delays(problem)
+      problem = blow_up()
       step = taylor_step_type(problem, tolerance)
       context = new_context(problem, 0.0_wp, 1.0_wp, 0.0_wp, tolerance)
       length = 0.5_wp*h
       call step%propose(context, length)
-      if (present(allowed)) allowed = length
       context%cursor%h = h
       call step%attempt(context, estimate)
       call step%extend(context)
    end subroutine take_step
 
-   !> A problem that gives no series has no such method, and `auto` begins without.
-   subroutine test_refusal(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(enzyme) :: problem
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
-      real(wp) :: series(0:6, 4), z(0:6, 1)
-
-      problem = enzyme(n=4, lag=[4.0_wp], component=[4], &
-                       past=[60.0_wp, 10.0_wp, 10.0_wp, 20.0_wp], &
-                       first=[60.0_wp, 10.0_wp, 10.0_wp, 20.0_wp])
-      call integrate(problem, 0.0_wp, 1.0_wp, integration_options(method="taylor"), outcome, &
-                     failure)
-      call expect_failure(error, failure, "method = 'taylor' for a problem that gives no Taylor " &
-                          //"series (analytic = .false.)")
-      call integrate(problem, 0.0_wp, 1.0_wp, integration_options(), outcome, failure)
-      call expect_success(error, failure)
-      z = 0.0_wp
-      series = 0.0_wp
-      call problem%series(0.0_wp, 1.0_wp, 6, z, series)
-      call expect(error, all(ieee_is_nan(series(1:, :))), "there is no series of the solution")
-   end subroutine test_refusal
-
    !> y = sin t by one method after the other, each on the past that the one before has left.
    subroutine test_pasts(error)
       type(error_type), allocatable, intent(out) :: error
       type(continuation_type) :: continuation
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
       character(len=8), parameter :: methods(6) = ["explicit", "taylor  ", "radau9  ", "taylor  ", &
                                                    "explicit", "taylor  "]
       integer :: i
 
       do i = 1, size(methods)
-         call integrate(sine(), continuation%time(1), 2.3_wp*i, &
-                        at_tolerance(1.0e-11_wp, methods(i)), outcome, failure, &
-                        continuation=continuation)
-         call expect_success(error, failure)
+         call run(error, sine(), continuation%time(1), 2.3_wp*i, &
+                  at_tolerance(1.0e-11_wp, methods(i)), outcome, continuation=continuation)
          call expect_close(error, outcome%y, [sin(2.3_wp*i)], 1.0e-9_wp, &
                            methods(i)//" in run "//text(i))
          call expect_close(error, continuation%slope, [cos(2.3_wp*i)], 1.0e-8_wp, &
@@ -190,7 +138,6 @@ contains
    !> The exact solution within ten tolerances, whatever the rate, in few steps.
    subroutine test_follower(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(follower) :: problem
       type(integration_result) :: outcome
       real(wp), parameter :: rate(5) = [1.0e2_wp, 1.0e4_wp, 1.0e6_wp, 1.0e9_wp, 1.0e12_wp]
@@ -200,9 +147,8 @@ contains
          problem = follower(rate(i), start=2.0_wp)
          do j = 4, 12, 2
             do k = 1, 2
-               call integrate(problem, 0.0_wp, 20.0_wp, at_tolerance(10.0_wp**(-j), both(k)), &
-                              outcome, failure)
-               call expect_success(error, failure)
+               call run(error, problem, 0.0_wp, 20.0_wp, at_tolerance(10.0_wp**(-j), both(k)), &
+                        outcome)
                call expect_close(error, outcome%y, problem%exact(20.0_wp), 10*10.0_wp**(-j), &
                                  trim(both(k))//" at rate "//text(rate(i))//", 1e-"//text(j))
                call expect_between(error, real(outcome%accepted, wp), 20.0_wp, 400.0_wp, &

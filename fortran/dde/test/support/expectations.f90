@@ -18,11 +18,8 @@ contains
 
    !> A condition holds.
    subroutine expect(error, condition, what)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
-      !> The condition
       logical, intent(in) :: condition
-      !> What it says
       character(len=*), intent(in) :: what
 
       if (allocated(error) .or. condition) return
@@ -31,15 +28,8 @@ contains
 
    !> A value is the known one.
    subroutine expect_close_value(error, actual, known, within, what)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
-      !> What was computed
-      real(wp), intent(in) :: actual
-      !> What is known
-      real(wp), intent(in) :: known
-      !> Largest difference
-      real(wp), intent(in) :: within
-      !> What it is
+      real(wp), intent(in) :: actual, known, within
       character(len=*), intent(in) :: what
 
       if (allocated(error)) return
@@ -50,15 +40,8 @@ contains
 
    !> Values are the known ones.
    subroutine expect_close_values(error, actual, known, within, what)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
-      !> What was computed
-      real(wp), intent(in) :: actual(:)
-      !> What is known, as many
-      real(wp), intent(in) :: known(:)
-      !> Largest difference
-      real(wp), intent(in) :: within
-      !> What they are
+      real(wp), intent(in) :: actual(:), known(:), within
       character(len=*), intent(in) :: what
       integer :: i
 
@@ -70,15 +53,8 @@ contains
 
    !> A value lies in an interval.
    subroutine expect_between(error, actual, least, most, what)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
-      !> What was computed
-      real(wp), intent(in) :: actual
-      !> Least value allowed
-      real(wp), intent(in) :: least
-      !> Greatest value allowed
-      real(wp), intent(in) :: most
-      !> What it is
+      real(wp), intent(in) :: actual, least, most
       character(len=*), intent(in) :: what
 
       if (allocated(error)) return
@@ -89,9 +65,7 @@ contains
 
    !> Nothing went wrong.
    subroutine expect_success(error, failure)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
-      !> What a procedure of ours reports
       type(failure_type), allocatable, intent(in) :: failure
 
       if (allocated(error) .or. .not. allocated(failure)) return
@@ -100,11 +74,8 @@ contains
 
    !> Something went wrong, and the message says these words.
    subroutine expect_failure(error, failure, words)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
-      !> What a procedure of ours reports
       type(failure_type), allocatable, intent(in) :: failure
-      !> Part of its message
       character(len=*), intent(in) :: words
 
       if (allocated(error)) return

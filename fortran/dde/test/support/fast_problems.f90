@@ -8,8 +8,6 @@ module fast_problems
 
    !> y1' = -rate (y1 - cos t), y2' = y1(t - 1): y1 follows cos t.
    type, extends(constant_past) :: follower
-      !> Rate
-      real(wp) :: rate = 1.0_wp
    contains
       procedure :: rhs => follower_rhs
       procedure :: series => follower_series
@@ -41,9 +39,7 @@ contains
    pure type(follower) function new_follower(rate, start) result(problem)
       real(wp), intent(in) :: rate, start
 
-      call fill(problem, 2, [0.0_wp, 0.0_wp], [start, 0.0_wp])
-      problem%lag = [1.0_wp]
-      problem%component = [1]
+      call fill(problem, 2, [0.0_wp, 0.0_wp], [start, 0.0_wp], [1.0_wp], [1])
       problem%analytic = .true.
       problem%rate = rate
    end function new_follower
@@ -138,9 +134,8 @@ contains
    pure type(pulse) function new_pulse(width) result(problem)
       real(wp), intent(in) :: width
 
-      call fill(problem, 2, [0.0_wp, 0.0_wp], [1.0_wp/(1.0_wp + 0.25_wp/width**2), 0.0_wp])
-      problem%lag = [1.0_wp]
-      problem%component = [1]
+      call fill(problem, 2, [0.0_wp, 0.0_wp], [1.0_wp/(1.0_wp + 0.25_wp/width**2), 0.0_wp], &
+                [1.0_wp], [1])
       problem%analytic = .true.
       problem%width = width
    end function new_pulse

@@ -1,10 +1,10 @@
 !> Problems that jump, and a problem of many delays or of components of any size.
 module piecewise_problems
    use dde_kinds, only: wp
-   use test_problems, only: constant_past
+   use test_problems, only: constant_past, linear
    implicit none (type, external)
    private
-   public :: delayed_pulse, jumping_history, logistic_beside, many_delays, relaxing, switching
+   public :: delayed_pulse, jumping_history, logistic, many_delays, relaxing, switching
    public :: switching_kinds
 
    !> y1' = 100 for 50 <= t < 50.1, else 0; y2' = y1(t - 1). From (0, 0), y2(55) = 39.5.
@@ -14,19 +14,19 @@ module piecewise_problems
    end type delayed_pulse
 
    !> y' = y(t - 1), y = 0 for t < -1/2, 1 for -1/2 <= t < 0, y(0) = 0: y(5/2) = 7/8.
-   type, extends(constant_past) :: jumping_history
+   type, extends(linear) :: jumping_history
       !> y for t < -1/2
       real(wp) :: before = 0.0_wp
    contains
       procedure :: history => step_history
-      procedure :: rhs => delayed_rhs
    end type jumping_history
 
-   !> y1' = 1.8 y1 (1 - y1(t - 1)), y2' = 0.
-   type, extends(constant_past) :: logistic_beside
+   !> y_i' = 1.8 y_i (1 - z_i) for each delayed value z_i, y_i' = 0 for other components.
+   type, extends(constant_past) :: logistic
    contains
       procedure :: rhs => logistic_rhs
-   end type logistic_beside
+      procedure :: series => logistic_series
+   end type logistic
 
    !> y' = -y - (sum of all delayed values)/24.
    type, extends(constant_past) :: many_delays
@@ -74,21 +74,30 @@ contains
       value = merge(1.0_wp, self%before, t >= -0.5_wp)
    end function step_history
 
-   pure subroutine delayed_rhs(self, t, y, z, dydt)
-      class(jumping_history), intent(in) :: self
-      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
-      real(wp), intent(out) :: dydt(self%n)
-
-      dydt = z
-   end subroutine delayed_rhs
-
    pure subroutine logistic_rhs(self, t, y, z, dydt)
-      class(logistic_beside), intent(in) :: self
+      class(logistic), intent(in) :: self
       real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
-      dydt = [1.8_wp*y(1)*(1.0_wp - z(1)), 0.0_wp]
+      dydt = 0.0_wp
+      dydt(:size(z)) = 1.8_wp*y(:size(z))*(1.0_wp - z)
    end subroutine logistic_rhs
+
+   pure subroutine logistic_series(self, t, unit, degree, z, y)
+      class(logistic), intent(in) :: self
+      real(wp), intent(in) :: t, unit
+      integer, intent(in) :: degree
+      real(wp), intent(in) :: z(0:degree, size(self%lag))
+      real(wp), intent(inout) :: y(0:degree, self%n)
+      integer :: i, k
+
+      y(1:, :) = 0.0_wp
+      do i = 1, size(self%lag)
+         do k = 0, degree - 1
+            y(k + 1, i) = unit/(k + 1)*1.8_wp*(y(k, i) - sum(y(0:k, i)*z(k:0:-1, i)))
+         end do
+      end do
+   end subroutine logistic_series
 
    pure subroutine mean_rhs(self, t, y, z, dydt)
       class(many_delays), intent(in) :: self

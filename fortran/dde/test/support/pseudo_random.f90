@@ -14,12 +14,8 @@ contains
    pure function uniform(seed, count, least, most) result(numbers)
       !> 1..2147483646
       integer, intent(in) :: seed
-      !> How many
       integer, intent(in) :: count
-      !> Lower end
-      real(wp), intent(in) :: least
-      !> Upper end
-      real(wp), intent(in) :: most
+      real(wp), intent(in) :: least, most
       real(wp) :: numbers(count)
       integer(int64) :: state
       integer :: i

@@ -5,7 +5,13 @@ module published_problems
    use test_problems, only: constant_past, fill
    implicit none (type, external)
    private
-   public :: enzyme, infection, mackey_glass
+   public :: enzyme, infection, mackey_glass, published_enzyme, published_infection
+
+   !> Solutions of `infection` at t = 40 and of `enzyme` at t = 160.
+   real(wp), parameter :: published_infection(3) = [0.0912491205664_wp, 0.0202995003351_wp, &
+                                                    5.9884513791_wp]
+   real(wp), parameter :: published_enzyme(4) = [33.92579471114_wp, 22.70653713103_wp, &
+                                                 18.83057673173_wp, 22.26599078770_wp]
 
    !> An infection: delays 1 and 10.
    type, extends(constant_past) :: infection
@@ -42,28 +48,27 @@ module published_problems
 
 contains
 
-   !> The problem with its components.
-   pure type(infection) function new_infection(n, lag, component, past, first) result(problem)
-      integer, intent(in) :: n, component(:)
-      real(wp), intent(in) :: lag(:), past(:), first(:)
+   !> From the published start.
+   pure type(infection) function new_infection() result(problem)
+      real(wp), parameter :: start(3) = [5.0_wp, 0.1_wp, 1.0_wp]
 
-      call fill(problem, n, past, first, lag, component)
+      call fill(problem, 3, start, start, [1.0_wp, 10.0_wp], [2, 2])
       problem%analytic = .true.
    end function new_infection
 
-   !> The problem with its components.
-   pure type(enzyme) function new_enzyme(n, lag, component, past, first) result(problem)
-      integer, intent(in) :: n, component(:)
-      real(wp), intent(in) :: lag(:), past(:), first(:)
+   !> From the published start.
+   pure type(enzyme) function new_enzyme() result(problem)
+      real(wp), parameter :: start(4) = [60.0_wp, 10.0_wp, 10.0_wp, 20.0_wp]
 
-      call fill(problem, n, past, first, lag, component)
+      call fill(problem, 4, start, start, [4.0_wp], [4])
    end function new_enzyme
 
-   !> The problem with its components.
+   !> From 1.2 with a delay of 17, unless something else is given.
    pure type(mackey_glass) function new_mackey_glass(n, lag, component, past, first) result(problem)
-      integer, intent(in) :: n, component(:)
-      real(wp), intent(in) :: lag(:), past(:), first(:)
+      integer, intent(in), optional :: n, component(:)
+      real(wp), intent(in), optional :: lag(:), past(:), first(:)
 
+      call fill(problem, 1, [1.2_wp], [1.2_wp], [17.0_wp], [1])
       call fill(problem, n, past, first, lag, component)
       problem%analytic = .true.
       problem%analytic_tangents = .true.
@@ -72,9 +77,7 @@ contains
    !> z = (y2(t-1), y2(t-10)).
    pure subroutine infection_rhs(self, t, y, z, dydt)
       class(infection), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
       dydt = [-y(1)*z(1) + z(2), y(1)*z(1) - y(2), y(2) - z(2)]
@@ -99,9 +102,7 @@ contains
    !> z = y4(t-4).
    pure subroutine enzyme_rhs(self, t, y, z, dydt)
       class(enzyme), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
       real(wp) :: flow
 
@@ -112,9 +113,7 @@ contains
    !> z = y(t-17).
    pure subroutine mackey_glass_rhs(self, t, y, z, dydt)
       class(mackey_glass), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
       dydt = 0.2_wp*z/(1.0_wp + z**10) - 0.1_wp*y
@@ -141,8 +140,7 @@ contains
       class(mackey_glass), intent(in) :: self
       real(wp), intent(in) :: t, unit
       integer, intent(in) :: degree
-      real(wp), intent(in) :: z(0:degree, size(self%lag))
-      real(wp), intent(in) :: y(0:degree, self%n)
+      real(wp), intent(in) :: z(0:degree, size(self%lag)), y(0:degree, self%n)
       integer, intent(in) :: vectors
       real(wp), intent(in) :: dz(0:degree, size(self%lag), vectors)
       real(wp), intent(inout) :: dy(0:degree, self%n, vectors)

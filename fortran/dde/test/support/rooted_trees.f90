@@ -3,8 +3,8 @@
 !> t**order/density, and a Runge-Kutta step of order p gives just that for all trees up to order p
 !> (Hairer, Norsett and Wanner 1993, sec. II.2).
 module rooted_trees
-   use dde, only: dde_problem_type
    use dde_kinds, only: wp
+   use test_problems, only: constant_past, fill
    implicit none (type, external)
    private
    public :: grow_trees, tree_counts, tree_system
@@ -15,7 +15,7 @@ module rooted_trees
    integer, parameter :: most_subtrees = size(tree_counts)
 
    !> All trees up to some order.
-   type, extends(dde_problem_type) :: tree_system
+   type, extends(constant_past) :: tree_system
       !> Number of nodes, shape (n)
       integer, allocatable :: order(:)
       !> Density, shape (n)
@@ -27,8 +27,6 @@ module rooted_trees
       !> Whether t itself stands for the tree of one node, which it equals
       logical :: by_the_clock = .false.
    contains
-      procedure :: initial => zero
-      procedure :: history => no_history
       procedure :: rhs => products
       procedure, private :: add
    end type tree_system
@@ -42,7 +40,7 @@ contains
       integer :: order, most
 
       most = sum(tree_counts(:highest))
-      allocate (trees%lag(0), trees%component(0))
+      call fill(trees, 0, [real(wp) ::], spread(0.0_wp, 1, most))
       allocate (trees%order(most), trees%density(most), trees%subtrees(most))
       allocate (trees%subtree(most_subtrees, most))
       do order = 1, highest
@@ -53,16 +51,8 @@ contains
    !> Add the trees whose subtrees are those chosen and more, none later than `latest`, with `nodes`
    !> more nodes.
    pure recursive subroutine graft(trees, order, chosen, nodes, latest)
-      !> Trees so far
       type(tree_system), intent(inout) :: trees
-      !> Order of the trees to add
-      integer, intent(in) :: order
-      !> Subtrees chosen so far
-      integer, intent(in) :: chosen(:)
-      !> Nodes still to come
-      integer, intent(in) :: nodes
-      !> Latest subtree allowed
-      integer, intent(in) :: latest
+      integer, intent(in) :: order, chosen(:), nodes, latest
       integer :: i
 
       if (nodes == 0) call trees%add(order, chosen)
@@ -74,12 +64,8 @@ contains
 
    !> Add one tree.
    pure subroutine add(self, order, chosen)
-      !> Trees so far
       class(tree_system), intent(inout) :: self
-      !> Number of nodes
-      integer, intent(in) :: order
-      !> Subtrees at its root
-      integer, intent(in) :: chosen(:)
+      integer, intent(in) :: order, chosen(:)
 
       self%n = self%n + 1
       self%order(self%n) = order
@@ -88,40 +74,10 @@ contains
       self%subtree(:size(chosen), self%n) = chosen
    end subroutine add
 
-   !> The start of all components.
-   pure subroutine zero(self, y)
-      !> The trees
-      class(tree_system), intent(in) :: self
-      !> 0
-      real(wp), intent(out) :: y(self%n)
-
-      y = 0.0_wp
-   end subroutine zero
-
-   !> Nothing is delayed here.
-   pure function no_history(self, t, component) result(value)
-      !> The trees
-      class(tree_system), intent(in) :: self
-      !> Time, without influence
-      real(wp), intent(in) :: t
-      !> Component, without influence
-      integer, intent(in) :: component
-      real(wp) :: value
-
-      value = 0.0_wp
-   end function no_history
-
    !> Each derivative is a product over subtrees.
    pure subroutine products(self, t, y, z, dydt)
-      !> The trees
       class(tree_system), intent(in) :: self
-      !> Time
-      real(wp), intent(in) :: t
-      !> One value for each tree
-      real(wp), intent(in) :: y(self%n)
-      !> Nothing
-      real(wp), intent(in) :: z(size(self%lag))
-      !> Derivatives
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
       real(wp) :: value(self%n)
       integer :: i

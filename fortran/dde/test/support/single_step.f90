@@ -19,12 +19,8 @@ contains
 
    !> The context of a step at the initial time, its past empty.
    function new_context(problem, t, h, relative, absolute) result(context)
-      !> The problem
       class(dde_problem_type), intent(in), target :: problem
-      !> Initial time
-      real(wp), intent(in) :: t
-      !> Length of the step
-      real(wp), intent(in) :: h
+      real(wp), intent(in) :: t, h
       !> Relative and absolute tolerance
       real(wp), intent(in) :: relative, absolute
       type(step_context) :: context
@@ -39,15 +35,9 @@ contains
 
    !> Take one step from the initial state, dense output included.
    subroutine take_step(problem, t, h, step, estimate, relative, absolute)
-      !> The problem
       class(dde_problem_type), intent(in), target :: problem
-      !> Start
-      real(wp), intent(in) :: t
-      !> Length
-      real(wp), intent(in) :: h
-      !> The step of some method, new; taken on return
+      real(wp), intent(in) :: t, h
       class(step_type), intent(inout) :: step
-      !> Its error estimate
       real(wp), intent(out) :: estimate
       !> Relative tolerance; 0 if not given
       real(wp), intent(in), optional :: relative
@@ -69,9 +59,7 @@ contains
 
    !> Whether a step from the start is held back.
    function held_back(problem, tolerance, share) result(value)
-      !> The problem, without delays
       class(dde_problem_type), intent(in), target :: problem
-      !> Absolute tolerance
       real(wp), intent(in) :: tolerance
       !> Its length over that which the series allows
       real(wp), intent(in) :: share
@@ -91,9 +79,7 @@ contains
 
    !> Dense output of all components at place s of the step, 0..1.
    pure function interpolated(step, s) result(y)
-      !> The step
       class(step_type), intent(in) :: step
-      !> Place
       real(wp), intent(in) :: s
       real(wp) :: y(size(step%y))
       real(wp) :: a(0:size(step%nodes))

@@ -1,14 +1,14 @@
 !> Runs of the solver that tests compare with what is known.
 module solving
-   use dde, only: dde_problem_type, integrate, integration_options, integration_result, &
-                  table_sampler
+   use dde, only: continuation_type, dde_problem_type, event_watcher_type, integrate, &
+                  integration_options, integration_result, sampler_type, table_sampler
    use dde_errors, only: failure_type => error_type
    use expectations, only: expect_success
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type
    implicit none (type, external)
    private
-   public :: at_tolerance, solve
+   public :: at_tolerance, run, solve
 
 contains
 
@@ -25,26 +25,36 @@ contains
       options%absolute = tolerance
    end function at_tolerance
 
+   !> Integrate to a good end.
+   subroutine run(error, problem, t_start, t_end, options, outcome, sampler, watcher, continuation)
+      type(error_type), allocatable, intent(inout) :: error
+      class(dde_problem_type), intent(in) :: problem
+      real(wp), intent(in) :: t_start, t_end
+      type(integration_options), intent(in) :: options
+      type(integration_result), intent(out) :: outcome
+      class(sampler_type), intent(inout), optional :: sampler
+      class(event_watcher_type), intent(inout), optional :: watcher
+      type(continuation_type), intent(inout), optional :: continuation
+      type(failure_type), allocatable :: failure
+
+      call integrate(problem, t_start, t_end, options, outcome, failure, sampler, watcher, &
+                     continuation)
+      call expect_success(error, failure)
+   end subroutine run
+
    !> All components at given times from dense output, from t = 0 to the last of them.
    subroutine solve(problem, time, options, values, error)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Times, ascending
       real(wp), intent(in) :: time(:)
-      !> Tolerances and limits
       type(integration_options), intent(in) :: options
-      !> Solution, shape (n, times)
       real(wp), allocatable, intent(out) :: values(:, :)
-      !> The first failure of the test
       type(error_type), allocatable, intent(inout) :: error
       type(integration_result) :: outcome
-      type(failure_type), allocatable :: failure
       type(table_sampler) :: table
       integer :: i
 
       table = table_sampler([(i, i=1, problem%n)], time)
-      call integrate(problem, 0.0_wp, time(size(time)), options, outcome, failure, table)
+      call run(error, problem, 0.0_wp, time(size(time)), options, outcome, table)
       values = table%values
-      call expect_success(error, failure)
    end subroutine solve
 end module solving

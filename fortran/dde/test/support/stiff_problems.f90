@@ -1,30 +1,24 @@
 !> Problems with exact solutions that ask for an implicit method.
 module stiff_problems
-   use dde, only: dde_problem_type
    use dde_kinds, only: wp
+   use test_problems, only: constant_past, fill, linear
    implicit none (type, external)
    private
    public :: exponential_decay, prothero_robinson
 
-   !> y' = rate (y - cos t) - sin t, y(0) = cos 0: y = cos t whatever the rate (Prothero and
-   !> Robinson 1974).
-   type, extends(dde_problem_type) :: prothero_robinson
-      !> Rate, far below 0
-      real(wp) :: rate = 0.0_wp
+   !> y_i' = rate (y_i - a_i cos t) - a_i sin t, y_i(0) = a_i: y_i = a_i cos t whatever the rate,
+   !> far below 0 (Prothero and Robinson 1974), with a = 1, 0, 0, ....
+   type, extends(constant_past) :: prothero_robinson
    contains
-      procedure :: initial => start_at_one
-      procedure :: history => no_history
       procedure :: rhs => relax_to_cosine
    end type prothero_robinson
 
-   !> y' = -y(t - lag) with the history exp(rate t), where rate = -exp(-rate lag): y = exp(rate t).
-   type, extends(dde_problem_type) :: exponential_decay
+   !> y' = -y(t - lag) with the history exp(root t), where root = -exp(-root lag): y = exp(root t).
+   type, extends(linear) :: exponential_decay
       !> Characteristic root
-      real(wp) :: rate = 0.0_wp
+      real(wp) :: root = -1.0_wp
    contains
-      procedure :: initial => start_of_decay
       procedure :: history => earlier_decay
-      procedure :: rhs => minus_delayed
    end type exponential_decay
 
    interface prothero_robinson
@@ -37,88 +31,47 @@ module stiff_problems
 
 contains
 
-   !> The problem of a given rate.
-   pure function new_prothero_robinson(rate) result(problem)
+   !> n equations; 1 if not given.
+   pure type(prothero_robinson) function new_prothero_robinson(rate, n) result(problem)
       real(wp), intent(in) :: rate
-      type(prothero_robinson) :: problem
+      integer, intent(in), optional :: n
 
-      problem%n = 1
-      allocate (problem%lag(0), problem%component(0))
+      call fill(problem, 1, [0.0_wp], [1.0_wp])
+      if (present(n)) then
+         call fill(problem, n, spread(0.0_wp, 1, n), [1.0_wp, spread(0.0_wp, 1, n - 1)])
+      end if
       problem%rate = rate
    end function new_prothero_robinson
 
    !> The problem of a given delay below 1/e; its root by Newton's method.
-   pure function new_exponential_decay(lag) result(problem)
+   pure type(exponential_decay) function new_exponential_decay(lag) result(problem)
       real(wp), intent(in) :: lag
-      type(exponential_decay) :: problem
       integer :: i
 
-      problem%n = 1
-      allocate (problem%lag, source=[lag])
-      allocate (problem%component, source=[1])
-      problem%rate = -1.0_wp
+      call fill(problem, 1, [1.0_wp], [1.0_wp], [lag], [1])
       do i = 1, 20
-         associate (x => problem%rate, e => exp(-problem%rate*lag))
+         associate (x => problem%root, e => exp(-problem%root*lag))
             x = x - (x + e)/(1.0_wp - lag*e)
          end associate
       end do
    end function new_exponential_decay
 
-   !> y(0) = 1.
-   pure subroutine start_at_one(self, y)
-      class(prothero_robinson), intent(in) :: self
-      real(wp), intent(out) :: y(self%n)
-
-      y = 1.0_wp
-   end subroutine start_at_one
-
-   !> Not asked for.
-   pure function no_history(self, t, component) result(value)
-      class(prothero_robinson), intent(in) :: self
-      real(wp), intent(in) :: t
-      integer, intent(in) :: component
-      real(wp) :: value
-
-      value = 0.0_wp
-   end function no_history
-
-   !> rate (y - cos t) - sin t.
+   !> rate (y - a cos t) - a sin t.
    pure subroutine relax_to_cosine(self, t, y, z, dydt)
       class(prothero_robinson), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
-      dydt = self%rate*(y - cos(t)) - sin(t)
+      dydt = self%rate*(y - self%first*cos(t)) - self%first*sin(t)
    end subroutine relax_to_cosine
 
-   !> y(0) = 1.
-   pure subroutine start_of_decay(self, y)
-      class(exponential_decay), intent(in) :: self
-      real(wp), intent(out) :: y(self%n)
-
-      y = 1.0_wp
-   end subroutine start_of_decay
-
-   !> exp(rate t).
+   !> exp(root t).
    pure function earlier_decay(self, t, component) result(value)
       class(exponential_decay), intent(in) :: self
       real(wp), intent(in) :: t
       integer, intent(in) :: component
       real(wp) :: value
 
-      value = exp(self%rate*t)
+      value = exp(self%root*t)
    end function earlier_decay
-
-   !> -y(t - lag).
-   pure subroutine minus_delayed(self, t, y, z, dydt)
-      class(exponential_decay), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
-      real(wp), intent(out) :: dydt(self%n)
-
-      dydt = -z
-   end subroutine minus_delayed
 end module stiff_problems

@@ -9,10 +9,10 @@ module test_problems
 
    !> The start of every problem here that has one: constant history and first state.
    type, extends(problem_with_tangents), abstract :: constant_past
-      !> History, shape (n)
-      real(wp), allocatable :: past(:)
-      !> First state, shape (n)
-      real(wp), allocatable :: first(:)
+      !> History and first state, shape (n)
+      real(wp), allocatable :: past(:), first(:)
+      !> Rate, where a problem has one
+      real(wp) :: rate = 1.0_wp
    contains
       procedure :: initial => first_state
       procedure :: history => constant_history
@@ -21,8 +21,6 @@ module test_problems
 
    !> y' = -rate y(t - lag).
    type, extends(constant_past) :: linear
-      !> Rate
-      real(wp) :: rate = 1.0_wp
    contains
       procedure :: rhs => linear_rhs
       procedure :: series => linear_series
@@ -44,12 +42,9 @@ module test_problems
    end interface wille_baker
 
    !> y' = -y(t - pi/2) with the history sin t: y = sin t.
-   type, extends(problem_with_tangents) :: sine
+   type, extends(linear) :: sine
    contains
-      procedure :: initial => sine_at_zero
       procedure :: history => sine_history
-      procedure :: rhs => sine_rhs
-      procedure :: series => sine_series
       procedure :: past_series => sine_past_series
    end type sine
 
@@ -59,38 +54,39 @@ module test_problems
 
 contains
 
-   !> Fill what every problem has. (flang 19 crashes on structure constructors with components of a
-   !> parent type, llvm-project issue 118270; so each type has a function of its name.)
+   !> Fill what every problem has, as far as it is given; without delays if none are. (flang 19
+   !> crashes on structure constructors with components of a parent type, llvm-project issue 118270;
+   !> so each type has a function of its name.)
    pure subroutine fill(problem, n, past, first, lag, component)
       class(constant_past), intent(inout) :: problem
-      integer, intent(in) :: n
-      real(wp), intent(in) :: past(:), first(:)
-      real(wp), intent(in), optional :: lag(:)
-      integer, intent(in), optional :: component(:)
+      integer, intent(in), optional :: n, component(:)
+      real(wp), intent(in), optional :: past(:), first(:), lag(:)
 
-      problem%n = n
-      problem%past = past
-      problem%first = first
+      if (present(n)) problem%n = n
+      if (present(past)) problem%past = past
+      if (present(first)) problem%first = first
       if (present(lag)) problem%lag = lag
       if (present(component)) problem%component = component
+      if (.not. allocated(problem%lag)) allocate (problem%lag(0), problem%component(0))
    end subroutine fill
 
-   !> The problem with its components.
+   !> One equation with delay 1, from 1, unless something else is given.
    pure type(linear) function new_linear(n, lag, component, past, first, rate) result(problem)
-      integer, intent(in) :: n, component(:)
-      real(wp), intent(in) :: lag(:), past(:), first(:)
-      real(wp), intent(in), optional :: rate
+      integer, intent(in), optional :: n, component(:)
+      real(wp), intent(in), optional :: lag(:), past(:), first(:), rate
 
+      call fill(problem, 1, [1.0_wp], [1.0_wp], [1.0_wp], [1])
       call fill(problem, n, past, first, lag, component)
       if (present(rate)) problem%rate = rate
       problem%analytic = .true.
    end function new_linear
 
-   !> The problem with its components.
+   !> All components from 1, unless something else is given.
    pure type(wille_baker) function new_wille_baker(n, lag, component, past, first) result(problem)
-      integer, intent(in) :: n, component(:)
-      real(wp), intent(in) :: lag(:), past(:), first(:)
+      integer, intent(in), optional :: n, component(:)
+      real(wp), intent(in), optional :: lag(:), past(:), first(:)
 
+      call fill(problem, 3, spread(1.0_wp, 1, 3), spread(1.0_wp, 1, 3), [1.0_wp, 0.2_wp], [1, 2])
       call fill(problem, n, past, first, lag, component)
       problem%analytic = .true.
    end function new_wille_baker
@@ -127,9 +123,7 @@ contains
    !> z = y(t - lag).
    pure subroutine linear_rhs(self, t, y, z, dydt)
       class(linear), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
       dydt = -self%rate*z
@@ -152,9 +146,7 @@ contains
    !> z = (y1(t-1), y2(t-0.2)).
    pure subroutine wille_baker_rhs(self, t, y, z, dydt)
       class(wille_baker), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
       dydt = [z(1), z(1) + z(2), y(2)]
@@ -176,19 +168,9 @@ contains
 
    !> The problem with its delay.
    pure type(sine) function new_sine() result(problem)
-      problem%n = 1
+      call fill(problem, 1, [0.0_wp], [0.0_wp], [0.5_wp*acos(-1.0_wp)], [1])
       problem%analytic = .true.
-      allocate (problem%lag, source=[0.5_wp*acos(-1.0_wp)])
-      allocate (problem%component, source=[1])
    end function new_sine
-
-   !> sin 0.
-   pure subroutine sine_at_zero(self, y)
-      class(sine), intent(in) :: self
-      real(wp), intent(out) :: y(self%n)
-
-      y = 0.0_wp
-   end subroutine sine_at_zero
 
    !> sin t.
    pure function sine_history(self, t, component) result(value)
@@ -199,31 +181,6 @@ contains
 
       value = sin(t)
    end function sine_history
-
-   !> z = y(t - pi/2).
-   pure subroutine sine_rhs(self, t, y, z, dydt)
-      class(sine), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
-      real(wp), intent(out) :: dydt(self%n)
-
-      dydt = -z
-   end subroutine sine_rhs
-
-   !> Each coefficient follows from that of z.
-   pure subroutine sine_series(self, t, unit, degree, z, y)
-      class(sine), intent(in) :: self
-      real(wp), intent(in) :: t, unit
-      integer, intent(in) :: degree
-      real(wp), intent(in) :: z(0:degree, size(self%lag))
-      real(wp), intent(inout) :: y(0:degree, self%n)
-      integer :: k
-
-      do k = 0, degree - 1
-         y(k + 1, :) = -unit/(k + 1)*z(k, :)
-      end do
-   end subroutine sine_series
 
    !> The derivatives of sin are sines.
    pure subroutine sine_past_series(self, t, component, unit, y)

@@ -1,12 +1,11 @@
 !> Ordinary differential equations, as delay equations without delays.
 module undelayed_problems
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use dde, only: dde_problem_type
    use dde_kinds, only: wp
    use test_problems, only: constant_past, fill
    implicit none (type, external)
    private
-   public :: blow_up, decay, falls_out, oscillator, quadrature, swing, without_delays
+   public :: blow_up, decay, falls_out, oscillator, quadrature, swing
 
    !> y' = (power + 1) t^power.
    type, extends(constant_past) :: quadrature
@@ -23,8 +22,6 @@ module undelayed_problems
 
    !> y' = -rate y.
    type, extends(constant_past) :: decay
-      !> Rate
-      real(wp) :: rate = 1.0_wp
    contains
       procedure :: rhs => decay_rhs
    end type decay
@@ -35,16 +32,10 @@ module undelayed_problems
 
    !> y1' = rate y2, y2' = -rate y1.
    type, extends(constant_past) :: oscillator
-      !> Rate
-      real(wp) :: rate = 1.0_wp
    contains
       procedure :: rhs => oscillator_rhs
       procedure :: series => oscillator_series
    end type oscillator
-
-   interface oscillator
-      module procedure :: new_oscillator
-   end interface oscillator
 
    !> y' = y^2: infinite at t = 1/y(0).
    type, extends(constant_past) :: blow_up
@@ -69,74 +60,50 @@ module undelayed_problems
 
 contains
 
-   !> No delays and no delayed components.
-   pure subroutine without_delays(problem)
-      class(dde_problem_type), intent(inout) :: problem
+   !> From a first state.
+   pure type(quadrature) function new_quadrature(power, first) result(problem)
+      integer, intent(in) :: power
+      real(wp), intent(in) :: first
 
-      allocate (problem%lag(0), problem%component(0))
-   end subroutine without_delays
-
-   !> The problem with its components.
-   pure type(quadrature) function new_quadrature(n, past, first, power) result(problem)
-      integer, intent(in) :: n
-      real(wp), intent(in) :: past(:), first(:)
-      integer, intent(in), optional :: power
-
-      call fill(problem, n, past, first)
+      call fill(problem, 1, [first], [first])
       problem%analytic = .true.
-      if (present(power)) problem%power = power
+      problem%power = power
    end function new_quadrature
 
-   !> The problem with its components.
-   pure type(decay) function new_decay(n, past, first) result(problem)
-      integer, intent(in) :: n
-      real(wp), intent(in) :: past(:), first(:)
+   !> From y = 1.
+   pure type(decay) function new_decay(rate) result(problem)
+      real(wp), intent(in) :: rate
 
-      call fill(problem, n, past, first)
+      call fill(problem, 1, [1.0_wp], [1.0_wp])
+      problem%rate = rate
    end function new_decay
 
-   !> The problem with its components.
-   pure type(oscillator) function new_oscillator(n, past, first, rate) result(problem)
-      integer, intent(in) :: n
-      real(wp), intent(in) :: past(:), first(:)
-      real(wp), intent(in), optional :: rate
-
-      call fill(problem, n, past, first)
-      problem%analytic = .true.
-      if (present(rate)) problem%rate = rate
-   end function new_oscillator
-
-   !> The problem with its components.
-   pure type(blow_up) function new_blow_up(n, past, first) result(problem)
-      integer, intent(in) :: n
-      real(wp), intent(in) :: past(:), first(:)
-
-      call fill(problem, n, past, first)
+   !> From y = 1.
+   pure type(blow_up) function new_blow_up() result(problem)
+      call fill(problem, 1, [1.0_wp], [1.0_wp])
       problem%analytic = .true.
    end function new_blow_up
 
-   !> The problem with its components.
-   pure type(falls_out) function new_falls_out(n, past, first) result(problem)
-      integer, intent(in) :: n
-      real(wp), intent(in) :: past(:), first(:)
+   !> From a first state.
+   pure type(falls_out) function new_falls_out(first) result(problem)
+      real(wp), intent(in) :: first
 
-      call fill(problem, n, past, first)
+      call fill(problem, 1, [first], [first])
    end function new_falls_out
 
    !> An oscillator with y1 = cos(rate t), y2 = -sin(rate t); rate 1 if not given.
    pure type(oscillator) function swing(rate) result(problem)
       real(wp), intent(in), optional :: rate
 
-      problem = oscillator(n=2, past=[1.0_wp, 0.0_wp], first=[1.0_wp, 0.0_wp], rate=rate)
-      call without_delays(problem)
+      call fill(problem, 2, [1.0_wp, 0.0_wp], [1.0_wp, 0.0_wp])
+      problem%analytic = .true.
+      if (present(rate)) problem%rate = rate
    end function swing
 
    !> -rate y.
    pure subroutine decay_rhs(self, t, y, z, dydt)
       class(decay), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
       dydt = -self%rate*y
@@ -145,9 +112,7 @@ contains
    !> y' = (power + 1) t^power.
    pure subroutine quadrature_rhs(self, t, y, z, dydt)
       class(quadrature), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
       dydt = (self%power + 1)*t**self%power
@@ -160,8 +125,7 @@ contains
       integer, intent(in) :: degree
       real(wp), intent(in) :: z(0:degree, size(self%lag))
       real(wp), intent(inout) :: y(0:degree, self%n)
-      integer :: j
-      integer :: k
+      integer :: j, k
 
       y(1:, 1) = 0.0_wp
       do k = 1, min(degree, self%power + 1)
@@ -173,9 +137,7 @@ contains
    !> y1' = rate y2, y2' = -rate y1.
    pure subroutine oscillator_rhs(self, t, y, z, dydt)
       class(oscillator), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
       dydt = self%rate*[y(2), -y(1)]
@@ -198,9 +160,7 @@ contains
    !> y' = y^2.
    pure subroutine blow_up_rhs(self, t, y, z, dydt)
       class(blow_up), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
       dydt = y**2
@@ -223,9 +183,7 @@ contains
    !> No number from t = 1 on.
    pure subroutine falls_out_rhs(self, t, y, z, dydt)
       class(falls_out), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
-      real(wp), intent(in) :: z(size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
       dydt = 1.0_wp

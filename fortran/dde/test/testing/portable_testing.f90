@@ -17,7 +17,6 @@ module mctc_env_testing
       subroutine test_interface(error)
          import :: error_type
          implicit none (type, external)
-         !> Allocated where it fails
          type(error_type), allocatable, intent(out) :: error
       end subroutine test_interface
    end interface
@@ -35,7 +34,6 @@ module mctc_env_testing
       subroutine collect_interface(testsuite)
          import :: unittest_type
          implicit none (type, external)
-         !> The tests
          type(unittest_type), allocatable, intent(out) :: testsuite(:)
       end subroutine collect_interface
    end interface
@@ -52,7 +50,6 @@ contains
 
    !> A test with its name.
    function new_unittest(name, test) result(unittest)
-      !> What is tested
       character(len=*), intent(in) :: name
       !> The test
       procedure(test_interface) :: test
@@ -64,7 +61,6 @@ contains
 
    !> A suite with its name.
    function new_testsuite(name, collect) result(testsuite)
-      !> Name of the suite
       character(len=*), intent(in) :: name
       !> Lists its tests
       procedure(collect_interface) :: collect
@@ -76,9 +72,7 @@ contains
 
    !> Let a test fail.
    subroutine test_failed(error, message)
-      !> The failure
       type(error_type), allocatable, intent(out) :: error
-      !> Why
       character(len=*), intent(in) :: message
 
       allocate (error)
@@ -89,9 +83,7 @@ contains
    subroutine run_testsuite(collect, unit, failed)
       !> Lists the tests
       procedure(collect_interface) :: collect
-      !> Where to tell
       integer, intent(in) :: unit
-      !> Tests that failed so far
       integer, intent(inout) :: failed
       type(unittest_type), allocatable :: tests(:)
       type(error_type), allocatable :: error
