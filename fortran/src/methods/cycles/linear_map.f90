@@ -124,7 +124,8 @@ contains
          call map%apply(basis(:, k), image)
          call extend_basis(basis, k, image, h(:, k))
          complete = k == n .or. .not. h(k + 1, k) > 0.0_wp
-         if (.not. (complete .or. is_check(k))) cycle
+         if (.not. complete .and. &
+             (k < first_check .or. mod(k - first_check, steps_between) > 0)) cycle
          call eigenvectors(upper_hessenberg(h(:k, :k)), small_values, small_vectors, error)
          if (allocated(error)) return
          count = min(wanted, k)
@@ -144,13 +145,6 @@ contains
          return
       end do
    end subroutine leading_eigenvalues
-
-   !> Whether Arnoldi's method checks its eigenvalues after a number of steps.
-   pure logical function is_check(steps) result(value)
-      integer, intent(in) :: steps
-
-      value = steps >= first_check .and. mod(steps - first_check, steps_between) == 0
-   end function is_check
 
    !> The part of a matrix on and above its first subdiagonal.
    pure function upper_hessenberg(h) result(matrix)
