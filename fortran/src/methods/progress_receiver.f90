@@ -16,12 +16,9 @@ module progress_receiver
       subroutine take_progress(self, done, total)
          import :: progress_receiver_type
          implicit none (type, external)
-         !> The receiver
          class(progress_receiver_type), intent(inout) :: self
-         !> Number of pieces done, 0..total
-         integer, intent(in) :: done
-         !> Number of pieces in all, at least 1
-         integer, intent(in) :: total
+         !> Number of pieces done, 0..total; number of pieces in all, at least 1
+         integer, intent(in) :: done, total
       end subroutine take_progress
    end interface
 end module progress_receiver

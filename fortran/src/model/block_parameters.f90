@@ -80,11 +80,8 @@ contains
 
    !> Refuse a parameter out of range; keep an earlier error.
    pure subroutine check_parameters(self, place, error)
-      !> The parameters
       class(block_parameters_type), intent(in) :: self
-      !> File and what it describes, for the message
       character(len=*), intent(in) :: place
-      !> First error met
       type(error_type), allocatable, intent(inout) :: error
       real(wp) :: vector(size(parameter_names))
       integer :: i
@@ -97,11 +94,8 @@ contains
 
    !> Refuse a value of the history out of range; keep an earlier error.
    pure subroutine check_history(self, place, error)
-      !> The history
       class(block_history_type), intent(in) :: self
-      !> File and what it describes, for the message
       character(len=*), intent(in) :: place
-      !> First error met
       type(error_type), allocatable, intent(inout) :: error
       real(wp) :: values(size(history_names))
       integer :: i
@@ -116,10 +110,8 @@ contains
    pure subroutine check_quantity(error, place, quantity, value, key)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
-      !> File and what it describes, for the message
-      character(len=*), intent(in) :: place
-      !> Name of its component
-      character(len=*), intent(in) :: quantity
+      !> File and what it describes, for the message; name of its component
+      character(len=*), intent(in) :: place, quantity
       !> Value of the component
       real(wp), intent(in) :: value
       !> Key for the message, where it is not that name

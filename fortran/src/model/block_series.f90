@@ -21,10 +21,8 @@ contains
       type(block_parameters_type), intent(in) :: p
       !> Unit of time of the powers
       real(wp), intent(in) :: unit
-      !> Degree of the series
-      integer, intent(in) :: degree
-      !> Number of delayed values, 0 or 1
-      integer, intent(in) :: delays
+      !> Degree of the series; number of delayed values, 0 or 1
+      integer, intent(in) :: degree, delays
       !> Coefficients of w(t - tau), or nothing
       real(wp), intent(in) :: z(0:degree, delays)
       !> Coefficients of theta, u, w; y(0, :) is given
@@ -78,10 +76,8 @@ contains
       type(block_parameters_type), intent(in) :: p
       !> Unit of time of the powers
       real(wp), intent(in) :: unit
-      !> Degree of the series
-      integer, intent(in) :: degree
-      !> Number of delayed values, 0 or 1
-      integer, intent(in) :: delays
+      !> Degree of the series; number of delayed values, 0 or 1
+      integer, intent(in) :: degree, delays
       !> Coefficients of w(t - tau), or nothing
       real(wp), intent(in) :: z(0:degree, delays)
       !> Coefficients of theta, u, w as they were; better ones
@@ -134,11 +130,8 @@ contains
    !> Coefficients of unit v', by u' = v - 1; the last that is known, for which those of u do not
    !> suffice, by v' = w' v.
    pure subroutine rate_as_it_was(unit, degree, y, v_rate)
-      !> Unit of time of the powers
       real(wp), intent(in) :: unit
-      !> Degree of the series
       integer, intent(in) :: degree
-      !> Coefficients of theta, u, w
       real(wp), intent(in) :: y(0:degree, 3)
       !> Those of unit v', the last 0
       real(wp), intent(out) :: v_rate(0:degree)

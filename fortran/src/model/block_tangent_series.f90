@@ -25,14 +25,10 @@ contains
       type(block_parameters_type), intent(in) :: p
       !> Unit of time of the powers
       real(wp), intent(in) :: unit
-      !> Degree of the series
-      integer, intent(in) :: degree
-      !> Number of delayed values, 0 or 1
-      integer, intent(in) :: delays
-      !> Coefficients of w(t - tau), or nothing
-      real(wp), intent(in) :: z(0:degree, delays)
-      !> Coefficients of theta, u, w
-      real(wp), intent(in) :: y(0:degree, 3)
+      !> Degree of the series; number of delayed values, 0 or 1
+      integer, intent(in) :: degree, delays
+      !> Coefficients of w(t - tau), or nothing; coefficients of theta, u, w
+      real(wp), intent(in) :: z(0:degree, delays), y(0:degree, 3)
       !> Number of disturbances
       integer, intent(in) :: vectors
       !> Coefficients of the disturbances of w(t - tau), or nothing
@@ -92,10 +88,8 @@ contains
       type(block_parameters_type), intent(in) :: p
       !> Unit of time of the powers
       real(wp), intent(in) :: unit
-      !> Degree of the series
-      integer, intent(in) :: degree
-      !> Number of delayed values, 0 or 1
-      integer, intent(in) :: delays
+      !> Degree of the series; number of delayed values, 0 or 1
+      integer, intent(in) :: degree, delays
       !> Coefficients of w(t - tau), or nothing
       real(wp), intent(in) :: z(0:degree, delays)
       !> Coefficients of theta, u, w as they were, and better ones
@@ -138,11 +132,8 @@ contains
 
    !> Coefficients of v, by v = 1 + u'; the last, for which those of u do not suffice, by v' = w' v.
    pure function velocity(unit, degree, y) result(v)
-      !> Unit of time of the powers
       real(wp), intent(in) :: unit
-      !> Degree of the series
       integer, intent(in) :: degree
-      !> Coefficients of theta, u, w
       real(wp), intent(in) :: y(0:degree, 3)
       real(wp) :: v(0:degree)
       integer :: k
@@ -159,16 +150,9 @@ contains
 
    !> Coefficients of r = theta + (1 + epsilon) w(t - tau).
    pure function state_rate(p, degree, delays, z, y) result(r)
-      !> Parameters of the block
       type(block_parameters_type), intent(in) :: p
-      !> Degree of the series
-      integer, intent(in) :: degree
-      !> Number of delayed values, 0 or 1
-      integer, intent(in) :: delays
-      !> Coefficients of w(t - tau), or nothing
-      real(wp), intent(in) :: z(0:degree, delays)
-      !> Coefficients of theta, u, w
-      real(wp), intent(in) :: y(0:degree, 3)
+      integer, intent(in) :: degree, delays
+      real(wp), intent(in) :: z(0:degree, delays), y(0:degree, 3)
       real(wp) :: r(0:degree)
 
       if (delays > 0) then

@@ -9,8 +9,13 @@ module characteristic_function
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: delta, delta_by_epsilon, delta_by_s, delta_by_tau, relative_residual, root_by_epsilon
-   public :: root_by_tau, root_by_xi, slope_bound, terms
+   public :: by_epsilon, by_tau, by_xi, delta, delta_by, delta_by_s, relative_residual, root_by, &
+             slope_bound, terms
+
+   !> Parameters of derivatives.
+   enum, bind(c)
+      enumerator :: by_epsilon, by_tau, by_xi
+   end enum
 
 contains
 
@@ -28,9 +33,7 @@ contains
 
    !> The delayed term -s (1 + epsilon) (gamma^2/xi) exp(-s tau).
    pure complex(wp) function delayed_term(p, s) result(value)
-      !> Parameters
       type(block_parameters_type), intent(in) :: p
-      !> Point of the complex plane
       complex(wp), intent(in) :: s
 
       value = -s*(1.0_wp + p%epsilon)*(p%gamma**2/p%xi)*exp(-s*p%tau)
@@ -71,65 +74,36 @@ contains
               *exp(-real(s)*p%tau)
    end function slope_bound
 
-   !> Derivative of Delta by tau.
-   pure complex(wp) function delta_by_tau(p, s) result(value)
+   !> Derivative of Delta by a parameter.
+   pure complex(wp) function delta_by(parameter, p, s) result(value)
+      !> by_epsilon, by_tau or by_xi
+      integer, intent(in) :: parameter
       !> Parameters
       type(block_parameters_type), intent(in) :: p
       !> Point of the complex plane
       complex(wp), intent(in) :: s
 
-      value = -s*delayed_term(p, s)
-   end function delta_by_tau
+      select case (parameter)
+      case (by_epsilon)
+         value = -s*p%gamma**2/p%xi*exp(-s*p%tau)
+      case (by_tau)
+         value = -s*delayed_term(p, s)
+      case default
+         value = -(p%gamma/p%xi)**2*s*(s + 1.0_wp - (1.0_wp + p%epsilon)*exp(-s*p%tau))
+      end select
+   end function delta_by
 
-   !> Derivative of Delta by epsilon.
-   pure complex(wp) function delta_by_epsilon(p, s) result(value)
-      !> Parameters
-      type(block_parameters_type), intent(in) :: p
-      !> Point of the complex plane
-      complex(wp), intent(in) :: s
-
-      value = -s*p%gamma**2/p%xi*exp(-s*p%tau)
-   end function delta_by_epsilon
-
-   !> Derivative of Delta by xi.
-   pure complex(wp) function delta_by_xi(p, s) result(value)
-      !> Parameters
-      type(block_parameters_type), intent(in) :: p
-      !> Point of the complex plane
-      complex(wp), intent(in) :: s
-
-      value = -(p%gamma/p%xi)**2*s*(s + 1.0_wp - (1.0_wp + p%epsilon)*exp(-s*p%tau))
-   end function delta_by_xi
-
-   !> Derivative of a root by tau.
-   pure complex(wp) function root_by_tau(p, s) result(value)
+   !> Derivative of a root by a parameter.
+   pure complex(wp) function root_by(parameter, p, s) result(value)
+      !> by_epsilon, by_tau or by_xi
+      integer, intent(in) :: parameter
       !> Parameters
       type(block_parameters_type), intent(in) :: p
       !> The root
       complex(wp), intent(in) :: s
 
-      value = -delta_by_tau(p, s)/delta_by_s(p, s)
-   end function root_by_tau
-
-   !> Derivative of a root by epsilon.
-   pure complex(wp) function root_by_epsilon(p, s) result(value)
-      !> Parameters
-      type(block_parameters_type), intent(in) :: p
-      !> The root
-      complex(wp), intent(in) :: s
-
-      value = -delta_by_epsilon(p, s)/delta_by_s(p, s)
-   end function root_by_epsilon
-
-   !> Derivative of a root by xi.
-   pure complex(wp) function root_by_xi(p, s) result(value)
-      !> Parameters
-      type(block_parameters_type), intent(in) :: p
-      !> The root
-      complex(wp), intent(in) :: s
-
-      value = -delta_by_xi(p, s)/delta_by_s(p, s)
-   end function root_by_xi
+      value = -delta_by(parameter, p, s)/delta_by_s(p, s)
+   end function root_by
 
    !> |Delta(s)| over its largest term: how well s is a characteristic root.
    pure real(wp) function relative_residual(p, s) result(value)

@@ -39,9 +39,7 @@ contains
 
    !> A block from its parameters and history; without delay it is equation (3).
    pure function new_spring_block(parameters, history) result(block)
-      !> Parameters
       type(block_parameters_type), intent(in) :: parameters
-      !> Values for t <= 0
       type(block_history_type), intent(in) :: history
       type(spring_block_type) :: block
 
@@ -58,9 +56,7 @@ contains
 
    !> The constant history holds up to t = 0.
    pure subroutine state_at_zero(self, y)
-      !> The block
       class(spring_block_type), intent(in) :: self
-      !> theta, u, ln v at t = 0
       real(wp), intent(out) :: y(self%n)
 
       y = self%past
@@ -68,11 +64,8 @@ contains
 
    !> Constant history.
    pure function constant_history(self, t, component) result(value)
-      !> The block
       class(spring_block_type), intent(in) :: self
-      !> Time <= 0, without influence
       real(wp), intent(in) :: t
-      !> Index into the state
       integer, intent(in) :: component
       real(wp) :: value
 
@@ -85,15 +78,8 @@ contains
    !>     u'     =  v - 1
    !>     w'     = -(gamma^2/v) [u + (theta + w)/xi]
    pure subroutine equation_4(self, t, y, z, dydt)
-      !> The block
       class(spring_block_type), intent(in) :: self
-      !> Time, without influence
-      real(wp), intent(in) :: t
-      !> theta, u, w
-      real(wp), intent(in) :: y(self%n)
-      !> w(t - tau), or nothing
-      real(wp), intent(in) :: z(size(self%lag))
-      !> Time derivatives of theta, u, w
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
       real(wp) :: delayed_w, v
 
@@ -114,18 +100,9 @@ contains
 
    !> Derivatives of (4) by theta, u, w and by w(t - tau).
    pure subroutine derivatives_of_4(self, t, y, z, by_y, by_z)
-      !> The block
       class(spring_block_type), intent(in) :: self
-      !> Time, without influence
-      real(wp), intent(in) :: t
-      !> theta, u, w
-      real(wp), intent(in) :: y(self%n)
-      !> w(t - tau), or nothing
-      real(wp), intent(in) :: z(size(self%lag))
-      !> Derivatives by theta, u, w
-      real(wp), intent(out) :: by_y(self%n, self%n)
-      !> Derivatives by w(t - tau)
-      real(wp), intent(out) :: by_z(self%n, size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: by_y(self%n, self%n), by_z(self%n, size(self%lag))
       real(wp) :: stiffness, v
 
       associate (p => self%parameters, theta => y(index_of_theta), u => y(index_of_u), &
@@ -155,17 +132,10 @@ contains
 
    !> Taylor series of the solution of (4).
    pure subroutine series_of_4(self, t, unit, degree, z, y)
-      !> The block
       class(spring_block_type), intent(in) :: self
-      !> Time, without influence
-      real(wp), intent(in) :: t
-      !> Unit of time of the powers
-      real(wp), intent(in) :: unit
-      !> Degree of the series
+      real(wp), intent(in) :: t, unit
       integer, intent(in) :: degree
-      !> Coefficients of w(t - tau), or nothing
       real(wp), intent(in) :: z(0:degree, size(self%lag))
-      !> Coefficients of theta, u, w; y(0, :) is given
       real(wp), intent(inout) :: y(0:degree, self%n)
 
       call series_of_block(self%parameters, unit, degree, size(z, 2), z, y)
@@ -173,13 +143,8 @@ contains
 
    !> Rate at which w approaches -theta - xi u, by (4).
    pure function relaxation_of_w(self, t, y) result(rate)
-      !> The block
       class(spring_block_type), intent(in) :: self
-      !> Time, without influence
-      real(wp), intent(in) :: t
-      !> theta, u, w
-      real(wp), intent(in) :: y(self%n)
-      !> The rate
+      real(wp), intent(in) :: t, y(self%n)
       real(wp) :: rate
 
       associate (p => self%parameters)
@@ -189,17 +154,10 @@ contains
 
    !> A better Taylor series of the slow solution of (4).
    pure subroutine slow_series_of_4(self, t, unit, degree, z, y)
-      !> The block
       class(spring_block_type), intent(in) :: self
-      !> Time, without influence
-      real(wp), intent(in) :: t
-      !> Unit of time of the powers
-      real(wp), intent(in) :: unit
-      !> Degree of the series
+      real(wp), intent(in) :: t, unit
       integer, intent(in) :: degree
-      !> Coefficients of w(t - tau), or nothing
       real(wp), intent(in) :: z(0:degree, size(self%lag))
-      !> Coefficients of theta, u, w as they were; better ones
       real(wp), intent(inout) :: y(0:degree, self%n)
 
       call slow_series_of_block(self%parameters, unit, degree, size(z, 2), z, y)
@@ -207,23 +165,12 @@ contains
 
    !> Taylor series of disturbances of the solution of (4).
    pure subroutine tangent_series_of_4(self, t, unit, degree, z, y, vectors, dz, dy)
-      !> The block
       class(spring_block_type), intent(in) :: self
-      !> Time, without influence
-      real(wp), intent(in) :: t
-      !> Unit of time of the powers
-      real(wp), intent(in) :: unit
-      !> Degree of the series
+      real(wp), intent(in) :: t, unit
       integer, intent(in) :: degree
-      !> Coefficients of w(t - tau), or nothing
-      real(wp), intent(in) :: z(0:degree, size(self%lag))
-      !> Coefficients of theta, u, w
-      real(wp), intent(in) :: y(0:degree, self%n)
-      !> Number of disturbances
+      real(wp), intent(in) :: z(0:degree, size(self%lag)), y(0:degree, self%n)
       integer, intent(in) :: vectors
-      !> Coefficients of the disturbances of w(t - tau), or nothing
       real(wp), intent(in) :: dz(0:degree, size(self%lag), vectors)
-      !> Coefficients of the disturbances of theta, u, w; dy(0, :, :) is given
       real(wp), intent(inout) :: dy(0:degree, self%n, vectors)
 
       call tangent_series_of_block(self%parameters, unit, degree, size(z, 2), z, y, vectors, dz, dy)
@@ -231,23 +178,13 @@ contains
 
    !> A better Taylor series of disturbances of the slow solution of (4).
    pure subroutine slow_tangent_series_of_4(self, t, unit, degree, z, before, y, vectors, dz, dy)
-      !> The block
       class(spring_block_type), intent(in) :: self
-      !> Time, without influence
-      real(wp), intent(in) :: t
-      !> Unit of time of the powers
-      real(wp), intent(in) :: unit
-      !> Degree of the series
+      real(wp), intent(in) :: t, unit
       integer, intent(in) :: degree
-      !> Coefficients of w(t - tau), or nothing
       real(wp), intent(in) :: z(0:degree, size(self%lag))
-      !> Coefficients of theta, u, w as they were, and better ones
       real(wp), intent(in) :: before(0:degree, self%n), y(0:degree, self%n)
-      !> Number of disturbances
       integer, intent(in) :: vectors
-      !> Coefficients of the disturbances of w(t - tau), or nothing
       real(wp), intent(in) :: dz(0:degree, size(self%lag), vectors)
-      !> Coefficients of the disturbances of theta, u, w as they were; better ones
       real(wp), intent(inout) :: dy(0:degree, self%n, vectors)
 
       call slow_tangent_series_of_block(self%parameters, unit, degree, size(z, 2), z, before, y, &
@@ -256,15 +193,10 @@ contains
 
    !> Series of the constant history.
    pure subroutine constant_series(self, t, component, unit, y)
-      !> The block
       class(spring_block_type), intent(in) :: self
-      !> Time <= 0, without influence
       real(wp), intent(in) :: t
-      !> Index into the state
       integer, intent(in) :: component
-      !> Unit of time of the powers, without influence
       real(wp), intent(in) :: unit
-      !> Coefficients
       real(wp), intent(out) :: y(0:)
 
       y = 0.0_wp

@@ -21,20 +21,12 @@ contains
    pure subroutine check_number(error, place, key, value, above, at_least, below, at_most)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
-      !> File and what it describes
-      character(len=*), intent(in) :: place
-      !> Key
-      character(len=*), intent(in) :: key
+      !> File and what it describes, key
+      character(len=*), intent(in) :: place, key
       !> Value of the key
       real(wp), intent(in) :: value
-      !> Exclusive lower bound
-      real(wp), intent(in), optional :: above
-      !> Inclusive lower bound
-      real(wp), intent(in), optional :: at_least
-      !> Exclusive upper bound
-      real(wp), intent(in), optional :: below
-      !> Inclusive upper bound
-      real(wp), intent(in), optional :: at_most
+      !> Exclusive lower bound, inclusive lower bound; exclusive upper bound; inclusive upper bound
+      real(wp), intent(in), optional :: above, at_least, below, at_most
       character(len=:), allocatable :: range
       logical :: fine
 
@@ -71,14 +63,10 @@ contains
    pure subroutine check_count(error, place, key, value, at_least, at_most)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
-      !> File and what it describes
-      character(len=*), intent(in) :: place
-      !> Key
-      character(len=*), intent(in) :: key
-      !> Value of the key
-      integer, intent(in) :: value
-      !> Least value allowed
-      integer, intent(in) :: at_least
+      !> File and what it describes, key
+      character(len=*), intent(in) :: place, key
+      !> Value of the key, least value allowed
+      integer, intent(in) :: value, at_least
       !> Largest value allowed
       integer, intent(in), optional :: at_most
 
@@ -96,14 +84,8 @@ contains
    pure subroutine check_choice(error, place, key, value, choices)
       !> First error met
       type(error_type), allocatable, intent(inout) :: error
-      !> File and what it describes
-      character(len=*), intent(in) :: place
-      !> Key
-      character(len=*), intent(in) :: key
-      !> Value of the key
-      character(len=*), intent(in) :: value
-      !> Words allowed
-      character(len=*), intent(in) :: choices(:)
+      !> File and what it describes, key; value of the key; words allowed
+      character(len=*), intent(in) :: place, key, value, choices(:)
       character(len=:), allocatable :: list
       integer :: i
 

@@ -48,10 +48,8 @@ contains
    elemental real(wp) function friction_coefficient(law, v, theta) result(mu)
       !> The law
       type(friction_parameters_type), intent(in) :: law
-      !> Velocity, m/s
-      real(wp), intent(in) :: v
-      !> State, s
-      real(wp), intent(in) :: theta
+      !> Velocity, m/s; state, s
+      real(wp), intent(in) :: v, theta
 
       mu = law%mu0 - law%a*log(law%v0/v + 1.0_wp) + law%b*log(theta/law%b_state + 1.0_wp)
    end function friction_coefficient
@@ -68,12 +66,8 @@ contains
 
    !> The problem without delays that (1.2) is at constant velocity.
    pure function new_state_evolution(law, v, theta_start) result(problem)
-      !> The law
       type(friction_parameters_type), intent(in) :: law
-      !> Imposed velocity, m/s
-      real(wp), intent(in) :: v
-      !> State at the start, s
-      real(wp), intent(in) :: theta_start
+      real(wp), intent(in) :: v, theta_start
       type(state_evolution_type) :: problem
 
       problem%n = 1
@@ -85,9 +79,7 @@ contains
 
    !> State at the start.
    pure subroutine theta_at_start(self, y)
-      !> The problem
       class(state_evolution_type), intent(in) :: self
-      !> theta, s
       real(wp), intent(out) :: y(self%n)
 
       y = self%theta_start
@@ -95,11 +87,8 @@ contains
 
    !> Nothing is delayed here; the state at the start stands in.
    pure function no_history(self, t, component) result(value)
-      !> The problem
       class(state_evolution_type), intent(in) :: self
-      !> Time, without influence
       real(wp), intent(in) :: t
-      !> Component, without influence
       integer, intent(in) :: component
       real(wp) :: value
 
@@ -108,15 +97,8 @@ contains
 
    !> Equation (1.2): dtheta/dt = 1 - v theta/Dc.
    pure subroutine equation_1_2(self, t, y, z, dydt)
-      !> The problem
       class(state_evolution_type), intent(in) :: self
-      !> Time, without influence
-      real(wp), intent(in) :: t
-      !> theta, s
-      real(wp), intent(in) :: y(self%n)
-      !> Nothing
-      real(wp), intent(in) :: z(size(self%lag))
-      !> dtheta/dt
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
       dydt = 1.0_wp - self%v*y/self%law%dc

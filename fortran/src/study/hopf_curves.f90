@@ -2,7 +2,7 @@
 !> window are found by a scan, their ends by root finding, and points are set where the line bends.
 module hopf_curves
    use block_parameters, only: block_parameters_type
-   use characteristic_function, only: relative_residual, root_by_tau
+   use characteristic_function, only: by_tau, relative_residual, root_by
    use dde_errors, only: error_type
    use gsl_roots, only: find_root, scalar_function_type
    use hopf_condition, only: largest_omega, printed_tau
@@ -195,7 +195,7 @@ contains
       point%parameters = plane%at(omega, k)
       associate (p => point%parameters)
          point%residual = relative_residual(p, s)
-         point%crossing = nint(sign(1.0_wp, real(root_by_tau(p, s))))
+         point%crossing = nint(sign(1.0_wp, real(root_by(by_tau, p, s))))
          printed = p
          printed%tau = printed_tau(omega, p%xi, p%gamma, k)
       end associate

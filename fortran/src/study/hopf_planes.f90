@@ -3,7 +3,7 @@
 module hopf_planes
    use block_family, only: along_epsilon, along_tau, along_xi, parameters_of, vector_of
    use block_parameters, only: block_parameters_type
-   use characteristic_function, only: root_by_epsilon, root_by_tau, root_by_xi
+   use characteristic_function, only: by_epsilon, by_tau, by_xi, root_by
    use hopf_condition, only: hopf_epsilon, hopf_tau, hopf_xi, two_pi
    use dde_kinds, only: wp
    implicit none (type, external)
@@ -80,12 +80,8 @@ contains
       complex(wp), intent(in) :: s
       complex(wp) :: slopes(2)
 
-      slopes(1) = root_by_epsilon(p, s)
-      if (self%along == along_tau) then
-         slopes(2) = root_by_tau(p, s)
-      else
-         slopes(2) = root_by_xi(p, s)
-      end if
+      slopes = [root_by(by_epsilon, p, s), &
+                root_by(merge(by_tau, by_xi, self%along == along_tau), p, s)]
    end function root_slopes
 
    !> Least omega: where xi (gamma^2 - omega^2)/(gamma^2 omega) falls to omega_most for the least

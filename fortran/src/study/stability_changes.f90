@@ -2,7 +2,7 @@
 !> imaginary axis, all else kept: equations (7) and (10), solved for the frequency.
 module stability_changes
    use block_parameters, only: block_parameters_type
-   use characteristic_function, only: root_by_epsilon, root_by_tau
+   use characteristic_function, only: by_epsilon, by_tau, root_by
    use dde_errors, only: error_type
    use gsl_roots, only: find_falling_root, find_root, scalar_function_type
    use hopf_condition, only: hopf_epsilon, hopf_tau, largest_omega, partner_omega
@@ -82,7 +82,7 @@ contains
             if (there%tau > tau_most) exit
             k = k + 1
             if (there%tau <= 0.0_wp) cycle
-            associate (speed => real(root_by_tau(there, cmplx(0.0_wp, omega(i), kind=wp))))
+            associate (speed => real(root_by(by_tau, there, cmplx(0.0_wp, omega(i), kind=wp))))
                call insert_change(changes, change_at(there, omega(i), speed), &
                                   changes%parameters%tau < there%tau)
             end associate
@@ -121,7 +121,7 @@ contains
          there%epsilon = hopf_epsilon(omega, p%xi, p%gamma)
          if (there%epsilon > epsilon_most) cycle
          s = cmplx(0.0_wp, omega, kind=wp)
-         call insert_change(changes, change_at(there, omega, real(root_by_epsilon(there, s))), &
+         call insert_change(changes, change_at(there, omega, real(root_by(by_epsilon, there, s))), &
                             changes%parameters%epsilon < there%epsilon)
       end do
    end subroutine changes_with_epsilon

@@ -12,9 +12,7 @@ contains
    !> A block at these parameters from this history.
    pure type(spring_block_type) function build_block(tau, epsilon, xi, gamma, theta, u, v) &
       result(block)
-      !> Parameters
       real(wp), intent(in) :: tau, epsilon, xi, gamma
-      !> Values for t <= 0
       real(wp), intent(in), optional :: theta, u, v
       type(block_history_type) :: history
 

@@ -19,7 +19,6 @@ module test_quadruple
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_quadruple(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

@@ -10,7 +10,6 @@ module analytic_equations
    !> Points on a circle, and its radius in units of the argument.
    integer, parameter :: points = 64
    real(wp), parameter :: radius = 0.2_wp
-   !> One turn.
    real(wp), parameter :: two_pi = 2.0_wp*acos(-1.0_wp)
 
    !> An equation that is 0 at rest.
@@ -26,7 +25,6 @@ module analytic_equations
       pure function analytic_rhs(self, x) result(dxdt)
          import :: analytic_equation_type, wp
          implicit none (type, external)
-         !> The equation
          class(analytic_equation_type), intent(in) :: self
          !> State at all lags, shape (n, number of lags)
          complex(wp), intent(in) :: x(:, :)
@@ -38,11 +36,8 @@ contains
 
    !> The matrices A_j of n equations.
    subroutine set_linear_part(equation, n, lag)
-      !> The equation
       class(analytic_equation_type), intent(inout) :: equation
-      !> Number of equations
       integer, intent(in) :: n
-      !> Lags
       real(wp), intent(in) :: lag(:)
       complex(wp) :: unit_history(n, size(lag))
       integer :: i, j

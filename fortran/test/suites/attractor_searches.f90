@@ -18,10 +18,7 @@ contains
    !> Settings as in the configuration, with times of a scene.
    pure type(attractor_settings_type) function fine_settings(t_transient, t_observed) &
       result(settings)
-      !> Time left out
-      real(wp), intent(in) :: t_transient
-      !> Time observed
-      real(wp), intent(in) :: t_observed
+      real(wp), intent(in) :: t_transient, t_observed
 
       settings = attractor_settings_type(t_transient=t_transient, t_observed=t_observed, &
                                          t_lasting=0.0_wp, t_turning=0.5_wp*t_observed, &
@@ -34,7 +31,6 @@ contains
 
    !> Settings for searches whose exponents are of no interest.
    pure type(attractor_settings_type) function coarse_settings(t_transient) result(settings)
-      !> Time left out
       real(wp), intent(in) :: t_transient
 
       settings = fine_settings(t_transient, 500.0_wp)

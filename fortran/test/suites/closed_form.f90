@@ -9,7 +9,6 @@ module closed_form
    private
    public :: block_with_pair, closed_epsilon, closed_tau, closed_xi
 
-   !> One turn.
    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
 
 contains
@@ -18,7 +17,6 @@ contains
    elemental type(block_parameters_type) function block_with_pair(omega, xi, gamma, k) result(p)
       !> Frequency of the pair > 0, spring constant, frequency of the block
       real(wp), intent(in) :: omega, xi, gamma
-      !> Branch
       integer, intent(in) :: k
 
       p = block_parameters_type(tau=closed_tau(omega, xi, gamma, k), xi=xi, gamma=gamma, &
@@ -27,25 +25,14 @@ contains
 
    !> epsilon of the pair i omega.
    elemental real(wp) function closed_epsilon(omega, xi, gamma) result(epsilon)
-      !> Frequency of the pair, > 0
-      real(wp), intent(in) :: omega
-      !> Spring constant
-      real(wp), intent(in) :: xi
-      !> Frequency of the block
-      real(wp), intent(in) :: gamma
+      real(wp), intent(in) :: omega, xi, gamma
 
       epsilon = sqrt((1.0_wp + omega**2)*(1.0_wp + ratio(omega, xi, gamma)**2)) - 1.0_wp
    end function closed_epsilon
 
    !> Delay of the pair on branch k; no delay where it is negative.
    elemental real(wp) function closed_tau(omega, xi, gamma, k) result(tau)
-      !> Frequency of the pair, > 0
-      real(wp), intent(in) :: omega
-      !> Spring constant
-      real(wp), intent(in) :: xi
-      !> Frequency of the block
-      real(wp), intent(in) :: gamma
-      !> Branch
+      real(wp), intent(in) :: omega, xi, gamma
       integer, intent(in) :: k
 
       tau = (atan(ratio(omega, xi, gamma)) - atan(omega) + turn*k)/omega
@@ -53,13 +40,7 @@ contains
 
    !> Spring constant of the pair on branch k at a given delay; -1 where there is none.
    elemental real(wp) function closed_xi(omega, tau, gamma, k) result(xi)
-      !> Frequency of the pair, > 0, not gamma
-      real(wp), intent(in) :: omega
-      !> Delay
-      real(wp), intent(in) :: tau
-      !> Frequency of the block
-      real(wp), intent(in) :: gamma
-      !> Branch
+      real(wp), intent(in) :: omega, tau, gamma
       integer, intent(in) :: k
       real(wp) :: angle
 
@@ -71,9 +52,7 @@ contains
 
    !> B.
    elemental real(wp) function ratio(omega, xi, gamma) result(b)
-      !> Frequency of the pair, > 0
-      real(wp), intent(in) :: omega
-      real(wp), intent(in) :: xi, gamma
+      real(wp), intent(in) :: omega, xi, gamma
 
       b = xi*(gamma**2 - omega**2)/(gamma**2*omega)
    end function ratio

@@ -8,23 +8,19 @@
 module cutoff_block
    use block_parameters, only: block_history_type, block_parameters_type
    use block_state, only: index_of_ln_v, index_of_theta, index_of_u
-   use dde, only: dde_problem_type
    use dde_kinds, only: wp
+   use test_problems, only: constant_past
    implicit none (type, external)
    private
    public :: build_cutoff_block, cutoff_block_type, with_jacobian_type, with_series_type
 
    !> Step 1, the right-hand side alone.
-   type, extends(dde_problem_type) :: cutoff_block_type
+   type, extends(constant_past) :: cutoff_block_type
       !> Parameters of the block
       type(block_parameters_type) :: parameters
-      !> State theta, u, ln v for t <= 0
-      real(wp) :: past(3) = 0.0_wp
       !> c, the cut-off, >= 0
       real(wp) :: cutoff = 0.0_wp
    contains
-      procedure :: initial => state_at_zero
-      procedure :: history => constant_history
       procedure :: rhs => equation_with_cutoff
       !> Fill in all components
       procedure :: set
@@ -40,7 +36,6 @@ module cutoff_block
    type, extends(with_jacobian_type) :: with_series_type
    contains
       procedure :: series => series_with_cutoff
-      procedure :: past_series => constant_series
    end type with_series_type
 
 contains
@@ -48,11 +43,8 @@ contains
    !> A block of step 1.
    pure type(cutoff_block_type) function build_cutoff_block(parameters, history, cutoff) &
       result(block)
-      !> Parameters of the block
       type(block_parameters_type), intent(in) :: parameters
-      !> Values for t <= 0
       type(block_history_type), intent(in) :: history
-      !> The cut-off
       real(wp), intent(in) :: cutoff
 
       call block%set(parameters, history, cutoff)
@@ -60,13 +52,9 @@ contains
 
    !> Fill in all components: of the three equations one is delayed, or none without delay.
    pure subroutine set(self, parameters, history, cutoff)
-      !> The block
       class(cutoff_block_type), intent(inout) :: self
-      !> Parameters of the block
       type(block_parameters_type), intent(in) :: parameters
-      !> Values for t <= 0
       type(block_history_type), intent(in) :: history
-      !> The cut-off
       real(wp), intent(in) :: cutoff
 
       self%n = 3
@@ -74,48 +62,20 @@ contains
       self%component = pack([index_of_ln_v], parameters%tau > 0.0_wp)
       self%parameters = parameters
       self%past = [history%theta, history%u, log(history%v)]
+      self%first = self%past
       self%cutoff = cutoff
    end subroutine set
 
-   !> State at t = 0: the end of the history.
-   pure subroutine state_at_zero(self, y)
-      !> The block
-      class(cutoff_block_type), intent(in) :: self
-      !> theta, u, ln v at t = 0
-      real(wp), intent(out) :: y(self%n)
-
-      y = self%past
-   end subroutine state_at_zero
-
-   !> Constant history.
-   pure function constant_history(self, t, component) result(value)
-      !> The block
-      class(cutoff_block_type), intent(in) :: self
-      !> Time <= 0, without influence
-      real(wp), intent(in) :: t
-      !> Index into the state
-      integer, intent(in) :: component
-      real(wp) :: value
-
-      value = self%past(component)
-   end function constant_history
-
    !> L(v) of w = ln v.
    elemental real(wp) function cut_logarithm(w, c) result(value)
-      !> ln v
-      real(wp), intent(in) :: w
-      !> The cut-off
-      real(wp), intent(in) :: c
+      real(wp), intent(in) :: w, c
 
       value = log((1.0_wp + c)/(exp(-w) + c))
    end function cut_logarithm
 
    !> Its derivative by w.
    elemental real(wp) function cut_slope(w, c) result(value)
-      !> ln v
-      real(wp), intent(in) :: w
-      !> The cut-off
-      real(wp), intent(in) :: c
+      real(wp), intent(in) :: w, c
 
       value = 1.0_wp/(1.0_wp + c*exp(w))
    end function cut_slope
@@ -126,15 +86,8 @@ contains
    !>     u'     =  v - 1
    !>     w'     = -(gamma^2/v) [u + (theta + L(w))/xi]
    pure subroutine equation_with_cutoff(self, t, y, z, dydt)
-      !> The block
       class(cutoff_block_type), intent(in) :: self
-      !> Time, without influence
-      real(wp), intent(in) :: t
-      !> theta, u, w
-      real(wp), intent(in) :: y(self%n)
-      !> w(t - tau), or nothing
-      real(wp), intent(in) :: z(size(self%lag))
-      !> Time derivatives of theta, u, w
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
       real(wp) :: delayed_w, v
 
@@ -151,18 +104,9 @@ contains
 
    !> Derivatives of the right-hand side by theta, u, w and by w(t - tau).
    pure subroutine derivatives(self, t, y, z, by_y, by_z)
-      !> The block
       class(with_jacobian_type), intent(in) :: self
-      !> Time, without influence
-      real(wp), intent(in) :: t
-      !> theta, u, w
-      real(wp), intent(in) :: y(self%n)
-      !> w(t - tau), or nothing
-      real(wp), intent(in) :: z(size(self%lag))
-      !> Derivatives by theta, u, w
-      real(wp), intent(out) :: by_y(self%n, self%n)
-      !> Derivatives by w(t - tau)
-      real(wp), intent(out) :: by_z(self%n, size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: by_y(self%n, self%n), by_z(self%n, size(self%lag))
       real(wp) :: dydt(3), v
 
       associate (p => self%parameters, c => self%cutoff, w => y(index_of_ln_v))
@@ -189,17 +133,10 @@ contains
    !> Taylor series of the solution: each coefficient from those before it. With e = exp(-w),
    !> e' = -e w' and (e + c) L' = -e'.
    pure subroutine series_with_cutoff(self, t, unit, degree, z, y)
-      !> The block
       class(with_series_type), intent(in) :: self
-      !> Time, without influence
-      real(wp), intent(in) :: t
-      !> Unit of time of the powers
-      real(wp), intent(in) :: unit
-      !> Degree of the series
+      real(wp), intent(in) :: t, unit
       integer, intent(in) :: degree
-      !> Coefficients of w(t - tau), or nothing
       real(wp), intent(in) :: z(0:degree, size(self%lag))
-      !> Coefficients of theta, u, w; y(0, :) is given
       real(wp), intent(inout) :: y(0:degree, self%n)
       !> Coefficients of v, of exp(-w), of L, of both for the delayed w, and of the two brackets
       real(wp), dimension(0:degree) :: v, e, cut, delayed_e, delayed_cut, friction, force
@@ -226,9 +163,7 @@ contains
 
    !> Coefficient k of a product.
    pure real(wp) function product_term(k, a, b) result(term)
-      !> Which
       integer, intent(in) :: k
-      !> Coefficients of the factors
       real(wp), intent(in) :: a(0:), b(0:)
 
       term = dot_product(a(:k), b(k:0:-1))
@@ -236,13 +171,8 @@ contains
 
    !> Coefficient k of exp(sign w) from those before it.
    pure subroutine extend_exponential(k, w, sign_of_w, e)
-      !> Which
       integer, intent(in) :: k
-      !> Coefficients of w
-      real(wp), intent(in) :: w(0:)
-      !> 1 or -1
-      real(wp), intent(in) :: sign_of_w
-      !> Coefficients of the exponential
+      real(wp), intent(in) :: w(0:), sign_of_w
       real(wp), intent(inout) :: e(0:)
       integer :: j
 
@@ -255,16 +185,9 @@ contains
 
    !> Coefficient k of exp(-w) and of L(w) from those before them.
    pure subroutine extend_logarithm(k, w, c, e, cut)
-      !> Which
       integer, intent(in) :: k
-      !> Coefficients of w
-      real(wp), intent(in) :: w(0:)
-      !> The cut-off
-      real(wp), intent(in) :: c
-      !> Coefficients of exp(-w)
-      real(wp), intent(inout) :: e(0:)
-      !> Coefficients of L
-      real(wp), intent(inout) :: cut(0:)
+      real(wp), intent(in) :: w(0:), c
+      real(wp), intent(inout) :: e(0:), cut(0:)
       integer :: j
 
       call extend_exponential(k, w, -1.0_wp, e)
@@ -274,21 +197,4 @@ contains
          cut(k) = -(k*e(k) + sum([(j*cut(j)*e(k - j), j=1, k - 1)]))/(k*(e(0) + c))
       end if
    end subroutine extend_logarithm
-
-   !> Series of the constant history.
-   pure subroutine constant_series(self, t, component, unit, y)
-      !> The block
-      class(with_series_type), intent(in) :: self
-      !> Time <= 0, without influence
-      real(wp), intent(in) :: t
-      !> Index into the state
-      integer, intent(in) :: component
-      !> Unit of time of the powers, without influence
-      real(wp), intent(in) :: unit
-      !> Coefficients
-      real(wp), intent(out) :: y(0:)
-
-      y = 0.0_wp
-      y(0) = self%past(component)
-   end subroutine constant_series
 end module cutoff_block

@@ -1,5 +1,6 @@
 !> Families of problems with cycles of which something is known.
 module cycle_families
+   use analytic_problems, only: analytic_problem
    use dde, only: dde_problem_type
    use dde_kinds, only: wp
    use problem_family, only: problem_family_type
@@ -39,18 +40,13 @@ module cycle_families
    end type known_family
 
    !> One of them.
-   type, extends(dde_problem_type) :: known_problem
+   type, extends(analytic_problem) :: known_problem
       !> The equation
       integer :: equation = 0
       !> Its parameters
       real(wp), allocatable :: p(:)
-      !> State before the initial time
-      real(wp), allocatable :: past(:)
    contains
-      procedure :: initial
-      procedure :: history
-      procedure :: rhs
-      procedure :: jacobian
+      procedure :: slope => slope_of
    end type known_problem
 
 contains
@@ -91,98 +87,37 @@ contains
          made%component = [1, 2, 2, 1]
          made%past = [0.1_wp, 0.1_wp]
       end select
+      made%first = made%past
       allocate (problem, source=made)
    end subroutine member
 
-   !> The past holds up to the initial time.
-   pure subroutine initial(self, y)
-      class(known_problem), intent(in) :: self
-      real(wp), intent(out) :: y(self%n)
-
-      y = self%past
-   end subroutine initial
-
-   !> A constant past.
-   pure function history(self, t, component) result(value)
-      class(known_problem), intent(in) :: self
-      real(wp), intent(in) :: t
-      integer, intent(in) :: component
-      real(wp) :: value
-
-      value = self%past(component)
-   end function history
-
    !> The equations.
-   pure subroutine rhs(self, t, y, z, dydt)
+   pure function slope_of(self, y, z) result(slope)
       class(known_problem), intent(in) :: self
-      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
-      real(wp), intent(out) :: dydt(self%n)
-      real(wp) :: s
+      complex(wp), intent(in) :: y(:), z(:)
+      complex(wp) :: slope(size(y))
+      complex(wp) :: s
 
       associate (p => self%p)
          select case (self%equation)
          case (delayed_sine)
-            dydt(1) = -z(1)*(1.0_wp + p(1) - y(1)**2 - z(1)**2)
+            slope(1) = -z(1)*(1.0_wp + p(1) - y(1)**2 - z(1)**2)
          case (delayed_cubic)
             s = y(1)**2 + z(1)**2 - 1.0_wp
-            dydt(1) = -z(1)*(1.0_wp + p(1) + p(2)*s - s**3)
+            slope(1) = -z(1)*(1.0_wp + p(1) + p(2)*s - s**3)
          case (driven_growth)
-            dydt(1) = -2.0_wp*pi*y(2) + y(1)*(1.0_wp - y(1)**2 - y(2)**2)
-            dydt(2) = 2.0_wp*pi*y(1) + y(2)*(1.0_wp - y(1)**2 - y(2)**2)
-            dydt(3) = (p(1) + p(2)*y(1))*z(1)
+            slope(1) = -2.0_wp*pi*y(2) + y(1)*(1.0_wp - y(1)**2 - y(2)**2)
+            slope(2) = 2.0_wp*pi*y(1) + y(2)*(1.0_wp - y(1)**2 - y(2)**2)
+            slope(3) = (p(1) + p(2)*y(1))*z(1)
          case (duffing)
-            dydt(1) = y(2)
-            dydt(2) = -p(4)*y(2) - p(2)*y(1) - y(1)**3 - p(3)*(y(1) - z(1))
+            slope(1) = y(2)
+            slope(2) = -p(4)*y(2) - p(2)*y(1) - y(1)**3 - p(3)*(y(1) - z(1))
          case (mackey_glass)
-            dydt(1) = p(2)*z(1)/(1.0_wp + z(1)**10) - 0.1_wp*y(1)
+            slope(1) = p(2)*z(1)/(1.0_wp + z(1)**10) - 0.1_wp*y(1)
          case default
-            dydt(1) = -kappa*y(1) + beta*tanh(z(1)) + a12*tanh(z(3))
-            dydt(2) = -kappa*y(2) + beta*tanh(z(2)) + p(1)*tanh(z(4))
+            slope(1) = -kappa*y(1) + beta*tanh(z(1)) + a12*tanh(z(3))
+            slope(2) = -kappa*y(2) + beta*tanh(z(2)) + p(1)*tanh(z(4))
          end select
       end associate
-   end subroutine rhs
-
-   !> Their derivatives.
-   pure subroutine jacobian(self, t, y, z, by_y, by_z)
-      class(known_problem), intent(in) :: self
-      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
-      real(wp), intent(out) :: by_y(self%n, self%n), by_z(self%n, size(self%lag))
-      real(wp) :: s
-
-      by_y = 0.0_wp
-      by_z = 0.0_wp
-      associate (p => self%p)
-         select case (self%equation)
-         case (delayed_sine)
-            by_y(1, 1) = 2.0_wp*y(1)*z(1)
-            by_z(1, 1) = -(1.0_wp + p(1) - y(1)**2 - 3.0_wp*z(1)**2)
-         case (delayed_cubic)
-            s = y(1)**2 + z(1)**2 - 1.0_wp
-            by_y(1, 1) = -2.0_wp*y(1)*z(1)*(p(2) - 3.0_wp*s**2)
-            by_z(1, 1) = -(1.0_wp + p(1) + p(2)*s - s**3) - 2.0_wp*z(1)**2*(p(2) - 3.0_wp*s**2)
-         case (driven_growth)
-            by_y(1, 1) = 1.0_wp - 3.0_wp*y(1)**2 - y(2)**2
-            by_y(1, 2) = -2.0_wp*pi - 2.0_wp*y(1)*y(2)
-            by_y(2, 1) = 2.0_wp*pi - 2.0_wp*y(1)*y(2)
-            by_y(2, 2) = 1.0_wp - y(1)**2 - 3.0_wp*y(2)**2
-            by_y(3, 1) = p(2)*z(1)
-            by_z(3, 1) = p(1) + p(2)*y(1)
-         case (duffing)
-            by_y(1, 2) = 1.0_wp
-            by_y(2, 1) = -p(2) - 3.0_wp*y(1)**2 - p(3)
-            by_y(2, 2) = -p(4)
-            by_z(2, 1) = p(3)
-         case (mackey_glass)
-            by_y(1, 1) = -0.1_wp
-            by_z(1, 1) = p(2)*(1.0_wp - 9.0_wp*z(1)**10)/(1.0_wp + z(1)**10)**2
-         case default
-            by_y(1, 1) = -kappa
-            by_y(2, 2) = -kappa
-            by_z(1, 1) = beta/cosh(z(1))**2
-            by_z(2, 2) = beta/cosh(z(2))**2
-            by_z(1, 3) = a12/cosh(z(3))**2
-            by_z(2, 4) = p(1)/cosh(z(4))**2
-         end select
-      end associate
-   end subroutine jacobian
+   end function slope_of
 end module cycle_families

@@ -8,7 +8,6 @@ module known_equations
    public :: block_by_values, duffing_with_pair, layers, lienard, neurons, new_block_by_values, &
              new_small, new_transformed, quadratic, small_equation, transformed
 
-   !> One turn.
    real(wp), parameter :: two_pi = 2.0_wp*acos(-1.0_wp)
 
    !> Small equations, their coefficients p and delays:
@@ -78,9 +77,7 @@ contains
 
    !> A small equation with its linear part.
    type(small_equation) function new_small(equation, p, delays) result(made)
-      !> The equation
       integer, intent(in) :: equation
-      !> Coefficients
       real(wp), intent(in) :: p(:)
       !> Lags > 0, in the order of the equation
       real(wp), intent(in), optional :: delays(:)

@@ -17,7 +17,7 @@ module orbit_runs
    use orbit_start, only: orbit_at_hopf_point, orbit_of_trajectory
    use periodic_orbit, only: periodic_orbit_type
    use problem_family, only: free_family_type, problem_family_type
-   use solving, only: at_tolerance
+   use solving, only: at_tolerance, run
    use special_points, only: special_point_type
    use spring_block, only: index_of_ln_v, spring_block_type
    implicit none (type, external)
@@ -30,9 +30,7 @@ contains
    !> An orbit on a uniform mesh, without its nodes.
    pure type(periodic_orbit_type) function new_orbit(degree, points, intervals, period, &
                                                      parameters) result(orbit)
-      !> Degree, kind of points and intervals
       integer, intent(in) :: degree, points, intervals
-      !> Period and parameters
       real(wp), intent(in) :: period, parameters(:)
 
       orbit%basis = collocation_basis_type(degree, points)
@@ -43,7 +41,6 @@ contains
 
    !> Problems without a free parameter.
    type(free_family_type) function fix_parameters(problems) result(family)
-      !> The problems
       class(problem_family_type), intent(in) :: problems
 
       family = free_family_type(problems, [integer ::], [real(wp) ::])
@@ -51,13 +48,9 @@ contains
 
    !> Correct an orbit at fixed parameters.
    subroutine correct(problems, orbit, newton, failure)
-      !> The problems
       class(problem_family_type), intent(in) :: problems
-      !> The orbit
       type(periodic_orbit_type), intent(inout) :: orbit
-      !> The method
       type(newton_type), intent(inout) :: newton
-      !> No convergence
       type(failure_type), allocatable, intent(out) :: failure
       type(orbit_change_type) :: no_direction(0)
       type(periodic_orbit_type) :: reference
@@ -69,16 +62,11 @@ contains
 
    !> Go on with a run, and note the maxima of a component.
    subroutine advance(problem, from, to, place, error, component, maxima)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Times
       real(wp), intent(in) :: from, to
-      !> Where the run is
       type(continuation_type), intent(inout) :: place
       type(error_type), allocatable, intent(inout) :: error
-      !> The component
       integer, intent(in), optional :: component
-      !> Its maxima
       real(wp), allocatable, intent(out), optional :: maxima(:)
       type(event_table) :: found
       type(failure_type), allocatable :: failure
@@ -100,22 +88,17 @@ contains
 
    !> The orbit of a block that a trajectory has reached, before its correction.
    subroutine orbit_of_block(block, t_end, degree, points, intervals, orbit, error)
-      !> The block
       type(spring_block_type), intent(in) :: block
-      !> Time of the trajectory
       real(wp), intent(in) :: t_end
-      !> Degree, kind of points and intervals
       integer, intent(in) :: degree, points, intervals
-      !> The orbit
       type(periodic_orbit_type), intent(out) :: orbit
       type(error_type), allocatable, intent(inout) :: error
       type(continuation_type) :: arrived
       type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
 
-      call integrate(block, 0.0_wp, t_end, at_tolerance(1.0e-9_wp, "auto"), outcome, failure, &
-                     continuation=arrived)
-      call expect_success(error, failure)
+      call run(error, block, 0.0_wp, t_end, at_tolerance(1.0e-9_wp, "auto"), outcome, &
+               continuation=arrived)
       if (allocated(error)) return
       call orbit_of_trajectory(block, at_tolerance(1.0e-9_wp, "auto"), arrived, index_of_ln_v, &
                                100.0_wp, collocation_basis_type(degree, points), intervals, orbit, &
@@ -126,15 +109,10 @@ contains
 
    !> The orbit of a block that a trajectory has reached, corrected, with its multipliers.
    subroutine cycle_of_block(block, t_end, degree, points, intervals, orbit, multipliers, error)
-      !> The block
       type(spring_block_type), intent(in) :: block
-      !> Time of the trajectory
       real(wp), intent(in) :: t_end
-      !> Degree, kind of points and intervals
       integer, intent(in) :: degree, points, intervals
-      !> The orbit
       type(periodic_orbit_type), intent(out) :: orbit
-      !> Its multipliers
       type(multipliers_type), intent(out) :: multipliers
       type(error_type), allocatable, intent(inout) :: error
       type(failure_type), allocatable :: failure
@@ -155,18 +133,12 @@ contains
 
    !> A branch from an orbit, and its special points.
    subroutine branch_from(orbit, settings, direction, branch, special, error, tangent)
-      !> Approximation of the first orbit
       type(periodic_orbit_type), intent(in) :: orbit
-      !> How far and how
       type(follow_settings_type), intent(in) :: settings
-      !> 1 or -1
       integer, intent(in) :: direction
-      !> The branch
       type(branch_type), intent(out) :: branch
-      !> The points
       type(special_point_type), allocatable, intent(out) :: special(:)
       type(error_type), allocatable, intent(inout) :: error
-      !> Tangent at the start
       type(orbit_change_type), intent(in), optional :: tangent
       type(failure_type), allocatable :: failure
 
@@ -181,13 +153,9 @@ contains
    !> The branch from a Hopf point.
    subroutine branch_from_hopf(settings, parameters, state, omega, amplitude, branch, special, &
                                error)
-      !> How far and how
       type(follow_settings_type), intent(in) :: settings
-      !> Parameters and stationary state of the Hopf point, its frequency, first amplitude
       real(wp), intent(in) :: parameters(:), state(:), omega, amplitude
-      !> The branch
       type(branch_type), intent(out) :: branch
-      !> Its special points
       type(special_point_type), allocatable, intent(out) :: special(:)
       type(error_type), allocatable, intent(inout) :: error
       type(failure_type), allocatable :: failure

@@ -17,8 +17,7 @@ contains
    !> No rate is known.
    pure function no_rate(self, t, y) result(rate)
       class(plain_block), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(self%n)
+      real(wp), intent(in) :: t, y(self%n)
       real(wp) :: rate
 
       rate = 0.0_wp

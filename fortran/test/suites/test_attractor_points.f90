@@ -1,69 +1,34 @@
-!> Attractors at many points: the same in any number of threads, and trouble at one is none of the
-!> others'. On sweeps coexisting motions show, and a sweep goes through a change between delay and
-!> none.
+!> Attractors at many points: trouble at one is none of the others'. On sweeps coexisting motions
+!> show, and a sweep goes through a change between delay and none.
 module test_attractor_points
    use attractor_points, only: find_attractors, finding_type, point_type, sweep_attractors
-   use attractor_searches, only: coarse_settings, disturbed_block
-   use attractors, only: attractor_settings_type, attractor_type, find_attractor
+   use attractor_searches, only: coarse_settings
+   use attractors, only: attractor_settings_type
    use block_parameters, only: block_history_type, block_parameters_type
-   use dde, only: continuation_type, integrate, integration_options, integration_result
-   use dde_errors, only: failure_type => error_type, text
+   use dde, only: integration_options
+   use dde_errors, only: text
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
-   use dde_kinds, only: int64, wp
+   use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use motion_classes, only: cycle_motion, fixed_point, undecided
-   use omp_lib, only: omp_get_max_threads, omp_get_num_threads, omp_set_num_threads
-   use progress_recorder, only: expect_counted, recorder
+   use progress_recorder, only: recorder
    use solving, only: at_tolerance
-   use spring_block, only: spring_block_type
    implicit none (type, external)
    private
    public :: collect_attractor_points
 
-   !> Recorder that also keeps the number of threads at work.
-   type, extends(recorder) :: memory_type
-      !> Most threads at work at a time
-      integer :: threads = 0
-   contains
-      procedure :: advance => keep
-   end type memory_type
-
 contains
 
-   !> All tests of this suite.
    subroutine collect_attractor_points(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("in threads", test_threads), &
-                   new_unittest("on a grid", test_grid), &
+      testsuite = [new_unittest("on a grid", test_grid), &
                    new_unittest("a point that cannot be run", test_problem), &
-                   new_unittest("no run can be finished", test_all_problems), &
                    new_unittest("hysteresis on a sweep", test_hysteresis), &
                    new_unittest("sweep of the delay up and down", test_delay), &
                    new_unittest("sweep from and to no delay", test_no_delay), &
-                   new_unittest("sweep of one point", test_one_point), &
-                   new_unittest("a longer run", test_longer_run), &
                    new_unittest("sweep after a failed point", test_failed_point)]
    end subroutine collect_attractor_points
-
-   !> Keep a report and the number of threads.
-   subroutine keep(self, done, total)
-      class(memory_type), intent(inout) :: self
-      integer, intent(in) :: done, total
-
-      call self%recorder%advance(done, total)
-      self%threads = max(self%threads, omp_get_num_threads())
-   end subroutine keep
-
-   !> Points of different cost: tau = 0 to 15, histories apart.
-   pure function some_points() result(points)
-      type(point_type) :: points(8)
-      integer :: i
-
-      points = [(point_type(block_parameters_type(tau=5.0_wp*modulo(i, 4), xi=0.8_wp, &
-                                                  epsilon=0.3_wp + 0.05_wp*i, gamma=0.8_wp), &
-                            block_history_type(theta=0.1_wp*i, v=1.5_wp)), i=1, 8)]
-   end function some_points
 
    !> How attractors are found here.
    pure type(attractor_settings_type) function quickly() result(settings)
@@ -72,34 +37,6 @@ contains
       settings%doublings = 1
    end function quickly
 
-   !> One thread and two, twice over: the same to the last bit.
-   subroutine test_threads(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(finding_type), allocatable :: alone(:), together(:)
-      type(memory_type) :: memory
-      integer :: i, round, threads
-
-      threads = omp_get_max_threads()
-      call omp_set_num_threads(1)
-      call find_attractors(some_points(), quickly(), at_tolerance(1.0e-6_wp, "auto"), alone)
-      do round = 1, 2
-         memory = memory_type()
-         call omp_set_num_threads(2)
-         call find_attractors(some_points(), quickly(), at_tolerance(1.0e-6_wp, "auto"), &
-                              together, memory)
-         call omp_set_num_threads(threads)
-         call expect(error, memory%threads == 2, "two threads")
-         call expect_counted(error, memory%recorder, 8)
-         do i = 1, size(alone)
-            call expect_success(error, alone(i)%problem)
-            call expect_success(error, together(i)%problem)
-            if (allocated(error)) return
-            call expect(error, same_bits(all_of(alone(i)), all_of(together(i))), &
-                        "the same at point "//text(i))
-         end do
-      end do
-   end subroutine test_threads
-
    !> On a grid across the Hopf curve of the block without delay,
    !> epsilon = xi gamma**2/(xi + gamma**2): the points that are computed are the same as without
    !> refinements, the others have the class of their neighbours.
@@ -107,44 +44,28 @@ contains
       type(error_type), allocatable, intent(out) :: error
       integer, parameter :: columns = 5, lines = 5
       type(finding_type), allocatable :: all_computed(:), findings(:)
-      type(integration_options) :: options
-      type(memory_type) :: memory
-      type(point_type) :: points(columns, lines)
-      integer :: i, j, threads
+      type(recorder) :: progress
+      type(point_type) :: points(columns*lines)
+      integer :: i, j
 
-      threads = omp_get_max_threads()
-      do j = 1, lines
-         do i = 1, columns
-            points(i, j) = point_type( &
-                           block_parameters_type(tau=0.0_wp, xi=0.5_wp + 0.02_wp*j, &
-                                                 epsilon=0.1_wp*i, gamma=0.8_wp), &
-                           block_history_type(v=1.1_wp))
-         end do
+      points = [((near_sliding(0.0_wp, 0.1_wp*i, 0.5_wp + 0.02_wp*j), i=1, columns), j=1, lines)]
+      call find_attractors(points, quickly(), at_tolerance(1.0e-6_wp, "auto"), all_computed)
+      call find_attractors(points, quickly(), at_tolerance(1.0e-6_wp, "auto"), findings, progress, &
+                           columns, 1)
+      call expect(error, all(all_computed%computed) .and. .not. all(findings%computed), &
+                  "some points are not computed")
+      call expect(error, all(findings%attractor%class == all_computed%attractor%class), &
+                  "the same classes")
+      do j = 1, size(points)
+         if (.not. findings(j)%computed) cycle
+         call expect_success(error, findings(j)%problem)
+         if (allocated(error)) return
+         call expect_close(error, all_of(findings(j)), all_of(all_computed(j)), 0.0_wp, &
+                           "point "//text(j))
       end do
-      options = at_tolerance(1.0e-6_wp, "auto")
-      associate (list => reshape(points, [size(points)]))
-         call find_attractors(list, quickly(), options, all_computed)
-         do i = 1, 2
-            memory = memory_type()
-            call omp_set_num_threads(i)
-            call find_attractors(list, quickly(), options, findings, memory, columns, 1)
-            call omp_set_num_threads(threads)
-            call expect(error, all(all_computed%computed) .and. .not. all(findings%computed), &
-                        "some points are not computed")
-            call expect(error, all(findings%attractor%class == all_computed%attractor%class), &
-                        "the same classes")
-            do j = 1, size(list)
-               if (.not. findings(j)%computed) cycle
-               call expect_success(error, findings(j)%problem)
-               if (allocated(error)) return
-               call expect(error, same_bits(all_of(findings(j)), all_of(all_computed(j))), &
-                           "the same at point "//text(j))
-            end do
-            associate (done => memory%done, n => size(memory%done))
-               call expect(error, all(done(2:) >= done(:n - 1)) .and. done(n) == size(list) &
-                           .and. all(done(:n - 1) < size(list)), "progress to the end")
-            end associate
-         end do
+      associate (done => progress%done, n => size(progress%done))
+         call expect(error, all(done(2:) >= done(:n - 1)) .and. done(n) == size(points) &
+                     .and. all(done(:n - 1) < size(points)), "progress to the end")
       end associate
    end subroutine test_grid
 
@@ -160,16 +81,6 @@ contains
                      reshape(a%motion%section, [size(a%motion%section)]), a%motion%section_time]
       end associate
    end function all_of
-
-   !> Whether the bits are the same.
-   pure logical function same_bits(a, b) result(value)
-      !> Some numbers
-      real(wp), intent(in) :: a(:)
-      !> As many others
-      real(wp), intent(in) :: b(:)
-
-      value = size(a) == size(b) .and. all(transfer(a, [0_int64]) == transfer(b, [0_int64]))
-   end function same_bits
 
    !> A history from which no step is possible gives its words and no class; the points beside it
    !> are what they are alone.
@@ -192,29 +103,11 @@ contains
       if (allocated(error)) return
       call expect(error, findings(1)%attractor%class == fixed_point, "steady sliding")
       call expect(error, findings(2)%attractor%class == undecided, "nothing there")
-      call expect(error, same_bits(all_of(findings(3)), all_of(alone(1))), "the same alone")
+      call expect_close(error, all_of(findings(3)), all_of(alone(1)), 0.0_wp, "the same alone")
    end subroutine test_problem
-
-   !> Too few steps are allowed for any. So none has the class of its neighbours.
-   subroutine test_all_problems(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(finding_type), allocatable :: findings(:)
-      type(integration_options) :: options
-      integer :: i
-
-      options = at_tolerance(1.0e-6_wp, "auto")
-      options%most_steps = 5
-      call find_attractors(some_points(), quickly(), options, findings, columns=4, refinements=1)
-      call expect(error, all(findings%computed), "all are computed")
-      do i = 1, size(findings)
-         call expect_failure(error, findings(i)%problem, "5 steps (most_steps) were used up")
-         call expect(error, findings(i)%attractor%class == undecided, "undecided")
-      end do
-   end subroutine test_all_problems
 
    !> A point that starts near steady sliding, gamma = 0.8.
    elemental type(point_type) function near_sliding(tau, epsilon, xi) result(point)
-      !> Parameters
       real(wp), intent(in) :: tau, epsilon, xi
 
       point = point_type(block_parameters_type(tau=tau, epsilon=epsilon, xi=xi, gamma=0.8_wp), &
@@ -224,10 +117,8 @@ contains
    !> Largest maximum of v at each point.
    subroutine largest_maxima(error, points, settings, largest)
       type(error_type), allocatable, intent(inout) :: error
-      !> The points in the order of the sweep
       type(point_type), intent(in) :: points(:)
       type(attractor_settings_type), intent(in) :: settings
-      !> The maxima
       real(wp), intent(out) :: largest(:)
       type(finding_type), allocatable :: findings(:)
       integer :: i
@@ -298,53 +189,6 @@ contains
       call expect_close(error, maxval(findings(3)%attractor%motion%maxima), &
                         maxval(findings(1)%attractor%motion%maxima), 1.0e-4_wp, "the same cycle")
    end subroutine test_no_delay
-
-   !> A sweep of one point is a run from the history.
-   subroutine test_one_point(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(attractor_type) :: alone
-      type(failure_type), allocatable :: failure
-      type(finding_type), allocatable :: findings(:)
-
-      call sweep_attractors([near_sliding(10.0_wp, 0.5_wp, 0.8_wp)], coarse_settings(200.0_wp), &
-                            at_tolerance(1.0e-7_wp, "auto"), findings)
-      call expect_success(error, findings(1)%problem)
-      call find_attractor(disturbed_block(10.0_wp, 0.5_wp, 0.8_wp), coarse_settings(200.0_wp), &
-                          at_tolerance(1.0e-7_wp, "auto"), alone, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
-      call expect_close(error, findings(1)%attractor%motion%maxima, alone%motion%maxima, 0.0_wp, &
-                        "maxima")
-   end subroutine test_one_point
-
-   !> An attractor found from where a run ended has the maxima of one longer run, and ends where
-   !> that one ends.
-   subroutine test_longer_run(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(attractor_type) :: in_parts, whole
-      type(continuation_type) :: end_in_parts, end_of_whole, start
-      type(failure_type), allocatable :: failure
-      type(integration_options) :: options
-      type(integration_result) :: outcome
-      type(spring_block_type) :: block_model
-
-      options = at_tolerance(1.0e-9_wp, "auto")
-      block_model = disturbed_block(10.0_wp, 0.5_wp, 0.8_wp)
-      call integrate(block_model, 0.0_wp, 300.0_wp, options, outcome, failure, continuation=start)
-      call expect_success(error, failure)
-      call find_attractor(block_model, coarse_settings(200.0_wp), options, in_parts, failure, &
-                          start, end_in_parts)
-      call expect_success(error, failure)
-      call find_attractor(block_model, coarse_settings(500.0_wp), options, whole, failure, &
-                          arrived=end_of_whole)
-      call expect_success(error, failure)
-      if (allocated(error)) return
-      call expect_close(error, in_parts%motion%maxima, whole%motion%maxima, 1.0e-6_wp, "maxima")
-      call expect_close(error, in_parts%motion%section_time, &
-                        whole%motion%section_time, 1.0e-4_wp, "times")
-      call expect_close(error, end_in_parts%time, [1050.0_wp, 0.0_wp], 0.0_wp, "end")
-      call expect_close(error, end_in_parts%y, end_of_whole%y, 1.0e-5_wp, "last state")
-   end subroutine test_longer_run
 
    !> A point that cannot be run gives its reason; the next starts from where it started. Explicit
    !> steps are no longer than the delay.

@@ -4,7 +4,7 @@ module test_attractors
    use attractor_verdict, only: judge
    use attractor_searches, only: disturbed => disturbed_block, after => fine_settings, search
    use attractors, only: attractor_settings_type, attractor_type, find_attractor
-   use dde, only: integrate, integration_options, integration_result
+   use dde, only: integration_options, integration_result
    use dde_errors, only: failure_type => error_type
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use dde_kinds, only: wp
@@ -13,7 +13,7 @@ module test_attractors
    use motion_classes, only: chaos, class_names, cycle_motion, fixed_point, none, three_torus, &
                              torus, undecided
    use observed_motion, only: observed_motion_type
-   use solving, only: at_tolerance
+   use solving, only: at_tolerance, run
    use spring_block, only: spring_block_type
    implicit none (type, external)
    private
@@ -21,7 +21,6 @@ module test_attractors
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_attractors(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -30,13 +29,10 @@ contains
                    new_unittest("cycles", test_cycles), &
                    new_unittest("chaos of the paper", test_chaos), &
                    new_unittest("chaos that becomes clear", test_clear_chaos), &
-                   new_unittest("a true torus", test_true_torus), &
                    new_unittest("another torus, time doubled", test_doublings), &
                    new_unittest("a 3-torus", test_three_torus), &
                    new_unittest("tori after another motion", test_late_tori), &
                    new_unittest("unstable steady sliding", test_unstable), &
-                   new_unittest("approach shorter than the delay", test_short_approach), &
-                   new_unittest("a run that ends early", test_failed_run), &
                    new_unittest("too few samples", test_few_samples), &
                    new_unittest("maxima of a stuck block", test_stuck)]
    end subroutine collect_attractors
@@ -181,18 +177,6 @@ contains
                   .and. all(found%bases <= 0.0_wp), "nothing of the first judgement")
    end subroutine test_clear_chaos
 
-   !> The delay of Fig. 5a made longer. The section is a closed curve.
-   subroutine test_true_torus(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(attractor_settings_type) :: settings
-      type(attractor_type) :: found
-
-      settings = after(8000.0_wp, 6000.0_wp)
-      settings%doublings = 1
-      call find(disturbed(12.5_wp, 0.5_wp, 0.8_wp), settings, torus, found, error)
-      call expect_torus(error, found)
-   end subroutine test_true_torus
-
    !> Two zero exponents, two bases and a smooth section.
    subroutine expect_torus(error, found)
       type(error_type), allocatable, intent(inout) :: error
@@ -279,18 +263,6 @@ contains
                   size(found%motion%section_time) == 0, "no events")
    end subroutine test_unstable
 
-   !> Tangent vectors wait until the delay is over. On the way to a cycle, which is all that is seen
-   !> then, the exponents tell it, and nothing says that it is anything else.
-   subroutine test_short_approach(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(attractor_type) :: found
-
-      call search(disturbed(10.0_wp, 0.5_wp, 0.8_wp), after(4.0_wp, 3000.0_wp), found, error)
-      if (allocated(error)) return
-      call expect(error, size(found%exponents) == 4, "four exponents")
-      call expect(error, found%by_exponents == cycle_motion, "a cycle by exponents")
-   end subroutine test_short_approach
-
    !> Tori that are reached after another motion, with the settings of the atlas. The approach to
    !> the first is certain chaos for a while by exponents and spectrum. The second is a torus also
    !> after 4e5 units of time; while the motion leaves an unstable cycle, two equal positive
@@ -307,7 +279,6 @@ contains
    !> A torus that is certain late, but not later than a given time.
    subroutine find_late_torus(block, latest, error)
       type(spring_block_type), intent(in) :: block
-      !> Latest time at which it is certain
       real(wp), intent(in) :: latest
       type(error_type), allocatable, intent(inout) :: error
       type(attractor_settings_type) :: settings
@@ -324,27 +295,6 @@ contains
       call expect(error, found%class == torus, "a torus")
       call expect_between(error, found%time, 1.5e4_wp, latest, "time: another motion came before")
    end subroutine find_late_torus
-
-   !> A run that takes too many steps is an error and leaves the class undecided, in the approach
-   !> as in the observation.
-   subroutine test_failed_run(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(attractor_type) :: found
-      type(integration_options) :: options
-      real(wp), parameter :: t_transient(2) = [100.0_wp, 0.1_wp]
-      integer :: i
-
-      do i = 1, size(t_transient)
-         options = at_tolerance(1.0e-8_wp, "auto")
-         options%most_steps = 5
-         call find_attractor(disturbed(10.0_wp, 0.5_wp, 0.8_wp), after(t_transient(i), 500.0_wp), &
-                             options, found, failure)
-         call expect_failure(error, failure, "5 steps (most_steps) were used up")
-         call expect(error, found%class == undecided .and. .not. allocated(found%exponents), &
-                     "nothing found")
-      end do
-   end subroutine test_failed_run
 
    !> No spectrum: an error, no class.
    subroutine test_few_samples(error)
@@ -377,9 +327,8 @@ contains
       options = at_tolerance(1.0e-6_wp, "auto")
       do i = 1, size(motion)
          stuck = disturbed(delays(i), epsilons(i), 0.5_wp)
-         call integrate(stuck, 0.0_wp, 1000.0_wp, options, outcome, failure, &
-                        continuation=motion(i)%continuation)
-         call expect_success(error, failure)
+         call run(error, stuck, 0.0_wp, 1000.0_wp, options, outcome, &
+                  continuation=motion(i)%continuation)
          if (allocated(error)) return
          motion(i)%sample_interval = 0.1_wp
          call motion(i)%clear()

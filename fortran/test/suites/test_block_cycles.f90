@@ -9,27 +9,25 @@ module test_block_cycles
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close, expect_success
-   use hopf_curves, only: curve_point_type, trace_curves
+   use hopf_curves, only: curve_point_type
    use hopf_planes, only: curve_plane_type
-   use hopf_points, only: find_hopf_points, hopf_point_type, judge_points
+   use hopf_points, only: hopf_point_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use special_points, only: fold, torus_bifurcation
-   use traced_planes, only: new_plane
+   use traced_planes, only: find_points, new_plane
    implicit none (type, external)
    private
    public :: collect_block_cycles
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_block_cycles(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("Hopf points on lines", test_hopf_starts), &
                    new_unittest("folds start at a generalised Hopf point", test_folds), &
                    new_unittest("tori start at a double Hopf point", test_tori), &
-                   new_unittest("a closed branch", test_closed), &
-                   new_unittest("lines along xi and gamma", test_other_lines)]
+                   new_unittest("a closed branch", test_closed)]
    end subroutine collect_block_cycles
 
    !> They fulfil (5) and lie on the line. A line in tau through one meets it.
@@ -70,64 +68,21 @@ contains
       end do
    end subroutine test_hopf_starts
 
-   !> The cycle that a trajectory reaches is on the branch from a Hopf point.
-   subroutine test_other_lines(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(cycle_settings_type) :: settings
-      type(cycles_type), allocatable :: found(:)
-      type(left_out_type), allocatable :: left_out(:)
-      type(failure_type), allocatable :: failure
-      type(hopf_start_type), allocatable :: hopf(:)
-      integer, parameter :: along(2) = [along_xi, along_gamma]
-      real(wp) :: at(4)
-      integer :: i
-
-      do i = 1, size(along)
-         settings = settings_on(along(i), [10.0_wp, 0.35_wp, 0.8_wp, 0.8_wp], [0.5_wp, 1.2_wp])
-         settings%most_orbits = 20
-         settings%start_v = [1.1_wp]
-         call find_hopf_starts(settings%line, hopf, failure)
-         call expect_success(error, failure)
-         call expect(error, size(hopf) == 1, "one Hopf point")
-         if (allocated(error)) return
-         at = vector_of(hopf(1)%parameters)
-         ! the scene `oscillation`, a cycle, is at 0.8
-         settings%starts = [0.8_wp]
-         call find_cycles(settings, hopf, found, left_out, failure)
-         call expect_success(error, failure)
-         call expect(error, size(found) == 1 .and. size(left_out) == 1, "one branch")
-         if (allocated(error)) return
-         call expect(error, left_out(1)%reason == "its cycle is on a branch", "the trajectory")
-         call expect_close(error, found(1)%branch%orbits(1)%parameters(along(i)), at(along(i)), &
-                           1.0e-2_wp, "the start of the branch")
-      end do
-   end subroutine test_other_lines
-
    !> The Hopf point of a kind in the plane of epsilon and tau that is nearest to a place.
    subroutine nearest_hopf_point(xi, window, kind, place, nearest, error)
-      real(wp), intent(in) :: xi
-      !> Window on epsilon, window on tau
-      real(wp), intent(in) :: window(4)
+      real(wp), intent(in) :: xi, window(4)
       character(len=*), intent(in) :: kind
-      !> epsilon, tau
       real(wp), intent(in) :: place(2)
-      !> epsilon, tau of the point
       real(wp), intent(out) :: nearest(2)
       type(error_type), allocatable, intent(inout) :: error
       type(curve_point_type), allocatable :: points(:)
-      type(failure_type), allocatable :: failure
       type(hopf_point_type), allocatable :: found(:)
       type(curve_plane_type) :: plane
       integer :: i
 
       nearest = 1000.0_wp
       plane = new_plane(along_tau, 0.8_wp, xi, window)
-      call trace_curves(plane, points, failure)
-      call expect_success(error, failure)
-      call judge_points(points, failure)
-      call expect_success(error, failure)
-      call find_hopf_points(plane, points, found, failure)
-      call expect_success(error, failure)
+      call find_points(plane, points, found, error)
       if (allocated(error)) return
       do i = 1, size(found)
          associate (p => found(i)%parameters)
@@ -140,9 +95,7 @@ contains
    !> The curves of a kind that start on a line end at the Hopf point of another kind.
    subroutine expect_end(line, window, kind, ending, error)
       type(cycle_settings_type), intent(in) :: line
-      !> Window of the curves on epsilon, and on tau
       real(wp), intent(in) :: window(4)
-      !> Kind of the curve and of the Hopf point
       character(len=*), intent(in) :: kind, ending
       type(error_type), allocatable, intent(inout) :: error
       type(cycle_settings_type) :: settings

@@ -12,7 +12,6 @@ module test_block_parameters
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_block_parameters(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -21,53 +20,23 @@ contains
                    new_unittest("the first error stays", test_first_error)]
    end subroutine collect_block_parameters
 
-   !> A value is allowed.
-   subroutine allow(error, quantity, value)
-      !> The first failure of the test
-      type(error_type), allocatable, intent(inout) :: error
-      !> Which quantity
-      character(len=*), intent(in) :: quantity
-      !> Its value
-      real(wp), intent(in) :: value
-      type(failure_type), allocatable :: failure
-
-      call check_quantity(failure, "input.nml", quantity, value)
-      call expect_success(error, failure)
-   end subroutine allow
-
-   !> A value is refused with these words.
-   subroutine refuse(error, quantity, value, words, key)
-      !> The first failure of the test
-      type(error_type), allocatable, intent(inout) :: error
-      !> Which quantity
-      character(len=*), intent(in) :: quantity
-      !> Its value
-      real(wp), intent(in) :: value
-      !> Part of the message
-      character(len=*), intent(in) :: words
-      !> Its key, if it is not the quantity's name
-      character(len=*), intent(in), optional :: key
-      type(failure_type), allocatable :: failure
-
-      call check_quantity(failure, "input.nml", quantity, value, key)
-      call expect_failure(error, failure, words)
-   end subroutine refuse
-
    !> The ends of the ranges and the defaults.
    subroutine test_allowed(error)
       type(error_type), allocatable, intent(out) :: error
       type(block_parameters_type) :: parameters
       type(failure_type), allocatable :: failure
+      character(len=*), parameter :: quantity(7) = ["tau    ", "epsilon", "xi     ", "gamma  ", &
+                                                    "theta  ", "u      ", "v      "]
+      real(wp) :: value(7)
+      integer :: i
 
+      value = [0.0_wp, nearest(-1.0_wp, 1.0_wp), tiny(1.0_wp), nearest(huge(1.0_wp), -1.0_wp), &
+               -1.0e300_wp, -1.0e300_wp, tiny(1.0_wp)]
       call parameters%check("input.nml", failure)
+      do i = 1, size(value)
+         call check_quantity(failure, "input.nml", trim(quantity(i)), value(i))
+      end do
       call expect_success(error, failure)
-      call allow(error, "tau", 0.0_wp)
-      call allow(error, "epsilon", nearest(-1.0_wp, 1.0_wp))
-      call allow(error, "xi", tiny(1.0_wp))
-      call allow(error, "gamma", nearest(huge(1.0_wp), -1.0_wp))
-      call allow(error, "theta", -1.0e300_wp)
-      call allow(error, "u", -1.0e300_wp)
-      call allow(error, "v", tiny(1.0_wp))
    end subroutine test_allowed
 
    !> The message has the place, the key, the value and the range.
@@ -79,17 +48,30 @@ contains
 
       infinity = ieee_value(1.0_wp, ieee_positive_inf)
       no_number = ieee_value(1.0_wp, ieee_quiet_nan)
-      call refuse(error, "tau", -0.1_wp, "input.nml: tau = -0.1; expected a finite number >= 0.0")
-      call refuse(error, "tau", infinity, "finite number >= 0.0")
-      call refuse(error, "epsilon", -1.0_wp, "epsilon = -1.0; expected a finite number > -1.0")
-      call refuse(error, "xi", 0.0_wp, "xi = 0.0; expected a finite number > 0.0")
-      call refuse(error, "gamma", 0.0_wp, "gamma = 0.0; expected a finite number > 0.0")
-      call refuse(error, "theta", infinity, "theta = ")
-      call refuse(error, "u", no_number, "missing")
-      call refuse(error, "v", 0.0_wp, "input.nml: history%v = 0.0", key="history%v")
+      call refuse("tau", -0.1_wp, "input.nml: tau = -0.1; expected a finite number >= 0.0")
+      call refuse("tau", infinity, "finite number >= 0.0")
+      call refuse("epsilon", -1.0_wp, "epsilon = -1.0; expected a finite number > -1.0")
+      call refuse("xi", 0.0_wp, "xi = 0.0; expected a finite number > 0.0")
+      call refuse("gamma", 0.0_wp, "gamma = 0.0; expected a finite number > 0.0")
+      call refuse("theta", infinity, "theta = ")
+      call refuse("u", no_number, "missing")
+      call refuse("v", 0.0_wp, "input.nml: history%v = 0.0", key="history%v")
       parameters%gamma = no_number
       call parameters%check("input.nml", failure)
       call expect_failure(error, failure, "gamma = NaN")
+
+   contains
+
+      !> A value is refused with these words.
+      subroutine refuse(quantity, value, words, key)
+         character(len=*), intent(in) :: quantity, words
+         real(wp), intent(in) :: value
+         character(len=*), intent(in), optional :: key
+         type(failure_type), allocatable :: why
+
+         call check_quantity(why, "input.nml", quantity, value, key)
+         call expect_failure(error, why, words)
+      end subroutine refuse
    end subroutine test_refused
 
    !> Of several values out of range the first is reported.

@@ -1,29 +1,24 @@
-!> Lyapunov exponents against characteristic roots, published values, and what must be zero;
+!> Lyapunov exponents against characteristic roots and published values;
 !> averages of growth and the dimension against values by hand.
 module test_exponents
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use block_builder, only: build_block
-   use dde, only: dde_problem_type, integration_options
    use dde_errors, only: failure_type => error_type, text
+   use block_roots, only: roots_of_block
+   use exponent_runs, only: solve => find_exponents
    use expectations, only: expect, expect_between, expect_close, expect_success
    use exponent_averages, only: average_growth, dimension_of, exponent_type, without_sign
    use dde_kinds, only: wp
-   use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
+   use lyapunov_spectrum, only: growth_settings_type, growth_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use pseudo_random, only: uniform
    use published_problems, only: mackey_glass
+   use pseudo_random, only: uniform
    use solving, only: at_tolerance
    use spring_block, only: spring_block_type
    use test_problems, only: linear, wille_baker
    implicit none (type, external)
    private
    public :: collect_exponents
-
-   !> With derivatives of its own.
-   type, extends(mackey_glass) :: smooth_mackey_glass
-   contains
-      procedure :: jacobian => mackey_glass_jacobian
-   end type smooth_mackey_glass
 
    !> With derivatives of its own.
    type, extends(wille_baker) :: smooth_wille_baker
@@ -33,31 +28,18 @@ module test_exponents
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_exponents(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("roots of a linear equation", test_linear), &
                    new_unittest("roots with two delays", test_two_delays), &
-                   new_unittest("roots without delay", test_without_delay), &
+                   new_unittest("roots at rest", test_rest), &
                    new_unittest("mackey-glass", test_mackey_glass), &
-                   new_unittest("a cycle has one zero exponent", test_cycle), &
-                   new_unittest("error control", test_error_control), &
-                   new_unittest("stiff", test_stiff), &
+                   new_unittest("exponents across the flow", test_across), &
                    new_unittest("averages", test_averages), &
                    new_unittest("errors of averages", test_errors), &
                    new_unittest("dimension", test_dimension)]
    end subroutine collect_exponents
-
-   !> Derivatives of 0.2 z/(1 + z^10) - 0.1 y.
-   pure subroutine mackey_glass_jacobian(self, t, y, z, by_y, by_z)
-      class(smooth_mackey_glass), intent(in) :: self
-      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
-      real(wp), intent(out) :: by_y(self%n, self%n), by_z(self%n, size(self%lag))
-
-      by_y = -0.1_wp
-      by_z = 0.2_wp*(1.0_wp - 9.0_wp*z(1)**10)/(1.0_wp + z(1)**10)**2
-   end subroutine mackey_glass_jacobian
 
    !> Derivatives of (z1, z1 + z2, y2).
    pure subroutine wille_baker_jacobian(self, t, y, z, by_y, by_z)
@@ -72,24 +54,6 @@ contains
       by_z(2, 2) = 1.0_wp
    end subroutine wille_baker_jacobian
 
-   !> Exponents of a problem.
-   subroutine solve(problem, settings, options, exponents, error)
-      class(dde_problem_type), intent(in) :: problem
-      type(growth_settings_type), intent(in) :: settings
-      type(integration_options), intent(in) :: options
-      type(exponent_type), allocatable, intent(out) :: exponents(:)
-      type(error_type), allocatable, intent(inout) :: error
-      type(failure_type), allocatable :: failure
-      type(growth_type) :: measured
-
-      call measure_growth(problem, settings, options, measured, failure)
-      call expect_success(error, failure)
-      allocate (exponents(0))
-      if (allocated(error)) return
-      exponents = average_growth(measured%growth, measured%length, settings%blocks, flow=.false.)
-      call expect(error, size(exponents) == settings%exponents, "as many exponents as asked for")
-   end subroutine solve
-
    !> y' = -y(t - 1): the roots of s + exp(-s) = 0, pair by pair.
    subroutine test_linear(error)
       type(error_type), allocatable, intent(out) :: error
@@ -99,7 +63,7 @@ contains
       character(len=8), parameter :: names(2) = ["explicit", "radau9  "]
 
       do method = 1, size(names)
-         call solve(linear(n=1, lag=[1.0_wp], component=[1], past=[1.0_wp], first=[1.0_wp]), &
+         call solve(linear(), &
                     growth_settings_type(exponents=6, t_begin=50.0_wp, t_end=350.0_wp, &
                                          t_turning=49.0_wp, interval=0.04_wp, blocks=3), &
                     at_tolerance(1.0e-10_wp, names(method)), exponents, error)
@@ -143,9 +107,7 @@ contains
             s = s - (s - exp(-lag*s))/(1.0_wp + lag*exp(-lag*s))
          end associate
       end do
-      problem%wille_baker = wille_baker(n=3, lag=[1.0_wp, 0.2_wp], component=[1, 2], &
-                                        past=[1.0_wp, 1.0_wp, 1.0_wp], &
-                                        first=[1.0_wp, 1.0_wp, 1.0_wp])
+      problem%wille_baker = wille_baker()
       call solve(problem, &
                  growth_settings_type(exponents=3, t_begin=80.0_wp, t_end=100.0_wp, &
                                       t_turning=70.0_wp, interval=0.5_wp, blocks=2), &
@@ -154,114 +116,115 @@ contains
       call expect_close(error, exponents%value, roots, 1.0e-6_wp, "exponents")
    end subroutine test_two_delays
 
-   !> The fixed point of the block without delay: one real root of the cubic, and a pair.
-   subroutine test_without_delay(error)
+   !> Where steady sliding attracts, exponents are the real parts of characteristic roots, at gamma
+   !> = 0.8 as at 1e6 to 1e12, and a unit of time costs hardly more steps. The vectors begin before
+   !> the block is at rest, where a trial of the implicit method may be under way.
+   subroutine test_rest(error)
       type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
       type(exponent_type), allocatable :: exponents(:)
-      real(wp) :: s
-      integer :: iteration
+      type(growth_type) :: measured
+      complex(wp), allocatable :: roots(:)
+      real(wp), parameter :: gamma(4) = [0.8_wp, 1.0e6_wp, 1.0e9_wp, 1.0e12_wp]
+      real(wp), parameter :: tau(3) = [1.0_wp, 3.0_wp, 7.0_wp]
+      real(wp), parameter :: epsilon(size(tau)) = [0.3_wp, 0.3_wp, 0.1_wp]
+      !> At the longest delay other roots lie close to the second pair.
+      real(wp), parameter :: within(2) = [1.0e-6_wp, 5.0e-3_wp]
+      real(wp) :: bound, steps(size(gamma))
+      type(spring_block_type) :: block
+      integer :: i, j, k
 
-      call solve(build_block(tau=0.0_wp, epsilon=0.3_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp), &
-                 growth_settings_type(exponents=3, t_begin=200.0_wp, t_end=500.0_wp, &
-                                      t_turning=100.0_wp, interval=0.5_wp, blocks=2), &
-                 at_tolerance(1.0e-9_wp), exponents, error)
-      if (allocated(error)) return
-      s = -2.0_wp
-      do iteration = 1, 50
-         s = s - (((s + 1.8_wp)*s + 0.4_wp)*s + 0.64_wp)/((3.0_wp*s + 3.6_wp)*s + 0.4_wp)
+      do j = 1, size(tau)
+         do i = 1, size(gamma)
+            block = build_block(tau=tau(j), epsilon=epsilon(j), xi=0.5_wp, gamma=gamma(i), &
+                                v=1.01_wp)
+            call solve(block, &
+                       growth_settings_type(exponents=4, t_begin=400.0_wp, t_end=700.0_wp, &
+                                            t_turning=380.0_wp, interval=1.0_wp, blocks=2), &
+                       at_tolerance(1.0e-9_wp, "auto"), exponents, error, measured)
+            if (allocated(error)) return
+            bound = -0.05_wp
+            do
+               call roots_of_block(block%parameters, bound, roots, failure)
+               call expect_success(error, failure)
+               if (allocated(error)) return
+               if (size(roots) >= 4) exit
+               bound = 1.5_wp*bound
+            end do
+            do k = 1, size(within)
+               call expect_close(error, sum(exponents(2*k - 1:2*k)%value), &
+                                 sum(roots(2*k - 1:2*k)%re), within(k), "pair "//text(k) &
+                                 //", tau = "//text(tau(j))//", gamma = "//text(gamma(i)))
+            end do
+            call expect(error, measured%implicit_steps == 0, "series are enough: " &
+                        //text(measured%implicit_steps)//" implicit steps, tau = " &
+                        //text(tau(j))//", gamma = "//text(gamma(i)))
+            steps(i) = measured%steps/measured%time
+         end do
+         call expect_between(error, maxval(steps(2:))/steps(1), 0.0_wp, 2.0_wp, &
+                             "steps over those at 0.8, tau = "//text(tau(j)))
       end do
-      call expect_close(error, exponents(3)%value, s, 1.0e-6_wp, "the real root")
-      call expect_close(error, exponents(:2)%value, -0.5_wp*[1.8_wp + s, 1.8_wp + s], 1.0e-6_wp, &
-                        "the pair")
-   end subroutine test_without_delay
+   end subroutine test_rest
 
-   !> Four exponents of the equation of Mackey and Glass at tau = 17: the well-resolved values of
-   !> the literature, with bounds as wide as their spread.
+   !> The equation of Mackey and Glass at tau = 17 and 23: the well-resolved values of the
+   !> literature, with bounds as wide as their spread.
    subroutine test_mackey_glass(error)
       type(error_type), allocatable, intent(out) :: error
-      real(wp), parameter :: known(4) = [0.00575_wp, 0.0_wp, -0.039_wp, -0.053_wp]
-      real(wp), parameter :: spread(4) = [0.00175_wp, 5.0e-4_wp, 0.003_wp, 0.004_wp]
+      real(wp), parameter :: tau(2) = [17.0_wp, 23.0_wp]
+      real(wp), parameter :: known(4, 2) = reshape( &
+         [0.00575_wp, 0.0_wp, -0.039_wp, -0.053_wp, &
+          0.0096_wp, 0.0_wp, -0.012_wp, -0.034_wp], [4, 2])
+      real(wp), parameter :: spread(4, 2) = reshape( &
+         [0.00175_wp, 5.0e-4_wp, 0.003_wp, 0.004_wp, &
+          0.002_wp, 5.0e-4_wp, 0.003_wp, 0.003_wp], [4, 2])
       type(exponent_type), allocatable :: exponents(:)
-      type(smooth_mackey_glass) :: problem
-      integer :: i
+      integer :: i, j
 
-      problem%mackey_glass = mackey_glass(n=1, lag=[17.0_wp], component=[1], past=[1.2_wp], &
-                                          first=[1.2_wp])
-      call solve(problem, &
-                 growth_settings_type(exponents=4, t_begin=1000.0_wp, t_end=25000.0_wp, &
-                                      t_turning=700.0_wp, interval=20.0_wp, blocks=4), &
-                 at_tolerance(1.0e-5_wp), exponents, error)
-      if (allocated(error)) return
-      do i = 1, size(known)
-         call expect_close(error, exponents(i)%value, known(i), spread(i), "exponent "//text(i))
+      do j = 1, size(tau)
+         call solve( &
+            mackey_glass(lag=tau(j:j)), &
+            growth_settings_type(exponents=4, t_begin=1000.0_wp, t_end=25000.0_wp, &
+                                 t_turning=700.0_wp, interval=20.0_wp, blocks=4), &
+            at_tolerance(1.0e-6_wp, "taylor"), exponents, error)
+         if (allocated(error)) return
+         do i = 1, 4
+            call expect_close(error, exponents(i)%value, known(i, j), spread(i, j), &
+                              "exponent "//text(i)//" at tau = "//text(tau(j)))
+         end do
       end do
    end subroutine test_mackey_glass
 
-   !> The limit cycle of the paper's oscillation, and so a dimension of 1.
-   subroutine test_cycle(error)
+   !> The paper's cycle of figure 5a, and the torus at a longer delay.
+   subroutine test_across(error)
       type(error_type), allocatable, intent(out) :: error
-      type(exponent_type), allocatable :: exponents(:)
-      real(wp) :: dimension, dimension_error
 
-      call solve(oscillation(), cycle_settings(), at_tolerance(1.0e-7_wp), exponents, error)
-      if (allocated(error)) return
-      call expect_close(error, exponents(1)%value, 0.0_wp, 1.0e-4_wp, "first exponent")
-      call expect(error, count(without_sign(exponents, 1.0e-4_wp)) == 1, "one zero exponent")
-      call expect_close(error, exponents(2)%value, -0.00295_wp, 2.0e-4_wp, "second exponent")
-      call dimension_of(exponents, 1.0e-4_wp, dimension, dimension_error)
-      call expect_close(error, dimension, 1.0_wp, 0.0_wp, "dimension")
-   end subroutine test_cycle
+      call compare_across(10.0_wp, 10000.0_wp, 1, error)
+      call compare_across(12.5_wp, 15000.0_wp, 2, error)
+   end subroutine test_across
 
-   !> Exponents are the same whether the vectors claim their part of the tolerance or, made a
-   !> hundred times smaller, less; and at another tolerance.
-   subroutine test_error_control(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(exponent_type), allocatable :: exponents(:), others(:)
+   !> Exponents with vectors across the flow, and with one more vector and none across.
+   subroutine compare_across(tau, transient, zeros, error)
+      real(wp), intent(in) :: tau, transient
+      integer, intent(in) :: zeros
+      type(error_type), allocatable, intent(inout) :: error
+      type(exponent_type), allocatable :: across(:), all_directions(:)
       type(growth_settings_type) :: settings
+      type(spring_block_type) :: problem
+      integer :: i
 
-      settings = cycle_settings()
-      settings%t_begin = 300.0_wp
-      settings%t_end = 500.0_wp
-      call solve(oscillation(), settings, at_tolerance(1.0e-8_wp), exponents, error)
-      settings%vector_size = 1.0e-4_wp
-      call solve(oscillation(), settings, at_tolerance(1.0e-8_wp), others, error)
+      problem = build_block(tau=tau, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp)
+      settings = growth_settings_type(exponents=3, t_begin=transient, &
+                                      t_end=transient + 8000.0_wp, t_turning=8000.0_wp, &
+                                      interval=5.0_wp, blocks=2)
+      call solve(problem, settings, at_tolerance(1.0e-8_wp, "taylor"), all_directions, error)
+      settings%across_flow = .true.
+      call solve(problem, settings, at_tolerance(1.0e-8_wp, "taylor"), across, error)
       if (allocated(error)) return
-      call expect_close(error, others%value, exponents%value, 1.0e-6_wp, "without the vectors")
-      call solve(oscillation(), settings, at_tolerance(1.0e-6_wp), others, error)
-      if (allocated(error)) return
-      call expect_close(error, others%value, exponents%value, 1.0e-5_wp, "at another tolerance")
-   end subroutine test_error_control
-
-   !> The block of figure 4b; its history lies near the cycle.
-   type(spring_block_type) function oscillation() result(block)
-      block = build_block(tau=10.0_wp, epsilon=0.35_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp)
-   end function oscillation
-
-   !> Its exponents.
-   type(growth_settings_type) function cycle_settings() result(settings)
-      settings = growth_settings_type(exponents=3, t_begin=7000.0_wp, t_end=9000.0_wp, &
-                                      t_turning=2000.0_wp, interval=5.0_wp, blocks=2)
-   end function cycle_settings
-
-   !> A frequency that the paper left out: implicit steps, the same exponents by two methods.
-   subroutine test_stiff(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(exponent_type), allocatable :: exponents(:), others(:)
-      type(growth_settings_type), parameter :: settings = &
-         growth_settings_type(exponents=4, t_begin=20.0_wp, t_end=60.0_wp, t_turning=15.0_wp, &
-                              interval=1.0_wp, blocks=2)
-      type(spring_block_type) :: block
-
-      block = build_block(tau=1.0_wp, epsilon=0.7_wp, xi=0.5_wp, gamma=1.0e4_wp, v=1.1_wp)
-      call solve(block, settings, at_tolerance(1.0e-7_wp, "auto"), exponents, error)
-      call solve(block, settings, at_tolerance(1.0e-8_wp, "radau5"), others, error)
-      if (allocated(error)) return
-      call expect(error, all(ieee_is_finite(exponents%value)), "finite exponents")
-      call expect_close(error, sum(others(:2)%value), sum(exponents(:2)%value), 1.0e-5_wp, &
-                        "first pair by another method")
-      call expect_close(error, sum(others(3:)%value), sum(exponents(3:)%value), 1.0e-3_wp, &
-                        "second pair by another method")
-   end subroutine test_stiff
+      call expect_close(error, across%value, all_directions%value, 2.0e-5_wp, "exponents")
+      call expect(error, count(.not. abs(across%value) > 0.0_wp) == 1, "the flow's is exactly zero")
+      call expect_close(error, across(:zeros)%value, [(0.0_wp, i=1, zeros)], 2.0e-5_wp, "zeros")
+      call expect_between(error, -across(zeros + 1)%value, 5.0e-4_wp, 1.0_wp, "the next one")
+   end subroutine compare_across
 
    !> Constant growth is its own average, whatever the lengths of the intervals; a sine hardly
    !> counts; the order is descending, and the flow has its place in it.

@@ -1,7 +1,6 @@
 !> The worked example of docs/friction-law.md: each step of it against a computation that does not
 !> use the step.
 module test_friction_law
-   use block_builder, only: build_block
    use block_parameters, only: block_history_type, block_parameters_type
    use block_state, only: index_of_ln_v
    use characteristic_roots, only: find_roots
@@ -9,13 +8,13 @@ module test_friction_law
    use cutoff_block, only: build_cutoff_block, cutoff_block_type, with_jacobian_type, &
                            with_series_type
    use delay_equation, only: linear_system_type
-   use dde, only: find_jacobian, integrate, integration_options, integration_result
+   use dde, only: find_jacobian, integration_result
    use dde_errors, only: failure_type => error_type, text
    use dde_kinds, only: wp
    use expectations, only: expect, expect_close, expect_success
    use fixed_step_rk4, only: integrate_rk4
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use solving, only: at_tolerance, solve
+   use solving, only: at_tolerance, run, solve
    use spring_block, only: spring_block_type
    implicit none (type, external)
    private
@@ -26,7 +25,6 @@ module test_friction_law
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_friction_law(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -34,8 +32,7 @@ contains
                    new_unittest("no cut-off", test_no_cutoff), &
                    new_unittest("Jacobian", test_jacobian), &
                    new_unittest("Taylor series", test_series), &
-                   new_unittest("Hopf points", test_hopf), &
-                   new_unittest("rate of decay", test_decay)]
+                   new_unittest("Hopf points", test_hopf)]
    end subroutine collect_friction_law
 
    !> Parameters with a delay, away from steady sliding.
@@ -62,9 +59,7 @@ contains
       call integrate_rk4(block, 20.0_wp, 0.005_wp, .true., fixed, failure)
       call expect_success(error, failure)
       do i = 1, size(tried)
-         call integrate(block, 0.0_wp, 20.0_wp, at_tolerance(1.0e-10_wp, tried(i)), outcome, &
-                        failure)
-         call expect_success(error, failure)
+         call run(error, block, 0.0_wp, 20.0_wp, at_tolerance(1.0e-10_wp, tried(i)), outcome)
          if (allocated(error)) return
          call expect_close(error, outcome%y, fixed%y, 1.0e-7_wp, "state by "//trim(tried(i)))
       end do
@@ -137,7 +132,6 @@ contains
 
    !> Step 4, the linear part at steady sliding, whose determinant is the characteristic function.
    pure type(linear_system_type) function linear_part(block) result(system)
-      !> The block, with a delay
       class(with_jacobian_type), intent(in) :: block
       real(wp) :: by_z(3, 1)
 
@@ -173,37 +167,4 @@ contains
          end associate
       end do
    end subroutine test_hopf
-
-   !> Late in its decay a small disturbance is a sum of exp(s t) and its conjugate, s the rightmost
-   !> root: x(t + d) = 2 Re(q) x(t) - |q|^2 x(t - d) with q = exp(s d). The trajectory takes the
-   !> right-hand side, the root the Jacobian.
-   subroutine test_decay(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(block_history_type) :: history
-      type(block_parameters_type) :: parameters
-      type(failure_type), allocatable :: failure
-      type(integration_options) :: options
-      type(with_jacobian_type) :: block
-      complex(wp), allocatable :: roots(:)
-      complex(wp) :: q
-      real(wp), parameter :: d = 2.0_wp, time(3) = [58.0_wp, 58.0_wp + d, 58.0_wp + 2.0_wp*d]
-      real(wp), allocatable :: y(:, :)
-
-      parameters = block_parameters_type(tau=2.0_wp, epsilon=0.1_wp, xi=0.5_wp, gamma=0.8_wp)
-      history%v = 1.0_wp + 1.0e-7_wp
-      call block%set(parameters, history, cutoff)
-      options = at_tolerance(1.0e-11_wp, "auto")
-      options%absolute = 1.0e-20_wp
-      call solve(build_cutoff_block(parameters, history, cutoff), time, options, y, error)
-      call find_roots(linear_part(block), -1.0_wp, roots, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
-      call expect(error, aimag(roots(1)) > 0.1_wp, "a pair")
-      call expect(error, real(roots(1)) < -0.01_wp, "which decays")
-      call expect(error, real(roots(3)) < real(roots(1)) - 0.2_wp, "the others decay faster")
-      q = exp(roots(1)*d)
-      call expect_close(error, y(:, 3)/maxval(abs(y)), &
-                        (2.0_wp*real(q)*y(:, 2) - abs(q)**2*y(:, 1))/maxval(abs(y)), 1.0e-5_wp, &
-                        "the recurrence")
-   end subroutine test_decay
 end module test_friction_law

@@ -32,7 +32,6 @@ module test_gsl_roots
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_gsl_roots(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

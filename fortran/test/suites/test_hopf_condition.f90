@@ -3,7 +3,7 @@
 module test_hopf_condition
    use block_builder, only: build_block
    use block_parameters, only: block_parameters_type
-   use characteristic_function, only: delta, delta_by_epsilon, delta_by_s, delta_by_tau, &
+   use characteristic_function, only: by_epsilon, by_tau, by_xi, delta, delta_by, delta_by_s, &
                                       relative_residual
    use closed_form, only: closed_epsilon, closed_tau
    use dde_errors, only: text
@@ -19,12 +19,10 @@ module test_hopf_condition
 
    !> Number of random points.
    integer, parameter :: points = 200
-   !> One turn.
    real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_hopf_condition(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -32,7 +30,6 @@ contains
                    new_unittest("derivatives of (5)", test_derivatives), &
                    new_unittest("residual", test_residual), &
                    new_unittest("curves in closed form", test_curves), &
-                   new_unittest("Hopf point without delay", test_no_delay), &
                    new_unittest("equation (10) as printed", test_printed)]
    end subroutine collect_hopf_condition
 
@@ -69,44 +66,39 @@ contains
       end do
    end subroutine test_linearisation
 
-   !> Derivatives by s, tau and epsilon against differences of fourth order; in epsilon Delta is
-   !> linear.
+   !> Derivatives by s and by parameters against differences of fourth order.
    subroutine test_derivatives(error)
       type(error_type), allocatable, intent(out) :: error
-      type(block_parameters_type) :: other, p
-      complex(wp) :: by_differences, s
-      real(wp), parameter :: h = 2.0e-3_wp
-      integer :: i
+      type(block_parameters_type) :: p
+      complex(wp) :: known, s
+      real(wp), parameter :: h = 5.0e-4_wp
+      integer :: by, i
 
       do i = 1, points
          call random_point(i, p, s)
-         by_differences = (8.0_wp*(delta(p, s + h) - delta(p, s - h)) &
-                           - (delta(p, s + 2.0_wp*h) - delta(p, s - 2.0_wp*h)))/(12.0_wp*h)
-         call expect_close(error, abs(delta_by_s(p, s) - by_differences)/size_of(p, s), 0.0_wp, &
-                           1.0e-7_wp, "misfit of the derivative by s at point "//text(i))
-         by_differences = (8.0_wp*(at_tau(h) - at_tau(-h)) &
-                           - (at_tau(2.0_wp*h) - at_tau(-2.0_wp*h)))/(12.0_wp*h)
-         call expect_close(error, abs(delta_by_tau(p, s) - by_differences)/size_of(p, s), 0.0_wp, &
-                           1.0e-9_wp, "misfit of the derivative by tau at point "//text(i))
-         other = p
-         other%epsilon = p%epsilon + 1.0_wp
-         by_differences = delta(other, s) - delta(p, s)
-         call expect_close(error, abs(delta_by_epsilon(p, s) - by_differences)/size_of(p, s), &
-                           0.0_wp, 1.0e-13_wp, &
-                           "misfit of the derivative by epsilon at point "//text(i))
+         do by = by_epsilon, by_xi + 1
+            if (by <= by_xi) known = delta_by(by, p, s)
+            if (by > by_xi) known = delta_by_s(p, s)
+            call expect_close(error, abs(known - (8.0_wp*(beside(1) - beside(-1)) &
+                                                  - (beside(2) - beside(-2)))/(12.0_wp*h)) &
+                              /size_of(p, s), 0.0_wp, 1.0e-7_wp, "misfit at point "//text(i) &
+                              //", derivative "//text(by))
+         end do
       end do
 
    contains
 
-      !> Delta at a neighbouring delay.
-      complex(wp) function at_tau(shift) result(value)
-         real(wp), intent(in) :: shift
-         type(block_parameters_type) :: neighbour
+      !> Delta at a place beside.
+      complex(wp) function beside(steps) result(value)
+         integer, intent(in) :: steps
+         type(block_parameters_type) :: there
 
-         neighbour = p
-         neighbour%tau = p%tau + shift
-         value = delta(neighbour, s)
-      end function at_tau
+         there = p
+         if (by == by_epsilon) there%epsilon = p%epsilon + h*steps
+         if (by == by_tau) there%tau = p%tau + h*steps
+         if (by == by_xi) there%xi = p%xi + h*steps
+         value = delta(there, s + merge(h*steps, 0.0_wp, by > by_xi))
+      end function beside
    end subroutine test_derivatives
 
    !> By hand: at s = 1 with xi = gamma = 1, epsilon = tau = 0 the terms are 1, 2, 2, 1 and -1; at a
@@ -151,24 +143,6 @@ contains
          end associate
       end do
    end subroutine test_curves
-
-   !> At tau = 0 the cubic has a pair i omega where, after Routh and Hurwitz, epsilon
-   !> = gamma^2 xi/(xi + gamma^2) and omega^2 is the same; it lies on branch 0.
-   subroutine test_no_delay(error)
-      type(error_type), allocatable, intent(out) :: error
-      real(wp) :: omega, x(3)
-      integer :: i
-
-      do i = 1, points
-         x = random_omega(i)
-         associate (xi => x(2), gamma => x(3), epsilon => x(3)**2*x(2)/(x(2) + x(3)**2))
-            omega = sqrt(epsilon)
-            call expect_close(error, hopf_epsilon(omega, xi, gamma)/epsilon, 1.0_wp, 1.0e-11_wp, &
-                              "epsilon without delay over the known one")
-            call expect_close(error, hopf_tau(omega, xi, gamma, 0), 0.0_wp, 1.0e-12_wp, "tau")
-         end associate
-      end do
-   end subroutine test_no_delay
 
    !> (10) as printed, by hand at xi = gamma = 1, and its residual: nowhere a root.
    subroutine test_printed(error)

@@ -1,15 +1,23 @@
 !> Hopf curves in their windows, those of the paper's Figures 2 and 3 and five more, against the
-!> closed form and characteristic roots followed by Newton's method.
+!> closed form; special points on them, and what the normal forms predict beside them, against
+!> roots of (5) and points of the curves.
 module test_hopf_curves
+   use block_equation, only: block_equation_type
+   use block_parameters, only: block_parameters_type
+   use characteristic_function, only: relative_residual
+   use characteristic_roots, only: find_roots
    use closed_form, only: closed_epsilon
-   use dde_errors, only: text
-   use expectations, only: expect, expect_between, expect_close
+   use dde_errors, only: failure_type => error_type, text
+   use dde_kinds, only: wp
+   use expectations, only: expect, expect_between, expect_close, expect_success
+   use hopf_condition, only: hopf_epsilon, partner_omega
    use hopf_curves, only: curve_point_type
    use hopf_planes, only: curve_plane_type
-   use dde_kinds, only: wp
+   use hopf_points, only: hopf_point_type
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use traced_planes, only: closed_delta, known_point, place_of, planes, root_near, trace, &
-                            traced_plane
+   use pseudo_random, only: uniform
+   use traced_planes, only: closed_delta, find_points, known_point, place_of, plane_number, &
+                            planes, trace, traced_plane
    implicit none (type, external)
    private
    public :: collect_hopf_curves
@@ -30,9 +38,11 @@ contains
 
       testsuite = [new_unittest("points in the window, on the curve", test_points), &
                    new_unittest("pieces are all there", test_pieces), &
-                   new_unittest("both halves of each loop", test_halves), &
-                   new_unittest("crossing by theorem and by Newton's method", test_crossing), &
-                   new_unittest("curve as printed", test_printed)]
+                   new_unittest("crossing by theorem", test_crossing), &
+                   new_unittest("second frequency", test_partner), &
+                   new_unittest("special points of Figures 2 and 3", test_figures), &
+                   new_unittest("directions against roots", test_directions), &
+                   new_unittest("folds leave along the curve", test_fold_direction)]
    end subroutine collect_hopf_curves
 
    !> Every point lies in the window and on its branch's curve, and solves (5). Within a piece omega
@@ -114,94 +124,32 @@ contains
       end do
    end subroutine test_pieces
 
-   !> The loops of Figure 2 have points on both sides of, and near, the least epsilon.
-   subroutine test_halves(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(traced_plane) :: traced
-      real(wp) :: omega_of_least
-      integer :: k
-
-      call trace(1, traced, error)
-      if (allocated(error)) return
-      omega_of_least = least_epsilon_at(0.5_wp, 0.8_wp)
-      associate (points => traced%points)
-         do k = 1, 3
-            call expect(error, any(points%branch == k .and. points%omega < omega_of_least), &
-                        "low half of branch "//text(k))
-            call expect(error, any(points%branch == k .and. points%omega > omega_of_least), &
-                        "high half of branch "//text(k))
-         end do
-         call expect_between(error, minval(points%parameters%epsilon) &
-                             - closed_epsilon(omega_of_least, 0.5_wp, 0.8_wp), -1.0e-12_wp, &
-                             1.0e-4_wp, "distance to the least epsilon")
-      end associate
-   end subroutine test_halves
-
    !> At fixed xi a pair becomes unstable with growing tau where epsilon grows with omega, and
-   !> stable where it falls (Cooke and van den Driessche 1986). The root followed to a shorter and a
-   !> longer delay by Newton's method moves to that side.
+   !> stable where it falls (Cooke and van den Driessche 1986).
    subroutine test_crossing(error)
       type(error_type), allocatable, intent(out) :: error
       type(traced_plane) :: traced
-      complex(wp) :: after, before
-      real(wp), parameter :: h = 1.0e-6_wp, shift = 1.0e-4_wp
+      real(wp), parameter :: h = 1.0e-6_wp
       real(wp) :: growth
-      integer :: count_of(-1:1), followed, i, j, points
+      integer :: count_of(-1:1), i, j
 
       count_of = 0
-      followed = 0
-      points = 0
       do i = 1, planes
          call trace(i, traced, error)
          if (allocated(error)) return
          do j = 1, size(traced%points)
-            associate (point => traced%points(j), p => traced%points(j)%parameters, &
-                       what => "crossing at point "//text(j)//" of plane "//text(i))
+            associate (point => traced%points(j), p => traced%points(j)%parameters)
                growth = closed_epsilon(point%omega + h, p%xi, p%gamma) &
                         - closed_epsilon(point%omega - h, p%xi, p%gamma)
-               if (abs(growth) >= 1.0e-3_wp*h) then
-                  count_of(point%crossing) = count_of(point%crossing) + 1
-                  call expect(error, point%crossing == nint(sign(1.0_wp, growth)), what)
-               end if
-               if (modulo(j, 5) /= 1) cycle
-               after = root_near(point, p%tau + shift)
-               before = root_near(point, p%tau - shift)
-               call expect_between(error, max(abs(aimag(after) - point%omega), &
-                                              abs(aimag(before) - point%omega)), 0.0_wp, &
-                                   2.0_wp*shift*point%omega, "way of the root")
-               points = points + 1
-               if (abs(real(after - before)) < 1.0e-5_wp*shift) cycle
-               followed = followed + 1
-               call expect(error, point%crossing == nint(sign(1.0_wp, real(after - before))), what)
+               if (abs(growth) < 1.0e-3_wp*h) cycle
+               count_of(point%crossing) = count_of(point%crossing) + 1
+               call expect(error, point%crossing == nint(sign(1.0_wp, growth)), &
+                           "crossing at point "//text(j)//" of plane "//text(i))
             end associate
          end do
       end do
       call expect(error, count_of(-1) > 100 .and. count_of(1) > 100, "both signs occur")
-      call expect(error, followed > 0.9_wp*points, "most roots move visibly")
    end subroutine test_crossing
-
-   !> The curve of (10) as printed has its residual, which is large where the curve proper
-   !> has none.
-   subroutine test_printed(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(traced_plane) :: traced
-      complex(wp) :: s
-      integer :: j
-
-      call trace(1, traced, error)
-      if (allocated(error)) return
-      do j = 1, size(traced%points)
-         associate (point => traced%points(j))
-            s = cmplx(0.0_wp, point%omega, kind=wp)
-            call expect_between(error, point%printed_residual, 1.0e-4_wp, 2.0_wp, &
-                                "residual as printed")
-            call expect_between(error, abs(closed_delta(point, point%printed_tau, s)), 1.0e-4_wp, &
-                                huge(1.0_wp), "Delta as printed")
-         end associate
-      end do
-      call expect(error, count(traced%points%printed_residual > 1.0e-3_wp) &
-                  > 0.95_wp*size(traced%points), "most residuals as printed exceed a thousandth")
-   end subroutine test_printed
 
    !> The omegas at which branch k enters and leaves the window.
    function ends_by_scan(plane, k) result(ends)
@@ -238,12 +186,164 @@ contains
       end do
    end function ends_of_pieces
 
-   !> The omega of least epsilon, by a scan.
-   real(wp) function least_epsilon_at(xi, gamma) result(omega)
-      real(wp), intent(in) :: xi, gamma
+   !> Both frequencies have the same epsilon, each is the other's partner.
+   subroutine test_partner(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: partner, x(3)
       integer :: i
 
-      omega = scan_step*minloc([(closed_epsilon(scan_step*i, xi, gamma), i=1, scan_points)], dim=1)
-   end function least_epsilon_at
+      do i = 1, 100
+         x = 10.0_wp**uniform(i, 3, -1.0_wp, 1.0_wp)
+         associate (omega => x(1), xi => x(2), gamma => x(3))
+            partner = partner_omega(omega, xi, gamma)
+            call expect_close(error, (1.0_wp + hopf_epsilon(partner, xi, gamma)) &
+                              /(1.0_wp + hopf_epsilon(omega, xi, gamma)), 1.0_wp, 1.0e-12_wp, &
+                              "1 + epsilon over 1 + epsilon")
+            call expect_close(error, partner_omega(partner, xi, gamma)/omega, 1.0_wp, 1.0e-9_wp, &
+                              "partner of the partner")
+         end associate
+      end do
+   end subroutine test_partner
 
+   !> Figure 2 has nine double points, six generalised ones and the point without delay as by Routh
+   !> and Hurwitz; Figure 3 has five double points and two generalised ones.
+   subroutine test_figures(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(hopf_point_type), allocatable :: found(:)
+      character(len=*), parameter :: kinds(3) = ["double_hopf       ", "generalised_hopf  ", &
+                                                 "hopf_without_delay"]
+      integer, parameter :: known(3, 2) = reshape([9, 6, 1, 5, 2, 0], [3, 2])
+      integer :: i, k
+
+      do i = 1, 2
+         call check_points(i, found, error)
+         if (allocated(error)) return
+         do k = 1, 3
+            call expect(error, count(found%kind == kinds(k)) == known(k, i), &
+                        text(known(k, i))//" points of kind "//trim(kinds(k)))
+         end do
+         call expect(error, size(found) == sum(known(:, i)), "no others")
+         if (i == 2) exit
+         associate (first => found(1))
+            call expect_close(error, first%parameters%epsilon, 0.32_wp/1.14_wp, 1.0e-14_wp, &
+                              "epsilon without delay")
+            call expect_close(error, first%parameters%tau, 0.0_wp, 1.0e-14_wp, "tau")
+            call expect_between(error, first%l1(1), -1.0_wp, -0.01_wp, "l1")
+         end associate
+      end do
+   end subroutine test_figures
+
+   !> The special points of a plane: their frequencies are roots of (5), the coefficient vanishes
+   !> where it should, and beside a point of a curve the pairs are those of the map.
+   subroutine check_points(i, found, error)
+      integer, intent(in) :: i
+      type(hopf_point_type), allocatable, intent(out) :: found(:)
+      type(error_type), allocatable, intent(inout) :: error
+      type(curve_point_type), allocatable :: points(:)
+      integer :: j, k
+
+      call find_points(plane_number(i), points, found, error)
+      if (allocated(error)) return
+      do j = 1, size(found)
+         associate (p => found(j)%parameters, omega => found(j)%omega)
+            do k = 1, count(omega > 0.0_wp)
+               call expect_between(error, relative_residual(p, cmplx(0.0_wp, omega(k), kind=wp)), &
+                                   0.0_wp, 1.0e-12_wp, "residual of point "//text(j))
+            end do
+            select case (found(j)%kind)
+            case ("generalised_hopf")
+               call expect_close(error, found(j)%l1(1), 0.0_wp, 1.0e-13_wp, "l1")
+            case ("double_hopf")
+               call expect_between(error, omega(2) - omega(1), 0.01_wp, 10.0_wp, &
+                                   "distance of the frequencies")
+               call expect(error, found(j)%branch(2) > found(j)%branch(1), &
+                           "the higher frequency is on the higher branch")
+            case default
+               call expect_close(error, p%tau, 0.0_wp, 1.0e-14_wp, "tau")
+            end select
+         end associate
+      end do
+      do j = 1, size(points) - 1
+         associate (p => points(j), q => points(j + 1))
+            if (p%piece /= q%piece .or. p%l1*q%l1 > 0.0_wp) cycle
+            call expect(error, any(found%kind == "generalised_hopf" .and. found%omega(1) > p%omega &
+                                   .and. found%omega(1) < q%omega &
+                                   .and. found%branch(1) == p%branch), &
+                        "l1 changes its sign at generalised points only")
+         end associate
+      end do
+   end subroutine check_points
+
+   !> A small way from a double Hopf point along the start of a curve of tori, the growth rates of
+   !> both pairs have the ratio that the normal form gives, with p_jj and mu_j of different sign.
+   subroutine test_directions(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(hopf_point_type), allocatable :: found(:)
+      type(curve_plane_type) :: plane
+      type(curve_point_type), allocatable :: points(:)
+      complex(wp), allocatable :: roots(:)
+      type(block_equation_type) :: equation
+      real(wp), parameter :: step = 1.0e-5_wp
+      real(wp) :: growth(2)
+      integer :: i, j, n, pair
+
+      do n = 1, 2
+         plane = plane_number(n)
+         call find_points(plane, points, found, error)
+         if (allocated(error)) return
+         do i = 1, size(found)
+            if (found(i)%kind /= "double_hopf") cycle
+            do pair = 1, 2
+               associate (p => found(i)%parameters, u => found(i)%unfolding)
+                  equation = block_equation_type(plane%parameters( &
+                             p%epsilon + step*u%start(1, pair), &
+                             plane%ordinate(p) + step*u%start(2, pair)))
+                  call find_roots(equation%linear, -0.05_wp, roots, failure)
+                  call expect_success(error, failure)
+                  if (allocated(error)) return
+                  do j = 1, 2
+                     growth(j) = real(roots(minloc(abs(roots - cmplx(0.0_wp, found(i)%omega(j), &
+                                                                     kind=wp)), dim=1)))
+                  end do
+                  growth = growth/norm2(growth)
+                  call expect_close(error, growth, u%form%torus_rates(pair), 1.0e-2_wp, &
+                                    "growth rates at point "//text(i)//" of plane "//text(n))
+                  call expect(error, growth(pair)*real(u%form%g(pair, pair)) < 0.0_wp, &
+                              "the cycle exists")
+               end associate
+            end do
+         end do
+      end do
+   end subroutine test_directions
+
+   !> Towards that side of a generalised Hopf point on which l1 and l2 differ in sign, by l1 and
+   !> places of nearby points of the curve.
+   subroutine test_fold_direction(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(hopf_point_type), allocatable :: found(:)
+      type(curve_plane_type) :: plane
+      type(curve_point_type), allocatable :: points(:)
+      type(block_parameters_type) :: there
+      real(wp) :: way(2)
+      integer :: i, n, side
+
+      do n = 1, 2
+         plane = plane_number(n)
+         call find_points(plane, points, found, error)
+         if (allocated(error)) return
+         do i = 1, size(found)
+            if (found(i)%kind /= "generalised_hopf") cycle
+            associate (p => found(i)%parameters, u => found(i)%unfolding)
+               ! c1 = 0 here
+               side = nint(-sign(1.0_wp, real(u%c2)*u%c1_slope))
+               there = plane%at(found(i)%omega(1)*(1.0_wp + 1.0e-5_wp*side), found(i)%branch(1))
+               way = [there%epsilon - p%epsilon, plane%ordinate(there) - plane%ordinate(p)]
+               call expect_close(error, u%start(:, 1), way/norm2(way), 1.0e-3_wp, &
+                                 "start of the folds at point "//text(i)//" of plane "//text(n))
+               call expect_close(error, real(u%c1), 0.0_wp, 1.0e-13_wp, "Re c1")
+            end associate
+         end do
+      end do
+   end subroutine test_fold_direction
 end module test_hopf_curves

@@ -1,20 +1,26 @@
-!> Linear stability: characteristic roots, their number, and the first Lyapunov coefficient.
+!> Linear stability: characteristic roots, their number, and the first Lyapunov coefficient, also
+!> at extreme gamma.
 module test_linear_stability
+   use, intrinsic :: iso_fortran_env, only: real128
    use block_equation, only: block_equation_type
+   use block_family, only: along_tau
    use block_parameters, only: block_parameters_type
    use characteristic_function, only: relative_residual
    use characteristic_roots, only: find_roots
-   use delay_equation, only: linear_system_type
-   use closed_form, only: block_with_pair
+   use closed_form, only: block_with_pair, closed_tau
    use dde_errors, only: failure_type => error_type, text
-   use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use dde_kinds, only: wp
+   use delay_equation, only: linear_system_type
+   use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
+   use hopf_condition, only: hopf_epsilon, hopf_tau
+   use hopf_curves, only: curve_point_type, trace_curves
    use known_equations, only: neurons, new_block_by_values, new_small, small_equation
    use lapack, only: solve
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use normal_form, only: first_lyapunov_coefficient
    use pseudo_random, only: uniform
    use root_counts, only: pairs_beside, roots_right_of
+   use traced_planes, only: new_plane
    implicit none (type, external)
    private
    public :: collect_linear_stability
@@ -26,15 +32,15 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("branches of Lambert's W", test_lambert), &
-                   new_unittest("two lags", test_two_lags), &
-                   new_unittest("no delay", test_no_delay), &
                    new_unittest("roots of the block", test_block_roots), &
                    new_unittest("roots on Hopf curves", test_curve_roots), &
                    new_unittest("number of roots at large parameters", test_extremes), &
                    new_unittest("refusals", test_refusals), &
                    new_unittest("two neurons", test_neurons), &
-                   new_unittest("linear part of the block", test_linear_part), &
-                   new_unittest("coordinates do not matter", test_coordinates)]
+                   new_unittest("coordinates do not matter", test_coordinates), &
+                   new_unittest("roots in quadruple precision", test_quadruple), &
+                   new_unittest("l1 at infinite gamma", test_coefficient), &
+                   new_unittest("a narrow range of frequencies", test_narrow)]
    end subroutine collect_linear_stability
 
    !> x' = -x(t - 1): the roots are the branches of W(-1), s = -exp(-s).
@@ -57,40 +63,6 @@ contains
                            "distance to its partner")
       end do
    end subroutine test_lambert
-
-   !> x' = x/2 - x(t - 0.3) - x(t - 1)/5: every root solves its equation, and a real one is there.
-   subroutine test_two_lags(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      complex(wp), allocatable :: roots(:)
-
-      call find_roots(scalar_system([0.5_wp, -1.0_wp, -0.2_wp], [0.0_wp, 0.3_wp, 1.0_wp]), &
-                      -4.0_wp, roots, failure)
-      call expect_success(error, failure)
-      call expect(error, size(roots) >= 2, "there are roots")
-      call expect_close(error, maxval(abs(roots - 0.5_wp + exp(-0.3_wp*roots) &
-                                          + 0.2_wp*exp(-roots))), 0.0_wp, 1.0e-12_wp, "residual")
-   end subroutine test_two_lags
-
-   !> Eigenvalues -1, 0.5 +- 2 i of a matrix split over two terms without lag.
-   subroutine test_no_delay(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(linear_system_type) :: system
-      complex(wp), allocatable :: roots(:)
-
-      allocate (system%a(3, 3, 2))
-      system%a(:, :, 1) = reshape([0.0_wp, 2.0_wp, 0.0_wp, -2.0_wp, 0.5_wp, 0.0_wp, 0.0_wp, &
-                                   3.0_wp, -1.0_wp], [3, 3])
-      system%a(:, :, 2) = 0.0_wp
-      system%a(1, 1, 2) = 0.5_wp
-      system%lag = [0.0_wp, 0.0_wp]
-      call find_roots(system, -2.0_wp, roots, failure)
-      call expect_success(error, failure)
-      call expect_close(error, real(roots), [0.5_wp, 0.5_wp, -1.0_wp], 1.0e-14_wp, "real parts")
-      call expect_close(error, aimag(roots), [2.0_wp, -2.0_wp, 0.0_wp], 1.0e-14_wp, &
-                        "imaginary parts")
-   end subroutine test_no_delay
 
    !> The roots of random blocks solve (5), and there are as many as the principle of the argument
    !> says.
@@ -212,25 +184,6 @@ contains
       call expect_close(error, l1, -0.39615712_wp, 1.0e-8_wp, "l1")
    end subroutine test_neurons
 
-   !> From the Jacobian of the block that is integrated, and by hand.
-   subroutine test_linear_part(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(block_parameters_type) :: p
-      type(block_equation_type) :: equation
-      real(wp) :: by_hand(3, 3, 2)
-
-      p = block_parameters_type(tau=3.0_wp, epsilon=0.4_wp, xi=0.6_wp, gamma=1.7_wp)
-      equation = block_equation_type(p)
-      by_hand = 0.0_wp
-      by_hand(1, 1, 1) = -1.0_wp
-      by_hand(2, 3, 1) = 1.0_wp
-      by_hand(3, :, 1) = -p%gamma**2*[1.0_wp/p%xi, 1.0_wp, 1.0_wp/p%xi]
-      by_hand(1, 3, 2) = -(1.0_wp + p%epsilon)
-      call expect_close(error, maxval(abs(equation%linear%a - by_hand)), 0.0_wp, 1.0e-15_wp, &
-                        "difference of the matrices")
-      call expect_close(error, equation%linear%lag, [0.0_wp, p%tau], 0.0_wp, "lags")
-   end subroutine test_linear_part
-
    !> l1 is the same in v and in ln v, which differ by a change of coordinates near the identity.
    subroutine test_coordinates(error)
       type(error_type), allocatable, intent(out) :: error
@@ -264,4 +217,119 @@ contains
       allocate (system%a, source=reshape(a, [1, 1, size(a)]))
       allocate (system%lag, source=lag)
    end function scalar_system
+
+   !> For gamma from 1e-2 to 1e12 all roots are found. Newton's method in quadruple precision moves
+   !> them in the last digits only; it takes (5) over gamma^2 as a product less its delayed term.
+   subroutine test_quadruple(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(block_parameters_type) :: p
+      type(block_equation_type) :: equation
+      complex(wp), allocatable :: roots(:)
+      real(wp), parameter :: all_tau(5) = [0.0_wp, 0.1_wp, 1.0_wp, 7.0_wp, 10.0_wp]
+      real(wp), parameter :: all_xi(3) = [0.01_wp, 0.5_wp, 10.0_wp], bound = -0.02_wp
+      integer :: i, j, k, m, most
+
+      most = 0
+      do k = -2, 12, 2
+         do j = 1, size(all_xi)
+            do i = 1, size(all_tau)
+               p = block_parameters_type(tau=all_tau(i), epsilon=1.5_wp, xi=all_xi(j), &
+                                         gamma=10.0_wp**k)
+               equation = block_equation_type(p)
+               call find_roots(equation%linear, bound, roots, failure)
+               call expect_success(error, failure)
+               if (allocated(error)) return
+               call expect(error, size(roots) == roots_right_of(p, bound), "number of roots at " &
+                           //"tau "//text(p%tau)//", xi "//text(p%xi)//", gamma "//text(p%gamma))
+               do m = 1, size(roots)
+                  call expect_close(error, abs(roots(m) - quadruple_root(p, roots(m))) &
+                                    /abs(roots(m)), 0.0_wp, 1.0e-13_wp, "root "//text(m) &
+                                    //" at tau "//text(p%tau)//", gamma "//text(p%gamma))
+               end do
+               most = max(most, size(roots))
+            end do
+         end do
+      end do
+            call expect(error, most > 8, "some blocks have many roots")
+   end subroutine test_quadruple
+
+   !> The root near a start in quadruple precision, rounded.
+   pure complex(wp) function quadruple_root(p, start) result(root)
+      type(block_parameters_type), intent(in) :: p
+      complex(wp), intent(in) :: start
+      complex(real128) :: delayed, s, square
+      real(real128) :: inverse, tau, xi
+      integer :: i
+
+      s = start
+      tau = p%tau
+      xi = p%xi
+      inverse = 1.0_real128/real(p%gamma, real128)**2
+      do i = 1, 8
+         delayed = (1.0_real128 + p%epsilon)/xi*exponential(-s*tau)
+         square = s*s*inverse + s/xi + 1.0_real128
+         s = s - ((s + 1.0_real128)*square - s*delayed) &
+             /(square + (s + 1.0_real128)*(2.0_real128*s*inverse + 1.0_real128/xi) &
+               - (1.0_real128 - s*tau)*delayed)
+      end do
+      root = cmplx(s, kind=wp)
+   end function quadruple_root
+
+   !> exp(z), for |z| up to 100, by its series at z/1024 and ten squares: not every compiler has the
+   !> intrinsic function in quadruple precision.
+   pure complex(real128) function exponential(z) result(value)
+      complex(real128), intent(in) :: z
+      integer :: i
+
+      value = 1.0_real128
+      do i = 20, 1, -1
+         value = 1.0_real128 + value*z/(1024.0_real128*i)
+      end do
+      do i = 1, 10
+         value = value*value
+      end do
+   end function exponential
+
+   !> l1 differs from its value at infinite gamma by terms of size 1/gamma^2.
+   subroutine test_coefficient(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      real(wp) :: l1(4), omega
+      integer :: i, k
+
+      do i = 1, 6
+         omega = 0.3_wp*i
+         do k = 1, size(l1)
+            associate (gamma => 10.0_wp**(3*k))
+               call first_lyapunov_coefficient(block_equation_type(block_parameters_type( &
+                  tau=hopf_tau(omega, 0.5_wp, gamma, 1), xi=0.5_wp, gamma=gamma, &
+                  epsilon=hopf_epsilon(omega, 0.5_wp, gamma))), omega, l1(k), failure)
+            end associate
+            call expect_success(error, failure)
+         end do
+         call expect_close(error, l1(:3), spread(l1(4), 1, 3), 1.0e-5_wp, "l1 at gamma = 1e3..1e9")
+         call expect_close(error, l1(2:3), spread(l1(4), 1, 2), 1.0e-11_wp, "l1 at 1e6 and 1e9")
+      end do
+   end subroutine test_coefficient
+
+   !> At gamma = 0.01 all frequencies of the window lie within 0.01 of gamma; branch 0 goes from the
+   !> point without delay to the edge tau = 30.
+   subroutine test_narrow(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(curve_point_type), allocatable :: points(:)
+
+      call trace_curves(new_plane(along_tau, 0.01_wp, 0.5_wp, [0.0_wp, 1.5_wp, 0.0_wp, 30.0_wp]), &
+                        points, failure)
+      call expect_success(error, failure)
+      call expect(error, size(points) > 10, "there are points")
+      if (allocated(error)) return
+      call expect(error, maxval(points%branch) == 0, "one branch")
+      call expect_close(error, minval(points%parameters%tau), 0.0_wp, 1.0e-9_wp, "least delay")
+      call expect_close(error, maxval(points%parameters%tau), 30.0_wp, 1.0e-9_wp, "longest delay")
+      call expect_close(error, points%parameters%tau, &
+                        closed_tau(points%omega, 0.5_wp, 0.01_wp, 0), 1.0e-9_wp, &
+                        "delays in closed form")
+   end subroutine test_narrow
 end module test_linear_stability

@@ -1,9 +1,8 @@
 !> The baseline with fixed steps on problems with exact solutions, and measured runs.
 module test_measured_run
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use block_parameters, only: block_history_type, block_parameters_type
    use dde, only: dde_problem_type, integration_result, table_sampler, value_not_finite
-   use double_numbers, only: as_double, evenly_spaced
+   use double_numbers, only: evenly_spaced
    use dde_errors, only: failure_type => error_type
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use fixed_step_rk4, only: integrate_rk4
@@ -11,9 +10,8 @@ module test_measured_run
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use measured_case, only: case_type
    use measured_run, only: measure_run, run_type, time_runs
-   use progress_recorder, only: expect_counted, recorder
    use test_problems, only: linear, sine
-   use undelayed_problems, only: falls_out, swing
+   use undelayed_problems, only: falls_out
    implicit none (type, external)
    private
    public :: collect_measured_run
@@ -22,29 +20,22 @@ module test_measured_run
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_measured_run(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("order of rk4, kinks on the grid", test_order_kinks), &
                    new_unittest("order of rk4, delay off the grid", test_order_off_grid), &
-                   new_unittest("order of rk4 without delay", test_order_without_delay), &
                    new_unittest("samples of rk4", test_rk4_samples), &
                    new_unittest("refusals of rk4", test_rk4_refusals), &
-                   new_unittest("double numbers", test_double_numbers), &
                    new_unittest("sample times", test_sample_times), &
-                   new_unittest("measured run", test_one_run), &
-                   new_unittest("measured run that stops", test_stopped_run), &
-                   new_unittest("progress of runs", test_progress)]
+                   new_unittest("measured run", test_one_run)]
    end subroutine collect_measured_run
 
    !> y' = -y(t-1), y = 1 up to t = 0, at t = 10.
    subroutine test_order_kinks(error)
       type(error_type), allocatable, intent(out) :: error
-      type(linear) :: problem
 
-      problem = linear(n=1, lag=[1.0_wp], component=[1], past=[1.0_wp], first=[1.0_wp])
-      call expect_orders(problem, 10.0_wp, 10493.0_wp/518400, 0.05_wp, error)
+      call expect_orders(linear(), 10.0_wp, 10493.0_wp/518400, 0.05_wp, error)
    end subroutine test_order_kinks
 
    !> y' = -y(t - pi/2) goes on as sin t; delayed values lie a third of a step off the grid points.
@@ -57,23 +48,10 @@ contains
       call expect_orders(problem, 50*h, sin(50*h), h, error)
    end subroutine test_order_off_grid
 
-   !> An oscillator, where both are the same method.
-   subroutine test_order_without_delay(error)
-      type(error_type), allocatable, intent(out) :: error
-
-      call expect_between(error, order_of(swing(), .false., 2.0_wp, cos(2.0_wp), 0.05_wp), &
-                          3.8_wp, 4.2_wp, "order")
-   end subroutine test_order_without_delay
-
    !> Order 4 with a cubic history and 2 with a linear one.
    subroutine expect_orders(problem, t_end, known, h, error)
       class(dde_problem_type), intent(in) :: problem
-      !> Last time
-      real(wp), intent(in) :: t_end
-      !> First component there
-      real(wp), intent(in) :: known
-      !> Length of the longer steps
-      real(wp), intent(in) :: h
+      real(wp), intent(in) :: t_end, known, h
       type(error_type), allocatable, intent(inout) :: error
 
       call expect_between(error, order_of(problem, .true., t_end, known, h), 3.8_wp, 4.2_wp, &
@@ -85,14 +63,8 @@ contains
    !> How the error falls from steps of length h to half of that.
    real(wp) function order_of(problem, cubic, t_end, known, h) result(order)
       class(dde_problem_type), intent(in) :: problem
-      !> Cubic history, or linear
       logical, intent(in) :: cubic
-      !> Last time
-      real(wp), intent(in) :: t_end
-      !> First component there
-      real(wp), intent(in) :: known
-      !> Length of the longer steps
-      real(wp), intent(in) :: h
+      real(wp), intent(in) :: t_end, known, h
       type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
       real(wp) :: misfit(2)
@@ -141,14 +113,6 @@ contains
       call expect_close(error, outcome%t, 0.9_wp, 1.0e-12_wp, "time reached")
    end subroutine test_rk4_refusals
 
-   !> In double precision every number stays what it is.
-   subroutine test_double_numbers(error)
-      type(error_type), allocatable, intent(out) :: error
-      real(wp), parameter :: numbers(6) = [0.0_wp, 0.1_wp, -pi, 1.0e-300_wp, 1.0e300_wp, 7.0_wp]
-
-      call expect_close(error, as_double(numbers), numbers, 0.0_wp, "numbers")
-   end subroutine test_double_numbers
-
    !> The last one is t_end, also where the quotient rounds down.
    subroutine test_sample_times(error)
       type(error_type), allocatable, intent(out) :: error
@@ -188,44 +152,4 @@ contains
          call expect_between(error, runs(i)%seconds, 1.0e-7_wp, 1.0_wp, "seconds")
       end do
    end subroutine test_one_run
-
-   !> It keeps its samples and says why it ended.
-   subroutine test_stopped_run(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(run_type) :: run(1)
-      type(case_type) :: case
-
-      case = case_type(name="stiff", history=block_history_type(v=1.1_wp), t_end=50.0_wp, &
-                       parameters=block_parameters_type(tau=1.0_wp, epsilon=0.7_wp, xi=0.5_wp, &
-                                                        gamma=1.0e2_wp), sample_interval=0.05_wp)
-      run%method = "explicit"
-      run%setting = 1.0e-8_wp
-      call measure_run(case, 0.0_wp, 500_int64, run(1))
-      call expect(error, run(1)%status == "too_many_steps", "too many steps")
-      call expect(error, index(run(1)%reason, "500 steps (most_steps) were used up") > 0, &
-                  run(1)%reason)
-      call expect(error, .not. any(ieee_is_nan(run(1)%samples(:, 1:3))), "samples that it reached")
-      call expect(error, all(ieee_is_nan(run(1)%samples(:, 1001))), "none at the end")
-      run%seconds = -1.0_wp
-      call time_runs(case, 500_int64, 3, 0.0_wp, run)
-      call expect_close(error, run%seconds, [-1.0_wp], 0.0_wp, "seconds of a run that stopped")
-   end subroutine test_stopped_run
-
-   !> 21 samples of a run, and three turns of two runs.
-   subroutine test_progress(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(case_type) :: case
-      type(recorder) :: samples, turns
-      type(run_type) :: runs(2)
-
-      case = case_type(name="short", parameters=block_parameters_type(tau=1.0_wp, epsilon=0.5_wp), &
-                       history=block_history_type(v=1.1_wp), t_end=10.0_wp, sample_interval=0.5_wp)
-      runs = run_type("explicit", 1.0e-6_wp)
-      call measure_run(case, 0.0_wp, 100000_int64, runs(1))
-      call measure_run(case, 0.0_wp, 100000_int64, runs(2), samples)
-      call expect(error, all(runs%status == "ok"), "status")
-      call expect_counted(error, samples, 21)
-      call time_runs(case, 100000_int64, 3, 0.0_wp, runs, turns)
-      call expect_counted(error, turns, 3)
-   end subroutine test_progress
 end module test_measured_run

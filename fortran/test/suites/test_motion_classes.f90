@@ -18,7 +18,6 @@ module test_motion_classes
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_motion_classes(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -33,10 +32,7 @@ contains
    !> Exponents with these values and errors tell this class.
    subroutine expect_class(error, values, errors, class)
       type(error_type), allocatable, intent(inout) :: error
-      !> Values, descending
-      real(wp), intent(in) :: values(:)
-      !> Standard errors
-      real(wp), intent(in) :: errors(:)
+      real(wp), intent(in) :: values(:), errors(:)
       integer, intent(in) :: class
       character(len=:), allocatable :: words
       integer :: found, i
@@ -52,10 +48,7 @@ contains
 
    !> Exponents with their errors.
    pure function exponents_of(values, errors) result(exponents)
-      !> Values, descending
-      real(wp), intent(in) :: values(:)
-      !> Standard errors
-      real(wp), intent(in) :: errors(:)
+      real(wp), intent(in) :: values(:), errors(:)
       type(exponent_type) :: exponents(size(values))
 
       exponents%value = values
@@ -133,13 +126,7 @@ contains
    !> Exponents with one error bar must be clear, or not.
    subroutine expect_clear(error, values, bar, time, expected)
       type(error_type), allocatable, intent(inout) :: error
-      !> Values, descending
-      real(wp), intent(in) :: values(:)
-      !> Standard error of each
-      real(wp), intent(in) :: bar
-      !> Time in which they were measured
-      real(wp), intent(in) :: time
-      !> Whether they are clear
+      real(wp), intent(in) :: values(:), bar, time
       logical, intent(in) :: expected
       integer :: i
 
@@ -161,9 +148,7 @@ contains
    !> Exponents must be those near an unstable cycle, or not.
    subroutine expect_leaving(error, values, expected)
       type(error_type), allocatable, intent(inout) :: error
-      !> Values, descending
       real(wp), intent(in) :: values(:)
-      !> Whether they are
       logical, intent(in) :: expected
       integer :: i
 

@@ -4,15 +4,15 @@ module test_motion_path
    use attractor_searches, only: disturbed_block, fine_settings, search
    use attractors, only: attractor_settings_type, attractor_type
    use block_builder, only: build_block
-   use dde, only: continuation_type, event_table, integrate, integration_options, &
-                  integration_result, table_sampler
-   use dde_errors, only: failure_type => error_type, text
+   use dde, only: continuation_type, event_table, integration_options, integration_result, &
+                  table_sampler
+   use dde_errors, only: text
    use dde_kinds, only: wp
-   use expectations, only: expect, expect_between, expect_close, expect_success
+   use expectations, only: expect, expect_between, expect_close
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use motion_classes, only: cycle_motion, fixed_point
    use motion_path, only: find_kept_points, follow_path
-   use solving, only: at_tolerance
+   use solving, only: at_tolerance, run
    use spring_block, only: index_of_ln_v, index_of_u, spring_block_type
    implicit none (type, external)
    private
@@ -20,7 +20,6 @@ module test_motion_path
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_motion_path(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -28,9 +27,7 @@ contains
                    new_unittest("fast slip events", test_slip_events), &
                    new_unittest("path of an attractor", test_attractor), &
                    new_unittest("no path", test_none), &
-                   new_unittest("line of few points", test_few), &
-                   new_unittest("line of corners", test_corners), &
-                   new_unittest("line on its way back", test_way_back), &
+                   new_unittest("lines", test_lines), &
                    new_unittest("line of circle", test_circle)]
    end subroutine collect_motion_path
 
@@ -40,7 +37,6 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(continuation_type) :: from
       type(event_table) :: passages
-      type(failure_type), allocatable :: failure
       type(integration_options) :: options
       type(integration_result) :: outcome
       type(spring_block_type) :: block_model
@@ -50,21 +46,18 @@ contains
 
       options = at_tolerance(1.0e-10_wp, "auto")
       block_model = build_block(tau=7.0_wp, epsilon=0.7_wp, xi=0.5_wp, gamma=0.8_wp, v=1.1_wp)
-      call integrate(block_model, 0.0_wp, 30.0_wp, options, outcome, failure, continuation=from)
-      call expect_success(error, failure)
+      call run(error, block_model, 0.0_wp, 30.0_wp, options, outcome, continuation=from)
       call follow_path(block_model, from, 40.0_wp, 4.0e-3_wp, options, path)
       call expect(error, allocated(path), "a path")
       if (allocated(error)) return
       passages = event_table([index_of_ln_v], level=[0.0_wp], direction=[1])
-      call integrate(block_model, 0.0_wp, 70.0_wp, options, outcome, failure, watcher=passages)
-      call expect_success(error, failure)
+      call run(error, block_model, 0.0_wp, 70.0_wp, options, outcome, watcher=passages)
       if (allocated(error)) return
       associate (times => passages%time(:passages%received)%hi)
          start = minval(times, mask=times > 30.0_wp)
       end associate
       direct = table_sampler([index_of_u, index_of_ln_v], start + path(1, :))
-      call integrate(block_model, 0.0_wp, 111.0_wp, options, outcome, failure, direct)
-      call expect_success(error, failure)
+      call run(error, block_model, 0.0_wp, 111.0_wp, options, outcome, sampler=direct)
       if (allocated(error)) return
       call expect_close(error, path(2, :), direct%values(1, :), 1.0e-6_wp, "u")
       call expect_close(error, path(3, :), direct%values(2, :), 1.0e-6_wp, "ln v")
@@ -80,7 +73,6 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(continuation_type) :: from
       type(event_table) :: maxima
-      type(failure_type), allocatable :: failure
       type(integration_options) :: options
       type(integration_result) :: outcome
       type(spring_block_type) :: block_model
@@ -89,15 +81,13 @@ contains
 
       options = at_tolerance(1.0e-8_wp, "auto")
       block_model = build_block(tau=15.0_wp, epsilon=1.0_wp, xi=0.5_wp, gamma=1.0e8_wp, v=1.5_wp)
-      call integrate(block_model, 0.0_wp, 400.0_wp, options, outcome, failure, continuation=from)
-      call expect_success(error, failure)
+      call run(error, block_model, 0.0_wp, 400.0_wp, options, outcome, continuation=from)
       call follow_path(block_model, from, 60.0_wp, 4.0e-3_wp, options, path)
       call expect(error, allocated(path), "a path")
       if (allocated(error)) return
       maxima = event_table([index_of_ln_v], level=[0.0_wp], direction=[-1], of_slope=[.true.])
-      call integrate(block_model, 400.0_wp, 600.0_wp, options, outcome, failure, watcher=maxima, &
-                     continuation=from)
-      call expect_success(error, failure)
+      call run(error, block_model, 400.0_wp, 600.0_wp, options, outcome, watcher=maxima, &
+               continuation=from)
       if (allocated(error)) return
       largest = maxval(path(3, :))
       call expect_between(error, largest, log(1.0e3_wp), log(1.0e12_wp), "ln v of an event")
@@ -141,7 +131,6 @@ contains
 
    !> How attractors are found here.
    pure type(attractor_settings_type) function observed(t_path) result(settings)
-      !> Time of the path
       real(wp), intent(in) :: t_path
 
       settings = fine_settings(2000.0_wp, 1000.0_wp)
@@ -149,57 +138,42 @@ contains
       settings%exponents = 3
    end function observed
 
-   !> None, one and two points, the last two at one place.
-   subroutine test_few(error)
-      type(error_type), allocatable, intent(out) :: error
-      integer :: n
-      real(wp) :: points(2, 3)
-
-      points = 1.0_wp
-      do n = 0, 2
-         associate (kept => find_kept_points(points(:, :n), 0.1_wp))
-            call expect(error, size(kept) == n .and. all(kept), "all of "//text(n))
-         end associate
-      end do
-      call expect(error, all(find_kept_points(points, 0.1_wp) .eqv. [.true., .false., .true.]), &
-                  "three points at one place")
-   end subroutine test_few
-
-   !> Of a line with two corners and points between them the ends and the corners are kept, and a
-   !> point beside the line if it is further away than the tolerance.
-   subroutine test_corners(error)
+   !> None, one and two points, three at one place. Of a line with two corners and points between
+   !> them the ends and the corners are kept, and a point beside the line if it is further away than
+   !> the tolerance. A line that turns back on itself keeps its end.
+   subroutine test_lines(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: points(2, 9)
 
+      points = 1.0_wp
+      call check(points(:, :0), [integer ::])
+      call check(points(:, :1), [1])
+      call check(points(:, :2), [1, 2])
+      call check(points(:, :3), [1, 3])
       points(1, :) = [0.0_wp, 1.0_wp, 2.0_wp, 3.0_wp, 3.0_wp, 3.0_wp, 4.0_wp, 5.0_wp, 6.0_wp]
       points(2, :) = [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 2.0_wp, 2.0_wp, 2.0_wp, 2.0_wp]
-      call expect(error, all(places(0.1_wp) == [1, 4, 6, 9]), "ends and corners")
+      call check(points, [1, 4, 6, 9])
       points(2, 8) = 2.09_wp
-      call expect(error, all(places(0.1_wp) == [1, 4, 6, 9]), "within the tolerance")
+      call check(points, [1, 4, 6, 9])
       points(2, 8) = 2.11_wp
-      call expect(error, all(places(0.1_wp) == [1, 4, 6, 8, 9]), "beyond the tolerance")
+      call check(points, [1, 4, 6, 8, 9])
+      call check(reshape([0.0_wp, 1.0_wp, 2.0_wp, 1.0_wp, 1.0_wp], [1, 5]), [1, 3, 5])
 
    contains
 
-      !> Numbers of the points that are kept.
-      function places(tolerance) result(numbers)
-         real(wp), intent(in) :: tolerance
-         integer, allocatable :: numbers(:)
+      !> These points are kept.
+      subroutine check(line, known)
+         real(wp), intent(in) :: line(:, :)
+         integer, intent(in) :: known(:)
          integer :: i
 
-         numbers = pack([(i, i=1, size(points, 2))], find_kept_points(points, tolerance))
-      end function places
-   end subroutine test_corners
-
-   !> A line that turns back on itself keeps its end, although the line through it is straight.
-   subroutine test_way_back(error)
-      type(error_type), allocatable, intent(out) :: error
-      real(wp) :: points(1, 5)
-
-      points(1, :) = [0.0_wp, 1.0_wp, 2.0_wp, 1.0_wp, 1.0_wp]
-      call expect(error, all(find_kept_points(points, 0.1_wp) &
-                             .eqv. [.true., .false., .true., .false., .true.]), "turning point")
-   end subroutine test_way_back
+         associate (kept => pack([(i, i=1, size(line, 2))], find_kept_points(line, 0.1_wp)))
+            call expect(error, size(kept) == size(known), text(size(known))//" points")
+            if (allocated(error)) return
+            call expect(error, all(kept == known), "the points of "//text(size(line, 2)))
+         end associate
+      end subroutine check
+   end subroutine test_lines
 
    !> Of 1001 points on half a circle those left out are within the tolerance of the line, and there
    !> are about pi/sqrt(8 tolerance) chords: a chord over the angle a is a**2/8 from the circle.

@@ -5,6 +5,7 @@ module test_normal_forms
    use centre_manifold, only: normal_form_coefficient
    use closed_form, only: block_with_pair
    use dde_errors, only: failure_type => error_type, text
+   use delay_equation, only: delay_equation_type
    use double_hopf, only: double_hopf_type, find_double_hopf, word_length
    use expectations, only: expect, expect_close, expect_success
    use known_equations, only: block_by_values, duffing_with_pair, layers, lienard, neurons, &
@@ -20,7 +21,6 @@ module test_normal_forms
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_normal_forms(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -34,6 +34,18 @@ contains
                    new_unittest("derivatives of the block", test_block), &
                    new_unittest("the block with large gamma", test_large_gamma)]
    end subroutine collect_normal_forms
+
+   !> A coefficient of the normal form.
+   complex(wp) function coefficient(equation, omega, m, error) result(value)
+      class(delay_equation_type), intent(in) :: equation
+      real(wp), intent(in) :: omega(:)
+      integer, intent(in) :: m(:)
+      type(error_type), allocatable, intent(inout) :: error
+      type(failure_type), allocatable :: failure
+
+      call normal_form_coefficient(equation, omega, m, value, failure)
+      call expect_success(error, failure)
+   end function coefficient
 
    !> Of z^2 conj z, over omega, against the other program.
    subroutine test_l1(error)
@@ -50,8 +62,7 @@ contains
             p = block_with_pair(omega, 0.5_wp, 0.8_wp, k)
             call first_lyapunov_coefficient(block_equation_type(p), omega, l1, failure)
             call expect_success(error, failure)
-            call normal_form_coefficient(block_equation_type(p), [omega], [2, 1], c1, failure)
-            call expect_success(error, failure)
+            c1 = coefficient(block_equation_type(p), [omega], [2, 1], error)
             call expect_close(error, real(c1)/omega, l1, 1.0e-12_wp*(1.0_wp + abs(l1)), "l1")
          end do
       end do
@@ -63,23 +74,19 @@ contains
    !> A' = (V3 A^3 + V5 A^5)/(2 pi), V5 where l5 = 0.
    subroutine test_planar(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       real(wp), parameter :: pi = acos(-1.0_wp), a5 = 0.3_wp
       complex(wp) :: c1, c2
       real(wp) :: l(6)
 
-      call normal_form_coefficient(new_small(lienard, [0.0_wp, a5]), [1.0_wp], [3, 2], c2, failure)
-      call expect_success(error, failure)
+      c2 = coefficient(new_small(lienard, [0.0_wp, a5]), [1.0_wp], [3, 2], error)
       call expect_close(error, real(c2), -1.25_wp*a5, 1.0e-9_wp, "Re c2 of Lienard")
       l = [0.0_wp, 0.3_wp, 0.5_wp, -0.7_wp, 0.0_wp, 1.1_wp]
       associate (v5 => pi/24.0_wp*l(2)*l(4)*(l(3) - l(6))*(l(4) + 5.0_wp*(l(3) - l(6))))
-         call normal_form_coefficient(new_small(quadratic, l), [1.0_wp], [3, 2], c2, failure)
-         call expect_success(error, failure)
+         c2 = coefficient(new_small(quadratic, l), [1.0_wp], [3, 2], error)
          call expect_close(error, real(c2), 2.0_wp*v5/pi, 1.0e-9_wp, "Re c2 of Bautin")
       end associate
       l(5) = 0.4_wp
-      call normal_form_coefficient(new_small(quadratic, l), [1.0_wp], [2, 1], c1, failure)
-      call expect_success(error, failure)
+      c1 = coefficient(new_small(quadratic, l), [1.0_wp], [2, 1], error)
       call expect_close(error, real(c1), -0.25_wp*l(5)*(l(3) - l(6)), 1.0e-9_wp, "Re c1 of Bautin")
    end subroutine test_planar
 
@@ -103,8 +110,7 @@ contains
       call expect_close(error, abs(pack(form%g - 2.0_wp*g, .true.)), spread(0.0_wp, 1, 4), &
                         1.0e-11_wp, "error of g_jk")
       do j = 1, 2
-         call normal_form_coefficient(equation, [omega(j)], [3, 2], c2, failure)
-         call expect_success(error, failure)
+         c2 = coefficient(equation, [omega(j)], [3, 2], error)
          call expect_close(error, real(c2), 4.0_wp*real(f(j)), 1.0e-9_wp, "Re c2")
       end do
    end subroutine test_transformed
@@ -113,7 +119,6 @@ contains
    !> demonstration minimal_demo publishes, in its state and in one with quadratic terms.
    subroutine test_published_l2(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       complex(wp) :: c
       real(wp) :: bend, ends(2), omega
       real(wp), parameter :: known(2) = [-0.71239_wp, -2.5567_wp]
@@ -126,16 +131,12 @@ contains
             ends = [0.72_wp, 0.76_wp]
             do i = 1, 60
                omega = 0.5_wp*sum(ends)
-               call normal_form_coefficient(duffing_with_pair(omega, k, bend), [omega], [2, 1], c, &
-                                            failure)
-               call expect_success(error, failure)
+               c = coefficient(duffing_with_pair(omega, k, bend), [omega], [2, 1], error)
                if (allocated(error)) return
                ends(merge(1, 2, real(c) < 0.0_wp)) = omega
             end do
             call expect_close(error, real(c), 0.0_wp, 1.0e-9_wp, "Re c1")
-            call normal_form_coefficient(duffing_with_pair(omega, k, bend), [omega], [3, 2], c, &
-                                         failure)
-            call expect_success(error, failure)
+            c = coefficient(duffing_with_pair(omega, k, bend), [omega], [3, 2], error)
             call expect_close(error, real(c)/omega, known(k), within(k), "l2 on branch "//text(k))
          end do
       end do
@@ -233,7 +234,6 @@ contains
    !> in v, which are known to agree.
    subroutine test_block(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(block_parameters_type) :: p
       type(block_equation_type) :: block
       type(block_by_values) :: in_v, in_w
@@ -254,10 +254,8 @@ contains
             call expect_close(error, maxval(abs(by_formula - by_values)), 0.0_wp, &
                               1.0e-10_wp*maxval(abs(by_formula)), "error of order "//text(k))
          end do
-         call normal_form_coefficient(block, [omega], [3, 2], c2(1), failure)
-         call expect_success(error, failure)
-         call normal_form_coefficient(in_v, [omega], [3, 2], c2(2), failure)
-         call expect_success(error, failure)
+         c2(1) = coefficient(block, [omega], [3, 2], error)
+         c2(2) = coefficient(in_v, [omega], [3, 2], error)
          call expect_close(error, real(c2(2)), real(c2(1)), 1.0e-8_wp*(1.0_wp + abs(c2(1))), &
                            "Re c2 at omega = "//text(omega))
       end do
@@ -266,7 +264,6 @@ contains
    !> The coefficients have a limit for large gamma, with a difference of order 1/gamma^2.
    subroutine test_large_gamma(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       real(wp), parameter :: gamma(2) = [1.0e6_wp, 1.0e12_wp]
       complex(wp) :: c2(2)
       real(wp) :: omega
@@ -275,10 +272,8 @@ contains
       do i = 1, 10
          omega = 0.15_wp*i
          do j = 1, 2
-            call normal_form_coefficient(block_equation_type( &
-                                         block_with_pair(omega, 0.5_wp, gamma(j), 2)), &
-                                         [omega], [3, 2], c2(j), failure)
-            call expect_success(error, failure)
+            c2(j) = coefficient(block_equation_type(block_with_pair(omega, 0.5_wp, gamma(j), 2)), &
+                                [omega], [3, 2], error)
          end do
          call expect_close(error, abs(c2(2)/c2(1) - 1.0_wp), 0.0_wp, 1.0e-8_wp, &
                            "relative change of c2 at omega = "//text(omega))

@@ -20,7 +20,6 @@ module test_orbit_curves
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_orbit_curves(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -33,7 +32,6 @@ contains
    !> (a + b - omega^2)^2 + (d omega)^2 = b^2.
    pure subroutine hopf_of_duffing(a, b, d, turns, omega, tau)
       real(wp), intent(in) :: a, b, d
-      !> Full turns of omega tau
       integer, intent(in) :: turns
       real(wp), intent(out) :: omega, tau
       real(wp) :: half
@@ -45,9 +43,7 @@ contains
 
    !> The curve that starts at the first point of a kind on the branch from a Hopf point.
    subroutine curve_of_duffing(b, turns, kind, known, within, curve, error)
-      !> Strength of the feedback
       real(wp), intent(in) :: b
-      !> Full turns of omega tau at the Hopf point
       integer, intent(in) :: turns
       character(len=*), intent(in) :: kind
       !> b and tau at the end of the curve, and the accuracy to which they are published

@@ -24,7 +24,6 @@ module test_periodic_orbits
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_periodic_orbits(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

@@ -10,27 +10,20 @@ module test_refined_grid
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_refined_grid(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [ &
-         new_unittest("no refinement", test_no_refinement), &
-         new_unittest("sizes", test_sizes), &
-         new_unittest("first lines", test_first_lines), &
-         new_unittest("borders", test_borders), &
-         new_unittest("snake", test_snake), &
-         new_unittest("islands", test_islands), &
-         new_unittest("uncertain", test_uncertain)]
+      testsuite = [new_unittest("sizes", test_sizes), &
+                   new_unittest("borders", test_borders), &
+                   new_unittest("snake", test_snake), &
+                   new_unittest("islands", test_islands), &
+                   new_unittest("uncertain", test_uncertain)]
    end subroutine collect_refined_grid
 
    !> Refine a map. No point is asked for twice, and more and more of them have a kind.
    subroutine refine(error, map, refinements, grid)
       type(error_type), allocatable, intent(inout) :: error
-      !> Kinds of all points
-      integer, intent(in) :: map(:, :)
-      !> How often
-      integer, intent(in) :: refinements
+      integer, intent(in) :: map(:, :), refinements
       type(refined_grid_type), intent(out) :: grid
       integer, allocatable :: wanted(:)
       integer :: asked(size(map)), kinds(size(map)), settled
@@ -51,22 +44,6 @@ contains
       call expect(error, all(asked == merge(1, 0, reshape(grid%computed, [size(map)]))), &
                   "computed once")
    end subroutine refine
-
-   !> All points at once.
-   subroutine test_no_refinement(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(refined_grid_type) :: grid
-      integer, allocatable :: wanted(:)
-      integer :: i
-
-      grid = refined_grid_type(4, 3, refinements=0)
-      call grid%next(wanted)
-      call expect(error, size(wanted) == 12 .and. all(wanted == [(i, i=1, 12)]), "in order")
-      call grid%put(wanted, wanted)
-      call grid%next(wanted)
-      call expect(error, size(wanted) == 0 .and. all(grid%computed), "no more")
-      call expect(error, all(grid%kinds == reshape([(i, i=1, 12)], [4, 3])), "where they belong")
-   end subroutine test_no_refinement
 
    !> Lines, single points, and numbers of lines that the distance does not divide.
    subroutine test_sizes(error)
@@ -92,24 +69,10 @@ contains
 
    !> Every 2**refinements-th line, and the last one if it is not among them.
    pure integer function first_lines(places, refinements) result(lines)
-      !> Number of all lines
       integer, intent(in) :: places, refinements
 
       lines = 1 + (places - 1 + 2**refinements - 1)/2**refinements
    end function first_lines
-
-   !> Which points are computed first.
-   subroutine test_first_lines(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(refined_grid_type) :: grid
-      integer, allocatable :: wanted(:)
-
-      grid = refined_grid_type(6, 5, refinements=2)
-      call grid%next(wanted)
-      call expect(error, size(wanted) == 6, "two lines of three points")
-      if (allocated(error)) return
-      call expect(error, all(wanted == [1, 5, 6, 25, 29, 30]), "first, fifth and last")
-   end subroutine test_first_lines
 
    !> Regions larger than the first distance are found exactly, at less cost.
    subroutine test_borders(error)

@@ -2,14 +2,13 @@
 module test_slip_events
    use block_builder, only: build_block
    use block_state, only: index_of_ln_v, index_of_theta, index_of_u
-   use dde, only: dde_problem_type
    use dde_errors, only: failure_type => error_type
    use dde_kinds, only: wp
-   use expectations, only: expect, expect_close, expect_failure, expect_success
+   use expectations, only: expect, expect_close, expect_success
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use slip_events, only: find_slip_events, slip_events_type
    use solving, only: at_tolerance
-   use spring_block, only: spring_block_type
+   use test_problems, only: constant_past, fill
    implicit none (type, external)
    private
    public :: collect_slip_events
@@ -17,42 +16,23 @@ module test_slip_events
    real(wp), parameter :: pi = acos(-1.0_wp), tolerance = 1.0e-12_wp, bound = 1.0e-9_wp
 
    !> u' = v - 1 with ln v = a sin t + b sin 3t.
-   type, extends(dde_problem_type) :: prescribed_type
+   type, extends(constant_past) :: prescribed_type
       !> Amplitudes
       real(wp) :: a = 1.0_wp, b = 0.0_wp
    contains
-      procedure :: initial, history, rhs
+      procedure :: rhs
    end type prescribed_type
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_slip_events(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("known slip", test_known), &
                    new_unittest("two maxima in an event", test_two_maxima), &
                    new_unittest("transient and unfinished events", test_ends), &
-                   new_unittest("no event", test_none), &
-                   new_unittest("bad tolerance", test_bad_tolerance)]
+                   new_unittest("no event", test_none)]
    end subroutine collect_slip_events
-
-   !> At t = 0.
-   pure subroutine initial(self, y)
-      class(prescribed_type), intent(in) :: self
-      real(wp), intent(out) :: y(self%n)
-
-      y = 0.0_wp
-   end subroutine initial
-
-   !> Before, without influence.
-   pure real(wp) function history(self, t, component) result(value)
-      class(prescribed_type), intent(in) :: self
-      real(wp), intent(in) :: t
-      integer, intent(in) :: component
-
-      value = 0.0_wp
-   end function history
 
    !> Time derivatives.
    pure subroutine rhs(self, t, y, z, dydt)
@@ -73,10 +53,9 @@ contains
       type(failure_type), allocatable :: failure
       type(prescribed_type) :: problem
 
-      problem%n = 3
+      call fill(problem, 3, spread(0.0_wp, 1, 3), spread(0.0_wp, 1, 3))
       problem%a = a
       problem%b = b
-      allocate (problem%lag(0), problem%component(0))
       call find_slip_events(problem, t_transient, t_end, at_tolerance(tolerance), events, failure)
       call expect_success(error, failure)
    end subroutine events_of
@@ -128,29 +107,15 @@ contains
       call expect_close(error, events%onset, [4.0_wp*pi], bound, "onset")
    end subroutine test_ends
 
-   !> A block that slides steadily.
-   pure type(spring_block_type) function steady() result(block)
-      block = build_block(tau=1.0_wp, epsilon=0.1_wp, xi=0.5_wp, gamma=0.8_wp)
-   end function steady
-
    !> Without motion there is no event.
    subroutine test_none(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(slip_events_type) :: events
 
-      call find_slip_events(steady(), 0.0_wp, 50.0_wp, at_tolerance(tolerance), events, failure)
+      call find_slip_events(build_block(1.0_wp, 0.1_wp, 0.5_wp, 0.8_wp), 0.0_wp, 50.0_wp, &
+                            at_tolerance(tolerance), events, failure)
       call expect_success(error, failure)
       call expect(error, size(events%onset) == 0, "none")
    end subroutine test_none
-
-   !> The solver's refusal is passed on.
-   subroutine test_bad_tolerance(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(slip_events_type) :: events
-
-      call find_slip_events(steady(), 0.0_wp, 50.0_wp, at_tolerance(-1.0_wp), events, failure)
-      call expect_failure(error, failure, "relative")
-   end subroutine test_bad_tolerance
 end module test_slip_events

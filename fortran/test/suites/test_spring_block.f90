@@ -1,27 +1,53 @@
-!> The spring block against equations (3) and (4) written in v.
+!> The spring block against equations (3) and (4) written in v; its series and those of small
+!> disturbances against its right-hand side and differences; runs without delay against GSL.
 module test_spring_block
+   use, intrinsic :: iso_c_binding, only: c_double, c_int
    use block_builder, only: build_block
+   use dde, only: problem_with_tangents
    use dde_errors, only: text
-   use expectations, only: expect, expect_close
+   use dde_interpolant, only: series_value
    use dde_kinds, only: wp
+   use expectations, only: expect, expect_between, expect_close
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use pseudo_random, only: uniform
+   use published_problems, only: mackey_glass
+   use solving, only: at_tolerance, solve
    use spring_block, only: index_of_ln_v, index_of_theta, index_of_u, spring_block_type
    implicit none (type, external)
    private
    public :: collect_spring_block
 
+   !> Numbers of disturbances: fewer than are computed at a time, as many, and more.
+   integer, parameter :: counts(4) = [1, 3, 4, 5]
+
+   !> Central differences of order six: values at 1, 2 and 3 times the distance to both sides.
+   real(wp), parameter :: share(3) = [45, -9, 1]/60.0_wp, distance = 4.0e-4_wp
+
+   interface
+      integer(c_int) function integrate_by_gsl(epsilon, xi, gamma, tolerance, start, n, time, &
+                                               states) result(status) bind(c)
+         import :: c_double, c_int
+         implicit none (type, external)
+         real(c_double), value :: epsilon, xi, gamma, tolerance
+         real(c_double), intent(in) :: start(3)
+         integer(c_int), value :: n
+         real(c_double), intent(in) :: time(n)
+         real(c_double), intent(out) :: states(3, n)
+      end function integrate_by_gsl
+   end interface
+
 contains
 
-   !> All tests of this suite.
    subroutine collect_spring_block(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("equation (4)", test_equation_4), &
-                   new_unittest("equation (3)", test_equation_3), &
-                   new_unittest("rest", test_steady_sliding), &
-                   new_unittest("delayed values", test_delayed_values), &
-                   new_unittest("start and history", test_start)]
+                   new_unittest("series of the block", test_taylor_series), &
+                   new_unittest("slow series of the block", test_slow_series), &
+                   new_unittest("tangents of the block", test_tangents), &
+                   new_unittest("tangents of the slow block", test_slow_tangents), &
+                   new_unittest("tangents of mackey-glass", test_mackey_glass), &
+                   new_unittest("runs by GSL", test_gsl)]
    end subroutine collect_spring_block
 
    !> With a delay, at random states and parameters; dw/dt = (dv/dt)/v.
@@ -50,63 +76,233 @@ contains
       end do
    end subroutine test_equation_4
 
-   !> Without one, the velocity itself takes the place of the delayed one.
-   subroutine test_equation_3(error)
+   !> The series of the block, with a delayed value that is a polynomial, solves its equations: its
+   !> derivative is the right-hand side, but for what follows the last term.
+   subroutine test_taylor_series(error)
       type(error_type), allocatable, intent(out) :: error
-      type(spring_block_type) :: block
-      real(wp) :: dydt(3)
+      integer, parameter :: degree = 20
+      real(wp), parameter :: gamma(4) = [0.05_wp, 0.8_wp, 3.0_wp, 20.0_wp], s = 0.5_wp
+      real(wp), parameter :: w(4) = [0.7_wp, -1.0_wp, 0.1_wp, 1.5_wp]
+      type(spring_block_type) :: problem
+      real(wp) :: coefficient(0:degree, 3), found(3), rises(0:degree - 1, 3), slope(3), unit
+      real(wp), allocatable :: delayed(:, :)
+      integer :: delays, i, k
 
-      block = build_block(tau=0.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=2.0_wp)
-      call block%rhs(0.0_wp, [0.3_wp, -0.2_wp, log(2.0_wp)], [real(wp) ::], dydt)
-      call expect_close(error, dydt(index_of_theta), -0.6_wp - 3.0_wp*log(2.0_wp), 1.0e-15_wp, &
-                        "dtheta/dt")
-      call expect_close(error, dydt(index_of_u), 1.0_wp, 1.0e-15_wp, "du/dt")
-      call expect_close(error, 2.0_wp*dydt(index_of_ln_v), &
-                        0.8_wp - 5.0_wp*(0.3_wp + log(2.0_wp)), 1.0e-14_wp, "dv/dt")
-   end subroutine test_equation_3
+      do i = 1, size(gamma)
+         do delays = 0, 1
+            problem = build_block(tau=7.0_wp*delays, epsilon=0.3_wp*i, xi=0.4_wp + 0.2_wp*i, &
+                                  gamma=gamma(i), v=1.1_wp)
+            allocate (delayed(0:degree, delays), source=0.0_wp)
+            if (delays > 0) delayed(:3, 1) = [0.2_wp, -0.1_wp, 0.03_wp, 0.01_wp]
+            coefficient = 0.0_wp
+            coefficient(0, :) = [0.4_wp, -0.3_wp, w(i)]
+            unit = 0.1_wp/max(1.0_wp, gamma(i)**2)
+            call problem%series(0.0_wp, unit, degree, delayed, coefficient)
+            call problem%rhs(0.0_wp, polynomial(coefficient, s), polynomial(delayed, s), slope)
+            rises = spread([(real(k, wp), k=1, degree)], 2, 3)*coefficient(1:, :)
+            found = polynomial(rises, s)/unit
+            call expect_close(error, found/maxval(abs(slope)), slope/maxval(abs(slope)), &
+                              1.0e-13_wp, "slope for gamma = "//text(gamma(i)))
+            deallocate (delayed)
+         end do
+      end do
+   end subroutine test_taylor_series
 
-   !> At theta = 0, u = 0, v = 1 nothing moves, with and without delay.
-   subroutine test_steady_sliding(error)
+   !> Polynomials at s.
+   pure function polynomial(coefficient, s) result(value)
+      real(wp), intent(in) :: coefficient(0:, :), s
+      real(wp) :: value(size(coefficient, 2))
+      integer :: k
+
+      value = 0.0_wp
+      do k = ubound(coefficient, 1), 0, -1
+         value = coefficient(k, :) + s*value
+      end do
+   end function polynomial
+
+   !> Iterated from a state, the slow series of the block balances w, with theta and u by (4).
+   subroutine test_slow_series(error)
       type(error_type), allocatable, intent(out) :: error
-      type(spring_block_type) :: block
-      real(wp) :: dydt(3), y(3)
+      integer, parameter :: degree = 14
+      real(wp), parameter :: gamma(3) = [1.0e3_wp, 1.0e6_wp, 1.0e12_wp], s = 0.7_wp
+      type(spring_block_type) :: problem
+      real(wp) :: found(3), rises(0:degree - 1, 3), slope(3), state(3), v, y(0:degree, 3)
+      real(wp), allocatable :: z(:, :)
+      real(wp), parameter :: unit = 0.05_wp
+      integer :: delays, i, k
 
-      block = build_block(tau=0.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=1.0e6_wp)
-      call block%initial(y)
-      call block%rhs(0.0_wp, y, [real(wp) ::], dydt)
-      call expect_close(error, dydt, [0.0_wp, 0.0_wp, 0.0_wp], 0.0_wp, "derivatives")
-      block = build_block(tau=10.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=1.0e6_wp)
-      call block%rhs(0.0_wp, y, [block%history(-10.0_wp, index_of_ln_v)], dydt)
-      call expect_close(error, dydt, [0.0_wp, 0.0_wp, 0.0_wp], 0.0_wp, "derivatives")
-   end subroutine test_steady_sliding
+      do i = 1, size(gamma)
+         do delays = 0, 1
+            problem = build_block(tau=7.0_wp*delays, epsilon=0.6_wp, xi=0.5_wp, gamma=gamma(i), &
+                                  v=1.1_wp)
+            allocate (z(0:degree, delays), source=0.0_wp)
+            if (delays > 0) z(:3, 1) = [0.2_wp, -0.1_wp, 0.03_wp, 0.01_wp]
+            y = 0.0_wp
+            y(0, :) = [0.4_wp, -0.3_wp, 5.0_wp]
+            do k = 1, 4
+               call problem%slow_series(0.0_wp, unit, degree, z, y)
+            end do
+            state = [(series_value(degree, y(:, k), s), k=1, 3)]
+            rises = spread([(k, k=1, degree)], 2, 3)*y(1:, :)
+            found = [(series_value(degree - 1, rises(:, k), s), k=1, 3)]/unit
+            v = exp(state(3))
+            call problem%rhs(0.0_wp, state, [(series_value(degree, z(:, k), s), k=1, delays)], &
+                             slope)
+            call expect_close(error, found(:2), slope(:2), 1.0e-12_wp, "theta and u")
+            call expect_close(error, state(3), -state(1) - 0.5_wp*state(2) &
+                              - 0.5_wp/gamma(i)**2*v*found(3), 1.0e-14_wp, &
+                              "balance at gamma = "//text(gamma(i)))
+            deallocate (z)
+         end do
+      end do
+   end subroutine test_slow_series
 
-   !> Without a delay there are no delayed values, with one there is one: that of ln v.
-   subroutine test_delayed_values(error)
+   !> With and without delay, at degrees 6 to 20, from slow to fast.
+   subroutine test_tangents(error)
       type(error_type), allocatable, intent(out) :: error
-      type(spring_block_type) :: block
+      real(wp), parameter :: gamma(3) = [0.05_wp, 0.8_wp, 20.0_wp]
+      real(wp), parameter :: w(3) = [0.7_wp, -1.0_wp, 1.5_wp]
+      type(spring_block_type) :: problem
+      integer :: degree, delays, i, j
 
-      block = build_block(tau=0.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp)
-      call expect(error, block%n == 3, "three equations")
-      call expect(error, size(block%lag) == 0 .and. size(block%component) == 0, "no delayed value")
-      block = build_block(tau=7.5_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp)
-      call expect_close(error, block%lag, [7.5_wp], 0.0_wp, "delay")
-      call expect(error, size(block%component) == 1, "one delayed value")
-      call expect(error, all(block%component == index_of_ln_v), "that of ln v")
-   end subroutine test_delayed_values
+      do i = 1, size(gamma)
+         do delays = 0, 1
+            problem = build_block(tau=7.0_wp*delays, epsilon=0.3_wp*i, xi=0.4_wp + 0.2_wp*i, &
+                                  gamma=gamma(i), v=1.1_wp)
+            do degree = 6, 20, 7
+               do j = 1, size(counts)
+                  call compare(problem, 0.1_wp/max(1.0_wp, gamma(i)**2), degree, &
+                               [0.4_wp, -0.3_wp, w(i)], counts(j), 0, "gamma = "//text(gamma(i)), &
+                               error)
+               end do
+            end do
+         end do
+      end do
+   end subroutine test_tangents
 
-   !> The state at t = 0 and before is the one given, v as its logarithm.
-   subroutine test_start(error)
+   !> Each of three iterations of the slow series, from a state with no other terms.
+   subroutine test_slow_tangents(error)
       type(error_type), allocatable, intent(out) :: error
-      type(spring_block_type) :: block
-      real(wp) :: past(3), y(3)
+      real(wp), parameter :: gamma(3) = [1.0e3_wp, 1.0e6_wp, 1.0e12_wp]
+      type(spring_block_type) :: problem
+      integer :: degree, delays, i, iterations
+
+      do i = 1, size(gamma)
+         do delays = 0, 1
+            problem = build_block(tau=7.0_wp*delays, epsilon=0.6_wp, xi=0.5_wp, gamma=gamma(i), &
+                                  v=1.1_wp)
+            do degree = 6, 20, 7
+               do iterations = 1, 3
+                  call compare(problem, 0.05_wp, degree, [0.4_wp, -0.3_wp, 5.0_wp], 3, iterations, &
+                               "gamma = "//text(gamma(i)), error)
+               end do
+            end do
+         end do
+      end do
+   end subroutine test_slow_tangents
+
+   !> A quotient and a power.
+   subroutine test_mackey_glass(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer :: degree
+
+      do degree = 6, 20, 7
+         call compare(mackey_glass(), 0.5_wp, degree, [0.8_wp], 3, 0, "mackey-glass", error)
+      end do
+   end subroutine test_mackey_glass
+
+   !> Disturbances of the state and of the delayed values against differences of solutions, degree
+   !> by degree.
+   subroutine compare(problem, unit, degree, state, vectors, iterations, what, error)
+      class(problem_with_tangents), intent(in) :: problem
+      real(wp), intent(in) :: unit
+      integer, intent(in) :: degree
+      real(wp), intent(in) :: state(:)
+      integer, intent(in) :: vectors
+      !> Iterations of the slow series; 0 for the series itself
+      integer, intent(in) :: iterations
+      character(len=*), intent(in) :: what
+      type(error_type), allocatable, intent(inout) :: error
+      real(wp), dimension(0:degree, problem%n) :: before, change, y
+      real(wp), dimension(0:degree, problem%n, vectors) :: dy, first
+      real(wp) :: dz(0:degree, size(problem%lag), vectors), largest, z(0:degree, size(problem%lag))
+      integer :: i, k
+
+      z = 0.0_wp
+      if (size(z, 2) > 0) z(:3, 1) = [0.9_wp, -0.1_wp, 0.03_wp, 0.01_wp]
+      dz = 0.0_wp
+      first = 0.0_wp
+      do i = 1, vectors
+         if (size(dz, 2) > 0) dz(:4, 1, i) = uniform(i, 5, -1.0_wp, 1.0_wp)
+         first(0, :, i) = uniform(100 + i, problem%n, -1.0_wp, 1.0_wp)
+      end do
+      dy = first
+      y = 0.0_wp
+      y(0, :) = state
+      if (iterations == 0) then
+         call problem%series(0.0_wp, unit, degree, z, y)
+         call problem%tangent_series(0.0_wp, unit, degree, z, y, vectors, dz, dy)
+      end if
+      do k = 1, iterations
+         before = y
+         call problem%slow_series(0.0_wp, unit, degree, z, y)
+         call problem%slow_tangent_series(0.0_wp, unit, degree, z, before, y, vectors, dz, dy)
+      end do
+      do i = 1, vectors
+         change = 0.0_wp
+         do k = 1, size(share)
+            change = change + share(k)/distance*(solution(k*distance) - solution(-k*distance))
+         end do
+         do k = 0, degree
+            ! the first iteration knows no rate yet: its last terms may vanish
+            largest = max(maxval(abs(change(k, :))), tiny(1.0_wp))
+            call expect_close(error, dy(k, :, i)/largest, change(k, :)/largest, 1.0e-9_wp, &
+                              what//", term "//text(k)//" of "//text(degree)//", disturbance " &
+                              //text(i)//" of "//text(vectors))
+         end do
+      end do
+
+   contains
+
+      !> Series of the solution that is a multiple of disturbance i away.
+      pure function solution(times) result(series)
+         real(wp), intent(in) :: times
+         real(wp) :: series(0:degree, problem%n)
+         integer :: iteration
+
+         series = 0.0_wp
+         series(0, :) = state + times*first(0, :, i)
+         associate (delayed => z + times*dz(:, :, i))
+            if (iterations == 0) call problem%series(0.0_wp, unit, degree, delayed, series)
+            do iteration = 1, iterations
+               call problem%slow_series(0.0_wp, unit, degree, delayed, series)
+            end do
+         end associate
+      end function solution
+   end subroutine compare
+
+   !> theta, u and v by GSL, which integrates the same equations in v. Below the Hopf point the
+   !> motion dies out, above it there is a limit cycle, far from rest.
+   subroutine test_gsl(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: epsilon(2) = [0.3_wp, 0.5_wp], within(2) = [1.0e-11_wp, 1.0e-10_wp]
+      real(wp), parameter :: xi = 0.8_wp, gamma = 0.8_wp, start(3) = [0.0_wp, 0.0_wp, 1.1_wp]
+      real(wp), parameter :: times(6) = [1.0_wp, 10.0_wp, 33.3_wp, 100.0_wp, 200.0_wp, 400.0_wp]
+      real(wp), parameter :: nearest(2) = [0.0_wp, 0.5_wp], farthest(2) = [1.0e-2_wp, 10.0_wp]
+      real(wp), allocatable :: ours(:, :)
+      real(wp) :: states(3, size(times))
       integer :: i
 
-      block = build_block(tau=7.5_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, theta=0.25_wp, &
-                          u=-0.5_wp, v=exp(2.0_wp))
-      call block%initial(y)
-      call expect_close(error, y([index_of_theta, index_of_u, index_of_ln_v]), &
-                        [0.25_wp, -0.5_wp, 2.0_wp], 1.0e-15_wp, "state at t = 0")
-      past = [(block%history(-3.0_wp, i), i=1, 3)]
-      call expect_close(error, past, y, 0.0_wp, "history")
-   end subroutine test_start
+      do i = 1, 2
+         call expect(error, integrate_by_gsl(epsilon(i), xi, gamma, 1.0e-13_wp, start, &
+                                             size(times), times, states) == 0, "GSL ends")
+         call solve(build_block(0.0_wp, epsilon(i), xi, gamma, v=start(3)), times, &
+                    at_tolerance(1.0e-13_wp), ours, error)
+         call expect_close(error, ours(index_of_theta, :), states(1, :), within(i), "theta")
+         call expect_close(error, ours(index_of_u, :), states(2, :), within(i), "u")
+         call expect_close(error, exp(ours(index_of_ln_v, :)), states(3, :), within(i), "v")
+         call expect_between(error, norm2(states(:, 6) - [0.0_wp, 0.0_wp, 1.0_wp]), nearest(i), &
+                             farthest(i), "distance to rest")
+      end do
+   end subroutine test_gsl
 end module test_spring_block

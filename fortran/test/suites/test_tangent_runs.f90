@@ -1,18 +1,13 @@
-!> Tangent vectors: their equations, norm and restart; runs by Taylor series beside other methods,
-!> for stiff blocks, and with vectors across the flow.
+!> Tangent vectors: their equations, norm and restart; runs by Taylor series beside other methods.
 module test_tangent_runs
    use block_builder, only: build_block
-   use block_roots, only: roots_of_block
-   use dde, only: continuation_type, integrate, integration_result
-   use dde_errors, only: failure_type => error_type, text
+   use dde, only: continuation_type, integration_result
+   use dde_errors, only: text
    use dde_kinds, only: wp
-   use expectations, only: expect, expect_between, expect_close, expect_success
-   use exponent_averages, only: average_growth, exponent_type
-   use lyapunov_spectrum, only: growth_settings_type, growth_type, measure_growth
+   use expectations, only: expect, expect_between, expect_close
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use pseudo_random, only: uniform
-   use published_problems, only: mackey_glass
-   use solving, only: at_tolerance
+   use solving, only: at_tolerance, run
    use spring_block, only: spring_block_type
    use tangent_problem, only: tangent_problem_type
    use tangent_vectors, only: orthonormalise, start_vectors, undisturbed_part
@@ -23,7 +18,6 @@ module test_tangent_runs
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_tangent_runs(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -31,12 +25,7 @@ contains
                    new_unittest("norm", test_norm), &
                    new_unittest("smooth restart", test_smooth_restart), &
                    new_unittest("other methods on a cycle", test_cycle), &
-                   new_unittest("other methods at gamma = 1e6", test_stiff), &
-                   new_unittest("roots at rest", test_rest), &
-                   new_unittest("mackey-glass", test_mackey_glass), &
-                   new_unittest("exponents of a cycle across its flow", test_across_cycle), &
-                   new_unittest("exponents of a torus across its flow", test_across_torus), &
-                   new_unittest("the flow itself", test_flow)]
+                   new_unittest("other methods at gamma = 1e6", test_stiff)]
    end subroutine collect_tangent_runs
 
    !> Tangent vectors follow small differences of solutions; their derivatives are the blocks.
@@ -101,7 +90,6 @@ contains
    !> Other vectors of the same solutions make no kink.
    subroutine test_smooth_restart(error)
       type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
       type(continuation_type) :: alone, continuation, undisturbed
       type(integration_result) :: outcome
       type(tangent_problem_type) :: tangent
@@ -110,19 +98,16 @@ contains
       call start_after(20.3_wp, 2, tangent, undisturbed, continuation, error)
       if (allocated(error)) return
       continuation%rate = [undisturbed%rate, 0.0_wp, 0.0_wp]
-      call integrate(tangent, 20.3_wp, 40.3_wp, at_tolerance(1.0e-9_wp), outcome, failure, &
-                     continuation=continuation)
-      call expect_success(error, failure)
+      call run(error, tangent, 20.3_wp, 40.3_wp, at_tolerance(1.0e-9_wp), outcome, &
+               continuation=continuation)
       call expect(error, outcome%breaking_points == 7, "the start makes a kink")
       call orthonormalise(tangent, 1.0_wp, .false., continuation, norm, share)
       alone = undisturbed_part(continuation, 1)
-      call integrate(tangent, 40.3_wp, 50.3_wp, at_tolerance(1.0e-9_wp), outcome, failure, &
-                     continuation=continuation)
-      call expect_success(error, failure)
+      call run(error, tangent, 40.3_wp, 50.3_wp, at_tolerance(1.0e-9_wp), outcome, &
+               continuation=continuation)
       call expect(error, outcome%breaking_points == 0, "orthonormalisation makes none")
-      call integrate(tangent%base, 40.3_wp, 50.3_wp, at_tolerance(1.0e-9_wp), outcome, failure, &
-                     continuation=alone)
-      call expect_success(error, failure)
+      call run(error, tangent%base, 40.3_wp, 50.3_wp, at_tolerance(1.0e-9_wp), outcome, &
+               continuation=alone)
       if (allocated(error)) return
       call expect(error, outcome%breaking_points == 0, "nor does going on without vectors")
       call expect_close(error, alone%y, continuation%y(:1), 1.0e-8_wp, "the same solution")
@@ -130,23 +115,17 @@ contains
 
    !> y' = -y(t - 1) with 1 as its past, run to a time and given its start vectors.
    subroutine start_after(time, vectors, tangent, undisturbed, continuation, error)
-      !> End of the run
       real(wp), intent(in) :: time
-      !> Number of vectors
       integer, intent(in) :: vectors
-      !> The equation with its vectors
       type(tangent_problem_type), intent(out) :: tangent
-      !> Where the run ended, without and with the vectors
       type(continuation_type), intent(out) :: undisturbed, continuation
       type(error_type), allocatable, intent(inout) :: error
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
       type(linear) :: problem
 
-      problem = linear(n=1, lag=[1.0_wp], component=[1], past=[1.0_wp], first=[1.0_wp])
-      call integrate(problem, 0.0_wp, time, at_tolerance(1.0e-9_wp), outcome, failure, &
-                     continuation=undisturbed)
-      call expect_success(error, failure)
+      problem = linear()
+      call run(error, problem, 0.0_wp, time, at_tolerance(1.0e-9_wp), outcome, &
+               continuation=undisturbed)
       if (allocated(error)) return
       tangent = tangent_problem_type(problem, vectors)
       call start_vectors(tangent, undisturbed, continuation)
@@ -172,31 +151,26 @@ contains
    !> the first takes.
    subroutine compare(problem, vectors, length, methods, error)
       type(spring_block_type), intent(in) :: problem
-      !> Number of vectors
       integer, intent(in) :: vectors
-      !> Time from their start
       real(wp), intent(in) :: length
       character(len=8), intent(in) :: methods(:)
       type(error_type), allocatable, intent(inout) :: error
       type(continuation_type) :: continuation, start, undisturbed
-      type(failure_type), allocatable :: failure
       type(integration_result) :: outcome
       type(tangent_problem_type) :: tangent
       real(wp), allocatable :: known(:)
       integer :: i
 
       tangent = tangent_problem_type(problem, vectors)
-      call integrate(problem, 0.0_wp, 20.0_wp, at_tolerance(1.0e-11_wp, methods(1)), outcome, &
-                     failure, continuation=undisturbed)
-      call expect_success(error, failure)
+      call run(error, problem, 0.0_wp, 20.0_wp, at_tolerance(1.0e-11_wp, methods(1)), &
+               outcome, continuation=undisturbed)
       if (allocated(error)) return
       call start_vectors(tangent, undisturbed, start)
       start%rate = [undisturbed%rate, (0.0_wp, i=1, tangent%n - problem%n)]
       do i = 1, size(methods)
          continuation = start
-         call integrate(tangent, 20.0_wp, 20.0_wp + length, at_tolerance(1.0e-11_wp, methods(i)), &
-                        outcome, failure, continuation=continuation)
-         call expect_success(error, failure)
+         call run(error, tangent, 20.0_wp, 20.0_wp + length, &
+                  at_tolerance(1.0e-11_wp, methods(i)), outcome, continuation=continuation)
          if (allocated(error)) return
          if (i == 1) then
             call expect(error, outcome%implicit_steps == 0, trim(methods(i))//" stays with series")
@@ -205,212 +179,4 @@ contains
          call expect_close(error, outcome%y, known, 1.0e-8_wp*maxval(abs(known)), trim(methods(i)))
       end do
    end subroutine compare
-
-   !> Where steady sliding attracts, exponents are the real parts of characteristic roots, at gamma
-   !> = 0.8 as at 1e6 to 1e12, and a unit of time costs hardly more steps. The vectors begin before
-   !> the block is at rest, where a trial of the implicit method may be under way.
-   subroutine test_rest(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(exponent_type), allocatable :: exponents(:)
-      type(growth_type) :: measured
-      complex(wp), allocatable :: roots(:)
-      real(wp), parameter :: gamma(4) = [0.8_wp, 1.0e6_wp, 1.0e9_wp, 1.0e12_wp]
-      real(wp), parameter :: tau(3) = [1.0_wp, 3.0_wp, 7.0_wp]
-      real(wp), parameter :: epsilon(size(tau)) = [0.3_wp, 0.3_wp, 0.1_wp]
-      !> At the longest delay other roots lie close to the second pair.
-      real(wp), parameter :: within(2) = [1.0e-6_wp, 5.0e-3_wp]
-      real(wp) :: bound, steps(size(gamma))
-      type(spring_block_type) :: block
-      integer :: i, j, k
-
-      do j = 1, size(tau)
-         do i = 1, size(gamma)
-            block = build_block(tau=tau(j), epsilon=epsilon(j), xi=0.5_wp, gamma=gamma(i), &
-                                v=1.01_wp)
-            call measure_growth(block, &
-                                growth_settings_type(exponents=4, t_begin=400.0_wp, &
-                                                     t_end=700.0_wp, t_turning=380.0_wp, &
-                                                     interval=1.0_wp, blocks=2), &
-                                at_tolerance(1.0e-9_wp, "auto"), measured, failure)
-            call expect_success(error, failure)
-            if (allocated(error)) return
-            exponents = average_growth(measured%growth, measured%length, 2, flow=.false.)
-            bound = -0.05_wp
-            do
-               call roots_of_block(block%parameters, bound, roots, failure)
-               call expect_success(error, failure)
-               if (allocated(error)) return
-               if (size(roots) >= 4) exit
-               bound = 1.5_wp*bound
-            end do
-            do k = 1, size(within)
-               call expect_close(error, sum(exponents(2*k - 1:2*k)%value), &
-                                 sum(roots(2*k - 1:2*k)%re), within(k), "pair "//text(k) &
-                                 //", tau = "//text(tau(j))//", gamma = "//text(gamma(i)))
-            end do
-            call expect(error, measured%implicit_steps == 0, "series are enough: " &
-                        //text(measured%implicit_steps)//" implicit steps, tau = " &
-                        //text(tau(j))//", gamma = "//text(gamma(i)))
-            steps(i) = measured%steps/measured%time
-         end do
-         call expect_between(error, maxval(steps(2:))/steps(1), 0.0_wp, 2.0_wp, &
-                             "steps over those at 0.8, tau = "//text(tau(j)))
-      end do
-   end subroutine test_rest
-
-   !> The well-resolved values of the literature, with bounds as wide as their spread.
-   subroutine test_mackey_glass(error)
-      type(error_type), allocatable, intent(out) :: error
-      real(wp), parameter :: known(4) = [0.0096_wp, 0.0_wp, -0.012_wp, -0.034_wp]
-      real(wp), parameter :: spread(4) = [0.002_wp, 5.0e-4_wp, 0.003_wp, 0.003_wp]
-      type(exponent_type), allocatable :: exponents(:)
-      type(failure_type), allocatable :: failure
-      type(growth_type) :: measured
-      integer :: i
-
-      call measure_growth(mackey_glass(n=1, lag=[23.0_wp], component=[1], past=[1.2_wp], &
-                                       first=[1.2_wp]), &
-                          growth_settings_type(exponents=4, t_begin=1000.0_wp, t_end=25000.0_wp, &
-                                               t_turning=700.0_wp, interval=20.0_wp, blocks=4), &
-                          at_tolerance(1.0e-6_wp, "taylor"), measured, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
-      exponents = average_growth(measured%growth, measured%length, 4, flow=.false.)
-      do i = 1, size(known)
-         call expect_close(error, exponents(i)%value, known(i), spread(i), "exponent "//text(i))
-      end do
-   end subroutine test_mackey_glass
-
-   !> The paper's cycle of figure 5a.
-   subroutine test_across_cycle(error)
-      type(error_type), allocatable, intent(out) :: error
-
-      call compare_across(build_block(tau=10.0_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, &
-                                      v=1.1_wp), 10000.0_wp, 1, error)
-   end subroutine test_across_cycle
-
-   !> The torus at a longer delay.
-   subroutine test_across_torus(error)
-      type(error_type), allocatable, intent(out) :: error
-
-      call compare_across(build_block(tau=12.5_wp, epsilon=0.5_wp, xi=0.8_wp, gamma=0.8_wp, &
-                                      v=1.1_wp), 15000.0_wp, 2, error)
-   end subroutine test_across_torus
-
-   !> Exponents with vectors across the flow, and with one more vector and none across.
-   subroutine compare_across(problem, transient, zeros, error)
-      type(spring_block_type), intent(in) :: problem
-      !> Time at which measuring begins
-      real(wp), intent(in) :: transient
-      !> Number of exponents that are zero
-      integer, intent(in) :: zeros
-      type(error_type), allocatable, intent(inout) :: error
-      type(exponent_type), allocatable :: across(:), all_directions(:)
-      integer :: i
-
-      call solve(.true., across)
-      call solve(.false., all_directions)
-      if (allocated(error)) return
-      call expect_close(error, across%value, all_directions%value, 2.0e-5_wp, "exponents")
-      call expect(error, count(.not. abs(across%value) > 0.0_wp) == 1, "the flow's is exactly zero")
-      call expect_close(error, across(:zeros)%value, [(0.0_wp, i=1, zeros)], 2.0e-5_wp, "zeros")
-      call expect_between(error, -across(zeros + 1)%value, 5.0e-4_wp, 1.0_wp, "the next one")
-
-   contains
-
-      !> Three exponents.
-      subroutine solve(across_flow, exponents)
-         !> Whether vectors are across the flow
-         logical, intent(in) :: across_flow
-         type(exponent_type), allocatable, intent(out) :: exponents(:)
-         type(failure_type), allocatable :: failure
-         type(growth_type) :: measured
-         type(growth_settings_type) :: settings
-
-         settings = growth_settings_type(exponents=3, t_begin=transient, &
-                                         t_end=transient + 8000.0_wp, t_turning=8000.0_wp, &
-                                         interval=5.0_wp, blocks=2, across_flow=across_flow)
-         allocate (exponents(0))
-         call measure_growth(problem, settings, at_tolerance(1.0e-8_wp, "taylor"), measured, &
-                             failure)
-         call expect_success(error, failure)
-         if (allocated(error)) return
-         exponents = average_growth(measured%growth, measured%length, 2, across_flow)
-      end subroutine solve
-   end subroutine compare_across
-
-   !> The flow, put in as a vector, has no part across the flow. Its past is the derivative of
-   !> polynomials of Newton's form, worked out here from their values.
-   subroutine test_flow(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(continuation_type) :: continuation, undisturbed
-      type(tangent_problem_type) :: tangent
-      real(wp) :: norm(2), share
-      integer :: k
-
-      call start_after(5.3_wp, 2, tangent, undisturbed, continuation, error)
-      if (allocated(error)) return
-      call expect(error, maxval(abs(continuation%nodes)) > 0.0_wp, "polynomials of Newton's form")
-      continuation%slope = [undisturbed%slope, 0.0_wp, 0.0_wp]
-      continuation%y(3) = undisturbed%slope(1)
-      do k = 1, size(continuation%step_length)
-         associate (x => continuation%nodes(:, k), a => continuation%coefficients(:, 1, k))
-            continuation%coefficients(:, 3, k) = newton_form(slope_of(powers_of(x, a)), x) &
-                                                 /continuation%step_length(k)
-         end associate
-      end do
-      call orthonormalise(tangent, 1.0_wp, .true., continuation, norm, share)
-      call expect_between(error, norm(1), 0.1_wp, 10.0_wp, "a cosine")
-      call expect_between(error, share, 0.0_wp, 1.0e-12_wp, "what is left of the flow")
-   end subroutine test_flow
-
-   !> Coefficients by powers of s of a polynomial of Newton's form.
-   pure function powers_of(x, a) result(c)
-      !> Nodes
-      real(wp), intent(in) :: x(:)
-      !> Coefficients of Newton's form
-      real(wp), intent(in) :: a(0:size(x))
-      real(wp) :: c(0:size(x))
-      integer :: j, k
-
-      c = 0.0_wp
-      do k = size(x), 0, -1
-         ! c becomes a(k) + (s - x(k + 1)) c
-         if (k < size(x)) then
-            do j = size(x), 1, -1
-               c(j) = c(j - 1) - x(k + 1)*c(j)
-            end do
-            c(0) = -x(k + 1)*c(0)
-         end if
-         c(0) = c(0) + a(k)
-      end do
-   end function powers_of
-
-   !> Coefficients of the derivative.
-   pure function slope_of(c) result(slope)
-      !> Coefficients by powers
-      real(wp), intent(in) :: c(0:)
-      real(wp) :: slope(0:ubound(c, 1))
-      integer :: k
-
-      slope = [(k*c(k), k=1, ubound(c, 1)), 0.0_wp]
-   end function slope_of
-
-   !> Newton's form: the remainders of division by s - x(1), s - x(2), ..., one after the other.
-   pure function newton_form(c, x) result(a)
-      !> Coefficients by powers
-      real(wp), intent(in) :: c(0:)
-      !> Nodes
-      real(wp), intent(in) :: x(:)
-      real(wp) :: a(0:size(x))
-      integer :: j, k
-
-      a = c
-      do k = 1, size(x)
-         do j = size(x) - 1, k - 1, -1
-            a(j) = a(j) + x(k)*a(j + 1)
-         end do
-      end do
-   end function newton_form
 end module test_tangent_runs

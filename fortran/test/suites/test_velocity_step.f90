@@ -1,14 +1,11 @@
 !> Response of friction to velocity steps against the exact solution of (1.2),
 !> theta = Dc/v + (theta_0 - Dc/v) exp(-v t/Dc), with (1.1).
 module test_velocity_step
-   use dde, only: integration_result, integrate
    use dde_errors, only: failure_type => error_type
-   use expectations, only: expect, expect_close, expect_failure, expect_success
-   use velocity_step_friction, only: friction_coefficient, friction_parameters_type, &
-                                     state_evolution_type, steady_state
+   use expectations, only: expect_close, expect_success
+   use velocity_step_friction, only: friction_coefficient, friction_parameters_type
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use solving, only: at_tolerance
    use velocity_step, only: friction_response_type, respond, step_protocol_type
    implicit none (type, external)
    private
@@ -16,59 +13,47 @@ module test_velocity_step
 
    !> Samples in each phase.
    integer, parameter :: n = 50
+   !> The law of Figure 8.
+   type(friction_parameters_type), parameter :: law = &
+      friction_parameters_type(mu0=0.6_wp, a=0.01_wp, b=0.015_wp, dc=1.0e-5_wp, v0=1.0e-6_wp, &
+                               b_state=10.0_wp)
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_velocity_step(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("friction coefficient", test_coefficient), &
-                   new_unittest("rest of the state", test_steady_state), &
-                   new_unittest("exact response", test_exact), &
-                   new_unittest("bad tolerance", test_bad_tolerance)]
+                   new_unittest("exact response", test_exact)]
    end subroutine collect_velocity_step
 
    !> Equation (1.1) by hand.
    subroutine test_coefficient(error)
       type(error_type), allocatable, intent(out) :: error
 
-      associate (law => law_of_figure())
-         call expect_close(error, friction_coefficient(law, 1.0e-6_wp, 10.0_wp), &
-                           0.6_wp + 0.005_wp*log(2.0_wp), 1.0e-15_wp, "mu at v0")
-         call expect_close(error, friction_coefficient(law, 4.0e-6_wp, 30.0_wp), &
-                           0.6_wp - 0.01_wp*log(1.25_wp) + 0.015_wp*log(4.0_wp), 1.0e-15_wp, "mu")
-         call expect_close(error, friction_coefficient(law, 1.0e20_wp, 0.0_wp), 0.6_wp, &
-                           1.0e-15_wp, "mu0")
-      end associate
+      call expect_close(error, friction_coefficient(law, 1.0e-6_wp, 10.0_wp), &
+                        0.6_wp + 0.005_wp*log(2.0_wp), 1.0e-15_wp, "mu at v0")
+      call expect_close(error, friction_coefficient(law, 4.0e-6_wp, 30.0_wp), &
+                        0.6_wp - 0.01_wp*log(1.25_wp) + 0.015_wp*log(4.0_wp), 1.0e-15_wp, "mu")
+      call expect_close(error, friction_coefficient(law, 1.0e20_wp, 0.0_wp), 0.6_wp, 1.0e-15_wp, &
+                        "mu0")
    end subroutine test_coefficient
-
-   !> At Dc/v the state stays, whatever else the law says.
-   subroutine test_steady_state(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(integration_result) :: outcome
-      real(wp) :: rest
-
-      rest = steady_state(law_of_figure(), 4.0e-6_wp)
-      call expect_close(error, rest, 2.5_wp, 1.0e-15_wp, "Dc/v")
-      call integrate(state_evolution_type(law_of_figure(), 4.0e-6_wp, rest), 0.0_wp, 100.0_wp, &
-                     at_tolerance(1.0e-10_wp), outcome, failure)
-      call expect_success(error, failure)
-      call expect_close(error, outcome%y, [2.5_wp], 1.0e-14_wp, "state")
-   end subroutine test_steady_state
 
    !> Time, slip, velocity, state and friction of all three phases: steady slip at v0 = 1 um/s over
    !> 3 Dc, at 10 um/s over 9 Dc, and at v0 again.
    subroutine test_exact(error)
       type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
       type(friction_response_type) :: response
       real(wp) :: after_step_up, exact(3*n), time(3*n), slip(3*n), velocity(3*n)
       real(wp) :: part(n)
       integer, parameter :: last(2) = [n, 2*n]
       integer :: i
 
-      call respond_as_in_figure(response, error)
+      call respond(step_protocol_type(law=law, delta_v=9.0e-6_wp, slip_before=3.0_wp, &
+                                      slip_after=9.0_wp, samples=n, tolerance=1.0e-10_wp), &
+                   response, failure)
+      call expect_success(error, failure)
       if (allocated(error)) return
       part = [(i/(n - 1.0_wp), i=0, n - 1)]
       time = [30.0_wp*part, 30.0_wp + 9.0_wp*part, 39.0_wp + 90.0_wp*part]
@@ -87,40 +72,4 @@ contains
       call expect_close(error, response%mu, 0.6_wp - 0.01_wp*log(1.0e-6_wp/velocity + 1.0_wp) &
                         + 0.015_wp*log(exact/10.0_wp + 1.0_wp), 1.0e-11_wp, "mu")
    end subroutine test_exact
-
-   !> What the solver refuses is handed on.
-   subroutine test_bad_tolerance(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(failure_type), allocatable :: failure
-      type(friction_response_type) :: response
-      type(step_protocol_type) :: protocol
-
-      protocol = protocol_of_figure()
-      protocol%tolerance = -1.0_wp
-      call respond(protocol, response, failure)
-      call expect_failure(error, failure, "relative = -1.0")
-   end subroutine test_bad_tolerance
-
-   !> The response drawn in Figure 8.
-   subroutine respond_as_in_figure(response, error)
-      type(friction_response_type), intent(out) :: response
-      type(error_type), allocatable, intent(inout) :: error
-      type(failure_type), allocatable :: failure
-
-      call respond(protocol_of_figure(), response, failure)
-      call expect_success(error, failure)
-      call expect(error, size(response%mu) == 3*n, "as many samples as asked for")
-   end subroutine respond_as_in_figure
-
-   !> Its protocol.
-   pure type(step_protocol_type) function protocol_of_figure() result(protocol)
-      protocol = step_protocol_type(law=law_of_figure(), delta_v=9.0e-6_wp, slip_before=3.0_wp, &
-                                    slip_after=9.0_wp, samples=n, tolerance=1.0e-10_wp)
-   end function protocol_of_figure
-
-   !> Its law.
-   pure type(friction_parameters_type) function law_of_figure() result(law)
-      law = friction_parameters_type(mu0=0.6_wp, a=0.01_wp, b=0.015_wp, dc=1.0e-5_wp, &
-                                     v0=1.0e-6_wp, b_state=10.0_wp)
-   end function law_of_figure
 end module test_velocity_step

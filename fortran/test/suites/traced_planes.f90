@@ -6,11 +6,13 @@ module traced_planes
    use expectations, only: expect, expect_success
    use hopf_curves, only: curve_point_type, trace_curves
    use hopf_planes, only: curve_plane_type
+   use hopf_points, only: find_hopf_points, hopf_point_type, judge_points
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type
    implicit none (type, external)
    private
-   public :: closed_delta, known_point, new_plane, place_of, planes, root_near, trace, traced_plane
+   public :: closed_delta, find_points, known_point, new_plane, place_of, plane_number, planes, &
+             trace, traced_plane
 
    !> Number of planes.
    integer, parameter :: planes = 7
@@ -25,17 +27,10 @@ module traced_planes
 
 contains
 
-   !> Trace plane number i: Figures 2 and 3, loops that leave the window on their way, a short
-   !> delay, pieces up to the largest omega there can be, branches up to the highest, and a large
-   !> gamma.
-   subroutine trace(i, traced, error)
-      !> Number of the plane
+   !> Plane number i: Figures 2 and 3, loops that leave the window on their way, a short delay,
+   !> pieces up to the largest omega there can be, branches up to the highest, and a large gamma.
+   pure type(curve_plane_type) function plane_number(i) result(plane)
       integer, intent(in) :: i
-      !> The plane and its curves
-      type(traced_plane), intent(out) :: traced
-      !> The first failure of the test
-      type(error_type), allocatable, intent(inout) :: error
-      type(failure_type), allocatable :: failure
       integer, parameter :: along(planes) = [along_tau, along_xi, along_tau, along_xi, along_tau, &
                                              along_tau, along_tau]
       ! gamma, and xi or tau
@@ -49,17 +44,41 @@ contains
           0.0_wp, 0.25_wp, 0.0_wp, 30.0_wp, 0.0_wp, 1.5_wp, 0.0_wp, 30.0_wp, &
           0.0_wp, 1.5_wp, 0.0_wp, 30.0_wp], [4, planes])
 
-      traced%plane = new_plane(along(i), fixed(1, i), fixed(2, i), windows(:, i))
+      plane = new_plane(along(i), fixed(1, i), fixed(2, i), windows(:, i))
+   end function plane_number
+
+   !> Trace plane number i.
+   subroutine trace(i, traced, error)
+      integer, intent(in) :: i
+      type(traced_plane), intent(out) :: traced
+      type(error_type), allocatable, intent(inout) :: error
+      type(failure_type), allocatable :: failure
+
+      traced%plane = plane_number(i)
       call trace_curves(traced%plane, traced%points, failure)
       call expect_success(error, failure)
       call expect(error, size(traced%points) > 100, "there are points in plane "//text(i))
    end subroutine trace
 
+   !> Trace a plane and find its special points.
+   subroutine find_points(plane, points, found, error)
+      type(curve_plane_type), intent(in) :: plane
+      type(curve_point_type), allocatable, intent(out) :: points(:)
+      type(hopf_point_type), allocatable, intent(out) :: found(:)
+      type(error_type), allocatable, intent(inout) :: error
+      type(failure_type), allocatable :: failure
+
+      call trace_curves(plane, points, failure)
+      call expect_success(error, failure)
+      call judge_points(points, failure)
+      call expect_success(error, failure)
+      call find_hopf_points(plane, points, found, failure)
+      call expect_success(error, failure)
+   end subroutine find_points
+
    !> A plane at a gamma and a fixed xi or tau, with windows on epsilon and the ordinate.
    pure type(curve_plane_type) function new_plane(along, gamma, fixed, windows) result(plane)
-      !> along_tau or along_xi
       integer, intent(in) :: along
-      !> gamma, xi or tau, the windows
       real(wp), intent(in) :: gamma, fixed, windows(4)
 
       plane%along = along
@@ -72,11 +91,8 @@ contains
 
    !> (epsilon, ordinate) of branch k at omega in closed form.
    pure function known_point(plane, omega, k) result(point)
-      !> The plane
       type(curve_plane_type), intent(in) :: plane
-      !> Frequency of the pair
       real(wp), intent(in) :: omega
-      !> Branch
       integer, intent(in) :: k
       real(wp) :: point(2)
 
@@ -93,9 +109,7 @@ contains
 
    !> (epsilon, ordinate) in units of the window.
    pure function place_of(plane, point) result(place)
-      !> The plane
       type(curve_plane_type), intent(in) :: plane
-      !> epsilon and ordinate
       real(wp), intent(in) :: point(2)
       real(wp) :: place(2)
 
@@ -107,34 +121,12 @@ contains
 
    !> Equation (5) as the product (s + 1)(s^2 + s gamma^2/xi + gamma^2) less its delayed term.
    pure complex(wp) function closed_delta(point, tau, s) result(value)
-      !> Parameters but the delay
       type(curve_point_type), intent(in) :: point
-      !> Delay
       real(wp), intent(in) :: tau
-      !> Place
       complex(wp), intent(in) :: s
 
       associate (p => point%parameters, rate => point%parameters%gamma**2/point%parameters%xi)
          value = (s + 1.0_wp)*(s**2 + s*rate + p%gamma**2) - s*(1.0_wp + p%epsilon)*rate*exp(-s*tau)
       end associate
    end function closed_delta
-
-   !> The characteristic root near a point's i omega at another delay, by Newton's method.
-   complex(wp) function root_near(point, tau) result(s)
-      !> The point
-      type(curve_point_type), intent(in) :: point
-      !> The delay
-      real(wp), intent(in) :: tau
-      complex(wp) :: slope
-      integer :: i
-
-      s = cmplx(0.0_wp, point%omega, kind=wp)
-      do i = 1, 6
-         associate (p => point%parameters, rate => point%parameters%gamma**2/point%parameters%xi)
-            slope = s**2 + s*rate + p%gamma**2 + (s + 1.0_wp)*(2.0_wp*s + rate) &
-                    - (1.0_wp - s*tau)*(1.0_wp + p%epsilon)*rate*exp(-s*tau)
-         end associate
-         s = s - closed_delta(point, tau, s)/slope
-      end do
-   end function root_near
 end module traced_planes

@@ -11,6 +11,7 @@
 !>
 !> so that no term of the normal form is 0 or without influence.
 module twin_waves
+   use analytic_problems, only: analytic_problem, h
    use dde, only: dde_problem_type
    use dde_kinds, only: wp
    use problem_family, only: problem_family_type
@@ -34,7 +35,7 @@ module twin_waves
    end type twin_waves_family
 
    !> One of them.
-   type, extends(dde_problem_type) :: twin_waves_type
+   type, extends(analytic_problem) :: twin_waves_type
       !> k1, k2, exp(-i omega lag) of both, alpha1, alpha2
       complex(wp) :: k(2) = 0.0_wp, turned(2) = 0.0_wp, alpha(2) = 0.0_wp
       !> p22
@@ -42,15 +43,8 @@ module twin_waves
       !> omega2, b, c
       real(wp) :: omega2 = 0.0_wp, b = 0.0_wp, c = 0.0_wp
    contains
-      procedure :: initial
-      procedure :: history
-      procedure :: rhs
-      procedure :: jacobian
+      procedure :: slope => slope_of
    end type twin_waves_type
-
-   !> Step along the imaginary axis: the imaginary part of f(x + i h) is h f'(x) without rounding.
-   real(wp), parameter :: h = 1.0e-100_wp
-   complex(wp), parameter :: ih = (0.0_wp, h)
 
 contains
 
@@ -73,6 +67,8 @@ contains
       made%n = 4
       made%lag = spread(lag, 1, 4)
       made%component = [1, 2, 3, 4]
+      made%past = on_cycle(0.0_wp)
+      made%first = made%past
       made%omega2 = parameters(2)
       made%p22 = cmplx(parameters(1), imaginary_part_of_p22, kind=wp)
       made%turned = exp(cmplx(0.0_wp, -lag*[omega1, made%omega2], kind=wp))
@@ -116,7 +112,7 @@ contains
             change(1) = -(0.0_wp, omega1)*wave(1)/w &
                         *made%c*real(change(2)/(0.0_wp, 1.0_wp))/made%omega2
             square = square + w/places &
-                     *sum((aimag(state_of(real_parts(wave) + ih*real_parts(change)))/h)**2)
+                     *sum((aimag(state_of(real_parts(wave) + (0.0_wp, h)*real_parts(change)))/h)**2)
          end do
       end do
       value = real((p21*r_slope + made%p22)/by_lambda)/square
@@ -162,9 +158,9 @@ contains
 
    !> Derivative of the state.
    pure function slope_of(self, y, z) result(slope)
-      type(twin_waves_type), intent(in) :: self
-      complex(wp), intent(in) :: y(4), z(4)
-      complex(wp) :: slope(4)
+      class(twin_waves_type), intent(in) :: self
+      complex(wp), intent(in) :: y(:), z(:)
+      complex(wp) :: slope(size(y))
       complex(wp) :: before(4), f(4), r, s, x(4)
 
       x = from_state(y)
@@ -190,48 +186,4 @@ contains
 
       product = [real_part*x(1) - imaginary_part*x(2), real_part*x(2) + imaginary_part*x(1)]
    end function times
-
-   !> The state at 0.
-   pure subroutine initial(self, y)
-      class(twin_waves_type), intent(in) :: self
-      real(wp), intent(out) :: y(self%n)
-
-      y = on_cycle(0.0_wp)
-   end subroutine initial
-
-   !> A constant past.
-   pure function history(self, t, component) result(value)
-      class(twin_waves_type), intent(in) :: self
-      real(wp), intent(in) :: t
-      integer, intent(in) :: component
-      real(wp) :: value, y(4)
-
-      call self%initial(y)
-      value = y(component)
-   end function history
-
-   !> The equations.
-   pure subroutine rhs(self, t, y, z, dydt)
-      class(twin_waves_type), intent(in) :: self
-      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
-      real(wp), intent(out) :: dydt(self%n)
-
-      dydt = real(slope_of(self, cmplx(y, kind=wp), cmplx(z, kind=wp)))
-   end subroutine rhs
-
-   !> Their derivatives.
-   pure subroutine jacobian(self, t, y, z, by_y, by_z)
-      class(twin_waves_type), intent(in) :: self
-      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
-      real(wp), intent(out) :: by_y(self%n, self%n), by_z(self%n, size(self%lag))
-      complex(wp) :: step(4)
-      integer :: j
-
-      do j = 1, 4
-         step = 0.0_wp
-         step(j) = ih
-         by_y(:, j) = aimag(slope_of(self, y + step, cmplx(z, kind=wp)))/h
-         by_z(:, j) = aimag(slope_of(self, cmplx(y, kind=wp), z + step))/h
-      end do
-   end subroutine jacobian
 end module twin_waves

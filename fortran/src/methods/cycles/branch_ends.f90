@@ -55,7 +55,6 @@ contains
    !> Intervals of the mesh after one that is not accurate.
    pure integer function next_intervals(self, intervals) result(next)
       class(refinement_type), intent(in) :: self
-      !> Intervals of the mesh
       integer, intent(in) :: intervals
 
       next = max(intervals, min(ceiling(growth*intervals), self%most_intervals))
@@ -64,7 +63,6 @@ contains
    !> Whether a free parameter of an orbit is outside of its window.
    pure logical function is_outside(self, orbit) result(value)
       class(follow_settings_type), intent(in) :: self
-      !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
 
       associate (p => orbit%parameters(self%family%free))
@@ -74,10 +72,8 @@ contains
 
    !> The step after one that was easy.
    pure real(wp) function longer_step(step, longest, orbit) result(next)
-      !> Length of the last step
-      real(wp), intent(in) :: step
-      !> The longest step over the amplitude
-      real(wp), intent(in) :: longest
+      !> Length of the last step, the longest step over the amplitude
+      real(wp), intent(in) :: step, longest
       !> The orbit at its end
       type(periodic_orbit_type), intent(in) :: orbit
 

@@ -36,10 +36,8 @@ contains
 
    !> The basis of a degree with points of a kind.
    pure function new_basis(degree, kind) result(basis)
-      !> Degree m >= 1
-      integer, intent(in) :: degree
-      !> gauss_points or radau_points
-      integer, intent(in) :: kind
+      !> Degree m >= 1, gauss_points or radau_points
+      integer, intent(in) :: degree, kind
       type(collocation_basis_type) :: basis
       real(wp), parameter :: pi = acos(-1.0_wp)
       integer :: i, k
@@ -65,7 +63,6 @@ contains
    !> Lagrange polynomials at a place.
    pure function values_at(self, place) result(values)
       class(collocation_basis_type), intent(in) :: self
-      !> Place, 0..1 inside the interval
       real(wp), intent(in) :: place
       real(wp) :: values(self%degree + 1)
       integer :: i, k
@@ -81,7 +78,6 @@ contains
    !> Derivatives of the Lagrange polynomials at a place.
    pure function slopes_at(self, place) result(slopes)
       class(collocation_basis_type), intent(in) :: self
-      !> Place, 0..1 inside the interval
       real(wp), intent(in) :: place
       real(wp) :: slopes(self%degree + 1)
       real(wp) :: value
@@ -138,7 +134,6 @@ contains
    !> P_{m-1} are orthogonal also as sums over the points: w = 1/(sum of (2j + 1) P_j^2 over j =
    !> 0..m-1).
    pure function weights_of(points) result(weights)
-      !> The points, shape (m)
       real(wp), intent(in) :: points(:)
       real(wp) :: weights(size(points))
       real(wp), dimension(size(points)) :: before, legendre, next

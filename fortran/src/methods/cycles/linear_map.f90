@@ -21,11 +21,8 @@ module linear_map
       subroutine image_of_vector(self, vector, image)
          import :: linear_map_type, wp
          implicit none (type, external)
-         !> The map, with its work space
          class(linear_map_type), intent(inout) :: self
-         !> The vector
          real(wp), intent(in) :: vector(:)
-         !> Image of the vector, of the same size
          real(wp), intent(out) :: image(:)
       end subroutine image_of_vector
    end interface
@@ -44,10 +41,8 @@ contains
    subroutine solve_by_gmres(map, right, tolerance, solution, error)
       !> The map
       class(linear_map_type), intent(inout) :: map
-      !> Right-hand side
-      real(wp), intent(in) :: right(:)
-      !> Norm of the residual over that of the right-hand side
-      real(wp), intent(in) :: tolerance
+      !> Right-hand side, norm of the residual over that of the right-hand side
+      real(wp), intent(in) :: right(:), tolerance
       !> The solution
       real(wp), intent(out) :: solution(:)
       !> The tolerance was not reached
@@ -104,10 +99,8 @@ contains
    subroutine leading_eigenvalues(map, n, wanted, tolerance, values, vectors, error)
       !> The map
       class(linear_map_type), intent(inout) :: map
-      !> Size of its vectors
-      integer, intent(in) :: n
-      !> Number of eigenvalues
-      integer, intent(in) :: wanted
+      !> Size of its vectors, number of eigenvalues
+      integer, intent(in) :: n, wanted
       !> Norm of the residual of an eigenvector of norm 1, over the modulus of the first eigenvalue
       real(wp), intent(in) :: tolerance
       !> The eigenvalues: the number wanted, or a few less or more where pairs would be separated or
@@ -131,7 +124,8 @@ contains
          call map%apply(basis(:, k), image)
          call extend_basis(basis, k, image, h(:, k))
          complete = k == n .or. .not. h(k + 1, k) > 0.0_wp
-         if (.not. (complete .or. is_check(k))) cycle
+         if (.not. complete .and. &
+             (k < first_check .or. mod(k - first_check, steps_between) > 0)) cycle
          call eigenvectors(upper_hessenberg(h(:k, :k)), small_values, small_vectors, error)
          if (allocated(error)) return
          count = min(wanted, k)
@@ -151,13 +145,6 @@ contains
          return
       end do
    end subroutine leading_eigenvalues
-
-   !> Whether Arnoldi's method checks its eigenvalues after a number of steps.
-   pure logical function is_check(steps) result(value)
-      integer, intent(in) :: steps
-
-      value = steps >= first_check .and. mod(steps - first_check, steps_between) == 0
-   end function is_check
 
    !> The part of a matrix on and above its first subdiagonal.
    pure function upper_hessenberg(h) result(matrix)

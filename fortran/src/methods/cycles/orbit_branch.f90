@@ -69,14 +69,13 @@ contains
       associate (family => settings%family)
          call first_orbit(family, start, orbit, along(1), newton, error, tangent)
          if (allocated(error)) return
-         associate (p => orbit%parameters(family%free(1)))
-            if (settings%is_outside(orbit)) then
-               call raise(error, "branch: the first orbit is at "//text(p)//"; " &
-                          //text(settings%window(1, 1))//".."//text(settings%window(2, 1)) &
-                          //" expected")
-               return
-            end if
-         end associate
+         if (settings%is_outside(orbit)) then
+            call raise(error, "branch: the first orbit is at " &
+                       //text(orbit%parameters(family%free(1)))//"; " &
+                       //text(settings%window(1, 1))//".."//text(settings%window(2, 1)) &
+                       //" expected")
+            return
+         end if
          branch%iterations = newton%iterations
          if (present(tangent)) then
             along(1) = along(1)%times(real(direction, wp))
@@ -87,8 +86,8 @@ contains
                    branch%multipliers(settings%most_points))
          branch%orbits(1) = orbit
          branch%tangents(1) = along(1)
-         call make_accurate(settings, branch%orbits(1), &
-                            branch%tangents(1), branch%multipliers(1), .true., error)
+         call make_accurate(settings, branch%orbits(1), branch%tangents(1), &
+                            branch%multipliers(1), .true., error)
          if (allocated(error)) return
          step = settings%first_step
          i = 1
@@ -123,7 +122,9 @@ contains
             end if
          end do
       end associate
-      call keep_first(branch, i)
+      branch%orbits = branch%orbits(:i)
+      branch%tangents = branch%tangents(:i)
+      branch%multipliers = branch%multipliers(:i)
       if (branch%ending == "window") call end_at_window(settings, branch)
    end subroutine follow_branch
 
@@ -264,8 +265,7 @@ contains
             if (allocated(error)) return
             if (i == 2) exit
             ! a finer mesh changes the parameter a little
-            call make_accurate(settings, orbit, along(1), multipliers, &
-                               .false., error)
+            call make_accurate(settings, orbit, along(1), multipliers, .false., error)
             if (allocated(error)) return
          end do
          branch%orbits(last) = orbit
@@ -273,18 +273,4 @@ contains
          branch%multipliers(last) = multipliers
       end associate
    end subroutine end_at_window
-
-   !> Keep the first orbits of a branch.
-   subroutine keep_first(branch, count)
-      type(branch_type), intent(inout) :: branch
-      integer, intent(in) :: count
-      type(branch_type) :: whole
-
-      call move_alloc(branch%orbits, whole%orbits)
-      call move_alloc(branch%tangents, whole%tangents)
-      call move_alloc(branch%multipliers, whole%multipliers)
-      allocate (branch%orbits, source=whole%orbits(:count))
-      allocate (branch%tangents, source=whole%tangents(:count))
-      allocate (branch%multipliers, source=whole%multipliers(:count))
-   end subroutine keep_first
 end module orbit_branch

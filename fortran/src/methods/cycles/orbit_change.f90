@@ -110,10 +110,8 @@ contains
 
    !> Change from one orbit to another on the same mesh.
    pure function difference_of(orbit, reference, family) result(change)
-      !> The orbit
-      type(periodic_orbit_type), intent(in) :: orbit
-      !> The one it is compared with
-      type(periodic_orbit_type), intent(in) :: reference
+      !> The orbit, the one it is compared with
+      type(periodic_orbit_type), intent(in) :: orbit, reference
       !> The free parameters
       type(free_family_type), intent(in) :: family
       type(orbit_change_type) :: change
@@ -127,9 +125,7 @@ contains
    !> Add a change to an orbit.
    subroutine add_to(self, orbit, family)
       class(orbit_change_type), intent(in) :: self
-      !> The orbit
       type(periodic_orbit_type), intent(inout) :: orbit
-      !> The free parameters
       type(free_family_type), intent(in) :: family
 
       orbit%nodes = orbit%nodes + self%nodes
@@ -142,7 +138,6 @@ contains
    !> of a parameter in its unit.
    pure real(wp) function size_against(self, orbit) result(value)
       class(orbit_change_type), intent(in) :: self
-      !> The orbit
       type(periodic_orbit_type), intent(in) :: orbit
 
       associate (greatest => max(maxval(abs(orbit%nodes), dim=2), tiny(1.0_wp)))
@@ -154,7 +149,6 @@ contains
    !> A multiple of a change.
    pure type(orbit_change_type) function times(self, factor) result(value)
       class(orbit_change_type), intent(in) :: self
-      !> Factor
       real(wp), intent(in) :: factor
 
       value%nodes = factor*self%nodes
@@ -165,7 +159,6 @@ contains
    !> A change and a multiple of another one.
    pure type(orbit_change_type) function plus(self, other, factor) result(value)
       class(orbit_change_type), intent(in) :: self
-      !> The other one
       type(orbit_change_type), intent(in) :: other
       !> Factor of the other one
       real(wp), intent(in) :: factor
@@ -178,9 +171,7 @@ contains
    !> A change interpolated on another mesh.
    pure type(orbit_change_type) function on_mesh(self, orbit, mesh) result(value)
       class(orbit_change_type), intent(in) :: self
-      !> The orbit it changes
       type(periodic_orbit_type), intent(in) :: orbit
-      !> The other mesh
       real(wp), intent(in) :: mesh(:)
       type(periodic_orbit_type) :: carrier
 

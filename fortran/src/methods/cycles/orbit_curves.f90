@@ -4,9 +4,9 @@ module orbit_curves
    use branch_ends, only: follow_settings_type, is_closed, longer_step, shorter
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: wp
-   use orbit_curve_steps, only: frame_on, is_accurate, take_step
+   use orbit_curve_steps, only: first_plane, frame_on, frame_type, is_accurate, take_step, &
+                                turn_along
    use orbit_mesh, only: adapted_mesh
-   use orbit_surface, only: first_plane, frame_type, turn_along
    use sign_change, only: sign_change_type
    use special_points, only: cusp, fold, special_point_type, torus_bifurcation
    implicit none (type, external)
@@ -178,7 +178,6 @@ contains
       type(special_point_type), intent(in) :: points(:)
       integer, intent(in) :: last
       real(wp), intent(in) :: step
-      !> Why, where it ends
       character(len=:), allocatable, intent(inout) :: reason
 
       value = .true.

@@ -66,16 +66,11 @@ contains
       type(newton_type), intent(inout) :: newton
       !> No convergence
       type(error_type), allocatable, intent(out) :: error
-      type(orbit_change_type), allocatable :: conditions(:)
-      type(orbit_change_type) :: change(1)
+      type(orbit_change_type) :: change(1), conditions(1 + size(directions))
       real(wp) :: before, target(1 + size(directions), 1)
       integer :: i
 
-      allocate (conditions(1 + size(directions)))
-      conditions(1) = phase_condition(reference, size(family%free))
-      do i = 1, size(directions)
-         conditions(i + 1) = weights_of(reference, directions(i))
-      end do
+      call set_conditions(reference, directions, family, conditions)
       newton%last_change = huge(1.0_wp)
       do i = 1, newton%most_iterations
          newton%iterations = i
@@ -108,19 +103,31 @@ contains
       type(orbit_change_type), intent(out) :: tangents(:)
       !> The directions do not determine them
       type(error_type), allocatable, intent(out) :: error
-      type(orbit_change_type), allocatable :: conditions(:)
+      type(orbit_change_type) :: conditions(1 + size(directions))
       real(wp) :: targets(1 + size(directions), size(directions))
       integer :: i
 
-      allocate (conditions(1 + size(directions)))
-      conditions(1) = phase_condition(orbit, size(family%free))
       targets = 0.0_wp
       do i = 1, size(directions)
-         conditions(i + 1) = weights_of(orbit, directions(i))
          targets(i + 1, i) = 1.0_wp
       end do
+      call set_conditions(orbit, directions, family, conditions)
       call solve_conditions(family, orbit, conditions, 0.0_wp, targets, tangents, error)
    end subroutine find_tangents
+
+   !> The phase condition at an orbit, and a condition for each direction.
+   subroutine set_conditions(orbit, directions, family, conditions)
+      type(periodic_orbit_type), intent(in) :: orbit
+      type(orbit_change_type), intent(in) :: directions(:)
+      type(free_family_type), intent(in) :: family
+      type(orbit_change_type), intent(out) :: conditions(:)
+      integer :: i
+
+      conditions(1) = phase_condition(orbit, size(family%free))
+      do i = 1, size(directions)
+         conditions(i + 1) = weights_of(orbit, directions(i))
+      end do
+   end subroutine set_conditions
 
    !> Turn a direction to the tangent of norm 1 whose inner product with it is positive.
    subroutine turn_to_tangent(family, orbit, direction, error)
@@ -178,7 +185,6 @@ contains
    !> The past less the past a period later, and the values of the conditions.
    subroutine defect_of_change(self, vector, image)
       class(orbit_map_type), intent(inout) :: self
-      !> Past, changes of the period and of the free parameters
       real(wp), intent(in) :: vector(:)
       real(wp), intent(out) :: image(:)
 
@@ -188,9 +194,7 @@ contains
    !> Defect of a change, plus a multiple of the residual of the orbit.
    subroutine find_defects(self, vector, residual, image)
       class(orbit_map_type), intent(inout) :: self
-      !> Past, changes of the period and of the free parameters
-      real(wp), intent(in) :: vector(:)
-      real(wp), intent(in) :: residual
+      real(wp), intent(in) :: vector(:), residual
       real(wp), intent(out) :: image(:)
       integer :: i, past
 

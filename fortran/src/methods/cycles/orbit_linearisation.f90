@@ -134,7 +134,6 @@ contains
    subroutine local_system(self, problem, beside, orbit, place, i, local, right)
       type(orbit_passes_type), intent(inout) :: self
       class(dde_problem_type), intent(in) :: problem
-      !> Problems with a free parameter above and below
       type(member_type), intent(in) :: beside(:, :)
       type(periodic_orbit_type), intent(in) :: orbit
       !> Place in the interval of the source of delayed values, shape (delays, m)
@@ -199,7 +198,6 @@ contains
    subroutine evaluate_point(self, problem, beside, orbit, place, i, k, point)
       type(orbit_passes_type), intent(in) :: self
       class(dde_problem_type), intent(in) :: problem
-      !> Problems with a free parameter above and below
       type(member_type), intent(in) :: beside(:, :)
       type(periodic_orbit_type), intent(in) :: orbit
       !> Place of the sources of delayed values, shape (delays)

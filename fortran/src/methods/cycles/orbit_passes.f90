@@ -43,11 +43,9 @@ contains
       class(orbit_passes_type), intent(in) :: self
       !> State at s = 0, delayed components at nodes before, ascending
       real(wp), intent(in) :: past(:)
-      !> Factors of the forcings
       real(wp), intent(in) :: forcing(:)
       !> State at the nodes, shape (n (intervals m + 1)): node by node
       real(wp), intent(out) :: nodes(:)
-      !> The past a period later
       real(wp), intent(out) :: later(:)
       ! at all nodes, also of the past
       real(wp) :: delayed(size(self%delayed), (self%reach + self%intervals)*self%degree + 1)

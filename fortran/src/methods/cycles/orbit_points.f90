@@ -135,7 +135,6 @@ contains
    subroutine locate_on_meshes(settings, segment, point, error)
       type(follow_settings_type), intent(in) :: settings
       type(segment_type), intent(in) :: segment
-      !> The point, of known kind
       type(special_point_type), intent(inout) :: point
       type(error_type), allocatable, intent(out) :: error
       real(wp), allocatable :: finer(:)
@@ -189,7 +188,6 @@ contains
    subroutine locate_point(settings, segment, point, error)
       type(follow_settings_type), intent(in) :: settings
       type(segment_type), intent(in) :: segment
-      !> The point, of known kind
       type(special_point_type), intent(inout) :: point
       type(error_type), allocatable, intent(out) :: error
       type(sign_change_type) :: change
@@ -248,7 +246,6 @@ contains
    subroutine test_at(settings, segment, place, point, g, error)
       type(follow_settings_type), intent(in) :: settings
       type(segment_type), intent(in) :: segment
-      !> Place, 0..1
       real(wp), intent(in) :: place
       !> The point, of known kind; its orbit is the one at the place
       type(special_point_type), intent(inout) :: point
@@ -285,7 +282,6 @@ contains
    subroutine find_orbit_at(family, segment, place, orbit, error)
       type(free_family_type), intent(in) :: family
       type(segment_type), intent(in) :: segment
-      !> Place, 0..1
       real(wp), intent(in) :: place
       type(periodic_orbit_type), intent(out) :: orbit
       type(error_type), allocatable, intent(out) :: error

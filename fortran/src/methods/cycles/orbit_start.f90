@@ -121,12 +121,8 @@ contains
                                   orbit, tangent, error)
       !> Problems and free parameters
       type(free_family_type), intent(in) :: family
-      !> Parameters of the Hopf point
-      real(wp), intent(in) :: parameters(:)
-      !> Stationary state x0
-      real(wp), intent(in) :: state(:)
-      !> Frequency of the imaginary pair, > 0
-      real(wp), intent(in) :: omega
+      !> Parameters of the Hopf point, stationary state x0; frequency of the imaginary pair, > 0
+      real(wp), intent(in) :: parameters(:), state(:), omega
       !> Amplitude a > 0
       real(wp), intent(in) :: amplitude
       !> Polynomials of the orbit

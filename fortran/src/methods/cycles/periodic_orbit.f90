@@ -41,9 +41,7 @@ contains
       class(periodic_orbit_type), intent(in) :: self
       !> Time in periods, 0..1
       real(wp), intent(in) :: s
-      !> Interval, 1..intervals
       integer, intent(out) :: interval
-      !> Place in it
       real(wp), intent(out) :: place
       integer :: above, middle
 
@@ -65,7 +63,6 @@ contains
    !> State at a time of any period.
    pure function at(self, s) result(state)
       class(periodic_orbit_type), intent(in) :: self
-      !> Time in periods
       real(wp), intent(in) :: s
       real(wp) :: state(size(self%nodes, 1))
       real(wp) :: place
@@ -133,7 +130,6 @@ contains
    !> through it. There the parts may also be shifted: then they are neither opposite nor alike.
    pure integer function opposite_parts(self, other) result(turns)
       class(periodic_orbit_type), intent(in) :: self
-      !> The other one
       type(periodic_orbit_type), intent(in) :: other
       real(wp), parameter :: alike = 0.7_wp
       real(wp), dimension(size(self%nodes, 1), size(self%nodes, 2)) :: mine, theirs
@@ -149,7 +145,6 @@ contains
    !> Whether a branch reaches an orbit of a part of its period.
    pure logical function comes_to_shorter(self, last) result(value)
       class(periodic_orbit_type), intent(in) :: self
-      !> The orbit before it
       type(periodic_orbit_type), intent(in) :: last
       real(wp), parameter :: least_share = 0.02_wp
       real(wp) :: share
@@ -195,7 +190,6 @@ contains
    !> of its polynomial, found by golden section between the neighbouring nodes.
    pure function range_of(self, component) result(range)
       class(periodic_orbit_type), intent(in) :: self
-      !> Component of the state
       integer, intent(in) :: component
       real(wp) :: range(2)
       real(wp) :: time
@@ -208,7 +202,6 @@ contains
    !> Time at which a component is greatest, in periods.
    pure real(wp) function time_of_highest(self, component) result(time)
       class(periodic_orbit_type), intent(in) :: self
-      !> Component of the state
       integer, intent(in) :: component
       real(wp) :: value
 
@@ -219,11 +212,8 @@ contains
    pure subroutine find_highest(self, component, sign, value, time)
       class(periodic_orbit_type), intent(in) :: self
       integer, intent(in) :: component
-      !> 1 or -1
       real(wp), intent(in) :: sign
-      real(wp), intent(out) :: value
-      !> When it is there, in periods
-      real(wp), intent(out) :: time
+      real(wp), intent(out) :: value, time
       real(wp), parameter :: golden = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp)
       integer, parameter :: sections = 40
       real(wp) :: left, p, q, right, state(size(self%nodes, 1)), times(size(self%nodes, 2))

@@ -33,11 +33,8 @@ module problem_family
       subroutine make_problem(self, parameters, problem)
          import :: dde_problem_type, problem_family_type, wp
          implicit none (type, external)
-         !> The family
          class(problem_family_type), intent(in) :: self
-         !> Parameters, in the order of the family
          real(wp), intent(in) :: parameters(:)
-         !> The problem
          class(dde_problem_type), allocatable, intent(out) :: problem
       end subroutine make_problem
    end interface
@@ -46,9 +43,7 @@ contains
 
    !> Problems with free parameters. gfortran 12 cannot compile the structure constructor.
    function new_free_family(problems, free, unit) result(family)
-      !> The problems
       class(problem_family_type), intent(in) :: problems
-      !> Numbers of the free parameters
       integer, intent(in) :: free(:)
       !> Unit of each, > 0
       real(wp), intent(in) :: unit(:)

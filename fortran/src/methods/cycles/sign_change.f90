@@ -32,10 +32,7 @@ contains
    !> Replace the place with the same sign by a new one.
    pure subroutine narrow(self, place, value, moved)
       class(sign_change_type), intent(inout) :: self
-      !> The new place
-      real(wp), intent(in) :: place
-      !> The function there
-      real(wp), intent(in) :: value
+      real(wp), intent(in) :: place, value
       !> Distance from the place that is replaced
       real(wp), intent(out) :: moved
       integer :: side

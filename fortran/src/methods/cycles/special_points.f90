@@ -61,13 +61,17 @@ contains
    pure function criticality(self) result(word)
       class(special_point_type), intent(in) :: self
       character(len=kind_length) :: word
+      real(wp) :: angle
+      integer :: q
 
       word = ""
       if (self%kind /= torus_bifurcation) return
       word = "not determined"
       if (.not. allocated(self%coefficient_error)) return
       if (.not. abs(self%coefficient) > certain*self%coefficient_error) return
-      if (is_strong_resonance(self%angle())) return
+      ! at a resonance 1:1 to 1:4 there is another normal form
+      angle = self%angle()
+      if (any([(abs(angle*q - nint(angle*q)) <= q*near_resonance, q=1, 4)])) return
       word = merge("supercritical", "subcritical  ", self%coefficient < 0.0_wp)
    end function criticality
 
@@ -75,20 +79,10 @@ contains
    !> parameter from the torus point, to first order; coefficient and growth must be known.
    pure real(wp) function torus_amplitude(self, component) result(value)
       class(special_point_type), intent(in) :: self
-      !> Which component
       integer, intent(in) :: component
 
       value = 2.0_wp*self%disturbed(component)*sqrt(abs(self%growth/self%coefficient))
    end function torus_amplitude
-
-   !> Whether an angle in turns is that of a resonance 1:1 to 1:4, where there is another normal
-   !> form.
-   pure logical function is_strong_resonance(angle) result(value)
-      real(wp), intent(in) :: angle
-      integer :: q
-
-      value = any([(abs(angle*q - nint(angle*q)) <= q*near_resonance, q=1, 4)])
-   end function is_strong_resonance
 
    !> The fraction p/q with q up to 10 that is nearest to an angle in turns.
    pure function nearest_resonance(angle) result(fraction)

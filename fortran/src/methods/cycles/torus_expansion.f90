@@ -48,7 +48,6 @@ contains
    !> All terms at a time in periods, shape (n, 0:3).
    pure function terms_at(self, s) result(terms)
       class(torus_expansion_type), intent(in) :: self
-      !> Time in periods
       real(wp), intent(in) :: s
       complex(wp) :: terms(size(self%nodes, 1), 0:3)
       real(wp) :: place
@@ -69,10 +68,7 @@ contains
    !> (n, 0:2).
    pure function components(self, s, z) result(parts)
       class(torus_expansion_type), intent(in) :: self
-      !> Time in periods
-      real(wp), intent(in) :: s
-      !> |z|
-      real(wp), intent(in) :: z
+      real(wp), intent(in) :: s, z
       complex(wp) :: parts(size(self%nodes, 1), 0:2)
       complex(wp) :: delayed(size(self%problem%lag), 0:3), factor(0:3), turned, &
                      terms(size(self%nodes, 1), 0:3)

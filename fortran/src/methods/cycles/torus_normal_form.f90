@@ -60,10 +60,8 @@ contains
       complex(wp), intent(in) :: multiplier
       !> Number of multipliers among which it is
       integer, intent(in) :: wanted
-      !> The coefficient
-      real(wp), intent(out) :: coefficient
-      !> |q| of each component at the time when that is greatest, shape (n)
-      real(wp), intent(out) :: disturbed(:)
+      !> The coefficient; |q| of each component at the time when that is greatest, shape (n)
+      real(wp), intent(out) :: coefficient, disturbed(:)
       !> A linear equation has no solution
       type(error_type), allocatable, intent(out) :: error
       complex(wp), allocatable :: disturbances(:, :, :), h21(:, :)

@@ -218,10 +218,8 @@ contains
 
    !> Solution of a system with rows of different sizes.
    subroutine solve_scaled(matrix, right, solution, error)
-      !> The matrix, shape (n, n)
-      complex(wp), intent(in) :: matrix(:, :)
-      !> Right-hand side, shape (n)
-      complex(wp), intent(in) :: right(:)
+      !> The matrix, shape (n, n); right-hand side, shape (n)
+      complex(wp), intent(in) :: matrix(:, :), right(:)
       !> Solution, shape (n)
       complex(wp), intent(out) :: solution(:)
       type(error_type), allocatable, intent(out) :: error
@@ -255,7 +253,6 @@ contains
    !> Position of a multi-index among the terms.
    pure integer function place(self, m) result(number)
       class(series_type), intent(in) :: self
-      !> Multi-index
       integer, intent(in) :: m(:)
 
       number = 1 + sum(m*self%stride)

@@ -22,7 +22,6 @@ module characteristic_roots
    !> Most iterations of Newton's method, and the step after which it ends, relative to 1 + |s|.
    integer, parameter :: most_iterations = 30
    real(wp), parameter :: last_step = 1.0e-14_wp
-   !> Half a turn.
    real(wp), parameter :: pi = acos(-1.0_wp)
 
 contains
@@ -101,7 +100,6 @@ contains
    pure function generator(system, intervals, unit) result(matrix)
       type(linear_system_type), intent(in) :: system
       integer, intent(in) :: intervals
-      !> Unit of time: the longest lag
       real(wp), intent(in) :: unit
       real(wp), allocatable :: matrix(:, :)
       real(wp) :: row(0:intervals), weight(0:intervals), x(0:intervals)

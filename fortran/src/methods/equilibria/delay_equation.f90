@@ -28,10 +28,6 @@ module delay_equation
    contains
       !> The derivative of any order from 2 on
       procedure(derivative_form), deferred :: derivative
-      !> B(x, y)
-      procedure :: second => second_form
-      !> C(x, y, z)
-      procedure :: third => third_form
    end type delay_equation_type
 
    abstract interface
@@ -39,7 +35,6 @@ module delay_equation
       pure function derivative_form(self, x) result(form)
          import :: delay_equation_type, wp
          implicit none (type, external)
-         !> The equation
          class(delay_equation_type), intent(in) :: self
          !> Histories at all lags, shape (n, number of lags, order)
          complex(wp), intent(in) :: x(:, :, :)
@@ -67,28 +62,10 @@ contains
       end do
       linear%lag = [0.0_wp, problem%lag]
    end function linear_part
-    !> Second derivative.
-   pure function second_form(self, x, y) result(form)
-      class(delay_equation_type), intent(in) :: self
-      complex(wp), intent(in) :: x(:, :), y(:, :)
-      complex(wp) :: form(size(x, 1))
-
-      form = self%derivative(reshape([x, y], [shape(x), 2]))
-   end function second_form
-
-   !> Third derivative.
-   pure function third_form(self, x, y, z) result(form)
-      class(delay_equation_type), intent(in) :: self
-      complex(wp), intent(in) :: x(:, :), y(:, :), z(:, :)
-      complex(wp) :: form(size(x, 1))
-
-      form = self%derivative(reshape([x, y, z], [shape(x), 3]))
-   end function third_form
 
    !> Delta(s), singular at characteristic roots.
    pure function characteristic_matrix(self, s) result(matrix)
       class(linear_system_type), intent(in) :: self
-      !> Point of the complex plane
       complex(wp), intent(in) :: s
       complex(wp) :: matrix(size(self%a, 1), size(self%a, 1))
       integer :: i
@@ -105,7 +82,6 @@ contains
    !> Derivative of Delta(s).
    pure function characteristic_slope(self, s) result(matrix)
       class(linear_system_type), intent(in) :: self
-      !> Point of the complex plane
       complex(wp), intent(in) :: s
       complex(wp) :: matrix(size(self%a, 1), size(self%a, 1))
       integer :: i

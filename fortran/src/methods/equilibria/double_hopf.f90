@@ -17,7 +17,6 @@ module double_hopf
 
    !> Letters of a word.
    integer, parameter :: word_length = 20
-   !> One turn.
    real(wp), parameter :: two_pi = 2.0_wp*acos(-1.0_wp)
 
    !> The coefficients.
@@ -95,7 +94,6 @@ contains
    !> (mu_1, mu_2) of length 1 at which a torus is born from the cycle of a pair.
    pure function torus_rates(self, pair) result(mu)
       class(double_hopf_type), intent(in) :: self
-      !> The pair, 1 or 2
       integer, intent(in) :: pair
       real(wp) :: mu(2)
 
@@ -106,7 +104,6 @@ contains
    !> Angle of the multipliers with which the other pair turns in one period, 0..pi.
    pure real(wp) function torus_angle(self, pair) result(angle)
       class(double_hopf_type), intent(in) :: self
-      !> The pair of the cycle, 1 or 2
       integer, intent(in) :: pair
 
       angle = modulo(two_pi*self%omega(3 - pair)/self%omega(pair), two_pi)
@@ -117,7 +114,6 @@ contains
    !> cycle, 'subcritical' on the other side: sign of p_kk - p_kj p_jk/p_jj.
    pure function criticality(self, pair) result(word)
       class(double_hopf_type), intent(in) :: self
-      !> The pair j of the cycle, 1 or 2
       integer, intent(in) :: pair
       character(len=word_length) :: word
 
@@ -128,7 +124,6 @@ contains
    !> 'stable', 'saddle' or 'unstable': the torus near its start, on the centre manifold.
    pure function torus_stability(self, pair) result(word)
       class(double_hopf_type), intent(in) :: self
-      !> The pair of the cycle, 1 or 2
       integer, intent(in) :: pair
       character(len=word_length) :: word
 

@@ -38,15 +38,24 @@ contains
          call critical_vectors(linear, s, q, p, error)
          if (allocated(error)) return
          phi = history_of(q, s, linear%lag)
-         call find_response(equation, 2.0_wp*s, equation%second(phi, phi), history_20, error)
+         call find_response(equation, 2.0_wp*s, second(phi, phi), history_20, error)
          if (allocated(error)) return
-         call find_response(equation, (0.0_wp, 0.0_wp), equation%second(phi, conjg(phi)), &
-                            history_11, error)
+         call find_response(equation, (0.0_wp, 0.0_wp), second(phi, conjg(phi)), history_11, error)
          if (allocated(error)) return
       end associate
-      l1 = real(0.5_wp*sum(p*(equation%second(conjg(phi), history_20) &
-                              + 2.0_wp*equation%second(phi, history_11) &
-                              + equation%third(phi, phi, conjg(phi)))))/omega
+      l1 = real(0.5_wp*sum(p*(second(conjg(phi), history_20) + 2.0_wp*second(phi, history_11) &
+                              + equation%derivative(reshape([phi, phi, conjg(phi)], &
+                                                            [shape(phi), 3])))))/omega
+
+   contains
+
+      !> B(x, y).
+      pure function second(x, y) result(form)
+         complex(wp), intent(in) :: x(:, :), y(:, :)
+         complex(wp) :: form(size(x, 1))
+
+         form = equation%derivative(reshape([x, y], [shape(x), 2]))
+      end function second
    end subroutine first_lyapunov_coefficient
 
    !> The vectors of a simple root: Delta(s) q = 0, |q| = 1, p^T Delta(s) = 0, p^T Delta'(s) q = 1.
@@ -55,10 +64,8 @@ contains
       type(linear_system_type), intent(in) :: linear
       !> The root
       complex(wp), intent(in) :: s
-      !> Right vector, shape (n)
-      complex(wp), intent(out) :: q(:)
-      !> Left vector, shape (n)
-      complex(wp), intent(out) :: p(:)
+      !> Right vector, shape (n); left vector, shape (n)
+      complex(wp), intent(out) :: q(:), p(:)
       !> No convergence
       type(error_type), allocatable, intent(out) :: error
       complex(wp) :: delta(size(q), size(q))

@@ -82,7 +82,6 @@ contains
 
    !> Weights of intervals: level but for ends that rise like exp(-1/x), sum(weights*length) = 1.
    pure function weights_over(length) result(weights)
-      !> Lengths of the intervals
       real(wp), intent(in) :: length(:)
       real(wp) :: weights(size(length))
       integer :: i
@@ -101,7 +100,6 @@ contains
 
    !> The middle of each interval, as a share of the time.
    pure function middles(length) result(x)
-      !> Lengths of the intervals
       real(wp), intent(in) :: length(:)
       real(wp) :: passed, x(size(length))
       integer :: i
@@ -117,12 +115,7 @@ contains
    !> Standard error of the weighted mean of a signal: the root mean square of its weighted Fourier
    !> sums at the lowest frequencies.
    pure real(wp) function error_of_mean(weight, length, deviation) result(error)
-      !> Weights
-      real(wp), intent(in) :: weight(:)
-      !> Lengths of the intervals
-      real(wp), intent(in) :: length(:)
-      !> The signal less its mean
-      real(wp), intent(in) :: deviation(:)
+      real(wp), intent(in) :: weight(:), length(:), deviation(:)
       real(wp), parameter :: turn = 2.0_wp*acos(-1.0_wp)
       real(wp) :: squares, x(size(length))
       integer :: k
@@ -146,10 +139,8 @@ contains
       real(wp), intent(in) :: length(:)
       !> Most times
       integer, intent(in) :: most_times
-      !> Times since the beginning
-      real(wp), allocatable, intent(out) :: time(:)
-      !> Averages up to each, shape (vectors, times)
-      real(wp), allocatable, intent(out) :: averages(:, :)
+      !> Times since the beginning; averages up to each, shape (vectors, times)
+      real(wp), allocatable, intent(out) :: time(:), averages(:, :)
       real(wp) :: total(size(growth, 1))
       integer :: every, i
 
@@ -191,10 +182,8 @@ contains
       type(exponent_type), intent(in) :: exponents(:)
       !> Absolute value up to which an exponent is zero
       real(wp), intent(in) :: zero_level
-      !> The dimension
-      real(wp), intent(out) :: dimension
-      !> Standard error of the dimension
-      real(wp), intent(out) :: error
+      !> The dimension, standard error of the dimension
+      real(wp), intent(out) :: dimension, error
       real(wp) :: others(size(exponents(1)%blocks)), values(size(exponents))
       logical :: zero(size(exponents))
       integer :: block, j
@@ -214,7 +203,6 @@ contains
 
    !> The dimension that belongs to these exponents.
    pure real(wp) function kaplan_yorke(values) result(dimension)
-      !> Exponents, descending
       real(wp), intent(in) :: values(:)
       real(wp) :: total
       integer :: k

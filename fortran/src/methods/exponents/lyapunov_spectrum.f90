@@ -14,6 +14,9 @@ module lyapunov_spectrum
    public :: extend_growth, growth_settings_type, growth_type, interval_observer_type, &
              measure_growth
 
+   !> Norm of the vectors after orthonormalisation. They need fewer digits than the solution: the
+   !> absolute tolerance over this is their relative one.
+   real(wp), parameter :: vector_size = 0.01_wp
    !> A part smaller than this number of tolerances of the vector it is taken from is noise.
    real(wp), parameter :: noise = 10.0_wp
    !> How often an interval in which a vector is lost to noise is halved, before that is an error.
@@ -33,9 +36,6 @@ module lyapunov_spectrum
       real(wp) :: interval = 0.0_wp
       !> The number of intervals is a multiple of this
       integer :: blocks = 2
-      !> Norm of the vectors after orthonormalisation. They need fewer digits than the solution: the
-      !> absolute tolerance over this is their relative one.
-      real(wp) :: vector_size = 0.01_wp
       !> Whether a vector lost to noise gives a bound: what is left of it, noise and all, is its
       !> growth, and it goes on from there. Otherwise that is an error.
       logical :: bounds = .false.
@@ -60,8 +60,6 @@ module lyapunov_spectrum
       real(wp), allocatable :: length(:)
       !> Least share of a vector that was orthogonal to those before it
       real(wp) :: least_share = 1.0_wp
-      !> Whether growth of the last vectors is only bounded from above
-      logical :: bounds = .false.
       !> Right-hand sides evaluated, with their variational equations
       integer(int64) :: evaluations = 0
       !> Time passed with the vectors
@@ -88,19 +86,14 @@ module lyapunov_spectrum
          import :: continuation_type, dde_problem_type, error_type, integration_options, &
                    integration_result, interval_observer_type, wp
          implicit none (type, external)
-         !> The observer
          class(interval_observer_type), intent(inout) :: self
          !> The problem, which may have further components after those observed
          class(dde_problem_type), intent(in) :: problem
          !> Time at which the interval ends
          real(wp), intent(in) :: time
-         !> Method and tolerances
          type(integration_options), intent(in) :: options
-         !> The result
          type(integration_result), intent(out) :: outcome
-         !> The run ended before its time
          type(error_type), allocatable, intent(out) :: error
-         !> Where the run stands
          type(continuation_type), intent(inout) :: continuation
       end subroutine observe_interval
 
@@ -108,7 +101,6 @@ module lyapunov_spectrum
       subroutine keep_interval(self)
          import :: interval_observer_type
          implicit none (type, external)
-         !> The observer
          class(interval_observer_type), intent(inout) :: self
       end subroutine keep_interval
    end interface
@@ -117,7 +109,6 @@ contains
 
    !> Number of vectors: that of exponents, less that of the flow.
    pure integer function number_of_vectors(self) result(vectors)
-      !> What growth is measured over
       class(growth_settings_type), intent(in) :: self
 
       vectors = self%exponents - merge(1, 0, self%across_flow)
@@ -174,7 +165,7 @@ contains
       if (allocated(error)) return
       tangent = tangent_problem_type(problem, settings%vectors())
       call start_vectors(tangent, approach, measured%continuation)
-      call orthonormalise(tangent, settings%vector_size, settings%across_flow, &
+      call orthonormalise(tangent, vector_size, settings%across_flow, &
                           measured%continuation, norm, share)
       ! no solution of the variational equations yet: a kink
       measured%continuation%rate = [approach%rate, (0.0_wp, i=1, tangent%n - problem%n)]
@@ -218,25 +209,14 @@ contains
    !> that is nearly a multiple of them does not look like a slow drift.
    subroutine go_on(tangent, settings, options, t_end, intervals, done, measured, error, &
                     progress, observer)
-      !> The problem with its tangent vectors
       type(tangent_problem_type), intent(in) :: tangent
-      !> How many exponents
       type(growth_settings_type), intent(in) :: settings
-      !> Method and tolerances
       type(integration_options), intent(in) :: options
-      !> Where to end
       real(wp), intent(in) :: t_end
-      !> Number of intervals up to there
-      integer, intent(in) :: intervals
-      !> Intervals done before
-      integer, intent(in) :: done
-      !> The growth
+      integer, intent(in) :: intervals, done
       type(growth_type), intent(inout) :: measured
-      !> Error if the growth cannot be measured
       type(error_type), allocatable, intent(out) :: error
-      !> Receiver of the number of intervals done
       class(progress_receiver_type), intent(inout), optional :: progress
-      !> Receiver of the solution
       class(interval_observer_type), intent(inout), optional :: observer
       real(wp), allocatable :: growth(:, :)
       real(wp) :: time(0:intervals)
@@ -260,7 +240,6 @@ contains
 
    !> An irregular number between -0.35 and 0.35: a fraction of the golden ratio times a square.
    elemental real(wp) function uneven(i) result(value)
-      !> Place of the number in the sequence
       integer, intent(in) :: i
       real(wp), parameter :: golden = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp)
 
@@ -269,9 +248,7 @@ contains
 
    !> Number of intervals in a time, equal in all blocks.
    pure integer function intervals_in(time, settings) result(intervals)
-      !> The time
       real(wp), intent(in) :: time
-      !> Blocks, and the length of an interval
       type(growth_settings_type), intent(in) :: settings
 
       associate (blocks => settings%blocks)
@@ -283,30 +260,21 @@ contains
    !> the others on the way.
    recursive subroutine pass(tangent, settings, options, time, halvings, measured, growth, error, &
                              observer)
-      !> The problem with its tangent vectors
       type(tangent_problem_type), intent(in) :: tangent
-      !> Size of the vectors, and what to do where one is lost
       type(growth_settings_type), intent(in) :: settings
-      !> Method and tolerances
       type(integration_options), intent(in) :: options
-      !> Time at which the interval ends
       real(wp), intent(in) :: time
-      !> How often the interval may be halved
       integer, intent(in) :: halvings
-      !> Position of the vectors, and work done
       type(growth_type), intent(inout) :: measured
-      !> Logarithm of the growth of each vector
       real(wp), intent(out) :: growth(:)
-      !> Error if the growth cannot be measured
       type(error_type), allocatable, intent(out) :: error
-      !> Receiver of the solution
       class(interval_observer_type), intent(inout), optional :: observer
       type(continuation_type) :: before
       type(integration_result) :: outcome
       real(wp) :: first_half(size(growth)), lost, norm(size(growth)), share
 
       growth = 0.0_wp
-      lost = noise*max(options%relative, epsilon(1.0_wp))/min(1.0_wp, settings%vector_size)
+      lost = noise*max(options%relative, epsilon(1.0_wp))/vector_size
       before = measured%continuation
       if (present(observer)) then
          call observer%observe_interval(tangent, time, options, outcome, error, &
@@ -320,15 +288,14 @@ contains
       measured%time = measured%time + (time - before%time(1))
       measured%steps = measured%steps + outcome%accepted
       measured%implicit_steps = measured%implicit_steps + outcome%implicit_steps
-      call orthonormalise(tangent, settings%vector_size, settings%across_flow, &
+      call orthonormalise(tangent, vector_size, settings%across_flow, &
                           measured%continuation, norm, share)
       if (share > lost) then
          measured%least_share = min(measured%least_share, share)
-         growth = log(norm/settings%vector_size)
+         growth = log(norm/vector_size)
          if (present(observer)) call observer%keep_interval()
       else if (halvings == 0 .and. settings%bounds) then
-         measured%bounds = .true.
-         growth = log(max(norm, tiny(1.0_wp))/settings%vector_size)
+         growth = log(max(norm, tiny(1.0_wp))/vector_size)
          if (present(observer)) call observer%keep_interval()
       else if (halvings == 0) then
          call raise(error, "exponents: at t = "//text(time)//" a share of "//text(share) &
@@ -348,11 +315,8 @@ contains
 
    !> Refuse what cannot be measured.
    pure subroutine check(problem, settings, error)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> How many exponents, and when
       type(growth_settings_type), intent(in) :: settings
-      !> What is wrong
       type(error_type), allocatable, intent(out) :: error
 
       if (settings%vectors() < 1) then

@@ -38,9 +38,7 @@ contains
 
    !> The problem with a number of tangent vectors.
    function new_problem(base, vectors) result(problem)
-      !> The problem
       class(dde_problem_type), intent(in) :: base
-      !> Number of tangent vectors
       integer, intent(in) :: vectors
       type(tangent_problem_type) :: problem
       integer :: j, k
@@ -59,9 +57,7 @@ contains
 
    !> No disturbance.
    pure subroutine undisturbed_state(self, y)
-      !> The problem
       class(tangent_problem_type), intent(in) :: self
-      !> State and tangent vectors
       real(wp), intent(out) :: y(self%n)
 
       y = 0.0_wp
@@ -70,11 +66,8 @@ contains
 
    !> No disturbance.
    pure function undisturbed_history(self, t, component) result(value)
-      !> The problem
       class(tangent_problem_type), intent(in) :: self
-      !> Time
       real(wp), intent(in) :: t
-      !> Index into state and tangent vectors
       integer, intent(in) :: component
       real(wp) :: value
 
@@ -84,15 +77,8 @@ contains
 
    !> Right-hand side and variational equations.
    pure subroutine variational_equations(self, t, y, z, dydt)
-      !> The problem
       class(tangent_problem_type), intent(in) :: self
-      !> Time
-      real(wp), intent(in) :: t
-      !> State and tangent vectors
-      real(wp), intent(in) :: y(self%n)
-      !> Delayed values
-      real(wp), intent(in) :: z(size(self%lag))
-      !> Time derivatives
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
       real(wp) :: by_y(self%base%n, self%base%n), by_z(self%base%n, size(self%base%lag))
       integer :: i, j
@@ -122,18 +108,9 @@ contains
    !> the variational equations change with the state is left out: that part lies below the
    !> diagonal, and an iteration makes up for it once the state has converged.
    pure subroutine blocks_on_the_diagonal(self, t, y, z, by_y, by_z)
-      !> The problem
       class(tangent_problem_type), intent(in) :: self
-      !> Time
-      real(wp), intent(in) :: t
-      !> State and tangent vectors
-      real(wp), intent(in) :: y(self%n)
-      !> Delayed values
-      real(wp), intent(in) :: z(size(self%lag))
-      !> Derivatives by state and tangent vectors
-      real(wp), intent(out) :: by_y(self%n, self%n)
-      !> Derivatives by delayed values
-      real(wp), intent(out) :: by_z(self%n, size(self%lag))
+      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
+      real(wp), intent(out) :: by_y(self%n, self%n), by_z(self%n, size(self%lag))
       integer :: j
 
       by_y = 0.0_wp
@@ -149,15 +126,9 @@ contains
 
    !> Taylor series of the solution, and of the vectors along it.
    pure subroutine solution_and_vectors(self, t, unit, degree, z, y)
-      !> The problem
       class(tangent_problem_type), intent(in) :: self
-      !> Time
-      real(wp), intent(in) :: t
-      !> Unit of time of the powers
-      real(wp), intent(in) :: unit
-      !> Degree of the series
+      real(wp), intent(in) :: t, unit
       integer, intent(in) :: degree
-      !> Coefficients of the delayed values
       real(wp), intent(in) :: z(0:degree, size(self%lag))
       !> Coefficients of state and tangent vectors; y(0, :) is given
       real(wp), intent(inout) :: y(0:degree, self%n)
@@ -174,15 +145,10 @@ contains
 
    !> Taylor series before the initial time: no disturbance.
    pure subroutine undisturbed_past(self, t, component, unit, y)
-      !> The problem
       class(tangent_problem_type), intent(in) :: self
-      !> Time
       real(wp), intent(in) :: t
-      !> Index into state and tangent vectors
       integer, intent(in) :: component
-      !> Unit of time of the powers
       real(wp), intent(in) :: unit
-      !> Coefficients
       real(wp), intent(out) :: y(0:)
 
       y = 0.0_wp
@@ -191,13 +157,8 @@ contains
 
    !> Fast components of the vectors approach their balance as those of the state do.
    pure function undisturbed_rate(self, t, y) result(rate)
-      !> The problem
       class(tangent_problem_type), intent(in) :: self
-      !> Time
-      real(wp), intent(in) :: t
-      !> State and tangent vectors
-      real(wp), intent(in) :: y(self%n)
-      !> The rate
+      real(wp), intent(in) :: t, y(self%n)
       real(wp) :: rate
 
       rate = self%base%relaxation_rate(t, y)
@@ -205,15 +166,9 @@ contains
 
    !> A better series of the slow solution, and of the vectors along it.
    pure subroutine slow_solution_and_vectors(self, t, unit, degree, z, y)
-      !> The problem
       class(tangent_problem_type), intent(in) :: self
-      !> Time
-      real(wp), intent(in) :: t
-      !> Unit of time of the powers
-      real(wp), intent(in) :: unit
-      !> Degree of the series
+      real(wp), intent(in) :: t, unit
       integer, intent(in) :: degree
-      !> Coefficients of the delayed values
       real(wp), intent(in) :: z(0:degree, size(self%lag))
       !> Coefficients of the last iteration; better ones
       real(wp), intent(inout) :: y(0:degree, self%n)

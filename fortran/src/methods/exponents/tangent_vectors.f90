@@ -84,9 +84,7 @@ contains
 
    !> Time from now to the start of kept step k, negative.
    pure real(wp) function before(continuation, k) result(value)
-      !> The continuation
       type(continuation_type), intent(in) :: continuation
-      !> Which step
       integer, intent(in) :: k
 
       associate (now => continuation%time, start => continuation%step_start(:, k))
@@ -97,11 +95,8 @@ contains
    !> Newton coefficients of cos(phase + turn s) for 0 <= s <= 1, as its Taylor polynomial of a
    !> degree that every method's nodes allow.
    pure function cosine(phase, turn, nodes) result(a)
-      !> Angle at the start of the step
-      real(wp), intent(in) :: phase
-      !> Angle over the step
-      real(wp), intent(in) :: turn
-      !> Newton nodes of the step
+      !> Angle at the start of the step, angle over the step
+      real(wp), intent(in) :: phase, turn
       real(wp), intent(in) :: nodes(:)
       real(wp) :: a(0:size(nodes))
       integer, parameter :: degree = 4
@@ -122,9 +117,7 @@ contains
 
    !> Longest delay of a component.
    pure real(wp) function longest_delay(problem, component) result(value)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> Delayed component
       integer, intent(in) :: component
 
       value = maxval(problem%lag, mask=problem%component == component)
@@ -209,13 +202,10 @@ contains
    pure subroutine combine(combination, across_flow, n, m, flow, now)
       !> The new vectors in terms of the flow and the old ones
       real(wp), intent(in) :: combination(0:, 0:)
-      !> Whether the flow takes part
       logical, intent(in) :: across_flow
-      !> Number of equations, and of vectors
       integer, intent(in) :: n, m
       !> Past of the flow: coefficients, shape (1 + degree, kept, steps)
       real(wp), intent(in) :: flow(:, :, :)
-      !> Where the run stands
       type(continuation_type), intent(inout) :: now
       integer :: i, j, k, kept
 
@@ -243,10 +233,7 @@ contains
    !> Newton coefficients of p' from those of p = a(0) + (s - x(1)) [a(1) + (s - x(2)) [...]], by
    !> the derivative of each bracket, from the inside.
    pure function derivative(x, a) result(b)
-      !> Nodes
-      real(wp), intent(in) :: x(:)
-      !> Coefficients
-      real(wp), intent(in) :: a(0:size(x))
+      real(wp), intent(in) :: x(:), a(0:size(x))
       real(wp) :: b(0:size(x))
       real(wp) :: bracket(0:size(x))
       integer :: degree, j, k
@@ -267,11 +254,8 @@ contains
    !> A past at Gauss's nodes, times the roots of their weights: its part of an inner product is
    !> then a plain sum.
    pure function past_values(base, now, kept, coefficients) result(values)
-      !> The undisturbed problem
       class(dde_problem_type), intent(in) :: base
-      !> Where the run stands
       type(continuation_type), intent(in) :: now
-      !> Number of kept components
       integer, intent(in) :: kept
       !> Newton coefficients, shape (1 + degree, kept, steps)
       real(wp), intent(in) :: coefficients(:, :, :)

@@ -91,10 +91,8 @@ contains
       integer, intent(in) :: by_section
       !> Class by the spectrum; `undecided` neither confirms nor contradicts
       integer, intent(in) :: by_spectrum
-      !> The class
-      integer, intent(out) :: found
-      !> Why it is undecided, of `reason_names`
-      integer, intent(out) :: reason
+      !> The class; why it is undecided, of `reason_names`
+      integer, intent(out) :: found, reason
 
       associate (witness => merge(by_spectrum, by_section, by_section == undecided))
          found = undecided

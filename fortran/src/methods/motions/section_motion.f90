@@ -41,10 +41,8 @@ contains
    !> square distance of the points that are nearest in phase, over twice the variance. It is 1 for
    !> points in random order, 0 for a smooth function, and `not_measured` where a phase is missing.
    pure real(wp) function section_roughness(points, times, scale, bases) result(roughness)
-      !> Points in order of time, shape (coordinates, points)
-      real(wp), intent(in) :: points(:, :)
-      !> When each was met, shape (points)
-      real(wp), intent(in) :: times(:)
+      !> Points in order of time, shape (coordinates, points); when each was met, shape (points)
+      real(wp), intent(in) :: points(:, :), times(:)
       !> Scale of the motion in each coordinate, > 0
       real(wp), intent(in) :: scale(:)
       !> Fundamental frequencies, 0 for one that is missing
@@ -66,20 +64,14 @@ contains
    !> Find a third phase of which a section is a smooth function, while it is none of two phases,
    !> whichever of the lines turns the second one.
    pure subroutine find_third_phase(points, times, scale, bases, lines, third, roughness)
-      !> Points in order of time, shape (coordinates, points)
-      real(wp), intent(in) :: points(:, :)
-      !> When each was met, shape (points)
-      real(wp), intent(in) :: times(:)
-      !> Scale of the motion in each coordinate, > 0
-      real(wp), intent(in) :: scale(:)
-      !> Two fundamental frequencies
-      real(wp), intent(in) :: bases(2)
+      !> Points in order of time, shape (coordinates, points); when each was met, shape (points)
+      real(wp), intent(in) :: points(:, :), times(:)
+      !> Scale of the motion in each coordinate, > 0; two fundamental frequencies
+      real(wp), intent(in) :: scale(:), bases(2)
       !> Frequencies of lines that these do not explain, the highest line first
       real(wp), intent(in) :: lines(:)
-      !> Third fundamental frequency, 0 if there is none
-      real(wp), intent(out) :: third
-      !> Roughness with it
-      real(wp), intent(out) :: roughness
+      !> Third fundamental frequency, 0 if there is none; roughness with it
+      real(wp), intent(out) :: third, roughness
       real(wp) :: of_three, of_two
       integer :: i
 
@@ -144,7 +136,6 @@ contains
 
    !> Whether values have a trend, by Kendall's rank correlation of the means of blocks with time.
    pure logical function has_trend(values) result(value)
-      !> Values in order of time
       real(wp), intent(in) :: values(:)
       real(wp) :: mean(drift_blocks)
       integer :: i, j, length, score
@@ -163,7 +154,6 @@ contains
 
    !> Roughness of points as a function of phases.
    pure real(wp) function roughness_of(points, phases) result(roughness)
-      !> Points
       real(wp), intent(in) :: points(:, :)
       !> Phases of each in turns, shape (points, phases)
       real(wp), intent(in) :: phases(:, :)

@@ -103,7 +103,6 @@ contains
    !> The greatest frequency of which the highest line and those that follow are multiples, up to
    !> the first that is no simple fraction.
    pure type(known_type) function common_base(lines) result(base)
-      !> Lines, the highest first
       type(known_type), intent(in) :: lines(:)
       integer :: i, q
 
@@ -117,15 +116,10 @@ contains
 
    !> Choose the second base and the order up to which it combines with the first.
    pure subroutine find_second(lines, first, resolution, second, bases)
-      !> Lines, the highest first
-      type(known_type), intent(in) :: lines(:)
-      !> First base
-      type(known_type), intent(in) :: first
-      !> Width of a bin
+      type(known_type), intent(in) :: lines(:), first
       real(wp), intent(in) :: resolution
       !> Second base; frequency 0 where all lines are multiples of the first
       type(known_type), intent(out) :: second
-      !> What is known of it
       type(bases_type), intent(inout) :: bases
       real(wp) :: misfit
       integer :: explained, i, most_explained, order, q, tried
@@ -156,13 +150,7 @@ contains
 
    !> How many lines two bases explain.
    pure integer function count_explained(lines, first, second, order) result(explained)
-      !> Lines
-      type(known_type), intent(in) :: lines(:)
-      !> First base
-      type(known_type), intent(in) :: first
-      !> Second base
-      type(known_type), intent(in) :: second
-      !> Largest |m| + |n|
+      type(known_type), intent(in) :: lines(:), first, second
       integer, intent(in) :: order
       integer :: i
 
@@ -178,10 +166,7 @@ contains
 
    !> m when the line lies at m times the base within the accuracy of both, otherwise 0.
    pure integer function multiple_of(line, base) result(m)
-      !> Line in question
-      type(known_type), intent(in) :: line
-      !> Base
-      type(known_type), intent(in) :: base
+      type(known_type), intent(in) :: line, base
 
       m = nint(line%frequency/base%frequency)
       if (abs(line%frequency - m*base%frequency) > line%accuracy + m*base%accuracy) m = 0
@@ -189,11 +174,7 @@ contains
 
    !> Smallest q for which the line lies at p/q times the base with a whole p, 0 if q > `most`.
    pure integer function denominator(line, base, most) result(q)
-      !> Line in question
-      type(known_type), intent(in) :: line
-      !> Base
-      type(known_type), intent(in) :: base
-      !> Largest q
+      type(known_type), intent(in) :: line, base
       integer, intent(in) :: most
       integer :: i
 
@@ -208,11 +189,7 @@ contains
    !> Largest denominator up to which a random frequency is a fraction of the base with this chance
    !> at most: about 3 (q/pi)**2 fractions with denominators up to q lie in a unit interval.
    pure integer function most_parts(line, base, chance) result(q)
-      !> Line in question
-      type(known_type), intent(in) :: line
-      !> Base
-      type(known_type), intent(in) :: base
-      !> That chance
+      type(known_type), intent(in) :: line, base
       real(wp), intent(in) :: chance
       real(wp) :: width
 
@@ -225,12 +202,7 @@ contains
    !> Largest |m| + |n| up to which combinations cover so little of the range of the lines that a
    !> random frequency rarely is one.
    pure integer function most_order(lines, first, second) result(order)
-      !> Lines
-      type(known_type), intent(in) :: lines(:)
-      !> First base
-      type(known_type), intent(in) :: first
-      !> Second base
-      type(known_type), intent(in) :: second
+      type(known_type), intent(in) :: lines(:), first, second
       real(wp) :: covered, frequency, range, typical
       integer :: m, n, side, total
 
@@ -258,13 +230,7 @@ contains
    !> m and n with n /= 0 when the line lies at m times the first base plus n times the second, the
    !> smallest |m| + |n|; otherwise 0 and 0.
    pure function combination_of(line, first, second, order) result(multiple)
-      !> Line in question
-      type(known_type), intent(in) :: line
-      !> First base
-      type(known_type), intent(in) :: first
-      !> Second base
-      type(known_type), intent(in) :: second
-      !> Largest |m| + |n|
+      type(known_type), intent(in) :: line, first, second
       integer, intent(in) :: order
       integer :: multiple(2)
       real(wp) :: best, misfit

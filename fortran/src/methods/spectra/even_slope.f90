@@ -16,14 +16,8 @@ contains
    !> frequency f by (sin(pi f h)/(pi f h))^2, so that aliases of short events are small. Between
    !> its times u is a cubic.
    pure function smoothed_slope(t, u, slope, h) result(means)
-      !> Times, ascending
-      real(wp), intent(in) :: t(:)
-      !> u at these times
-      real(wp), intent(in) :: u(:)
-      !> du/dt at these times
-      real(wp), intent(in) :: slope(:)
-      !> Time between the means
-      real(wp), intent(in) :: h
+      !> Times, ascending; u at these times; du/dt at these times; time between the means
+      real(wp), intent(in) :: t(:), u(:), slope(:), h
       real(wp), allocatable :: means(:)
       real(wp) :: from, to
       integer :: i, j
@@ -47,7 +41,6 @@ contains
       pure real(wp) function cubic(j, time) result(value)
          !> Number of the first of both
          integer, intent(in) :: j
-         !> A time between them
          real(wp), intent(in) :: time
          real(wp) :: d, s
 
@@ -63,10 +56,8 @@ contains
    pure subroutine undo_smoothing(h, frequency, power)
       !> Half-width of the hat
       real(wp), intent(in) :: h
-      !> Frequencies from 0 on
-      real(wp), allocatable, intent(inout) :: frequency(:)
-      !> Power spectral density there
-      real(wp), allocatable, intent(inout) :: power(:)
+      !> Frequencies from 0 on, power spectral density there
+      real(wp), allocatable, intent(inout) :: frequency(:), power(:)
       real(wp), allocatable :: angle(:)
 
       frequency = pack(frequency, frequency <= 0.5_wp/(finer*h))

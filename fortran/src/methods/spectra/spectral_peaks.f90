@@ -36,10 +36,8 @@ contains
    !> Local maxima that stand out: above `floor` times the highest, and above both valleys that part
    !> them from higher ground by the factor `prominence`.
    pure function find_peaks(frequency, power, floor, prominence) result(peaks)
-      !> Frequencies, evenly spaced from 0
-      real(wp), intent(in) :: frequency(:)
-      !> Power spectral density
-      real(wp), intent(in) :: power(:)
+      !> Frequencies, evenly spaced from 0; power spectral density
+      real(wp), intent(in) :: frequency(:), power(:)
       !> Least height over the highest peak's, > 0
       real(wp), intent(in) :: floor
       !> Least height over the higher of the two valleys, >= 1
@@ -61,12 +59,8 @@ contains
 
    !> Lowest power between bin i and the next higher ground in one direction (or the end).
    pure real(wp) function valley_beside(power, i, direction) result(valley)
-      !> Power spectral density
       real(wp), intent(in) :: power(:)
-      !> Bin of the peak
-      integer, intent(in) :: i
-      !> -1 or 1
-      integer, intent(in) :: direction
+      integer, intent(in) :: i, direction
       integer :: j
 
       valley = power(i)
@@ -82,11 +76,7 @@ contains
    !> bins: x bins beside the middle one they are as (1 - x)(2 - x), 4 - x**2 and (1 + x)(2 + x),
    !> the middle one being sin(pi x)/(pi x (1 - x**2)) of the height's.
    pure type(peak_type) function interpolated_peak(frequency, power, i) result(peak)
-      !> Frequencies
-      real(wp), intent(in) :: frequency(:)
-      !> Power spectral density
-      real(wp), intent(in) :: power(:)
-      !> Bin of the maximum
+      real(wp), intent(in) :: frequency(:), power(:)
       integer, intent(in) :: i
       real(wp), parameter :: pi = acos(-1.0_wp)
       real(wp) :: amplitudes(3), lobe, shift
@@ -104,9 +94,7 @@ contains
 
    !> Lowest power on the side of a peak where that is higher.
    pure real(wp) function background_beside(power, i) result(background)
-      !> Power spectral density
       real(wp), intent(in) :: power(:)
-      !> Bin of the peak
       integer, intent(in) :: i
       real(wp) :: above, below
 

@@ -31,10 +31,8 @@ contains
    !> Spectrum of `signal`, its mean removed; the mean of `segments` segments.
    subroutine power_spectrum(signal, interval, window_name, segments, overlap, frequency, power, &
                              error)
-      !> Samples
-      real(wp), intent(in) :: signal(:)
-      !> Time between them
-      real(wp), intent(in) :: interval
+      !> Samples, time between them
+      real(wp), intent(in) :: signal(:), interval
       !> 'hann' or 'boxcar'
       character(len=*), intent(in) :: window_name
       !> Number of segments, >= 1

@@ -33,11 +33,9 @@ contains
    !> no fraction of f1; a continuum if 2 % is outside all lines. Without power no_spectrum, else
    !> undecided_spectrum.
    pure integer function spectrum_kind(power, peaks, bases) result(kind)
-      !> Power spectral density
       real(wp), intent(in) :: power(:)
       !> Labelled peaks, frequency ascending
       type(peak_type), intent(in) :: peaks(:)
-      !> Fundamental frequencies of the peaks
       type(bases_type), intent(in) :: bases
       real(wp) :: first, others, second
 
@@ -96,11 +94,9 @@ contains
 
    !> Share of the power in the lines of these kinds.
    pure real(wp) function share_of(power, peaks, kinds) result(share)
-      !> Power spectral density
       real(wp), intent(in) :: power(:)
       !> Labelled peaks, frequency ascending
       type(peak_type), intent(in) :: peaks(:)
-      !> Kinds of peaks
       integer, intent(in) :: kinds(:)
       real(wp) :: held(size(peaks))
       integer :: i
@@ -114,7 +110,6 @@ contains
    !> Power, in bins, that the line of each peak holds: what belongs to its height, but of lines so
    !> close that they share bins not more than there is. A broad peak holds more than its line.
    pure function line_powers(power, peaks) result(held)
-      !> Power spectral density
       real(wp), intent(in) :: power(:)
       !> Peaks, frequency ascending
       type(peak_type), intent(in) :: peaks(:)
