@@ -163,7 +163,6 @@ contains
 
    !> The folder of a path, with a slash at its end.
    pure function folder_of(path) result(folder)
-      !> The path
       character(len=*), intent(in) :: path
       character(len=:), allocatable :: folder
 

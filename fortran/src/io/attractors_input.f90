@@ -74,11 +74,8 @@ contains
    !> Refuse settings by which no point, or no point in a reasonable time, could be judged; keep an
    !> earlier error.
    pure subroutine check_observation(place, observation, error)
-      !> File and section, for messages
       character(len=*), intent(in) :: place
-      !> How attractors are judged
       type(attractor_settings_type), intent(in) :: observation
-      !> First error met
       type(error_type), allocatable, intent(inout) :: error
 
       associate (o => observation)

@@ -80,11 +80,8 @@ contains
 
    !> Refuse what cannot be solved.
    pure subroutine check_case(place, case, error)
-      !> File and case, for messages
       character(len=*), intent(in) :: place
-      !> The case
       type(case_type), intent(in) :: case
-      !> A value is out of range
       type(error_type), allocatable, intent(inout) :: error
 
       call case%parameters%check(place, error)

@@ -80,7 +80,6 @@ contains
 
    !> Whether curves of special points are followed.
    pure logical function has_curves(cycles) result(value)
-      !> The section
       type(cycles_section_type), intent(in) :: cycles
 
       value = any([cycles%epsilon_window, cycles%tau_window] < absent)
@@ -88,13 +87,9 @@ contains
 
    !> Refuse a line, a mesh or windows with which nothing can be computed; keep an earlier error.
    pure subroutine check_cycles(path, cycles, along, error)
-      !> Path of the namelist file
       character(len=*), intent(in) :: path
-      !> The section
       type(cycles_section_type), intent(in) :: cycles
-      !> Number of the parameter along the line
       integer, intent(in) :: along
-      !> First error met
       type(error_type), allocatable, intent(inout) :: error
       integer :: i
 

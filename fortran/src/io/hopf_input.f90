@@ -81,7 +81,6 @@ contains
 
    !> Name of the parameter that is fixed beside gamma.
    pure function name_of_fixed(self) result(name)
-      !> The plane
       class(hopf_settings_type), intent(in) :: self
       character(len=:), allocatable :: name
 

@@ -85,13 +85,9 @@ contains
 
    !> Refuse an empty list, and numbers that are not positive; keep an earlier error.
    pure subroutine check_list(path, key, list, error)
-      !> Path of the namelist file
       character(len=*), intent(in) :: path
-      !> Key of the list
       character(len=*), intent(in) :: key
-      !> The list, `absent` beyond its last element
       real(wp), intent(in) :: list(:)
-      !> First error met
       type(error_type), allocatable, intent(inout) :: error
       integer :: i
 
@@ -102,7 +98,6 @@ contains
 
    !> Each method at each of its tolerances or lengths of steps.
    pure function runs_of_methods(self) result(runs)
-      !> The settings
       class(measure_settings_type), intent(in) :: self
       type(run_type), allocatable :: runs(:)
       real(wp), allocatable :: settings(:)

@@ -69,7 +69,6 @@ contains
 
    !> Begin a file with the attributes that all files have.
    subroutine create(self, path, title)
-      !> The file
       class(output_file_type), intent(inout) :: self
       !> Path of the complete file
       character(len=*), intent(in) :: path
@@ -93,9 +92,7 @@ contains
 
    !> Keep the first error and leave nothing behind.
    subroutine note(self, status)
-      !> The file
       class(output_file_type), intent(inout) :: self
-      !> What a call of NetCDF returned
       integer, intent(in) :: status
       character(len=:), allocatable :: reason
 
@@ -109,7 +106,6 @@ contains
 
    !> Define a dimension.
    integer function dimension(self, name, length, coordinates) result(id)
-      !> The file
       class(output_file_type), intent(inout) :: self
       !> Name of the dimension
       character(len=*), intent(in) :: name
@@ -127,15 +123,12 @@ contains
 
    !> Define a variable, compressed and with a checksum, so that readers refuse damaged values.
    integer function variable(self, name, kind, dimensions, long_name) result(id)
-      !> The file
       class(output_file_type), intent(inout) :: self
-      !> Name of the variable
       character(len=*), intent(in) :: name
       !> NetCDF's number of its type
       integer, intent(in) :: kind
       !> Dimensions of the variable, the fastest first
       integer, intent(in) :: dimensions(:)
-      !> Description of the variable, its `long_name`
       character(len=*), intent(in) :: long_name
       character(len=:), allocatable :: coordinates
       integer :: i
@@ -157,7 +150,6 @@ contains
 
    !> Define a variable of real numbers over one dimension; NaN is a missing value.
    integer function real_variable(self, name, dimension, long_name, units) result(id)
-      !> The file
       class(output_file_type), intent(inout) :: self
       !> Name of the variable
       character(len=*), intent(in) :: name
@@ -179,7 +171,6 @@ contains
 
    !> Define a variable of integers over one dimension.
    integer function integer_variable(self, name, dimension, long_name) result(id)
-      !> The file
       class(output_file_type), intent(inout) :: self
       !> Name of the variable
       character(len=*), intent(in) :: name
@@ -194,15 +185,11 @@ contains
 
    !> Define and write a variable of real numbers over one dimension.
    subroutine column_of_reals(self, dimension, name, values, long_name, units)
-      !> The file
       class(output_file_type), intent(inout) :: self
-      !> Dimension of the variable
       integer, intent(in) :: dimension
-      !> Name of the variable
       character(len=*), intent(in) :: name
       !> Values of the variable; NaN is a missing one
       real(wp), intent(in) :: values(:)
-      !> Description of the variable, its `long_name`
       character(len=*), intent(in) :: long_name
       !> Unit of the variable, if it is not nondimensional
       character(len=*), intent(in), optional :: units
@@ -215,15 +202,10 @@ contains
 
    !> Define and write a variable of integers over one dimension.
    subroutine column_of_integers(self, dimension, name, values, long_name)
-      !> The file
       class(output_file_type), intent(inout) :: self
-      !> Dimension of the variable
       integer, intent(in) :: dimension
-      !> Name of the variable
       character(len=*), intent(in) :: name
-      !> Values of the variable
       integer, intent(in) :: values(:)
-      !> Description of the variable, its `long_name`
       character(len=*), intent(in) :: long_name
 
       call self%put(self%integer_variable(name, dimension, long_name), values)
@@ -231,7 +213,6 @@ contains
 
    !> Define and write a variable of words over one dimension, filled up with null characters.
    subroutine words(self, dimension, name, values, long_name)
-      !> The file
       class(output_file_type), intent(inout) :: self
       !> Dimension of the variable
       integer, intent(in) :: dimension
@@ -255,7 +236,6 @@ contains
 
    !> Define and write a variable whose values stand for words.
    subroutine flags(self, dimension, name, values, meanings, long_name, codes)
-      !> The file
       class(output_file_type), intent(inout) :: self
       !> Dimension of the variable
       integer, intent(in) :: dimension
@@ -283,7 +263,6 @@ contains
 
    !> Words in one line, with underscores for blanks within them.
    pure function joined(words) result(line)
-      !> Words
       character(len=*), intent(in) :: words(:)
       character(len=:), allocatable :: line
       integer :: i, j
@@ -299,7 +278,6 @@ contains
 
    !> Define and write nondimensional real numbers over two dimensions; NaN is a missing value.
    subroutine table(self, dimensions, name, values, long_name)
-      !> The file
       class(output_file_type), intent(inout) :: self
       !> Dimensions of the variable, the faster first
       integer, intent(in) :: dimensions(2)
@@ -319,7 +297,6 @@ contains
 
    !> Set an attribute of the file or of a variable.
    subroutine attribute(self, name, value, variable)
-      !> The file
       class(output_file_type), intent(inout) :: self
       !> Name of the attribute
       character(len=*), intent(in) :: name
@@ -351,11 +328,8 @@ contains
 
    !> Write real numbers, from index `first` on.
    subroutine put_reals(self, variable, values, first)
-      !> The file
       class(output_file_type), intent(inout) :: self
-      !> The variable
       integer, intent(in) :: variable
-      !> Values of the variable
       real(wp), intent(in) :: values(:)
       !> Index of the first, 1 if it is left out
       integer, intent(in), optional :: first(1)
@@ -366,11 +340,8 @@ contains
 
    !> Write integers.
    subroutine put_integers(self, variable, values)
-      !> The file
       class(output_file_type), intent(inout) :: self
-      !> The variable
       integer, intent(in) :: variable
-      !> Values of the variable
       integer, intent(in) :: values(:)
 
       if (allocated(self%error)) return
@@ -379,7 +350,6 @@ contains
 
    !> Close the file and give it its name; on an error nothing is left behind.
    subroutine finish(self, error)
-      !> The file
       class(output_file_type), intent(inout) :: self
       !> First error met
       type(error_type), allocatable, intent(out) :: error
@@ -391,7 +361,6 @@ contains
 
    !> Leave nothing behind.
    subroutine discard(self)
-      !> The file
       class(output_file_type), intent(inout) :: self
 
       if (nf90_close(self%id) == nf90_noerr) self%id = -1

@@ -96,7 +96,6 @@ contains
 
    !> The axes in the order of `names`.
    pure function axes_of_grid(self) result(axes)
-      !> The points
       class(points_settings_type), intent(in) :: self
       type(axis_type) :: axes(size(names))
 
@@ -105,7 +104,6 @@ contains
 
    !> Points in a line of the grid.
    pure integer function columns_of_grid(self) result(columns)
-      !> The points
       class(points_settings_type), intent(in) :: self
 
       columns = length(self%epsilon)
@@ -114,7 +112,6 @@ contains
    !> All points: epsilon runs fastest, then tau, xi, gamma, and histories slowest; those of a sweep
    !> in its order.
    pure function list_points(self, histories) result(points)
-      !> What was checked
       class(points_settings_type), intent(in) :: self
       !> Values for t <= 0
       type(block_history_type), intent(in) :: histories(:)
@@ -139,7 +136,6 @@ contains
 
    !> Number of values of an axis that are computed.
    elemental integer function length(axis) result(values)
-      !> The axis
       type(axis_type), intent(in) :: axis
 
       values = axis%part(2) - axis%part(1) + 1
@@ -147,7 +143,6 @@ contains
 
    !> A value on an axis.
    pure real(wp) function value_at(axis, i) result(value)
-      !> The axis
       type(axis_type), intent(in) :: axis
       !> Which, from 1
       integer, intent(in) :: i
@@ -159,13 +154,9 @@ contains
 
    !> Refuse values out of range, and a part of the axis that is not in it.
    pure subroutine check_axis(error, place, name, axis)
-      !> First error met
       type(error_type), allocatable, intent(inout) :: error
-      !> File and section, for messages
       character(len=*), intent(in) :: place
-      !> Name of the parameter
       character(len=*), intent(in) :: name
-      !> The axis
       type(axis_type), intent(in) :: axis
       integer :: i
 
@@ -183,15 +174,10 @@ contains
 
    !> Refuse an unknown direction, and a sweep along two parameters or from two histories.
    pure subroutine check_sweep(error, place, sweep, axes, histories)
-      !> First error met
       type(error_type), allocatable, intent(inout) :: error
-      !> File and section, for messages
       character(len=*), intent(in) :: place
-      !> The direction
       character(len=*), intent(in) :: sweep
-      !> The axes
       type(axis_type), intent(in) :: axes(:)
-      !> Number of histories
       integer, intent(in) :: histories
 
       call check_choice(error, place, "sweep", sweep, directions)
@@ -207,15 +193,10 @@ contains
 
    !> Refuse refinements of what is no plane of epsilon and tau from one history.
    pure subroutine check_refinements(error, place, points, axes, histories)
-      !> First error met
       type(error_type), allocatable, intent(inout) :: error
-      !> File and section, for messages
       character(len=*), intent(in) :: place
-      !> Refinements and sweep
       type(points_settings_type), intent(in) :: points
-      !> The axes
       type(axis_type), intent(in) :: axes(:)
-      !> Number of histories
       integer, intent(in) :: histories
       character(len=:), allocatable :: unfit
 

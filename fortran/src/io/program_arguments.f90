@@ -63,7 +63,6 @@ contains
 
    !> One word of the command line.
    function argument(i) result(word)
-      !> Place of the word
       integer, intent(in) :: i
       character(len=:), allocatable :: word
       integer :: length

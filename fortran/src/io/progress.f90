@@ -61,7 +61,6 @@ contains
 
    !> Begin another part.
    subroutine begin_part(self, part)
-      !> The progress
       class(progress_type), intent(inout) :: self
       !> Number of the part, from 1
       integer, intent(in) :: part
@@ -72,7 +71,6 @@ contains
 
    !> Report how much of a part is done, if a line is due.
    subroutine advance(self, done, total)
-      !> The progress
       class(progress_type), intent(inout) :: self
       !> Number of pieces done, 0..total
       integer, intent(in) :: done
@@ -98,11 +96,8 @@ contains
 
    !> Pieces done of the whole, if all parts had as many as this one.
    pure integer(int64) function pieces_done(self, done, total) result(pieces)
-      !> The progress
       class(progress_type), intent(in) :: self
-      !> Pieces of this part done
       integer, intent(in) :: done
-      !> Pieces of this part
       integer, intent(in) :: total
 
       pieces = (self%part - 1)*int(total, int64) + done
@@ -110,11 +105,8 @@ contains
 
    !> Per cent of the whole done, not rounded up.
    pure integer function percent_of(self, done, total) result(percent)
-      !> The progress
       class(progress_type), intent(in) :: self
-      !> Pieces of this part done
       integer, intent(in) :: done
-      !> Pieces of this part
       integer, intent(in) :: total
 
       percent = int(100*self%pieces_done(done, total)/(self%parts*int(total, int64)))
@@ -122,13 +114,9 @@ contains
 
    !> Time left, or of finished work all the time that it took, in words.
    pure function time_left(self, done, total, now) result(words)
-      !> The progress
       class(progress_type), intent(in) :: self
-      !> Pieces of this part done
       integer, intent(in) :: done
-      !> Pieces of this part
       integer, intent(in) :: total
-      !> Ticks of the clock
       integer(int64), intent(in) :: now
       character(len=:), allocatable :: words
       integer(int64) :: pieces

@@ -105,7 +105,6 @@ contains
 
    !> Method and tolerances for the solver.
    pure type(integration_options) function options_of_scene(self) result(options)
-      !> The scene
       class(scene_type), intent(in) :: self
 
       options = integration_options(method=trim(self%method), relative=self%tolerance, &

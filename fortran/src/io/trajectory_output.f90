@@ -97,7 +97,6 @@ contains
 
    !> Take one sample; the next one is at the next even time, unless the solver brings it forward.
    subroutine take(self, y)
-      !> The writer
       class(trajectory_writer_type), intent(inout) :: self
       !> theta, u, ln v as wanted
       real(wp), intent(in) :: y(:)
@@ -123,7 +122,6 @@ contains
 
    !> Write the block.
    subroutine flush_block(self)
-      !> The writer
       class(trajectory_writer_type), intent(inout) :: self
       integer :: i
 
@@ -136,7 +134,6 @@ contains
 
    !> Write what is left, the scene and what the integration did, and complete the file.
    subroutine finish(self, outcome, error)
-      !> The writer
       class(trajectory_writer_type), intent(inout) :: self
       !> What the integration did
       type(integration_result), intent(in) :: outcome
@@ -164,7 +161,6 @@ contains
 
    !> Leave nothing behind.
    subroutine discard(self)
-      !> The writer
       class(trajectory_writer_type), intent(inout) :: self
 
       call self%file%discard()

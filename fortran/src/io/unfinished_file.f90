@@ -57,11 +57,8 @@ contains
 
    !> The error of an answer that is not 0.
    subroutine explain(path, answer, error)
-      !> Path of the complete file
       character(len=*), intent(in) :: path
-      !> The answer
       integer, intent(in) :: answer
-      !> What it means
       type(error_type), allocatable, intent(out) :: error
 
       select case (answer)
@@ -80,7 +77,6 @@ contains
    !> Choose the other path and remove unfinished files of earlier runs. The caller creates the file
    !> at once and only once: a file that has disappeared was removed by a later run.
    subroutine begin(self, path, error)
-      !> The file
       class(unfinished_type), intent(inout) :: self
       !> Path of the complete file
       character(len=*), intent(in) :: path
@@ -98,7 +94,6 @@ contains
 
    !> Write all of the file; on an error nothing is left behind.
    subroutine write_all(self, content, error)
-      !> The file
       class(unfinished_type), intent(inout) :: self
       !> All of it, not shorter than before
       character(len=*), intent(in) :: content
@@ -111,7 +106,6 @@ contains
 
    !> Give the complete file its name; on an error nothing is left behind.
    subroutine publish(self, error)
-      !> The file
       class(unfinished_type), intent(in) :: self
       !> Error if the file cannot be renamed, or another run has begun to write it
       type(error_type), allocatable, intent(out) :: error
@@ -122,7 +116,6 @@ contains
    !> Why a library, which keeps the reason to itself, could not write to the file: what the system
    !> says when the file is to become longer; otherwise the words of the library.
    function why_not_written(self, words) result(reason)
-      !> The file, not yet discarded
       class(unfinished_type), intent(in) :: self
       !> The library's own words
       character(len=*), intent(in) :: words
@@ -136,7 +129,6 @@ contains
 
    !> Leave nothing behind.
    subroutine discard(self)
-      !> The file
       class(unfinished_type), intent(in) :: self
 
       call remove_file(self%other_path)
@@ -144,11 +136,8 @@ contains
 
    !> The error of an answer that is not 0, after which nothing is left behind.
    subroutine conclude(self, answer, error)
-      !> The file
       class(unfinished_type), intent(in) :: self
-      !> The answer
       integer, intent(in) :: answer
-      !> What it means
       type(error_type), allocatable, intent(out) :: error
 
       if (answer == 0) return

@@ -35,7 +35,6 @@ contains
 
    !> The block with this case's parameters, rounded to double precision in any precision.
    pure function problem(self, disturbance) result(block)
-      !> The case
       class(case_type), intent(in) :: self
       !> Change of theta and u and relative change of v for t <= 0
       real(wp), intent(in) :: disturbance
@@ -53,7 +52,6 @@ contains
 
    !> Times of samples: multiples of the interval up to t_end.
    pure function sample_times(self) result(time)
-      !> The case
       class(case_type), intent(in) :: self
       real(wp), allocatable :: time(:)
 

@@ -31,13 +31,10 @@ contains
 
    !> Integrate a case and print its samples.
    subroutine print_case(name, parameters, t_end, method)
-      !> Name of the case
       character(len=*), intent(in) :: name
       !> Delay, epsilon, xi and gamma
       real(wp), intent(in) :: parameters(4)
-      !> Last time
       real(wp), intent(in) :: t_end
-      !> Method of the solver
       character(len=*), intent(in) :: method
       integer :: i
       type(error_type), allocatable :: error
@@ -60,7 +57,6 @@ contains
 
    !> The bits of a number.
    elemental integer(int64) function bits(number) result(digits)
-      !> The number
       real(wp), intent(in) :: number
 
       digits = transfer(number, 0_int64)
