@@ -200,7 +200,7 @@ contains
       type(finding_type), intent(in) :: findings(:)
       integer, intent(in) :: rows
       real(wp), allocatable :: line(:, :)
-      integer :: dimension, i, id, lengths(size(findings))
+      integer :: dimension, i, lengths(size(findings))
 
       call file%attribute("t_path", t_path)
       lengths = 0
@@ -216,10 +216,8 @@ contains
             line(:, before + 1:before + lengths(i)) = findings(i)%attractor%path
          end associate
       end do
-      id = file%integer_variable("path_length", rows, "number of points of the path")
-      ! the attribute by which CF 1.8 marks lines of unequal length one after another
-      call file%attribute("sample_dimension", "path_point", id)
-      call file%put(id, lengths)
+      call file%column(rows, "path_length", lengths, "number of points of the path", &
+                       lengths_along="path_point")
       ! a dimension of length zero would be an unlimited one
       if (sum(lengths) == 0) return
       dimension = file%dimension("path_point", sum(lengths))

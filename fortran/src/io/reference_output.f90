@@ -13,7 +13,7 @@ module reference_output
    !> Between columns, and between rows.
    character(len=*), parameter :: tab = achar(9), line_end = new_line("a")
    !> Letters that hold any row.
-   integer, parameter :: row_length = 320
+   integer, parameter :: row_length = 512
 
    !> A table in the making.
    type :: reference_file_type
@@ -23,12 +23,7 @@ module reference_output
       !> Rows so far
       character(len=:), allocatable :: content
    contains
-      !> Begin a file
-      procedure :: create
-      !> The rows of a case
-      procedure :: put
-      !> Complete the file
-      procedure :: finish
+      procedure :: create, put, finish
    end type reference_file_type
 
 contains
