@@ -55,7 +55,6 @@ contains
 
    !> The exponents of each piece.
    subroutine print_pieces(count)
-      !> Number of pieces
       integer, intent(in) :: count
       type(exponent_type), allocatable :: exponents(:)
       integer :: j, k, long

@@ -60,9 +60,7 @@ contains
 
    !> Write the samples, a row a time.
    subroutine write_table(file_path, table)
-      !> Where
       character(len=*), intent(in) :: file_path
-      !> The samples
       type(table_sampler), intent(in) :: table
       integer :: row, unit
 

@@ -3,7 +3,7 @@
 Tests name the keys of a group without the groups within it.
 """
 
-from scripts.namelists.program_groups import LAW, nested
+from scripts.namelists.program_groups import LAW, case_groups, nested
 from scripts.namelists.study_cases import HISTORY, PARAMETERS
 
 PARTS = {
@@ -14,7 +14,6 @@ PARTS = {
 }
 """For a group: the groups within it and their keys."""
 BESIDE = {
-    "cases": {"parameters": PARAMETERS, "histories": HISTORY},
     "points": {"histories": HISTORY},
     "observation": {"solver": ["method", "tolerance", "most_steps"]},
 }
@@ -38,6 +37,10 @@ def in_groups(given: dict[str, dict]) -> dict[str, dict]:
         if name == "spectrum":
             groups |= {key: values[key] for key in ("trajectory",) if key in values}
             values = {key: value for key, value in values.items() if key != "trajectory"}
+        if name == "cases":
+            rows = zip(*values.values(), strict=True)
+            groups |= case_groups([dict(zip(values, row, strict=True)) for row in rows])
+            continue
         groups[name] = values
     return groups
 

@@ -50,7 +50,6 @@ contains
 
    !> Mean square distance from the mean.
    pure real(wp) function variance(x) result(value)
-      !> Samples
       real(wp), intent(in) :: x(:)
 
       value = sum((x - sum(x)/size(x))**2)/size(x)

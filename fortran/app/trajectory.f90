@@ -23,7 +23,7 @@ program trajectory
    writer = trajectory_writer_type(output_path, scene)
    call stop_on(writer%file%error)
    call integrate(block_model, 0.0_wp, scene%t_end, scene%options(), outcome, error, writer)
-   if (allocated(error)) call writer%discard()
+   if (allocated(error)) call writer%file%discard()
    call stop_on(error)
    call writer%finish(outcome, error)
    call stop_on(error)

@@ -126,11 +126,10 @@ def cases_of_study(config: dict, study: str, name: str) -> dict[str, dict]:
     return case_groups([case_of(name, measured_study(config)["cases"][name])])
 
 
-def case_groups(cases: list[dict]) -> dict[str, dict]:
-    """The namelist groups of cases: one list a key."""
-    groups = {"cases": ["name", "t_end", "sample_interval"]}
-    groups |= {"parameters": PARAMETERS, "histories": HISTORY}
+def case_groups(cases: list[dict]) -> dict[str, list[dict]]:
+    """The namelist group of cases, an element a case."""
     return {
-        group: {key: [case[key] for case in cases] for key in keys}
-        for group, keys in groups.items()
+        "cases": [
+            nested(nested(case, "parameters", PARAMETERS), "history", HISTORY) for case in cases
+        ]
     }

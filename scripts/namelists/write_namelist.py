@@ -20,8 +20,8 @@ def write_namelist(path: Path, groups: dict[str, dict]) -> None:
 def end_at_horizons(groups: dict[str, dict], rows: list[dict]) -> dict[str, dict]:
     """Cases that end at the times up to which runs can be compared, given by rows of a table."""
     horizons = {row["scene"]: row["horizon"] for row in rows}
-    cases = groups["cases"]
-    return {**groups, "cases": {**cases, "t_end": [horizons[name] for name in cases["name"]]}}
+    cases = [{**case, "t_end": horizons[case["name"]]} for case in groups["cases"]]
+    return {**groups, "cases": cases}
 
 
 if __name__ == "__main__":

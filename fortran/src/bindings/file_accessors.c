@@ -16,13 +16,22 @@ static int reason(void)
     return errno == ENOENT ? missing : errno;
 }
 
-/* Whether a file can be made at `path` in `folder`, or replaced there. */
-int file_place(const char *folder, const char *path)
+/* The folder of a path, with a slash at its end. */
+static const char *folder_of(const char *path)
+{
+    static char folder[4096];
+    const char *slash = strrchr(path, '/');
+    snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - path) + 1 : 2, slash ? path : "./");
+    return folder;
+}
+
+/* Whether a file can be made at a path, or replaced there. */
+int file_place(const char *path)
 {
     struct stat found;
     if (lstat(path, &found) == 0 && !S_ISREG(found.st_mode))
         return occupied;
-    return access(folder, W_OK | X_OK) == 0 ? 0 : reason();
+    return access(folder_of(path), W_OK | X_OK) == 0 ? 0 : reason();
 }
 
 /* 1 where both paths lead to one file. */
@@ -75,21 +84,22 @@ static int sync_to_disk(const char *path)
     return why;
 }
 
-/* Rename a file in `folder` once it is on the disk; not all file systems can send a folder there. */
-int file_rename(const char *folder, const char *from, const char *to)
+/* Rename a file in its folder once it is on the disk; not all file systems can send a folder there. */
+int file_rename(const char *from, const char *to)
 {
     int why = sync_to_disk(from);
     if (why == 0 && rename(from, to) != 0)
         why = reason();
     if (why == 0)
-        sync_to_disk(folder);
+        sync_to_disk(folder_of(to));
     return why;
 }
 
-/* Remove the files of `folder` named `name`, a point, digits and hyphens, and `ending`. */
-void file_remove_marked(const char *folder, const char *name, const char *ending)
+/* Remove the files whose path is `path`, a point, digits and hyphens, and `ending`. */
+void file_remove_marked(const char *path, const char *ending)
 {
-    DIR *listed = opendir(folder);
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    DIR *listed = opendir(folder_of(path));
     if (!listed)
         return;
     size_t length = strlen(name);
@@ -102,4 +112,10 @@ void file_remove_marked(const char *folder, const char *name, const char *ending
             unlinkat(dirfd(listed), entry->d_name, 0);
     }
     closedir(listed);
+}
+
+/* What the system says of an error number. */
+void file_reason(int number, char *words, size_t length)
+{
+    snprintf(words, length, "%s", strerror(number));
 }

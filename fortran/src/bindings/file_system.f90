@@ -1,190 +1,99 @@
-!> Writing, renaming and removing files, by the C library: gfortran's own formatted output does not
-!> report a full disk, and no Fortran reports why a file cannot be written.
+!> Writing, renaming and removing files, by the C library (file_accessors.c): gfortran's own
+!> formatted output does not report a full disk, and no Fortran says why a file cannot be written.
+!> Paths end with `nul`. An answer is 0 (done), `missing` (the file or its folder), `occupied`, or
+!> the number of an error.
 module file_system
-   use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_int, c_null_char, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_size_t
    implicit none (type, external)
    private
-   public :: is_same_file, is_special, missing, occupied, place_of_file, reason_of, remove_file, &
-             remove_marked, rename_file, room_in_file, write_file
+   public :: file_is_same, file_is_special, file_place, file_remove, file_remove_marked, &
+             file_rename, file_room, file_write, missing, nul, occupied, reason_of
 
-   !> Answers beside 0 (done) and the numbers of errors: there is no such path; there is something
-   !> that is no regular file.
+   !> There is no such path; there is something that is no regular file.
    integer, parameter :: missing = -1, occupied = -2
+   !> End of a path.
+   character(kind=c_char), parameter :: nul = c_null_char
 
    interface
-      integer(c_int) function c_place(folder, path) result(value) bind(c, name="file_place")
+      !> Whether a file can be made or replaced.
+      integer(c_int) function file_place(path) result(answer) bind(c)
          import :: c_char, c_int
          implicit none (type, external)
-         character(kind=c_char), intent(in) :: folder(*), path(*)
-      end function c_place
+         character(kind=c_char), intent(in) :: path(*)
+      end function file_place
 
-      integer(c_int) function c_is_same(one, other) result(value) bind(c, name="file_is_same")
+      !> 1 where two paths lead to one file.
+      integer(c_int) function file_is_same(one, other) result(value) bind(c)
          import :: c_char, c_int
          implicit none (type, external)
          character(kind=c_char), intent(in) :: one(*), other(*)
-      end function c_is_same
+      end function file_is_same
 
-      integer(c_int) function c_is_special(path) result(value) bind(c, name="file_is_special")
+      !> 1 where a folder, a device or a pipe is.
+      integer(c_int) function file_is_special(path) result(value) bind(c)
          import :: c_char, c_int
          implicit none (type, external)
          character(kind=c_char), intent(in) :: path(*)
-      end function c_is_special
+      end function file_is_special
 
-      integer(c_int) function c_room(path, length) result(value) bind(c, name="file_room")
+      !> Whether a file that is there could be longer by some bytes.
+      integer(c_int) function file_room(path, bytes) result(answer) bind(c)
          import :: c_char, c_int, c_size_t
          implicit none (type, external)
          character(kind=c_char), intent(in) :: path(*)
-         integer(c_size_t), value :: length
-      end function c_room
+         integer(c_size_t), value :: bytes
+      end function file_room
 
-      integer(c_int) function c_write(path, content, length, there) result(value) &
-         bind(c, name="file_write")
+      !> Write a file that is there (1), and is not longer than this, or a new one where nothing is.
+      integer(c_int) function file_write(path, content, length, there) result(answer) bind(c)
          import :: c_char, c_int, c_size_t
          implicit none (type, external)
          character(kind=c_char), intent(in) :: path(*), content(*)
          integer(c_size_t), value :: length
          integer(c_int), value :: there
-      end function c_write
+      end function file_write
 
-      integer(c_int) function c_rename(folder, from, to) result(value) bind(c, name="file_rename")
+      !> Give a file another name in its folder, replacing what had it, all or nothing, also when
+      !> the power fails.
+      integer(c_int) function file_rename(from, to) result(answer) bind(c)
          import :: c_char, c_int
          implicit none (type, external)
-         character(kind=c_char), intent(in) :: folder(*), from(*), to(*)
-      end function c_rename
+         character(kind=c_char), intent(in) :: from(*), to(*)
+      end function file_rename
 
-      integer(c_int) function c_remove(path) result(value) bind(c, name="remove")
+      !> Remove a file if it is there.
+      integer(c_int) function file_remove(path) result(status) bind(c, name="remove")
          import :: c_char, c_int
          implicit none (type, external)
          character(kind=c_char), intent(in) :: path(*)
-      end function c_remove
+      end function file_remove
 
-      subroutine c_remove_marked(folder, name, ending) bind(c, name="file_remove_marked")
+      !> Remove the files whose path is `path`, a point, digits and hyphens, and `ending`.
+      subroutine file_remove_marked(path, ending) bind(c)
          import :: c_char
          implicit none (type, external)
-         character(kind=c_char), intent(in) :: folder(*), name(*), ending(*)
-      end subroutine c_remove_marked
+         character(kind=c_char), intent(in) :: path(*), ending(*)
+      end subroutine file_remove_marked
 
-      type(c_ptr) function c_strerror(number) result(words) bind(c, name="strerror")
-         import :: c_int, c_ptr
+      subroutine file_reason(answer, words, length) bind(c)
+         import :: c_char, c_int, c_size_t
          implicit none (type, external)
-         integer(c_int), value :: number
-      end function c_strerror
-
-      integer(c_size_t) function c_strlen(words) result(length) bind(c, name="strlen")
-         import :: c_ptr, c_size_t
-         implicit none (type, external)
-         type(c_ptr), value :: words
-      end function c_strlen
+         integer(c_int), value :: answer
+         character(kind=c_char), intent(out) :: words(*)
+         integer(c_size_t), value :: length
+      end subroutine file_reason
    end interface
 
 contains
-
-   !> Whether a file can be made or replaced: 0, `missing` (its folder), `occupied` or an error.
-   integer function place_of_file(path) result(answer)
-      !> Path of the file
-      character(len=*), intent(in) :: path
-
-      answer = c_place(folder_of(path)//c_null_char, path//c_null_char)
-   end function place_of_file
-
-   !> Whether two paths lead to one file.
-   logical function is_same_file(one, other) result(value)
-      !> One path
-      character(len=*), intent(in) :: one
-      !> The other
-      character(len=*), intent(in) :: other
-
-      value = c_is_same(one//c_null_char, other//c_null_char) == 1
-   end function is_same_file
-
-   !> Whether something is at a path that is no regular file: a folder, a device or a pipe.
-   logical function is_special(path) result(value)
-      !> The path
-      character(len=*), intent(in) :: path
-
-      value = c_is_special(path//c_null_char) == 1
-   end function is_special
-
-   !> Whether a file that is there could be longer: 0, `missing` or an error.
-   integer function room_in_file(path, bytes) result(answer)
-      !> Path of the file
-      character(len=*), intent(in) :: path
-      !> How much longer
-      integer, intent(in) :: bytes
-
-      answer = c_room(path//c_null_char, int(bytes, c_size_t))
-   end function room_in_file
-
-   !> Write a file that is there, and is not longer than this, or a new one where nothing is: 0,
-   !> `missing` (the file, or its folder) or an error.
-   integer function write_file(path, content, there) result(answer)
-      !> Path of the file
-      character(len=*), intent(in) :: path
-      !> All of it
-      character(len=*), intent(in) :: content
-      !> Whether the file is there
-      logical, intent(in) :: there
-
-      answer = c_write(path//c_null_char, content, len(content, kind=c_size_t), &
-                       merge(1_c_int, 0_c_int, there))
-   end function write_file
-
-   !> Give a file another name in its folder, replacing what had it, all or nothing, also when the
-   !> power fails: 0, `missing` or an error.
-   integer function rename_file(from, to) result(answer)
-      !> Present path
-      character(len=*), intent(in) :: from
-      !> New path in the same folder
-      character(len=*), intent(in) :: to
-
-      answer = c_rename(folder_of(to)//c_null_char, from//c_null_char, to//c_null_char)
-   end function rename_file
-
-   !> Remove a file if it is there.
-   subroutine remove_file(path)
-      !> Path of the file
-      character(len=*), intent(in) :: path
-      integer(c_int) :: status
-
-      status = c_remove(path//c_null_char)
-   end subroutine remove_file
-
-   !> Remove the files whose path is `path`, a point, digits and hyphens, and `ending`.
-   subroutine remove_marked(path, ending)
-      !> How their paths begin
-      character(len=*), intent(in) :: path
-      !> How they end
-      character(len=*), intent(in) :: ending
-
-      call c_remove_marked(folder_of(path)//c_null_char, &
-                           path(index(path, "/", back=.true.) + 1:)//c_null_char, &
-                           ending//c_null_char)
-   end subroutine remove_marked
-
-   !> The folder of a path, with a slash at its end.
-   pure function folder_of(path) result(folder)
-      !> The path
-      character(len=*), intent(in) :: path
-      character(len=:), allocatable :: folder
-
-      folder = path(:index(path, "/", back=.true.))
-      if (folder == "") folder = "./"
-   end function folder_of
 
    !> What the system says of the number of an error.
    function reason_of(answer) result(words)
       !> The number
       integer, intent(in) :: answer
       character(len=:), allocatable :: words
-      character(kind=c_char), pointer :: letters(:)
-      type(c_ptr) :: said
-      integer :: i
+      character(len=256) :: said
 
-      said = c_strerror(int(answer, c_int))
-      call c_f_pointer(said, letters, [c_strlen(said)])
-      allocate (character(len=size(letters)) :: words)
-      do i = 1, size(letters)
-         words(i:i) = letters(i)
-      end do
+      call file_reason(answer, said, len(said, kind=c_size_t))
+      words = said(:index(said, nul) - 1)
    end function reason_of
 end module file_system

@@ -25,9 +25,7 @@ module gsl_roots
       real(wp) function function_value(self, x) result(value)
          import :: scalar_function_type, wp
          implicit none (type, external)
-         !> The function
          class(scalar_function_type), intent(in) :: self
-         !> Where
          real(wp), intent(in) :: x
       end function function_value
    end interface

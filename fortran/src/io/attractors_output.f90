@@ -91,11 +91,9 @@ contains
 
       !> A number at each point where it was measured, NaN at the others.
       subroutine put_found(name, values, long_name)
-         !> Name of the variable
          character(len=*), intent(in) :: name
          !> Values of the variable, negative where it was not measured
          real(wp), intent(in) :: values(:)
-         !> Description of the variable, its `long_name`
          character(len=*), intent(in) :: long_name
 
          call file%column(rows, name, merge(values, ieee_value(1.0_wp, ieee_quiet_nan), &
@@ -128,11 +126,8 @@ contains
 
    !> How attractors were found.
    subroutine put_settings(file, settings, options)
-      !> The file
       type(output_file_type), intent(inout) :: file
-      !> How they were judged
       type(attractor_settings_type), intent(in) :: settings
-      !> Method and tolerances
       type(integration_options), intent(in) :: options
 
       call file%attribute("method", trim(options%method))
@@ -150,11 +145,8 @@ contains
    !> Smallest and largest maximum of v, of a cycle the last quarter: the others may belong to the
    !> approach; NaN where there is none.
    pure subroutine reach(finding, least, most)
-      !> What was found
       type(finding_type), intent(in) :: finding
-      !> Smallest
       real(wp), intent(out) :: least
-      !> Largest
       real(wp), intent(out) :: most
       integer :: first
 
@@ -172,13 +164,9 @@ contains
 
    !> The last maxima and points of the section, if any are wanted; NaN where there are fewer.
    subroutine put_kept(file, kept, findings, rows)
-      !> The file
       type(output_file_type), intent(inout) :: file
-      !> Most that are kept
       integer, intent(in) :: kept
-      !> What was found
       type(finding_type), intent(in) :: findings(:)
-      !> Dimension of the points
       integer, intent(in) :: rows
       real(wp), dimension(kept, size(findings)) :: maxima, theta, u
       integer :: dimensions(2), first, i, n
@@ -207,16 +195,12 @@ contains
 
    !> Paths one after another, and how many points each has; 0 of steady sliding.
    subroutine put_paths(file, t_path, findings, rows)
-      !> The file
       type(output_file_type), intent(inout) :: file
-      !> Time that they take
       real(wp), intent(in) :: t_path
-      !> What was found
       type(finding_type), intent(in) :: findings(:)
-      !> Dimension of the points of the grid
       integer, intent(in) :: rows
       real(wp), allocatable :: line(:, :)
-      integer :: dimension, i, id, lengths(size(findings))
+      integer :: dimension, i, lengths(size(findings))
 
       call file%attribute("t_path", t_path)
       lengths = 0
@@ -232,10 +216,8 @@ contains
             line(:, before + 1:before + lengths(i)) = findings(i)%attractor%path
          end associate
       end do
-      id = file%integer_variable("path_length", rows, "number of points of the path")
-      ! the attribute by which CF 1.8 marks lines of unequal length one after another
-      call file%attribute("sample_dimension", "path_point", id)
-      call file%put(id, lengths)
+      call file%column(rows, "path_length", lengths, "number of points of the path", &
+                       lengths_along="path_point")
       ! a dimension of length zero would be an unlimited one
       if (sum(lengths) == 0) return
       dimension = file%dimension("path_point", sum(lengths))
@@ -246,11 +228,8 @@ contains
 
    !> Why no attractor was found, blank where one was.
    subroutine put_problems(file, findings, rows)
-      !> The file
       type(output_file_type), intent(inout) :: file
-      !> What was found
       type(finding_type), intent(in) :: findings(:)
-      !> Dimension of the points
       integer, intent(in) :: rows
       character(len=:), allocatable :: words(:)
       integer :: i, letters

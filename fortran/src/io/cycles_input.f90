@@ -1,13 +1,13 @@
 !> The line on which cycles are followed, from a namelist.
 module cycles_input
    use block_cycles, only: cycle_settings_type
-   use block_parameters, only: block_parameters_type, check_quantity, missing_parameters, &
-                               parameter_names, parameters_of, vector_of
-   use cycle_lines, only: along_epsilon, cycle_line_type
-   use dde_errors, only: error_type, raise
+   use block_parameters, only: block_parameters_type, missing_parameters, parameter_names, &
+                               parameters_of, vector_of
+   use cycle_lines, only: cycle_line_type
+   use dde_errors, only: error_type
    use dde_kinds, only: wp
    use namelist_input, only: elements, namelist_file_type, word_length
-   use value_checks, only: absent, check_choice, check_count, check_number, missing, missing_count
+   use value_checks, only: absent, check_count, missing, missing_count
    implicit none (type, external)
    private
    public :: read_cycles
@@ -53,18 +53,15 @@ contains
       call file%open(path, error)
       if (allocated(error)) return
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
-      along = findloc(parameter_names == cycles%along, .true., dim=1)
-      if (along > 0) then
-         ! the value of the parameter along the line is not used
-         vector = vector_of(cycles%parameters)
-         vector(along) = cycles%window(1)
-         cycles%parameters = parameters_of(vector)
-      end if
+      ! the value of the parameter along the line is not used
+      vector = vector_of(cycles%parameters)
+      where (parameter_names == cycles%along) vector = cycles%window(1)
+      cycles%parameters = parameters_of(vector)
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
-      call check_choice(error, path, "along", cycles%along, parameter_names)
-      if (allocated(error)) return
-      call check_cycles(path, cycles, along, error)
+      call cycles%parameters%check(path, error)
+      call check_count(error, path, "degree", cycles%degree, at_least=3)
+      along = findloc(parameter_names == cycles%along, .true., dim=1)
       line_settings = cycle_settings_type(line=cycle_line_type(along, cycles%parameters, &
                                                                cycles%window), &
                                      starts=elements(cycles%starts), &
@@ -73,55 +70,8 @@ contains
                                      longest_period=cycles%longest_period, &
                                      most_orbits=cycles%most_orbits)
       allocate (line_settings%start_v(size(line_settings%starts)), source=cycles%v)
-      if (has_curves(cycles)) then
+      if (any([cycles%epsilon_window, cycles%tau_window] < absent)) then
          line_settings%curve_window = reshape([cycles%epsilon_window, cycles%tau_window], [2, 2])
       end if
    end subroutine read_cycles
-
-   !> Whether curves of special points are followed.
-   pure logical function has_curves(cycles) result(value)
-      !> The section
-      type(cycles_section_type), intent(in) :: cycles
-
-      value = any([cycles%epsilon_window, cycles%tau_window] < absent)
-   end function has_curves
-
-   !> Refuse a line, a mesh or windows with which nothing can be computed; keep an earlier error.
-   pure subroutine check_cycles(path, cycles, along, error)
-      !> Path of the namelist file
-      character(len=*), intent(in) :: path
-      !> The section
-      type(cycles_section_type), intent(in) :: cycles
-      !> Number of the parameter along the line
-      integer, intent(in) :: along
-      !> First error met
-      type(error_type), allocatable, intent(inout) :: error
-      integer :: i
-
-      call cycles%parameters%check(path, error)
-      associate (window => cycles%window, starts => elements(cycles%starts))
-         call check_number(error, path, "window(2)", window(2), above=window(1))
-         do i = 1, size(starts)
-            call check_number(error, path, "starts", starts(i), at_least=window(1), &
-                              at_most=window(2))
-         end do
-      end associate
-      call check_quantity(error, path, "v", cycles%v)
-      call check_number(error, path, "t_transient", cycles%t_transient, above=0.0_wp)
-      call check_count(error, path, "degree", cycles%degree, 3, at_most=9)
-      call check_count(error, path, "intervals", cycles%intervals, 10)
-      call check_number(error, path, "longest_period", cycles%longest_period, above=0.0_wp)
-      call check_count(error, path, "most_orbits", cycles%most_orbits, 2)
-      if (allocated(error) .or. .not. has_curves(cycles)) return
-      if (along > along_epsilon) then
-         call raise(error, path//": epsilon_window and tau_window; expected only where along " &
-                    //"is tau or epsilon")
-      end if
-      associate (epsilon => cycles%epsilon_window, tau => cycles%tau_window)
-         call check_quantity(error, path, "epsilon", epsilon(1), "epsilon_window(1)")
-         call check_number(error, path, "epsilon_window(2)", epsilon(2), above=epsilon(1))
-         call check_quantity(error, path, "tau", tau(1), "tau_window(1)")
-         call check_number(error, path, "tau_window(2)", tau(2), above=tau(1))
-      end associate
-   end subroutine check_cycles
 end module cycles_input

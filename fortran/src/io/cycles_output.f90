@@ -58,11 +58,8 @@ contains
 
    !> Orbits, and the branches they are on.
    subroutine put_orbits(file, along, found)
-      !> The file
       type(output_file_type), intent(inout) :: file
-      !> Number of the parameter along the line
       integer, intent(in) :: along
-      !> Branches
       type(cycles_type), intent(in) :: found(:)
       real(wp), allocatable :: columns(:, :), imaginary(:, :), real_part(:, :)
       integer, allocatable :: branch(:), intervals(:), unstable(:)
@@ -116,11 +113,8 @@ contains
 
    !> Starts from which no branch was followed.
    subroutine put_left_out(file, along, left_out)
-      !> The file
       type(output_file_type), intent(inout) :: file
-      !> Number of the parameter along the line
       integer, intent(in) :: along
-      !> These starts
       type(left_out_type), intent(in) :: left_out(:)
       integer :: rows
 
@@ -133,9 +127,7 @@ contains
 
    !> Special points.
    subroutine put_points(file, found)
-      !> The file
       type(output_file_type), intent(inout) :: file
-      !> Branches
       type(cycles_type), intent(in) :: found(:)
       character(len=kind_length), allocatable :: words(:, :)
       real(wp), allocatable :: columns(:, :)
@@ -200,9 +192,7 @@ contains
 
    !> Curves, each from one end to the other.
    subroutine put_curves(file, curves)
-      !> The file
       type(output_file_type), intent(inout) :: file
-      !> The curves
       type(cycle_curve_type), intent(in) :: curves(:)
       character(len=kind_length) :: words(size(curves), 3)
       real(wp), allocatable :: columns(:, :)
@@ -248,9 +238,7 @@ contains
 
    !> Cusps of curves of folds.
    subroutine put_cusps(file, curves)
-      !> The file
       type(output_file_type), intent(inout) :: file
-      !> The curves
       type(cycle_curve_type), intent(in) :: curves(:)
       integer :: i, k, rows
       integer, allocatable :: number(:)
@@ -279,7 +267,6 @@ contains
 
       !> Columns of more cusps.
       subroutine add_cusps(cusps)
-         !> The cusps
          type(special_point_type), intent(in) :: cusps(:)
          integer :: j
 
@@ -296,9 +283,7 @@ contains
 
    !> Hopf points.
    subroutine put_hopf(file, hopf)
-      !> The file
       type(output_file_type), intent(inout) :: file
-      !> Hopf points
       type(hopf_start_type), intent(in) :: hopf(:)
       real(wp) :: places(4, size(hopf))
       integer :: i, rows

@@ -4,7 +4,7 @@ module exponents_input
    use dde_kinds, only: wp
    use namelist_input, only: namelist_file_type
    use scene_input, only: check_scene, scene_type
-   use value_checks, only: absent, check_count, check_number, missing, missing_count
+   use value_checks, only: absent, check_count, missing, missing_count
    implicit none (type, external)
    private
    public :: exponents_settings_type, read_exponents
@@ -50,9 +50,6 @@ contains
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
       call check_scene(path, scene, error)
-      call check_count(error, path, "exponents%count", exponents%count, at_least=2)
       call check_count(error, path, "exponents%blocks", exponents%blocks, at_least=2)
-      call check_number(error, path, "exponents%t_turning", exponents%t_turning, at_least=0.0_wp)
-      call check_number(error, path, "exponents%t_end", exponents%t_end, above=scene%t_transient)
    end subroutine read_exponents
 end module exponents_input

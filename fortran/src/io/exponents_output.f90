@@ -101,7 +101,6 @@ contains
    pure function with_flow(growth, flow) result(whole)
       !> Growth of the vectors, shape (vectors, intervals)
       real(wp), intent(in) :: growth(:, :)
-      !> Whether the exponent along the flow is wanted
       logical, intent(in) :: flow
       real(wp) :: whole(size(growth, 1) + merge(1, 0, flow), size(growth, 2))
       integer :: growing

@@ -63,11 +63,8 @@ contains
 
    !> The special points.
    subroutine put_special(file, rows, special)
-      !> The file
       type(output_file_type), intent(inout) :: file
-      !> Dimension of the special points
       integer, intent(in) :: rows
-      !> Special points
       type(hopf_point_type), intent(in) :: special(:)
       character(len=1), parameter :: number(2) = ["1", "2"]
       integer :: i
@@ -93,13 +90,9 @@ contains
    !> Their normal forms, and the curves of folds and tori that start there; 0 or an empty word
    !> where a point has none.
    subroutine put_unfoldings(file, settings, rows, special)
-      !> The file
       type(output_file_type), intent(inout) :: file
-      !> The plane
       type(hopf_settings_type), intent(in) :: settings
-      !> Dimension of the special points
       integer, intent(in) :: rows
-      !> Special points
       type(hopf_point_type), intent(in) :: special(:)
       character(len=*), parameter :: number(2) = ["1", "2"]
       character(len=*), parameter :: name(2, 2) = reshape(["g2100", "g1110", "g1011", "g0021"], &
@@ -159,9 +152,7 @@ contains
       subroutine put(key, values, long_name)
          !> Name without special_
          character(len=*), intent(in) :: key
-         !> The numbers
          real(wp), intent(in) :: values(:)
-         !> What they are
          character(len=*), intent(in) :: long_name
 
          call file%column(rows, "special_"//key, values, long_name)
@@ -170,9 +161,7 @@ contains
 
    !> The number of unstable pairs over the window.
    subroutine put_map(file, settings, pairs)
-      !> The file
       type(output_file_type), intent(inout) :: file
-      !> The plane
       type(hopf_settings_type), intent(in) :: settings
       !> Number of unstable pairs, epsilon first
       integer, intent(in) :: pairs(:, :)

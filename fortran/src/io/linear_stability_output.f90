@@ -48,13 +48,9 @@ contains
 
    !> Changes of stability with one parameter.
    subroutine put_changes(file, parameter_name, values, changes)
-      !> The file
       type(output_file_type), intent(inout) :: file
-      !> The parameter
       character(len=*), intent(in) :: parameter_name
-      !> Values of the parameter
       real(wp), intent(in) :: values(:)
-      !> The changes
       type(stability_change_type), intent(in) :: changes(:)
       integer :: rows
 

@@ -102,11 +102,8 @@ contains
 
       !> Samples of one component of each run.
       subroutine put_samples(name, component, long_name)
-         !> Name of the variable
          character(len=*), intent(in) :: name
-         !> Index into the state
          integer, intent(in) :: component
-         !> Description of the variable, its `long_name`
          character(len=*), intent(in) :: long_name
 
          table = ieee_value(1.0_wp, ieee_quiet_nan)

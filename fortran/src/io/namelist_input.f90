@@ -40,7 +40,6 @@ contains
 
    !> Open a namelist file for reading the group.
    subroutine open_file(self, path, error)
-      !> The file
       class(namelist_file_type), intent(out) :: self
       !> Path of the file
       character(len=*), intent(in) :: path
@@ -56,7 +55,6 @@ contains
 
    !> Close the file after reading the group.
    subroutine close_file(self, error)
-      !> The file
       class(namelist_file_type), intent(in) :: self
       !> Error if the group could not be read, or a number is missing or not finite
       type(error_type), allocatable, intent(out) :: error
@@ -78,11 +76,9 @@ contains
 
    !> Refuse numbers that are not finite and numbers that were not given.
    subroutine check_numbers(path, lines, error)
-      !> Path of the file that was read
       character(len=*), intent(in) :: path
       !> All keys and their values, as Fortran writes a namelist with strings in quotes
       character(len=*), intent(in) :: lines(:)
-      !> First such number
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: key
       integer :: at, i
@@ -109,7 +105,6 @@ contains
 
    !> Text in small letters.
    pure function in_small_letters(words) result(small)
-      !> The text
       character(len=*), intent(in) :: words
       character(len=len(words)) :: small
       integer :: i

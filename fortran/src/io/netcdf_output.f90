@@ -31,7 +31,8 @@ module netcdf_output
       character(len=64) :: coordinates = ""
    end type axis_type
 
-   !> A file in the making; after the first error all further calls do nothing.
+   !> A file in the making; after the first error all further calls do nothing. A variable has a
+   !> name, dimensions, values and a description, its `long_name`.
    type :: output_file_type
       private
       !> Where it stands
@@ -43,33 +44,16 @@ module netcdf_output
       !> First error met
       type(error_type), allocatable, public :: error
    contains
-      !> Begin a file
-      procedure :: create
-      !> A dimension
-      procedure :: dimension
-      !> A variable of real numbers or integers over one dimension, with its values
       generic :: column => column_of_reals, column_of_integers
-      !> A variable without values
-      procedure :: real_variable, integer_variable
-      !> An attribute of a variable or, without one, of the file
-      procedure :: attribute
-      !> Values of a variable that was defined without
-      generic :: put => put_reals, put_integers
-      !> A variable of words, of one of several words, or over two dimensions, with its values
-      procedure :: words, flags, table
-      !> Complete the file
-      procedure :: finish
-      !> Give it up
-      procedure :: discard
-      procedure, private :: note, variable, put_reals, put_integers
-      procedure, private :: column_of_reals, column_of_integers
+      procedure :: create, dimension, real_variable, put, words, flags, table, attribute, finish, &
+         discard
+      procedure, private :: note, variable, column_of_reals, column_of_integers
    end type output_file_type
 
 contains
 
    !> Begin a file with the attributes that all files have.
    subroutine create(self, path, title)
-      !> The file
       class(output_file_type), intent(inout) :: self
       !> Path of the complete file
       character(len=*), intent(in) :: path
@@ -93,9 +77,7 @@ contains
 
    !> Keep the first error and leave nothing behind.
    subroutine note(self, status)
-      !> The file
       class(output_file_type), intent(inout) :: self
-      !> What a call of NetCDF returned
       integer, intent(in) :: status
       character(len=:), allocatable :: reason
 
@@ -109,11 +91,8 @@ contains
 
    !> Define a dimension.
    integer function dimension(self, name, length, coordinates) result(id)
-      !> The file
       class(output_file_type), intent(inout) :: self
-      !> Name of the dimension
       character(len=*), intent(in) :: name
-      !> Length of the dimension
       integer, intent(in) :: length
       !> Names of variables that say where along it a value belongs, with blanks between
       character(len=*), intent(in), optional :: coordinates
@@ -127,15 +106,12 @@ contains
 
    !> Define a variable, compressed and with a checksum, so that readers refuse damaged values.
    integer function variable(self, name, kind, dimensions, long_name) result(id)
-      !> The file
       class(output_file_type), intent(inout) :: self
-      !> Name of the variable
       character(len=*), intent(in) :: name
       !> NetCDF's number of its type
       integer, intent(in) :: kind
       !> Dimensions of the variable, the fastest first
       integer, intent(in) :: dimensions(:)
-      !> Description of the variable, its `long_name`
       character(len=*), intent(in) :: long_name
       character(len=:), allocatable :: coordinates
       integer :: i
@@ -157,52 +133,9 @@ contains
 
    !> Define a variable of real numbers over one dimension; NaN is a missing value.
    integer function real_variable(self, name, dimension, long_name, units) result(id)
-      !> The file
       class(output_file_type), intent(inout) :: self
-      !> Name of the variable
       character(len=*), intent(in) :: name
-      !> Dimension of the variable
       integer, intent(in) :: dimension
-      !> Description of the variable, its `long_name`
-      character(len=*), intent(in) :: long_name
-      !> Unit of the variable, '1' where nondimensional
-      character(len=*), intent(in) :: units
-
-      id = self%variable(name, nf90_double, [dimension], long_name)
-      call self%attribute("units", units, id)
-      if (allocated(self%error)) return
-      ! values along an axis cannot be missing
-      if (name /= self%axes(dimension)%name) then
-         call self%attribute("_FillValue", ieee_value(1.0_wp, ieee_quiet_nan), id)
-      end if
-   end function real_variable
-
-   !> Define a variable of integers over one dimension.
-   integer function integer_variable(self, name, dimension, long_name) result(id)
-      !> The file
-      class(output_file_type), intent(inout) :: self
-      !> Name of the variable
-      character(len=*), intent(in) :: name
-      !> Dimension of the variable
-      integer, intent(in) :: dimension
-      !> Description of the variable, its `long_name`
-      character(len=*), intent(in) :: long_name
-
-      id = self%variable(name, nf90_int, [dimension], long_name)
-      call self%attribute("units", "1", id)
-   end function integer_variable
-
-   !> Define and write a variable of real numbers over one dimension.
-   subroutine column_of_reals(self, dimension, name, values, long_name, units)
-      !> The file
-      class(output_file_type), intent(inout) :: self
-      !> Dimension of the variable
-      integer, intent(in) :: dimension
-      !> Name of the variable
-      character(len=*), intent(in) :: name
-      !> Values of the variable; NaN is a missing one
-      real(wp), intent(in) :: values(:)
-      !> Description of the variable, its `long_name`
       character(len=*), intent(in) :: long_name
       !> Unit of the variable, if it is not nondimensional
       character(len=*), intent(in), optional :: units
@@ -210,36 +143,52 @@ contains
 
       unit = "1"
       if (present(units)) unit = units
-      call self%put(self%real_variable(name, dimension, long_name, unit), values)
+      id = self%variable(name, nf90_double, [dimension], long_name)
+      call self%attribute("units", unit, id)
+      if (allocated(self%error)) return
+      ! values along an axis cannot be missing
+      if (name /= self%axes(dimension)%name) then
+         call self%attribute("_FillValue", ieee_value(1.0_wp, ieee_quiet_nan), id)
+      end if
+   end function real_variable
+
+   !> Define and write a variable of real numbers over one dimension.
+   subroutine column_of_reals(self, dimension, name, values, long_name, units)
+      class(output_file_type), intent(inout) :: self
+      integer, intent(in) :: dimension
+      character(len=*), intent(in) :: name
+      !> Values of the variable; NaN is a missing one
+      real(wp), intent(in) :: values(:)
+      character(len=*), intent(in) :: long_name
+      !> Unit of the variable, if it is not nondimensional
+      character(len=*), intent(in), optional :: units
+
+      call self%put(self%real_variable(name, dimension, long_name, units), values)
    end subroutine column_of_reals
 
    !> Define and write a variable of integers over one dimension.
-   subroutine column_of_integers(self, dimension, name, values, long_name)
-      !> The file
+   subroutine column_of_integers(self, dimension, name, values, long_name, lengths_along)
       class(output_file_type), intent(inout) :: self
-      !> Dimension of the variable
       integer, intent(in) :: dimension
-      !> Name of the variable
       character(len=*), intent(in) :: name
-      !> Values of the variable
       integer, intent(in) :: values(:)
-      !> Description of the variable, its `long_name`
       character(len=*), intent(in) :: long_name
+      !> Dimension along which lines of these lengths stand one after another, as CF 1.8 marks them
+      character(len=*), intent(in), optional :: lengths_along
+      integer :: id
 
-      call self%put(self%integer_variable(name, dimension, long_name), values)
+      id = self%variable(name, nf90_int, [dimension], long_name)
+      call self%attribute("units", "1", id)
+      if (present(lengths_along)) call self%attribute("sample_dimension", lengths_along, id)
+      call self%note(nf90_put_var(self%id, id, values))
    end subroutine column_of_integers
 
    !> Define and write a variable of words over one dimension, filled up with null characters.
    subroutine words(self, dimension, name, values, long_name)
-      !> The file
       class(output_file_type), intent(inout) :: self
-      !> Dimension of the variable
       integer, intent(in) :: dimension
-      !> Name of the variable
       character(len=*), intent(in) :: name
-      !> Values of the variable
       character(len=*), intent(in) :: values(:)
-      !> Description of the variable, its `long_name`
       character(len=*), intent(in) :: long_name
       character(len=max(1, maxval(len_trim(values)))) :: ended(size(values))
       integer :: i, id, letters
@@ -250,22 +199,17 @@ contains
       letters = self%dimension(name//"_letters", len(ended))
       id = self%variable(name, nf90_char, [letters, dimension], long_name)
       call self%attribute("_Encoding", "utf-8", id)
-      if (.not. allocated(self%error)) call self%note(nf90_put_var(self%id, id, ended))
+      call self%note(nf90_put_var(self%id, id, ended))
    end subroutine words
 
    !> Define and write a variable whose values stand for words.
    subroutine flags(self, dimension, name, values, meanings, long_name, codes)
-      !> The file
       class(output_file_type), intent(inout) :: self
-      !> Dimension of the variable
       integer, intent(in) :: dimension
-      !> Name of the variable
       character(len=*), intent(in) :: name
-      !> Values of the variable
       integer, intent(in) :: values(:)
       !> The word of each value, in their order
       character(len=*), intent(in) :: meanings(:)
-      !> Description of the variable, its `long_name`
       character(len=*), intent(in) :: long_name
       !> All values that it can have; if they are left out, 0, 1, ...
       integer, intent(in), optional :: codes(:)
@@ -274,16 +218,13 @@ contains
       numbers = [(i, i=0, size(meanings) - 1)]
       if (present(codes)) numbers = codes
       id = self%variable(name, nf90_int, [dimension], long_name)
-      if (.not. allocated(self%error)) then
-         call self%note(nf90_put_att(self%id, id, "flag_values", numbers))
-      end if
+      call self%note(nf90_put_att(self%id, id, "flag_values", numbers))
       call self%attribute("flag_meanings", joined(meanings), id)
-      call self%put(id, values)
+      call self%note(nf90_put_var(self%id, id, values))
    end subroutine flags
 
    !> Words in one line, with underscores for blanks within them.
    pure function joined(words) result(line)
-      !> Words
       character(len=*), intent(in) :: words(:)
       character(len=:), allocatable :: line
       integer :: i, j
@@ -299,29 +240,23 @@ contains
 
    !> Define and write nondimensional real numbers over two dimensions; NaN is a missing value.
    subroutine table(self, dimensions, name, values, long_name)
-      !> The file
       class(output_file_type), intent(inout) :: self
       !> Dimensions of the variable, the faster first
       integer, intent(in) :: dimensions(2)
-      !> Name of the variable
       character(len=*), intent(in) :: name
-      !> Values of the variable
       real(wp), intent(in) :: values(:, :)
-      !> Description of the variable, its `long_name`
       character(len=*), intent(in) :: long_name
       integer :: id
 
       id = self%variable(name, nf90_double, dimensions, long_name)
       call self%attribute("units", "1", id)
       call self%attribute("_FillValue", ieee_value(1.0_wp, ieee_quiet_nan), id)
-      if (.not. allocated(self%error)) call self%note(nf90_put_var(self%id, id, values))
+      call self%note(nf90_put_var(self%id, id, values))
    end subroutine table
 
    !> Set an attribute of the file or of a variable.
    subroutine attribute(self, name, value, variable)
-      !> The file
       class(output_file_type), intent(inout) :: self
-      !> Name of the attribute
       character(len=*), intent(in) :: name
       !> Text, a real number or a long integer
       class(*), intent(in) :: value
@@ -329,7 +264,6 @@ contains
       integer, intent(in), optional :: variable
       integer :: owner
 
-      if (allocated(self%error)) return
       owner = nf90_global
       if (present(variable)) owner = variable
       select type (value)
@@ -349,37 +283,19 @@ contains
       end select
    end subroutine attribute
 
-   !> Write real numbers, from index `first` on.
-   subroutine put_reals(self, variable, values, first)
-      !> The file
+   !> Write values of a variable of real numbers.
+   subroutine put(self, variable, values, first)
       class(output_file_type), intent(inout) :: self
-      !> The variable
       integer, intent(in) :: variable
-      !> Values of the variable
       real(wp), intent(in) :: values(:)
       !> Index of the first, 1 if it is left out
       integer, intent(in), optional :: first(1)
 
-      if (allocated(self%error)) return
       call self%note(nf90_put_var(self%id, variable, values, start=first))
-   end subroutine put_reals
-
-   !> Write integers.
-   subroutine put_integers(self, variable, values)
-      !> The file
-      class(output_file_type), intent(inout) :: self
-      !> The variable
-      integer, intent(in) :: variable
-      !> Values of the variable
-      integer, intent(in) :: values(:)
-
-      if (allocated(self%error)) return
-      call self%note(nf90_put_var(self%id, variable, values))
-   end subroutine put_integers
+   end subroutine put
 
    !> Close the file and give it its name; on an error nothing is left behind.
    subroutine finish(self, error)
-      !> The file
       class(output_file_type), intent(inout) :: self
       !> First error met
       type(error_type), allocatable, intent(out) :: error
@@ -391,10 +307,11 @@ contains
 
    !> Leave nothing behind.
    subroutine discard(self)
-      !> The file
       class(output_file_type), intent(inout) :: self
+      integer :: status
 
-      if (nf90_close(self%id) == nf90_noerr) self%id = -1
+      status = nf90_close(self%id)
+      self%id = -1
       call self%place%discard()
    end subroutine discard
 end module netcdf_output

@@ -2,7 +2,7 @@
 module program_arguments
    use, intrinsic :: iso_fortran_env, only: error_unit
    use dde_errors, only: error_type, raise
-   use file_system, only: is_same_file, is_special
+   use file_system, only: file_is_same, file_is_special, nul
    use process, only: end_at_once
    use unfinished_file, only: check_place
    implicit none (type, external)
@@ -43,10 +43,10 @@ contains
       character(len=*), intent(in) :: output_path
       type(error_type), allocatable :: error
 
-      if (is_special(input_path)) then
+      if (file_is_special(input_path//nul) == 1) then
          call raise(error, input_path//": cannot be read: a folder, a device or a pipe is there; " &
                     //"expected a file")
-      else if (is_same_file(input_path, output_path)) then
+      else if (file_is_same(input_path//nul, output_path//nul) == 1) then
          call raise(error, output_path//": cannot write: it is the input "//input_path &
                     //"; expected another path")
       end if
@@ -63,7 +63,6 @@ contains
 
    !> One word of the command line.
    function argument(i) result(word)
-      !> Place of the word
       integer, intent(in) :: i
       character(len=:), allocatable :: word
       integer :: length

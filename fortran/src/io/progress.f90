@@ -34,10 +34,7 @@ module progress
       !> Per cent in the last line
       integer :: percent = 0
    contains
-      procedure :: advance
-      !> Begin another part
-      procedure :: begin_part
-      procedure, private :: pieces_done, percent_of, time_left
+      procedure :: advance, begin_part
    end type progress_type
 
    interface progress_type
@@ -61,7 +58,6 @@ contains
 
    !> Begin another part.
    subroutine begin_part(self, part)
-      !> The progress
       class(progress_type), intent(inout) :: self
       !> Number of the part, from 1
       integer, intent(in) :: part
@@ -72,7 +68,6 @@ contains
 
    !> Report how much of a part is done, if a line is due.
    subroutine advance(self, done, total)
-      !> The progress
       class(progress_type), intent(inout) :: self
       !> Number of pieces done, 0..total
       integer, intent(in) :: done
@@ -80,70 +75,31 @@ contains
       integer, intent(in) :: total
       character(len=:), allocatable :: line
       integer :: percent, status
-      integer(int64) :: now
+      integer(int64) :: all_pieces, now, pieces
+      real(wp) :: taken
 
       if (self%silent .or. (done < self%next .and. done < total)) return
       self%next = done + max(1, total/looks)
       call system_clock(now)
-      percent = self%percent_of(done, total)
+      ! as if all parts had as many pieces as this one
+      pieces = (self%part - 1)*int(total, int64) + done
+      all_pieces = self%parts*int(total, int64)
+      percent = int(100*pieces/all_pieces)
       if (now - self%begun < patience*self%ticks .or. percent/step <= self%percent/step) return
       self%percent = percent
       line = self%label//": "//text(percent)//" %, "
       if (self%parts > 1) line = line//"part "//text(self%part)//" of "//text(self%parts)//", "
-      line = line//text(done)//" of "//text(total)//", "//self%time_left(done, total, now)
+      line = line//text(done)//" of "//text(total)//", "
+      taken = real(now - self%begun, wp)/self%ticks
+      if (pieces == all_pieces) then
+         line = line//duration(taken)//" in all"
+      else
+         line = line//duration(taken/pieces*(all_pieces - pieces))//" left"
+      end if
       write (error_unit, "(a)", iostat=status) line
       if (status == 0) flush (error_unit, iostat=status)
       self%silent = status /= 0
    end subroutine advance
-
-   !> Pieces done of the whole, if all parts had as many as this one.
-   pure integer(int64) function pieces_done(self, done, total) result(pieces)
-      !> The progress
-      class(progress_type), intent(in) :: self
-      !> Pieces of this part done
-      integer, intent(in) :: done
-      !> Pieces of this part
-      integer, intent(in) :: total
-
-      pieces = (self%part - 1)*int(total, int64) + done
-   end function pieces_done
-
-   !> Per cent of the whole done, not rounded up.
-   pure integer function percent_of(self, done, total) result(percent)
-      !> The progress
-      class(progress_type), intent(in) :: self
-      !> Pieces of this part done
-      integer, intent(in) :: done
-      !> Pieces of this part
-      integer, intent(in) :: total
-
-      percent = int(100*self%pieces_done(done, total)/(self%parts*int(total, int64)))
-   end function percent_of
-
-   !> Time left, or of finished work all the time that it took, in words.
-   pure function time_left(self, done, total, now) result(words)
-      !> The progress
-      class(progress_type), intent(in) :: self
-      !> Pieces of this part done
-      integer, intent(in) :: done
-      !> Pieces of this part
-      integer, intent(in) :: total
-      !> Ticks of the clock
-      integer(int64), intent(in) :: now
-      character(len=:), allocatable :: words
-      integer(int64) :: pieces
-      real(wp) :: taken
-
-      taken = real(now - self%begun, wp)/self%ticks
-      pieces = self%pieces_done(done, total)
-      if (pieces == 0) then
-         words = "just begun"
-      else if (pieces == self%parts*int(total, int64)) then
-         words = duration(taken)//" in all"
-      else
-         words = duration(taken/pieces*(self%parts*int(total, int64) - pieces))//" left"
-      end if
-   end function time_left
 
    !> A time in its two largest units.
    pure function duration(time) result(words)

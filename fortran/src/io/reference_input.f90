@@ -1,14 +1,11 @@
 !> Cases and how their references are computed, from a namelist.
 module reference_input
-   use block_parameters, only: block_history_type, block_parameters_type, missing_history, &
-                               missing_parameters
-   use cases_input, only: case_section_type, join_cases, keep_given, most_cases
-   use dde, only: methods
+   use cases_input, only: check_cases, missing_case, most_cases
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
    use measured_case, only: case_type
    use namelist_input, only: namelist_file_type, word_length
-   use value_checks, only: check_choice, check_number, missing, missing_count
+   use value_checks, only: check_number, missing, missing_count
    implicit none (type, external)
    private
    public :: read_reference, reference_settings_type
@@ -30,37 +27,26 @@ module reference_input
 contains
 
    !> Read and check cases and settings.
-   subroutine read_reference(path, list, reference, error)
+   subroutine read_reference(path, cases, reference, error)
       !> Path of the namelist file
       character(len=*), intent(in) :: path
       !> The cases
-      type(case_type), allocatable, intent(out) :: list(:)
+      type(case_type), allocatable, intent(out) :: cases(:)
       !> The settings
       type(reference_settings_type), intent(out) :: reference
       !> They cannot be read, or a value is out of range
       type(error_type), allocatable, intent(out) :: error
-      type(block_parameters_type), allocatable :: parameters(:)
-      type(block_history_type), allocatable :: histories(:)
-      type(case_section_type), allocatable :: cases(:)
       type(namelist_file_type) :: file
-      namelist /settings/ cases, parameters, histories, reference
+      namelist /settings/ cases, reference
 
-      allocate (cases(most_cases))
-      allocate (parameters(most_cases), source=missing_parameters)
-      allocate (histories(most_cases), source=missing_history)
+      allocate (cases(most_cases), source=missing_case)
       call file%open(path, error)
       if (allocated(error)) return
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
-      call keep_given(cases, parameters, histories)
+      cases = pack(cases, cases%name /= "")
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
-      call join_cases(path, cases, parameters, histories, list, error)
-      call check_choice(error, path, "method", reference%method, methods)
-      call check_choice(error, path, "check_method", reference%check_method, methods)
-      call check_number(error, path, "tolerance", reference%tolerance, above=0.0_wp)
-      call check_number(error, path, "check_tolerance", reference%check_tolerance, &
-                        above=reference%tolerance)
-      call check_number(error, path, "disturbance", reference%disturbance, above=0.0_wp)
+      call check_cases(path, cases, error)
       call check_number(error, path, "most_steps", real(reference%most_steps, wp), at_least=1.0_wp)
    end subroutine read_reference
 end module reference_input

@@ -13,7 +13,7 @@ module reference_output
    !> Between columns, and between rows.
    character(len=*), parameter :: tab = achar(9), line_end = new_line("a")
    !> Letters that hold any row.
-   integer, parameter :: row_length = 320
+   integer, parameter :: row_length = 512
 
    !> A table in the making.
    type :: reference_file_type
@@ -23,12 +23,7 @@ module reference_output
       !> Rows so far
       character(len=:), allocatable :: content
    contains
-      !> Begin a file
-      procedure :: create
-      !> The rows of a case
-      procedure :: put
-      !> Complete the file
-      procedure :: finish
+      procedure :: create, put, finish
    end type reference_file_type
 
 contains
@@ -36,7 +31,6 @@ contains
    !> Begin a file with the names of the columns: a path that cannot be written is an error before
    !> the work begins.
    subroutine create(self, path, error)
-      !> The file
       class(reference_file_type), intent(inout) :: self
       !> Path of the complete file
       character(len=*), intent(in) :: path
@@ -53,7 +47,6 @@ contains
    !> A case at its sample times: the state, how far the state at a larger tolerance is from it, and
    !> how far that of a disturbed history, in units of the disturbance.
    subroutine put(self, case, disturbance, best, checking, disturbed)
-      !> The file
       class(reference_file_type), intent(inout) :: self
       !> The case
       type(case_type), intent(in) :: case
@@ -87,9 +80,7 @@ contains
 
    !> Largest difference of a component, relative to the component where that is above 1.
    pure real(wp) function distance(state, from) result(value)
-      !> A state
       real(wp), intent(in) :: state(:)
-      !> Another
       real(wp), intent(in) :: from(:)
 
       value = maxval(abs(state - from)/max(1.0_wp, abs(from)))
@@ -97,7 +88,6 @@ contains
 
    !> Write the file and give it its name; on an error nothing is left behind.
    subroutine finish(self, error)
-      !> The file
       class(reference_file_type), intent(inout) :: self
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error

@@ -3,13 +3,10 @@ module spectrum_input
    use dde_errors, only: error_type
    use dde_kinds, only: wp
    use namelist_input, only: namelist_file_type, word_length
-   use value_checks, only: check_choice, check_count, check_number, missing, missing_count
+   use value_checks, only: check_count, missing, missing_count
    implicit none (type, external)
    private
-   public :: check_spectrum, read_spectrum_settings, spectrum_settings_type
-
-   !> Windows to choose from.
-   character(len=6), parameter :: windows(2) = ["hann  ", "boxcar"]
+   public :: read_spectrum_settings, spectrum_settings_type
 
    !> Method of a spectrum.
    type :: spectrum_settings_type
@@ -48,26 +45,7 @@ contains
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       write (file%copy, nml=without_path, delim="quote")
       call file%close(error)
-      call check_spectrum(error, path//": spectrum", spectrum%window, spectrum%segments, &
-                          spectrum%overlap)
+      call check_count(error, path//": spectrum", "segments", spectrum%segments, at_least=1)
       trajectory_path = trim(trajectory)
    end subroutine read_spectrum_settings
-
-   !> Refuse a spectrum that cannot be made; keep an earlier error.
-   pure subroutine check_spectrum(error, place, window, segments, overlap)
-      !> First error met
-      type(error_type), allocatable, intent(inout) :: error
-      !> File and section, for messages
-      character(len=*), intent(in) :: place
-      !> Name of the window
-      character(len=*), intent(in) :: window
-      !> Number of Welch segments
-      integer, intent(in) :: segments
-      !> Share of a segment that the next one repeats
-      real(wp), intent(in) :: overlap
-
-      call check_choice(error, place, "window", window, windows)
-      call check_count(error, place, "segments", segments, at_least=1)
-      call check_number(error, place, "overlap", overlap, at_least=0.0_wp, below=1.0_wp)
-   end subroutine check_spectrum
 end module spectrum_input

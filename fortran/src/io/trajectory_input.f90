@@ -68,9 +68,7 @@ contains
 
       !> Read one variable.
       subroutine read_variable(name, values)
-         !> Its name
          character(len=*), intent(in) :: name
-         !> Its values
          real(wp), allocatable, intent(out) :: values(:)
          integer :: id
 
@@ -87,9 +85,7 @@ contains
 
       !> Keep the first error.
       subroutine check(outcome, what)
-         !> What a NetCDF call returned
          integer, intent(in) :: outcome
-         !> What it was about
          character(len=*), intent(in) :: what
 
          if (outcome == nf90_noerr .or. allocated(error)) return

@@ -42,11 +42,7 @@ module trajectory_output
       !> The next even time
       real(wp) :: even = 0.0_wp
    contains
-      procedure :: take
-      !> Complete the file with what the integration did
-      procedure :: finish
-      !> Give the file up
-      procedure :: discard
+      procedure :: take, finish
       procedure, private :: flush => flush_block
    end type trajectory_writer_type
 
@@ -77,18 +73,18 @@ contains
       call writer%file%create(path, "Trajectory of the spring block with delayed friction")
       ! length 0 is NetCDF's unlimited dimension
       dimension = writer%file%dimension("t", merge(0, writer%times, refined))
-      writer%ids(0) = writer%file%real_variable("t", dimension, "time", "1")
+      writer%ids(0) = writer%file%real_variable("t", dimension, "time")
       do i = 1, variables
          select case (scene%variables(i))
          case ("theta")
             writer%wanted(i) = index_of_theta
-            writer%ids(i) = writer%file%real_variable("theta", dimension, "friction state", "1")
+            writer%ids(i) = writer%file%real_variable("theta", dimension, "friction state")
          case ("u")
             writer%wanted(i) = index_of_u
-            writer%ids(i) = writer%file%real_variable("u", dimension, "displacement", "1")
+            writer%ids(i) = writer%file%real_variable("u", dimension, "displacement")
          case default
             writer%wanted(i) = index_of_ln_v
-            writer%ids(i) = writer%file%real_variable("v", dimension, "velocity", "1")
+            writer%ids(i) = writer%file%real_variable("v", dimension, "velocity")
          end select
       end do
       writer%next = 0.0_wp
@@ -97,7 +93,6 @@ contains
 
    !> Take one sample; the next one is at the next even time, unless the solver brings it forward.
    subroutine take(self, y)
-      !> The writer
       class(trajectory_writer_type), intent(inout) :: self
       !> theta, u, ln v as wanted
       real(wp), intent(in) :: y(:)
@@ -123,7 +118,6 @@ contains
 
    !> Write the block.
    subroutine flush_block(self)
-      !> The writer
       class(trajectory_writer_type), intent(inout) :: self
       integer :: i
 
@@ -136,7 +130,6 @@ contains
 
    !> Write what is left, the scene and what the integration did, and complete the file.
    subroutine finish(self, outcome, error)
-      !> The writer
       class(trajectory_writer_type), intent(inout) :: self
       !> What the integration did
       type(integration_result), intent(in) :: outcome
@@ -161,12 +154,4 @@ contains
          call file%finish(error)
       end associate
    end subroutine finish
-
-   !> Leave nothing behind.
-   subroutine discard(self)
-      !> The writer
-      class(trajectory_writer_type), intent(inout) :: self
-
-      call self%file%discard()
-   end subroutine discard
 end module trajectory_output

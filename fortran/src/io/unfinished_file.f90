@@ -5,10 +5,9 @@
 !> one to begin writes the file: an older run finds nothing to rename.
 module unfinished_file
    use dde_errors, only: error_type, raise, text
-   use file_system, only: missing, occupied, place_of_file, reason_of, remove_file, remove_marked, &
-                          rename_file, room_in_file, write_file
    use dde_kinds, only: int64
-   use process, only: number_of_process
+   use file_system, only: file_place, file_remove, file_remove_marked, file_rename, file_room, &
+                          file_write, missing, nul, occupied, reason_of
    implicit none (type, external)
    private
    public :: check_place, remedy, unfinished_type
@@ -17,7 +16,7 @@ module unfinished_file
    character(len=*), parameter :: remedy = &
       "; check that its folder exists, is writable and has free space, then run again"
    !> Bytes that a library writes at once, at most: the largest chunk of NetCDF.
-   integer, parameter :: longest_write = 2**24
+   integer(int64), parameter :: longest_write = 2**24
    !> End of the other name.
    character(len=*), parameter :: ending = ".part"
 
@@ -30,16 +29,7 @@ module unfinished_file
       !> Whether the file was written once
       logical, private :: there = .false.
    contains
-      !> Choose the other path and remove unfinished files of earlier runs
-      procedure :: begin
-      !> Write all of the file
-      procedure :: write => write_all
-      !> Give the complete file its name
-      procedure :: publish
-      !> Why a library could not write to it
-      procedure :: why_not_written
-      !> Leave nothing behind
-      procedure :: discard
+      procedure :: begin, write => write_all, publish, why_not_written, discard
       procedure, private :: conclude
    end type unfinished_type
 
@@ -52,16 +42,13 @@ contains
       !> Why it cannot
       type(error_type), allocatable, intent(out) :: error
 
-      call explain(path, place_of_file(path), error)
+      call explain(path, file_place(path//nul), error)
    end subroutine check_place
 
    !> The error of an answer that is not 0.
    subroutine explain(path, answer, error)
-      !> Path of the complete file
       character(len=*), intent(in) :: path
-      !> The answer
       integer, intent(in) :: answer
-      !> What it means
       type(error_type), allocatable, intent(out) :: error
 
       select case (answer)
@@ -80,7 +67,6 @@ contains
    !> Choose the other path and remove unfinished files of earlier runs. The caller creates the file
    !> at once and only once: a file that has disappeared was removed by a later run.
    subroutine begin(self, path, error)
-      !> The file
       class(unfinished_type), intent(inout) :: self
       !> Path of the complete file
       character(len=*), intent(in) :: path
@@ -90,39 +76,36 @@ contains
 
       call system_clock(now)
       self%path = path
-      ! processes on two computers may have the same number; the clock makes the names differ
-      self%other_path = path//"."//text(number_of_process())//"-"//text(now)//ending
-      call remove_marked(path, ending)
+      self%other_path = path//"."//text(now)//ending
+      call file_remove_marked(path//nul, ending//nul)
       call check_place(path, error)
    end subroutine begin
 
    !> Write all of the file; on an error nothing is left behind.
    subroutine write_all(self, content, error)
-      !> The file
       class(unfinished_type), intent(inout) :: self
       !> All of it, not shorter than before
       character(len=*), intent(in) :: content
       !> Error if the file cannot be written, or another run has begun to write it
       type(error_type), allocatable, intent(out) :: error
 
-      call self%conclude(write_file(self%other_path, content, self%there), error)
+      call self%conclude(file_write(self%other_path//nul, content, len(content, kind=int64), &
+                                    merge(1, 0, self%there)), error)
       self%there = .true.
    end subroutine write_all
 
    !> Give the complete file its name; on an error nothing is left behind.
    subroutine publish(self, error)
-      !> The file
       class(unfinished_type), intent(in) :: self
       !> Error if the file cannot be renamed, or another run has begun to write it
       type(error_type), allocatable, intent(out) :: error
 
-      call self%conclude(rename_file(self%other_path, self%path), error)
+      call self%conclude(file_rename(self%other_path//nul, self%path//nul), error)
    end subroutine publish
 
    !> Why a library, which keeps the reason to itself, could not write to the file: what the system
    !> says when the file is to become longer; otherwise the words of the library.
    function why_not_written(self, words) result(reason)
-      !> The file, not yet discarded
       class(unfinished_type), intent(in) :: self
       !> The library's own words
       character(len=*), intent(in) :: words
@@ -130,25 +113,22 @@ contains
       integer :: answer
 
       reason = words
-      answer = room_in_file(self%other_path, longest_write)
+      answer = file_room(self%other_path//nul, longest_write)
       if (answer > 0) reason = reason_of(answer)
    end function why_not_written
 
    !> Leave nothing behind.
    subroutine discard(self)
-      !> The file
       class(unfinished_type), intent(in) :: self
+      integer :: status
 
-      call remove_file(self%other_path)
+      status = file_remove(self%other_path//nul)
    end subroutine discard
 
    !> The error of an answer that is not 0, after which nothing is left behind.
    subroutine conclude(self, answer, error)
-      !> The file
       class(unfinished_type), intent(in) :: self
-      !> The answer
       integer, intent(in) :: answer
-      !> What it means
       type(error_type), allocatable, intent(out) :: error
 
       if (answer == 0) return

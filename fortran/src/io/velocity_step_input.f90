@@ -1,10 +1,9 @@
 !> A velocity step and the friction law it tries, from a namelist.
 module velocity_step_input
    use dde_errors, only: error_type
-   use dde_kinds, only: wp
    use namelist_input, only: namelist_file_type
    use velocity_step, only: step_protocol_type
-   use value_checks, only: check_count, check_number
+   use value_checks, only: check_count
    implicit none (type, external)
    private
    public :: read_protocol
@@ -27,14 +26,6 @@ contains
       read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
       write (file%copy, nml=settings, delim="quote")
       call file%close(error)
-      associate (law => velocity_step%law)
-         call check_number(error, path, "dc", law%dc, above=0.0_wp)
-         call check_number(error, path, "v0", law%v0, above=0.0_wp)
-         call check_number(error, path, "b_state", law%b_state, above=0.0_wp)
-         call check_number(error, path, "delta_v", velocity_step%delta_v, above=-law%v0)
-      end associate
-      call check_number(error, path, "slip_before", velocity_step%slip_before, above=0.0_wp)
-      call check_number(error, path, "slip_after", velocity_step%slip_after, above=0.0_wp)
       call check_count(error, path, "samples", velocity_step%samples, at_least=2)
    end subroutine read_protocol
 end module velocity_step_input

@@ -90,7 +90,6 @@ contains
 
    !> Motions of one kind have the same class, cycles also the same number of points in the section.
    pure integer function kind_of(finding) result(number)
-      !> Results
       type(finding_type), intent(in) :: finding
 
       associate (found => finding%attractor)
@@ -102,9 +101,7 @@ contains
 
    !> Give points that were not computed the class and the period of their kind.
    pure subroutine take_over(grid, findings)
-      !> The grid
       type(refined_grid_type), intent(in) :: grid
-      !> Results
       type(finding_type), intent(inout) :: findings(:)
       integer :: kinds(size(findings))
 
@@ -152,19 +149,13 @@ contains
    !> longest delay of the sweep. There is no past to hand over between a block without delay and
    !> one with a delay: then the last state holds for t <= 0.
    subroutine hand_over(block_model, next, longest_delay, options, arrived, history, start)
-      !> The block of this point
       type(spring_block_type), intent(in) :: block_model
-      !> The next point
       type(point_type), intent(in) :: next
-      !> Longest delay of the sweep
       real(wp), intent(in) :: longest_delay
-      !> Method, tolerances and limits
       type(integration_options), intent(in) :: options
-      !> Where this point ended
       type(continuation_type), intent(in) :: arrived
       !> Values for t <= 0 of the next point, used if `start` is empty
       type(block_history_type), intent(inout) :: history
-      !> Where the next point starts
       type(continuation_type), intent(inout) :: start
       type(continuation_type) :: onward
       type(error_type), allocatable :: error

@@ -134,15 +134,10 @@ contains
 
    !> The class by the lines in the spectrum of v.
    subroutine judge_spectrum(v, settings, attractor, peaks, error)
-      !> Samples of v
       real(wp), intent(in) :: v(:)
-      !> How an attractor is judged
       type(attractor_settings_type), intent(in) :: settings
-      !> The attractor
       type(attractor_type), intent(inout) :: attractor
-      !> Peaks of the spectrum
       type(peak_type), allocatable, intent(out) :: peaks(:)
-      !> Too few samples
       type(error_type), allocatable, intent(out) :: error
       type(bases_type) :: bases
       real(wp), allocatable :: frequency(:), power(:)
@@ -169,9 +164,7 @@ contains
    !> Look for a third base among the lines that two bases do not explain: with it the section must
    !> be a smooth function of three phases, but not of two.
    subroutine look_for_third(peaks, attractor)
-      !> Peaks of the spectrum of v
       type(peak_type), intent(in) :: peaks(:)
-      !> The attractor
       type(attractor_type), intent(inout) :: attractor
       type(peak_type), allocatable :: others(:)
       real(wp) :: roughness

@@ -94,9 +94,7 @@ contains
 
    !> Keep the path to be drawn, of a cycle no more than one period, but with more points.
    subroutine keep_path(search, attractor)
-      !> What is run, and how
       type(search_type), intent(in) :: search
-      !> The attractor
       type(attractor_type), intent(inout) :: attractor
       real(wp) :: closeness, time
 
@@ -116,11 +114,8 @@ contains
    !> Wait until the block is at rest or on a cycle, but not longer than the approach may take. Near
    !> unstable steady sliding wait as long as a motion may be observed.
    subroutine approach(search, attractor, error)
-      !> What is run, and how
       type(search_type), intent(in) :: search
-      !> The attractor
       type(attractor_type), intent(inout) :: attractor
-      !> The run ended before its time
       type(error_type), allocatable, intent(out) :: error
       integer :: most_parts, part
 
@@ -143,7 +138,6 @@ contains
 
    !> Longest time of an observation.
    pure real(wp) function longest_time(self) result(time)
-      !> How an attractor is looked for
       class(search_type), intent(in) :: self
 
       time = self%settings%t_observed*2**self%settings%doublings
@@ -151,7 +145,6 @@ contains
 
    !> Number of exponents: without delay there are no more than equations.
    pure integer function most_exponents(self, wanted) result(exponents)
-      !> The block
       class(search_type), intent(in) :: self
       !> Number of exponents wanted
       integer, intent(in) :: wanted
@@ -163,11 +156,8 @@ contains
    !> Whether the block is at rest: it stays close to steady sliding or approaches it, and
    !> steady sliding is stable.
    subroutine judge_rest(search, attractor, error)
-      !> What is run, and how
       type(search_type), intent(in) :: search
-      !> The attractor
       type(attractor_type), intent(inout) :: attractor
-      !> The roots of (5) cannot be found
       type(error_type), allocatable, intent(out) :: error
       type(exponent_type), allocatable :: exponents(:)
 
@@ -186,11 +176,8 @@ contains
 
    !> A block in motion: observe it until its class is certain.
    subroutine judge_motion(search, attractor, error)
-      !> What is run, and how
       type(search_type), intent(in) :: search
-      !> The attractor
       type(attractor_type), intent(inout) :: attractor
-      !> Exponents cannot be measured
       type(error_type), allocatable, intent(out) :: error
       type(attractor_type) :: later
       type(growth_type) :: measured
@@ -275,17 +262,11 @@ contains
 
    !> Observe the block for a time, and measure exponents: go on, or begin if nothing was measured.
    subroutine go_on(search, exponents, time, motion, measured, error)
-      !> What is run, and how
       type(search_type), intent(in) :: search
-      !> Number of exponents
       integer, intent(in) :: exponents
-      !> How long
       real(wp), intent(in) :: time
-      !> The motion
       type(observed_motion_type), intent(inout) :: motion
-      !> The growth
       type(growth_type), intent(inout) :: measured
-      !> Exponents cannot be measured
       type(error_type), allocatable, intent(out) :: error
       type(continuation_type) :: now
       type(growth_settings_type) :: wanted
@@ -309,11 +290,8 @@ contains
 
    !> Chaos may be transient: see what the block does after some more time.
    subroutine outlive(search, attractor, error)
-      !> What is run, and how
       type(search_type), intent(in) :: search
-      !> The attractor
       type(attractor_type), intent(inout) :: attractor
-      !> The run ended before its time
       type(error_type), allocatable, intent(out) :: error
       type(integration_result) :: outcome
 

@@ -85,11 +85,9 @@ contains
 
    !> One step from grid point `step`.
    subroutine advance(problem, grid, step, y)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
       !> The past, whose newest point is this; the next is added
       type(grid_type), intent(inout) :: grid
-      !> Number of the grid point
       integer, intent(in) :: step
       !> State there, replaced by the next
       real(wp), intent(inout) :: y(:)
@@ -109,17 +107,12 @@ contains
 
    !> Right-hand side at `part` of the step from grid point `step`.
    subroutine find_slope(problem, grid, step, part, y, slope)
-      !> The problem
       class(dde_problem_type), intent(in) :: problem
-      !> The past
       type(grid_type), intent(in) :: grid
-      !> Number of the grid point
       integer, intent(in) :: step
       !> Share of the step, 0..1
       real(wp), intent(in) :: part
-      !> State
       real(wp), intent(in) :: y(:)
-      !> Slope of the state
       real(wp), intent(out) :: slope(:)
 
       call problem%rhs((step + part)*grid%h, y, grid%delayed(problem, step, part), slope)
@@ -127,7 +120,6 @@ contains
 
    !> Delayed values at `part` of the step from grid point `step`.
    pure function delayed(self, problem, step, part) result(z)
-      !> The past
       class(grid_type), intent(in) :: self
       !> The problem
       class(dde_problem_type), intent(in) :: problem
@@ -154,7 +146,6 @@ contains
 
    !> A component between grid points `point` and `point` + 1.
    pure real(wp) function between(self, component, point, place, cubic) result(value)
-      !> The past
       class(grid_type), intent(in) :: self
       !> Index into the state
       integer, intent(in) :: component
@@ -183,13 +174,9 @@ contains
    subroutine sample(grid, step, steps, t_end, sampler)
       !> The past, both ends of the step included
       type(grid_type), intent(in) :: grid
-      !> Number of the grid point
       integer, intent(in) :: step
-      !> Number of steps
       integer, intent(in) :: steps
-      !> Final time
       real(wp), intent(in) :: t_end
-      !> Receiver
       class(sampler_type), intent(inout) :: sampler
       real(wp) :: place
       integer :: i

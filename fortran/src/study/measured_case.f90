@@ -7,15 +7,12 @@ module measured_case
    use spring_block, only: spring_block_type
    implicit none (type, external)
    private
-   public :: case_name_length, case_type
-
-   !> Longest name of a case.
-   integer, parameter :: case_name_length = 64
+   public :: case_type
 
    !> One case.
    type :: case_type
       !> Name
-      character(len=case_name_length) :: name = ""
+      character(len=256) :: name = ""
       !> Parameters
       type(block_parameters_type) :: parameters
       !> Values for t <= 0
@@ -25,17 +22,13 @@ module measured_case
       !> Time between samples
       real(wp) :: sample_interval = 1.0_wp
    contains
-      !> The problem that the solver takes
-      procedure :: problem
-      !> Times of samples, from 0 on
-      procedure :: sample_times
+      procedure :: problem, sample_times
    end type case_type
 
 contains
 
    !> The block with this case's parameters, rounded to double precision in any precision.
    pure function problem(self, disturbance) result(block)
-      !> The case
       class(case_type), intent(in) :: self
       !> Change of theta and u and relative change of v for t <= 0
       real(wp), intent(in) :: disturbance
@@ -53,7 +46,6 @@ contains
 
    !> Times of samples: multiples of the interval up to t_end.
    pure function sample_times(self) result(time)
-      !> The case
       class(case_type), intent(in) :: self
       real(wp), allocatable :: time(:)
 

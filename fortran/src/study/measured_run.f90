@@ -142,17 +142,12 @@ contains
 
    !> Solve it by the run's method.
    subroutine solve(block_model, t_end, most_steps, run, error, sampler)
-      !> The problem
       type(spring_block_type), intent(in) :: block_model
-      !> Last time
       real(wp), intent(in) :: t_end
-      !> Most steps of the solver
       integer(int64), intent(in) :: most_steps
       !> Method and setting; filled with the outcome
       type(run_type), intent(inout) :: run
-      !> Why it did not reach t_end
       type(error_type), allocatable, intent(out) :: error
-      !> Receiver of samples
       type(extremes_sampler_type), intent(inout), optional :: sampler
 
       if (any(baseline_methods == run%method)) then
@@ -168,13 +163,9 @@ contains
 
    !> CPU seconds of one run: the mean of several in a row that fill the shortest time to measure.
    real(wp) function time_taken(case, most_steps, least_seconds, run) result(seconds)
-      !> The case
       type(case_type), intent(in) :: case
-      !> Most steps of the solver
       integer(int64), intent(in) :: most_steps
-      !> Shortest time to measure
       real(wp), intent(in) :: least_seconds
-      !> Method and setting
       type(run_type), intent(in) :: run
       type(error_type), allocatable :: error
       type(run_type) :: again
@@ -195,7 +186,6 @@ contains
 
    !> The middle one, or of an even number the mean of the two in the middle.
    pure real(wp) function median(values) result(value)
-      !> Values, at least one
       real(wp), intent(in) :: values(:)
       real(wp) :: sorted(size(values))
       integer :: i, middle, place
@@ -228,7 +218,6 @@ contains
 
    !> Look at the state; keep it where a sample is due.
    subroutine take(self, y)
-      !> The sampler
       class(extremes_sampler_type), intent(inout) :: self
       !> The state
       real(wp), intent(in) :: y(:)

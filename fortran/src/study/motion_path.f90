@@ -71,7 +71,6 @@ contains
 
    !> Keep a sample. The next one follows after the longest time or the longest slip at this v.
    subroutine take(self, y)
-      !> The samples
       class(path_sampler_type), intent(inout) :: self
       !> u and ln v
       real(wp), intent(in) :: y(:)
@@ -94,7 +93,6 @@ contains
    pure function thinned(path, closeness) result(line)
       !> Time, u and ln v
       real(wp), intent(in) :: path(:, :)
-      !> How close the line is
       real(wp), intent(in) :: closeness
       real(wp), allocatable :: line(:, :)
       real(wp) :: scaled(size(path, 1), size(path, 2))
@@ -138,11 +136,8 @@ contains
 
    !> Distance of a point from a straight line between two others.
    pure real(wp) function distance_from(point, first, last) result(distance)
-      !> The point
       real(wp), intent(in) :: point(:)
-      !> One end of the line
       real(wp), intent(in) :: first(:)
-      !> The other end
       real(wp), intent(in) :: last(:)
       real(wp) :: length, share
 

@@ -76,7 +76,6 @@ contains
 
    !> Forget the observations, not where the motion is.
    pure subroutine clear(self)
-      !> The motion
       class(observed_motion_type), intent(inout) :: self
       type(even_sampler_type) :: empty
       real(wp) :: nothing(0)
@@ -93,7 +92,6 @@ contains
 
    !> Forget the samples and where the motion is: of many motions they would fill the memory.
    pure subroutine forget_path(self)
-      !> The motion
       class(observed_motion_type), intent(inout) :: self
       type(even_sampler_type) :: empty
       type(event_table) :: unused
@@ -105,7 +103,6 @@ contains
 
    !> Observe on for a time.
    subroutine observe(self, block_model, time, options, error)
-      !> The motion
       class(observed_motion_type), intent(inout) :: self
       !> The block
       type(spring_block_type), intent(in) :: block_model
@@ -127,7 +124,6 @@ contains
 
    !> Observe a run of the block up to `time`, with or without tangent vectors.
    subroutine observe_interval(self, problem, time, options, outcome, error, continuation)
-      !> The motion
       class(observed_motion_type), intent(inout) :: self
       !> The block, maybe with tangent vectors
       class(dde_problem_type), intent(in) :: problem
@@ -150,7 +146,6 @@ contains
 
    !> Keep the observations of the last interval.
    subroutine keep_interval(self)
-      !> The motion
       class(observed_motion_type), intent(inout) :: self
 
       self%sampler%kept = self%sampler%received
@@ -159,7 +154,6 @@ contains
 
    !> The motion is here: take over the maxima and the section of what was kept.
    subroutine arrive(self, continuation)
-      !> The motion
       class(observed_motion_type), intent(inout) :: self
       !> Where it is
       type(continuation_type), intent(in) :: continuation
@@ -171,7 +165,6 @@ contains
 
    !> Wait for new events.
    pure subroutine await_events(self)
-      !> The motion
       class(observed_motion_type), intent(inout) :: self
       integer :: i
 
@@ -183,7 +176,6 @@ contains
 
    !> One of theta, u and ln v at even times.
    pure function samples(self, component) result(values)
-      !> The motion
       class(observed_motion_type), intent(in) :: self
       !> `index_of_theta`, `index_of_u` or `index_of_ln_v`
       integer, intent(in) :: component
@@ -194,7 +186,6 @@ contains
 
    !> Begin to sample now, or go on after the last sample that is kept.
    pure subroutine go_on(self, now)
-      !> The samples
       class(even_sampler_type), intent(inout) :: self
       !> Present time
       real(wp), intent(in) :: now
@@ -206,7 +197,6 @@ contains
 
    !> Keep a sample, and wait for the next one.
    subroutine take(self, y)
-      !> The samples
       class(even_sampler_type), intent(inout) :: self
       !> Values of the wanted components
       real(wp), intent(in) :: y(:)
@@ -221,7 +211,6 @@ contains
 
    !> Take over maxima of v and points of the section.
    pure subroutine take_over(self)
-      !> The motion, with one event at least
       class(observed_motion_type), intent(inout) :: self
       logical :: kept(self%events%received)
       integer :: i
@@ -248,7 +237,6 @@ contains
 
    !> Standard deviations of theta and u, over all samples.
    pure function scale(self) result(deviations)
-      !> The motion, observed
       class(observed_motion_type), intent(in) :: self
       real(wp) :: deviations(2)
       integer, parameter :: component(2) = [index_of_theta, index_of_u]

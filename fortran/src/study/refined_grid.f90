@@ -61,7 +61,6 @@ contains
 
    !> Numbers of the points to compute next, the first axis runs fastest; none when all have a kind.
    pure subroutine next(self, numbers)
-      !> The grid, with the kinds of all points that were to be computed before
       class(refined_grid_type), intent(inout) :: self
       !> Numbers of the points
       integer, allocatable, intent(out) :: numbers(:)
@@ -76,7 +75,6 @@ contains
 
    !> Give each new point the kind of the known points around it, if that is one.
    pure subroutine fill(self)
-      !> The grid
       class(refined_grid_type), intent(inout) :: self
       integer, allocatable :: columns(:), lines(:)
       integer :: around(2, 2), i, j
@@ -98,7 +96,6 @@ contains
 
    !> Numbers of the points that were not computed and have no kind, or are beside another kind.
    pure function due(self) result(numbers)
-      !> The grid
       class(refined_grid_type), intent(in) :: self
       integer, allocatable :: numbers(:)
       integer, allocatable :: columns(:), kinds(:, :), lines(:)
@@ -122,7 +119,6 @@ contains
 
    !> Set the kinds of computed points.
    pure subroutine put(self, numbers, kinds)
-      !> The grid
       class(refined_grid_type), intent(inout) :: self
       !> Numbers of the points
       integer, intent(in) :: numbers(:)
@@ -140,7 +136,6 @@ contains
 
    !> Whether a point has a kind.
    pure logical function knows(self, number) result(value)
-      !> The grid
       class(refined_grid_type), intent(in) :: self
       !> Number of the point
       integer, intent(in) :: number
@@ -152,7 +147,6 @@ contains
 
    !> Number of points that have a kind.
    pure integer function settled(self) result(points)
-      !> The grid
       class(refined_grid_type), intent(in) :: self
 
       points = count(self%kinds /= unknown)
@@ -160,9 +154,7 @@ contains
 
    !> Lines of this distance, and the last one.
    pure function lines_of(places, spacing) result(lines)
-      !> Number of all lines
       integer, intent(in) :: places
-      !> Distance
       integer, intent(in) :: spacing
       integer, allocatable :: lines(:)
       integer :: i
@@ -172,11 +164,8 @@ contains
 
    !> The lines of twice the distance on both sides of a line, twice itself if it is one of them.
    pure function beside(line, spacing, places) result(lines)
-      !> The line
       integer, intent(in) :: line
-      !> Distance
       integer, intent(in) :: spacing
-      !> Number of all lines
       integer, intent(in) :: places
       integer :: lines(2)
 
@@ -188,9 +177,7 @@ contains
 
    !> Whether two points have different kinds.
    elemental logical function differ(a, b) result(value)
-      !> Kind of one
       integer, intent(in) :: a
-      !> Kind of the other
       integer, intent(in) :: b
 
       value = a /= b .and. a /= unknown .and. b /= unknown

@@ -61,11 +61,8 @@ contains
 
    !> Put the passages together to events.
    pure subroutine collect(passages, t_transient, events)
-      !> Passages of ln v and of its slope through zero
       type(event_table), intent(in) :: passages
-      !> Events that begin before this time are left out
       real(wp), intent(in) :: t_transient
-      !> The events
       type(slip_events_type), intent(out) :: events
       integer, allocatable :: begin(:)
       integer :: i, n

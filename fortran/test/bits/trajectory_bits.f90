@@ -32,6 +32,7 @@ contains
    !> Integrate a case and print its samples.
    subroutine print_case(name, parameters, t_end, method)
       character(len=*), intent(in) :: name
+      !> Delay, epsilon, xi and gamma
       real(wp), intent(in) :: parameters(4), t_end
       character(len=*), intent(in) :: method
       integer :: i
