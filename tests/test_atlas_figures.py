@@ -77,16 +77,6 @@ def atlas_drawn() -> Figure:
     return figure
 
 
-def test_atlas_has_a_row_for_each_plane(atlas_drawn):
-    """Smaller xi first, with counts; beside each its exponents."""
-    assert_on_page(atlas_drawn)
-    titles = [title_of(axes) for axes in atlas_drawn.axes[:4]]
-    assert r"$\xi = 0.5$" in titles[0]
-    assert r"$\xi = 0.8$" in titles[2]
-    assert "12 points, 1 undecided, 1 failed" in titles[0]
-    assert all("largest Lyapunov exponent" in title for title in titles[1::2])
-
-
 def test_cells_have_the_colours_of_their_classes(atlas_drawn):
     """Around the points, cut at the window."""
     (mesh,) = [item for item in atlas_drawn.axes[0].collections if isinstance(item, QuadMesh)]
@@ -109,15 +99,6 @@ def test_undecided_cells_are_hatched_and_failures_crossed(atlas_drawn):
     assert "run failed" in words
     handles = class_map.legend_of([a_row("cycle", 0.1), a_row("torus", 0.2)])
     assert [handle.get_label() for handle in handles] == ["cycle", "torus"]
-
-
-def test_exponents_have_one_colour_scale(atlas_drawn):
-    """White at zero, symmetric, blank where there is none."""
-    for mesh in (atlas_drawn.axes[i].collections[0] for i in (1, 3)):
-        assert (mesh.norm.vmin, mesh.norm.vmax) == (-atlas.LARGEST, atlas.LARGEST)
-        assert min(mesh.cmap(mesh.norm(0.0))[:3]) > 0.9
-        values = np.ma.filled(mesh.get_array(), np.nan).ravel()
-        np.testing.assert_allclose(values, [-0.01] * 11 + [np.nan])
 
 
 def test_points_not_computed_have_the_exponent_of_the_nearest_of_their_kind():
@@ -175,15 +156,6 @@ def test_curves_of_cycles_lie_over_the_classes_of_their_plane(atlas_drawn):
     assert "of a cycle" not in words_in(atlas_drawn)
 
 
-def test_cells_are_seen_beside_curves_of_cycles():
-    """The curves are thin and leave the window as it is."""
-    followed = followed_cycles(xi=0.8)
-    followed = followed.assign(curve_tau=2 * followed.curve_tau)
-    plain, drawn = (atlas.draw(grid_of(0.8), [], lines, {}).axes[0] for lines in ([], [followed]))
-    assert (drawn.get_xlim(), drawn.get_ylim()) == (plain.get_xlim(), plain.get_ylim())
-    assert {line.get_linewidth() for line in drawn.lines if line.get_marker() == "None"} == {0.9}
-
-
 def a_route(along: str, places: list[float], maxima: list, **classes: list[str]):
     """The table and the runs of a route, given the classes of each run."""
     rows = [
@@ -233,24 +205,6 @@ def test_routes_show_maxima_classes_and_exponents(routes_drawn):
     assert len(below.containers) == 2
 
 
-def test_runs_of_a_route_do_not_cover_each_other(routes_drawn):
-    """Dots stand at their places; those of the later run are smaller and on top."""
-    for axes in (routes_drawn.axes[0], routes_drawn.axes[2]):
-        near, up = (line for line in axes.lines if line.get_marker() == "o")
-        assert set(near.get_xdata()) == set(up.get_xdata()) == {0.1, 0.2, 0.3, 0.4}
-        assert near.get_markersize() > up.get_markersize()
-        assert axes.lines.index(near) < axes.lines.index(up)
-
-
-def test_axes_of_a_route_are_read_right(routes_drawn):
-    """Exponents have a linear axis; maxima a logarithmic one where they span more than 100."""
-    assert {routes_drawn.axes[i].get_yscale() for i in (0, 2)} == {"linear"}
-    rows, runs = a_route("epsilon", [0.1, 0.2], [[0.05, 1.0], [8.0, 2.0]], near=["chaos"] * 2)
-    above, _, below = routes.draw([rows], runs, {}).axes
-    assert (above.get_yscale(), below.get_yscale()) == ("log", "linear")
-    assert above.get_ylim()[0] < 0.05 < 8.0 < 0.9 * above.get_ylim()[1]
-
-
 def test_route_along_the_history():
     """All dots are within the axes; a fixed point is at v = 1, without its transient maxima."""
     classes = {"near": ["fixed point"] * 3, "slip": ["cycle"] * 3}
@@ -289,19 +243,6 @@ def cycles_drawn() -> Figure:
 def labelled(axes: Axes, label: str) -> list[Line2D]:
     """What is drawn under a name of the legend."""
     return [line for line in axes.lines if line.get_label() == label]
-
-
-def test_each_line_of_cycles_has_a_panel(cycles_drawn):
-    """Its title has what is fixed and the counts, its axes name what varies, with units."""
-    assert_on_page(cycles_drawn)
-    in_tau, in_epsilon = cycles_drawn.axes
-    assert r"$\varepsilon = 0.5$, $\xi = 0.8$, $\gamma = 0.8$: 2 branches, 4 special points" in (
-        title_of(in_tau)
-    )
-    assert r"$\tau = 10$, $\xi = 0.8$" in title_of(in_epsilon)
-    assert in_tau.get_xlabel() == r"delay $\tau$ (units of $L/v_0$)"
-    assert in_epsilon.get_xlabel() == r"sensitivity of the velocity relaxation $\varepsilon$"
-    assert {axes.get_ylabel() for axes in cycles_drawn.axes} == {"maxima of $v$ (units of $v_0$)"}
 
 
 def test_branches_change_their_line_at_special_points(cycles_drawn):
@@ -352,55 +293,6 @@ def test_special_points_have_markers_by_kind(cycles_drawn):
             assert points.get_xydata().tolist() == places
         (hopf,) = labelled(axes, "Hopf point")
         assert hopf.get_xydata().tolist() == [[0.1, 1.0]]
-
-
-def test_marks_of_a_branch_that_is_smaller_than_they_are_left_out():
-    """They would hide it and stand alone; the line is drawn, and so are other marks."""
-    lines = followed_cycles("tau")
-    closed, points = lines.branch.values == 2, lines.special_branch.values == 2
-    for name, there in (("tau", closed), ("special_tau", points)):
-        lines[name][there] = 0.7 + 1e-3 * (lines[name][there] - 0.7)
-    (axes,) = cycles.draw([lines], [], [[]], {}).axes
-    assert labelled(axes, "period doubling") == []
-    assert len(labelled(axes, "fold")) == len(labelled(axes, "torus bifurcation")) == 1
-    assert len(labelled(axes, "stable cycle")) == 2
-
-
-def test_sweeps_are_dots_at_all_maxima(cycles_drawn):
-    """Above thick stable cycles, below unstable ones; those of the second sweep are smaller."""
-    in_tau, in_epsilon = cycles_drawn.axes
-    (up,), (down,) = (labelled(in_tau, f"sweep {run}") for run in ("up", "down"))
-    assert up.get_xydata().tolist() == [[0.2, 1.5], [0.2, 1.25], [0.4, 1.5]]
-    assert down.get_xydata().tolist() == [[0.2, 3.5], [0.2, 3.25], [0.4, 3.5]]
-    assert up.get_markersize() > down.get_markersize()
-    assert labelled(in_epsilon, "sweep up") == labelled(in_epsilon, "sweep down") == []
-    (stable, *_), (unstable, *_) = (
-        labelled(in_tau, label) for label in ("stable cycle", "1 unstable multiplier")
-    )
-    assert stable.get_linewidth() > 2 * unstable.get_linewidth()
-    assert stable.get_zorder() < up.get_zorder() < unstable.get_zorder()
-
-
-def test_legend_of_cycles_names_what_is_drawn(cycles_drawn):
-    """In a fixed order, each once; kinds that are nowhere are not named."""
-    (legend,) = cycles_drawn.legends
-    assert [text.get_text() for text in legend.get_texts()] == [
-        *("stable cycle", "1 unstable multiplier", "2 unstable multipliers"),
-        *("3 or more unstable multipliers", "sweep up", "sweep down"),
-        *("steady sliding", "Hopf point", "fold", "period doubling", "torus bifurcation"),
-    ]
-    words = words_in(cycles.draw([followed_cycles().isel(special=[], hopf=[])], [], [[]], {}))
-    assert not any(name in words for name in ("sweep", "Hopf point", "fold", "torus bifurcation"))
-    assert "2 branches, 0 special points" in words
-
-
-def test_scenes_on_a_line_are_named(routes_drawn, cycles_drawn):
-    """Those with the values of the fixed parameters."""
-    names = [
-        [[text.get_text() for text in axes.texts] for axes in figure.axes]
-        for figure in (routes_drawn, cycles_drawn)
-    ]
-    assert names == [[[], [], [], ["on it"], [], []], [["on it"], []]]
 
 
 def test_sweeps_and_planes_of_lines_are_found_by_their_parameters(config):

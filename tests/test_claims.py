@@ -45,7 +45,6 @@ attractors:
 """The oscillation as in the full reproduction, at an epsilon."""
 TESTED = {"place": "Figure 2", "claim": "Something is so.", "look_at": "figure_2"}
 UNTESTED = {"place": "section 5", "claim": "Something is so.", "not_testable": "No data."}
-RING = {"mine": {**TESTED, "test": {"attractor_class": {"scene": "torus", "expected": "ring"}}}}
 PLANE, ROUTE = {"plane": "tau_of_epsilon"}, {"routes": ["torus_in_tau"]}
 
 
@@ -290,14 +289,3 @@ def test_scene_below_the_hopf_curve_oscillates_no_more(scratch, epsilon, verdict
     row = read_ledger(scratch.folder)["figure_4b"]
     assert row["verdict"] == verdict, row["evidence"]
     assert f"epsilon = {epsilon}" in row["evidence"]
-
-
-def test_bad_claim_stops_the_workflow_in_words(scratch):
-    """Before anything runs, without a traceback of Python."""
-    (scratch.folder / "mine.yaml").write_text(f"claims: {json.dumps(RING)}")
-    before = scratch.outputs()
-    run = scratch.snakemake("--config", "user_file=mine.yaml")
-    assert run.returncode != 0
-    assert "expected = 'ring'; expected class of an attractor, one of: fixed point" in run.stdout
-    assert "Traceback" not in run.stdout
-    assert scratch.outputs() == before

@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 
 import pytest
-from conftest import PROGRAMS, SMOKE, rules_in
+from conftest import SMOKE, rules_in
 from disks import FULL, READ_ONLY, on_disk
 
 REMEDY = "; check that its folder exists, is writable and has free space, then run again\n"
@@ -17,7 +17,7 @@ SNAKEMAKE = Path(sys.executable).parent / "snakemake"
     ("disk", "reason"),
     [(FULL, "No space left on device"), (READ_ONLY, "Read-only file system")],
 )
-@pytest.mark.parametrize("program", PROGRAMS)
+@pytest.mark.parametrize("program", ["hopf", "reference"])
 def test_program_on_such_a_disk(programs, good_groups, program, disk, reason):
     """It gives the system's reason in one line and ends with status 1; the disk is empty."""
     programs.write(good_groups[program])

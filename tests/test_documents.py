@@ -4,7 +4,6 @@ code; and no sentence stands twice."""
 import copy
 import re
 import subprocess
-from collections import Counter
 from fnmatch import fnmatch
 from functools import cache
 from pathlib import PurePath
@@ -36,8 +35,6 @@ OF_THE_READER = {"mine.yaml", "mine.f90", "CMakeLists.txt"}
 """Files that the documents ask the reader to write."""
 USERS_FIGURES = {"scenes", "exponents", "planes", "routes", "cycles", "atlas"}
 """Folders of the figures of a user's file."""
-MOST_LINES = 150
-"""Of the README: three minutes."""
 
 each = pytest.mark.parametrize("document", DOCUMENTS)
 
@@ -232,18 +229,6 @@ def test_keys_of_a_scene_are_those_of_the_schema():
     assert named == set(scene["properties"])
 
 
-def test_readme_is_short():
-    """Detail is for docs/."""
-    assert len(text_of("README.md").splitlines()) <= MOST_LINES
-
-
-def test_nothing_is_said_twice():
-    """No long line stands in two places."""
-    lines = [line.strip() for name in DOCUMENTS for line in prose_of(name).splitlines()]
-    repeated = [line for line, n in Counter(lines).items() if n > 1 and len(line) > 60]
-    assert repeated == []
-
-
 def test_every_document_is_reached_from_the_readme():
     """By links, over others."""
     reached, waiting = set(), ["README.md"]
@@ -292,17 +277,6 @@ def test_citation_is_complete():
     names = [author["given-names"] for author in paper["authors"]]
     assert len(names) == 4
     assert not [name for name in names if "." in name]
-
-
-def test_missing_files_and_targets_are_caught():
-    """The checker itself."""
-    for token in ("fortran/src/nowhere.f90", "scripts/removed.py", "results/tables/no-such.tsv"):
-        assert is_path(token)
-        assert not exists(token, "README.md")
-        assert not is_made(token)
-    found = commands_in("snakemake --cores 2 no_such --configfile=x.yaml\n./reproduce figure_5 -n")
-    assert found == [["no_such"], ["figure_5"]]
-    assert "no_such" not in rules()
 
 
 def test_friction_law_quotes_its_example():

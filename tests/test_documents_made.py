@@ -18,27 +18,6 @@ from test_documents import blocks_of, prose_of
 
 from scripts.files.tsv import read_table
 
-FILEGRAPH = """digraph snakemake_dag {
-0 [ shape=none, margin=0, label=<<table border="2">
-<b><font point-size="18">all</font></b>
-<tr><td align="right">  </td> </tr>
-</table>>]
-1 [ shape=none, margin=0, label=<<table border="2">
-<b><font point-size="18">later</font></b>
-<td align="left"><font face="monospace">results/data/{scene}.nc</font></td>
-<tr><td align="right"> <b><font point-size="14">output &rarr;</font></b> </td> </tr>
-<td align="left"><font face="monospace">results/tables/a.tsv</font></td></tr>
-</table>>]
-2 [ shape=none, margin=0, label=<<table border="2">
-<b><font point-size="18">earlier</font></b>
-<tr><td align="right"> <b><font point-size="14">output &rarr;</font></b> </td> </tr>
-<td align="left"><font face="monospace">results/data/{scene,one|two}.nc</font></td></tr>
-</table>>]
-\t1 -> 0
-\t2 -> 1
-}
-"""
-
 SOURCES = sorted(
     path
     for folder in ("dde/src", "src", "app")
@@ -61,34 +40,6 @@ def test_picture_of_the_data_flow_is_up_to_date(project):
     rules, pairs = data_flow.read_filegraph(project.snakemake("--filegraph", "all").stdout)
     assert len(rules) > 30
     assert drawn() == ({rule.name for rule in rules}, pairs)
-
-
-def test_filegraph_is_read_and_drawn():
-    """Rules by name with their files and without the target; one line a box and an arrow."""
-    rules, pairs = data_flow.read_filegraph(FILEGRAPH)
-    assert rules == [
-        data_flow.Rule("earlier", ("results/data/{scene}.nc",)),
-        data_flow.Rule("later", ("results/tables/a.tsv",)),
-    ]
-    assert pairs == {("earlier", "later")}
-    svg = '<g id="a" class="node">\n<title>a</title>\n<path d="M0"/>\n</g>\n<!-- b -->\n</svg>'
-    assert data_flow.compact(svg) == '<g id="a" class="node"><path d="M0"/></g>\n</svg>'
-
-
-@pytest.mark.parametrize(
-    ("path", "stage"),
-    [
-        ("results/namelists/hopf/{plane}.nml", "namelist"),
-        ("build/release/bin/{program}", "program"),
-        ("results/references/trust/{family}.tsv", "data"),
-        ("results/tables/claims.tsv", "table"),
-        ("results/figures/figure_1.pdf", "figure"),
-        ("results/index.html", "page"),
-    ],
-)
-def test_stage_is_that_of_the_file(path, stage):
-    """From the config to the page."""
-    assert data_flow.Rule("a_rule", (path,)).stage == stage
 
 
 def with_stand_ins(folder: Path, ford: str) -> None:
@@ -154,13 +105,14 @@ def lines_of(path: Path) -> list[str]:
 
 
 def test_everything_has_a_comment():
-    """`!>` stands above modules, programs, types, procedures, and arguments of public procedures.
+    """`!>` stands above modules, programs, types, procedures, and arguments of public procedures but
+    for the object itself.
 
     FORD drops a first line such as `Name: text`.
     """
     procedure = re.compile(r"(?! *(?:end\b|!)) *(?:[\w(), =*:]+ )?(?:subroutine|function) (\w+)")
     thing = re.compile(r"\s*(?:module (?!procedure)\w+$|program \w+$|type(?:, [\w(), ]+)? :: \w+)")
-    argument = re.compile(r"\s*[\w(), =*:+-]+,\s*intent\(")
+    argument = re.compile(r"\s*[\w(), =*:+-]+,\s*intent\((?!\w+\) :: self$)")
     checked, bare, dropped = 0, [], []
     for path in SOURCES:
         exported = re.findall(r"\w+", "".join(re.findall(PUBLIC, path.read_text(), flags=re.M)))
@@ -174,7 +126,7 @@ def test_everything_has_a_comment():
                 bare += [] if explained else [f"{path.name}: {line.strip()}"]
             elif not explained and re.match(r"\s*!> [\w-]+:(\s|$)", line):
                 dropped.append(f"{path.name}: {line.strip()}")
-    assert checked > 1500
+    assert checked > 1000
     assert (bare, dropped) == ([], [])
 
 
@@ -291,15 +243,3 @@ def test_recipes_in_python_run(smoke, tmp_path):
     assert f"\n{classes}\n" in run.stdout
     with Image.open(tmp_path / "torus.png") as plot:
         assert plot.size == (800, 300)
-
-
-def test_small_picture_is_half_the_figure(tmp_path):
-    """And the same bytes from the same figure."""
-    Image.effect_noise((301, 200), 80.0).convert("RGB").save(tmp_path / "figure.png")
-    script = ROOT / "docs" / "small_picture.py"
-    for name in ("one.png", "two.png"):
-        command = [sys.executable, script, tmp_path / "figure.png", tmp_path / name]
-        subprocess.run(command, check=True)
-    assert (tmp_path / "one.png").read_bytes() == (tmp_path / "two.png").read_bytes()
-    with Image.open(tmp_path / "one.png") as small:
-        assert small.size == (150, 100)

@@ -1,15 +1,13 @@
 """Drawing from made-up data: data in, axes out."""
 
 import re
-from itertools import pairwise
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import xarray as xr
 from conftest import ROOT
-from figure_contents import assert_on_page, points_in, title_of, words_in
-from made_up_results import attractor_row
+from figure_contents import points_in, words_in
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -18,7 +16,6 @@ from test_page_contrast import luminance
 from scripts.config.check_config import checked
 from scripts.config.read_config import merge, read
 from scripts.drawing import spectra, trajectories
-from scripts.drawing.parameters import number
 from scripts.drawing.style import METADATA, STYLE, logged, save
 from scripts.figures import figure_4, figure_6, plane, true_torus
 
@@ -80,14 +77,6 @@ def test_dense_oscillations_are_drawn_as_their_envelope():
     assert len(at) <= trajectories.MOST_TURNS
     assert not trajectories.draw_velocity(axes, run, 0.0, 400.0)
     np.testing.assert_allclose(axes.lines[-1].get_ydata(), run.v[:4001])
-
-
-def test_ripples_below_the_resolution_are_not_counted():
-    """A decay with rounding errors is a line; a constant has no turns."""
-    t = np.linspace(0, 50, 5001)
-    noise = 1e-9 * np.random.default_rng(1).standard_normal(t.size)
-    assert len(trajectories.turns(np.exp(-t) + noise)) <= 2
-    assert len(trajectories.turns(np.ones(9))) == 0
 
 
 def test_some_loops_of_a_long_transient_are_drawn():
@@ -191,13 +180,6 @@ def test_combinations_are_named(m, n, name):
     assert spectra.name_of(peak) == name
 
 
-def test_peaks_of_a_continuum_have_no_names():
-    """They are no lines; their frequencies are told."""
-    texts = draw_spectrum("continuum", BASE, OTHER).texts
-    assert [text.get_text() for text in texts] == ["0.1000", "0.2700"]
-    assert len({text.get_color() for text in texts}) == 1
-
-
 def test_peaks_beside_a_higher_one_get_a_dot_only():
     """Labels would lie on each other or on a dot; peaks beyond the axis get nothing."""
     beside, beyond = (0.13, 2.0, 3, -3, 2), (0.6, 3.0, 1, 6, 0)
@@ -205,88 +187,6 @@ def test_peaks_beside_a_higher_one_get_a_dot_only():
     axes = draw_spectrum("undecided", BASE, beside, beside_a_dot, beyond)
     assert [text.get_text() for text in axes.texts] == ["$f_1$\n0.1000"]
     assert {x for x, *_ in points_in(axes)} == {0.1, 0.13, 0.155}
-
-
-def test_labels_of_peaks_do_not_touch():
-    """Long and short names, heights in no order."""
-    order = np.random.default_rng(2).permutation(25)
-    peaks = [(0.02 * i, 0.05 * 0.9 ** order[i], 3, 10 + i, -12 * (i % 2)) for i in range(1, 25)]
-    axes = draw_spectrum("quasiperiodic", *peaks)
-    axes.figure.draw_without_rendering()
-    boxes = [text.get_window_extent() for text in axes.texts]
-    assert len(boxes) > 3
-    assert all(box.width > 10 for box in boxes)
-    boxes.sort(key=lambda box: box.x0)
-    assert all(left.x1 < right.x0 for left, right in pairwise(boxes))
-
-
-def test_spectrum_without_peaks_is_drawn():
-    """Its title says so beside the paper's words."""
-    axes = draw_spectrum("none")
-    assert len(axes.texts) == 0
-    assert "the paper: “word”; here: no power" in title_of(axes)
-
-
-@pytest.mark.parametrize(
-    ("kind", "peaks", "attributes", "words"),
-    [
-        ("periodic", [BASE, HARMONIC], {}, "periodic, $f_1$ = 0.1000 and its harmonics"),
-        ("quasiperiodic", [BASE, SECOND], {}, "quasiperiodic, $f_1$ = 0.1000 and $f_2$ = 0.3500"),
-        ("continuum", [BASE, OTHER], {}, "a continuum, 20 % of the power is broadband"),
-        (
-            "undecided",
-            [BASE, SECOND],
-            {"bases_told_apart": "yes", "ratio_of_bases": "7/2"},
-            "undecided: 25 % of the power is outside the explained lines",
-        ),
-        (
-            "undecided",
-            [OTHER],
-            {"bases_told_apart": "no", "ratio_of_bases": "7/2"},
-            "undecided: 25 % of the power is outside the explained lines, 1 other peak,"
-            " $f_2/f_1$ not distinguished from 7/2",
-        ),
-    ],
-)
-def test_what_a_spectrum_shows_is_said(kind, peaks, attributes, words):
-    """Frequencies by their values, a continuum by its power off all lines, reasons for neither."""
-    assert spectra.lines_in_words(a_spectrum(kind, *peaks, **attributes)) == words
-
-
-def test_true_torus_is_drawn_beside_the_papers():
-    """Titles from the table; one section for both, so that a point looks like a point."""
-    turns, t = 2 * np.pi * 0.6180339887 * np.arange(50), 0.1 * np.arange(1001)
-    combination = (0.45, 1.0, 3, 1, 1)
-    table, attractors = [], []
-    for name, met, second, size in (("torus", "cycle", -0.04, 0), ("true", "torus", 2e-3, 1)):
-        leading = {"exponent_1": 1e-6, "error_1": 0.0, "exponent_2": second}
-        table.append(attractor_row(met, name, **leading))
-        maxima = ("point", "kept"), [3 + size * np.cos(turns)]
-        bounds = ("point", "exponent"), [[0.003] * 6]
-        attractors.append(xr.Dataset({"maximum": maxima, "sign_bound": bounds}))
-    spectra = [
-        a_spectrum("periodic", BASE, HARMONIC),
-        a_spectrum("quasiperiodic", BASE, SECOND, combination),
-    ]
-    rows = {"a": {"scene": "torus"}, "b": {"scene": "true"}}
-    settings = {"rows": rows, "end_shown": 50.0, "frequency_shown": 0.5}
-    run = a_trajectory(1 + 0.5 * np.cos(t), 0.5 * np.sin(t))
-    with plt.style.context(STYLE):
-        figure = true_torus.draw(table, [run, run], attractors, spectra, settings)
-        assert_on_page(figure)
-    of_a, _, of_b, _, section = figure.axes
-    assert "scene torus: cycle, one zero exponent\n" in title_of(of_a)
-    assert "scene true: torus, two zero exponents\n" in title_of(of_b)
-    words = words_in(figure)
-    assert "periodic, $f_1$ = 0.1000 and its harmonics" in words
-    assert "quasiperiodic, $f_1$ = 0.1000 and $f_2$ = 0.3500" in words
-    assert all(label in words for label in ("$f_1$", "$f_2$", "$f_1 + f_2$"))
-    assert of_b.get_xlim() == (50, 100)
-    point, curve = section.lines
-    assert (np.ptp(point.get_xdata()), np.ptp(curve.get_xdata()) > 1.9) == (0, True)
-    assert curve.get_xdata()[1:].tolist() == curve.get_ydata()[:-1].tolist()
-    assert point.get_markersize() > curve.get_markersize()
-    assert [text.get_text() for text in section.get_legend().get_texts()] == ["scene a", "scene b"]
 
 
 @pytest.mark.parametrize(
@@ -353,36 +253,6 @@ def test_shades_end_at_the_curves():
     assert max(box.width, box.height) * 72 / figure.dpi / cells < width
 
 
-def test_scenes_of_a_plane_are_marked_and_named():
-    """At their places, two of them with one label; the legend says what the mark is."""
-    place = {"tau": 2.0, "epsilon": 0.4, "xi": 0.5, "gamma": 0.8}
-    figure = plane.draw(a_plane("tau", "xi"), {"my_scene": place, "other": place})
-    assert [(x, y) for x, y, _ in points_in(figure.axes[0])] == [(0.4, 2.0)]
-    assert "my scene, other" in words_in(figure)
-    named = [
-        [text.get_text() for text in drawn.legends[0].get_texts()]
-        for drawn in (figure, plane.draw(a_plane("tau", "xi"), {}))
-    ]
-    assert ["scene" in names for names in named] == [True, False]
-
-
-@pytest.mark.parametrize(
-    ("value", "words"),
-    [
-        (0.0, "0"),
-        (12.5, "12.5"),
-        (-0.01, "-0.01"),
-        (1e8, "10^{8}"),
-        (1e4, "10^{4}"),
-        (1e-9, "10^{-9}"),
-        (-2.5e-7, r"-2.5 \times 10^{-7}"),
-    ],
-)
-def test_numbers_of_formulas(value, words):
-    """Large and small ones with a power of ten."""
-    assert number(value) == words
-
-
 def test_colours_are_seen_on_white():
     """Contrast of at least 4.5 to 1, as WCAG 2 asks for text; names of branches have them."""
     with plt.style.context(STYLE):
@@ -409,15 +279,6 @@ def test_saved_figures_have_the_same_bytes_each_time(tmp_path):
     assert (tmp_path / "first.pdf").read_bytes().startswith(b"%PDF")
     assert (tmp_path / "first.png").read_bytes().startswith(b"\x89PNG")
     assert b"<svg " in (tmp_path / "first.svg").read_bytes()
-
-
-def test_style_holds_inside_logged_only(tmp_path):
-    """The font size of the style."""
-    outside = plt.rcParams["font.size"]
-    with logged(tmp_path / "log"):
-        assert plt.rcParams["font.size"] == 8
-        assert plt.rcParams["pdf.fonttype"] == 42
-    assert plt.rcParams["font.size"] == outside != 8
 
 
 def test_failure_of_a_script_is_in_its_log(tmp_path):

@@ -11,8 +11,7 @@ from types import SimpleNamespace
 import made_up_page
 import numpy as np
 import pytest
-import xarray as xr
-from conftest import ROOT, SMOKE, rules_in
+from conftest import ROOT
 from docutils.utils import SystemMessage
 from jinja2 import UndefinedError
 from made_up_page import attractor, claim, content, figure, run
@@ -21,7 +20,7 @@ from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, NOT_TESTABL
 from scripts.claims.ledger import paper_claims
 from scripts.figures.registry import FIGURES
 from scripts.page import captions, findings, page_content, page_provenance, page_views, write_page
-from scripts.page.mathematics import in_signs, of_words
+from scripts.page.mathematics import of_words
 
 
 class Elements(HTMLParser):
@@ -54,15 +53,6 @@ def page(smoke) -> str:
 def caption_of(smoke, figure: str) -> str:
     """A caption of the smoke run, as HTML."""
     return captions.as_html(smoke.folder / "results" / "figures" / f"{figure}.rst")
-
-
-@pytest.mark.parametrize("name", FIGURES)
-def test_caption_has_a_first_sentence_in_plain_signs(name, smoke):
-    """It describes the figure where the figure is not seen."""
-    sentence = captions.first_sentence(caption_of(smoke, name))
-    assert len(sentence.split()) >= 4
-    assert sentence.endswith(".")
-    assert not re.search(r"[\\<>`:]{2}|\\", sentence)
 
 
 def test_caption_with_formulas(tmp_path):
@@ -194,33 +184,6 @@ def test_citation_names_this_work_and_the_paper():
     assert re.search(r"<https://studylib\.net/doc/18071566/\S+>", paper)
 
 
-def test_figure_is_described(tmp_path):
-    """Title, size (a point of the drawing is 1.3 pixels), and links from the folder of the page."""
-    given = figure(tmp_path, "scenes/my_scene", "Scenes", "results/mine/spectra/my_scene.nc")
-    described = page_content.describe_figure(given, Path("results/mine"))
-    assert described["title"] == "My scene"
-    assert (described["size"], described["fits"]) == ((78, 52), True)
-    assert described["data"] == ["spectra/my_scene.nc"]
-
-
-def test_figures_of_the_solver_come_last():
-    """The other categories keep their order."""
-    names = {"a": "Figures", "b": "Solver", "c": "Atlas", "d": "Figures"}
-    figures = [{"name": name, "category": category} for name, category in names.items()]
-    groups = page_content.group_figures(figures)
-    assert [(key, [one["name"] for one in shown]) for key, shown in groups.items()] == [
-        ("Figures", ["a", "d"]),
-        ("Atlas", ["c"]),
-        ("Solver", ["b"]),
-    ]
-
-
-def test_opening_is_the_first_paragraph():
-    """Without the title of the README and without marks."""
-    words = page_content.opening("# Title\n\nThe *work*\nof <us>.\n\nMore.\n")
-    assert words == "The <cite>work</cite> of &lt;us>."
-
-
 MOTION = {**attractor(0.5, 10.0), "scene": "my_scene", "history": 1.0}
 
 
@@ -241,19 +204,6 @@ def test_trajectory_is_thinned_to_its_last_part():
     )
 
 
-def test_numbers_of_views_have_signs_of_print():
-    """A factor of 1 is left out; digits without an exponent stay."""
-    said = in_signs("1e+08, -1.1e-05, 21 and 0.1")
-    assert said == "10⁸, −1.1 × 10⁻⁵, 21 and 0.1"
-
-
-def test_short_trajectory_is_shown_whole():
-    """Every sample; if the attractor was not computed, the words say so."""
-    shown = page_views.describe_run(run(count=101), [])
-    assert (shown["start"], shown["every"], sent(shown["series"][1]["values"]).size) == (0, 1, 101)
-    assert shown["words"].endswith("γ = 0.8: its attractor was not computed")
-
-
 def test_samples_that_follow_the_motion_keep_their_times():
     """None of the last 12 000 is left out: it may be a maximum."""
     whole = run()
@@ -270,17 +220,6 @@ def test_scene_that_keeps_less_is_drawn_as_far_as_it_goes():
     assert [one["name"] for one in series] == ["v"]
     assert page_views.can_be_drawn(without_u)
     assert not page_views.can_be_drawn(without_u.drop_vars("v"))
-
-
-def test_programs_are_named_with_version_and_compiler(tmp_path):
-    """From the attributes of the files."""
-    files = [tmp_path / f"{name}.nc" for name in "abc"]
-    for path, compiler in zip(files, ("one", "one", "two"), strict=True):
-        xr.Dataset(attrs={"program_version": "1.2", "compiler": compiler}).to_netcdf(path)
-    assert page_provenance.programs(files) == [
-        {"version": "1.2", "compiler": "one", "files": 2},
-        {"version": "1.2", "compiler": "two", "files": 1},
-    ]
 
 
 def test_seconds_are_summed_over_the_jobs_of_a_kind(tmp_path):
@@ -386,24 +325,6 @@ def test_every_claim_stands_in_the_page_once(smoke, page):
         assert start < page.index(f'id="claim-{name}"') < end
 
 
-def test_classes_of_motion_keep_their_colours_in_the_dark(page):
-    """They are those of the view in which a reader moves the delay; other figures are inverted."""
-    kept = re.findall(r'(?s)<figure class="one classes">.*?<img src="figures/(\w+)\.svg"', page)
-    assert kept == ["atlas", "routes"]
-
-
-def test_no_sentence_stands_in_the_page_twice(page):
-    """Sentences of the captions, of the findings and of what is true instead."""
-    groups = (
-        r'(?s)<p class="instead">(.*?)</p>',
-        r"(?s)<figcaption>\s*<p>(.*?)</p>",
-        r"(?s)</h3>\s*<p>(.*?)</p>",
-    )
-    found = Counter(words for group in groups for words in re.findall(group, page))
-    assert len(found) > 20
-    assert [words for words, count in found.items() if count > 1] == []
-
-
 def test_every_figure_stands_in_the_page(smoke, page):
     """With its rule and the first sentence of its caption."""
     shown = Elements(page)
@@ -425,31 +346,3 @@ def test_every_link_of_the_page_resolves(smoke, page):
     assert set(places) <= set(ids)
     assert [link for link in files if not (smoke.folder / "results" / link).is_file()] == []
     assert not [link for link in files if re.match(r"\w+:|/", link)]
-
-
-def test_provenance_is_shown(smoke, page):
-    """The compiler of the programs; a copy without git has no commit."""
-    compiler = xr.open_dataset(smoke.folder / "results/trajectories/torus.nc").attrs["compiler"]
-    text = Elements(page).text
-    assert f"compiled by {compiler}" in text
-    assert "Commit unknown." in text
-
-
-def test_page_made_again_is_the_same_bytes(scratch):
-    """Other measured seconds change times.html only."""
-    results = scratch.folder / "results"
-    before = (results / "index.html").read_bytes()
-    benchmark = results / "benchmarks" / "hopf" / "xi_of_epsilon.tsv"
-    head, run = benchmark.read_text().splitlines()
-    benchmark.write_text(f"{head}\n98765.4\t{run.partition(chr(9))[2]}\n")
-    made = scratch.snakemake("page", *SMOKE, "--forcerun", "work_precision_runs")
-    assert made.returncode == 0, made.stdout
-    assert {"captions", "page"} <= rules_in(made.stdout)
-    assert (results / "index.html").read_bytes() == before
-    page = (results / "times.html").read_text()
-    row = r'<th scope="row">hopf</th><td>\d+</td><td>9876\d\.\d</td><td>98765\.4</td>'
-    assert re.search(row, page)
-    times = Elements(page).text
-    numbers = (results / "figures" / "work_precision.rst").read_text().split("\n\n")[1]
-    # behind the level of the error, which is a formula
-    assert " ".join(numbers.split()).split("` ")[1] in times

@@ -53,19 +53,6 @@ def test_every_figure_is_there_three_times(smoke):
         assert 5000 < len(content) < 1_500_000
 
 
-def test_every_job_has_a_log_and_every_computation_a_benchmark(smoke):
-    """Beside the results, by the same path."""
-    results = smoke.folder / "results"
-    computed = {path.relative_to(results) for path in results.rglob("*.nc")}
-    computed |= {path.relative_to(results) for path in (results / "references").rglob("*.tsv")}
-    assert len(computed) > 100
-    for path in computed:
-        assert (results / "logs" / path).with_suffix(".log").is_file()
-        assert (results / "benchmarks" / path).with_suffix(".tsv").is_file()
-    for path in results.glob("figures/*.png"):
-        assert (results / "logs" / "figures" / f"{path.stem}.log").is_file()
-
-
 def test_namelists_hold_the_config(smoke, smoke_config):
     """Each value under its key."""
     folder = smoke.folder / "results" / "namelists"
@@ -108,11 +95,6 @@ def test_namelists_hold_the_config(smoke, smoke_config):
         assert trusted["t_end"] == case["t_end"]
 
 
-def test_nothing_unfinished_is_left(smoke):
-    """Files are complete or absent."""
-    assert list((smoke.folder / "results").rglob("*.part")) == []
-
-
 def test_folders_of_results_stand_in_their_readme(smoke):
     """Every folder and the page; the file itself is kept as it is."""
     readme = (smoke.folder / "results" / "README.md").read_text()
@@ -127,13 +109,6 @@ def test_second_run_does_nothing(smoke):
     run = smoke.snakemake(*SMOKE)
     assert run.returncode == 0
     assert "Nothing to be done" in run.stdout
-
-
-def test_full_config_computes_everything_anew(smoke):
-    """The overlay was in force: without it no computation is up to date."""
-    run = smoke.snakemake("--dry-run")
-    assert run.returncode == 0
-    assert {"trajectory", "spectrum", "hopf_curves", "velocity_step"} <= rules_in(run.stdout)
 
 
 @pytest.fixture(scope="module")
