@@ -133,7 +133,6 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 def wait_for(done: Callable[[], bool]) -> None:
-    """Return when something is so."""
     end = time.monotonic() + 60
     while not done():
         assert time.monotonic() < end
@@ -149,11 +148,9 @@ class Programs:
 
     @property
     def output(self) -> Path:
-        """Where a program writes."""
         return self.folder / "output.nc"
 
     def run(self, program: str, *arguments: str | Path) -> subprocess.CompletedProcess[str]:
-        """Run a program with these arguments."""
         return subprocess.run(
             [self.binaries / program, *arguments],
             cwd=self.folder,
@@ -179,7 +176,6 @@ class Programs:
         return self.run_groups(program, {GROUPS[program]: values})
 
     def write(self, groups: dict[str, dict]) -> Path:
-        """The namelist of a run."""
         write_namelist(self.folder / "input.nml", in_groups(groups))
         return self.folder / "input.nml"
 
@@ -188,7 +184,6 @@ class Programs:
         return self.run(program, self.write(groups).name, self.output.name)
 
     def made_of(self, program: str, groups: dict[str, dict]) -> xr.Dataset:
-        """What a program makes of good groups."""
         run = self.run_groups(program, groups)
         assert (run.returncode, run.stdout, run.stderr) == (0, "", "")
         return xr.load_dataset(self.output)
@@ -203,7 +198,6 @@ class Programs:
 
 
 def write_script(path: Path, text: str) -> None:
-    """A shell script that can be run."""
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(f"#!/bin/bash\n{text}\n")
     path.chmod(0o755)
@@ -251,7 +245,6 @@ def filled_config(default_config) -> dict:
 
 @pytest.fixture
 def config(default_config) -> dict:
-    """A config to change."""
     return copy.deepcopy(default_config)
 
 
@@ -327,7 +320,6 @@ def scratch(smoke, tmp_path) -> Project:
 
 @pytest.fixture
 def programs(binaries, tmp_path) -> Programs:
-    """The programs and an empty folder."""
     folder = tmp_path / "a folder"
     folder.mkdir()
     return Programs(binaries, folder)

@@ -36,7 +36,6 @@ def needed_for(target: str, jobs: list[Job]) -> set[Job]:
 
 
 def rules_of(jobs: set[Job]) -> set[str]:
-    """Names of their rules."""
     return {job.rule for job in jobs}
 
 

@@ -19,7 +19,6 @@ PICTURE = (
 
 
 def claim(name: str, verdict: str = VERDICTS[0], **values) -> dict:
-    """A claim as the page shows it."""
     row = {"id": name, "place": "section 1", "claim": f"It is {name}.", "verdict": verdict}
     row |= {"evidence": "0 < 1 & so on", "instead": "", "look_at": "", "table": ""}
     return {**row, **values}
@@ -35,7 +34,6 @@ def figure(folder: Path, name: str, category: str = "Figures", *data: str) -> di
 
 
 def attractor(epsilon: float, tau: float, **given) -> dict:
-    """A row of a table of attractors."""
     row = {"epsilon": epsilon, "tau": tau, "xi": 0.5, "gamma": 0.8, "class": "cycle"}
     row |= {f"exponent_{i}": -0.01 * i for i in (1, 2, 3)}
     row |= {f"error_{i}": 0.001 for i in (1, 2, 3)}
@@ -43,7 +41,6 @@ def attractor(epsilon: float, tau: float, **given) -> dict:
 
 
 def run(count: int = 30001, interval: float = 0.05) -> xr.Dataset:
-    """A trajectory of the scene `my_scene`."""
     time = interval * np.arange(count)
     values = {"v": ("t", 1 + 0.5 * np.cos(time)), "u": ("t", 0.5 * np.sin(time))}
     parameters = {"epsilon": 0.5, "tau": 10.0, "xi": 0.8, "gamma": 0.8}

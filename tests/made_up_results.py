@@ -45,7 +45,6 @@ def changed(curves: xr.Dataset, **values) -> xr.Dataset:
 
 
 def on_plane(curves: xr.Dataset) -> Results:
-    """Results with one plane of Hopf curves."""
     return Results(curves={"plane": curves})
 
 
@@ -62,7 +61,6 @@ def stability_row(scene: str = "mine", **given) -> dict:
 
 
 def attractor_row(met: str, scene: str = "mine", history: int = 1, **given) -> dict:
-    """A row of attractors.tsv."""
     return {
         "scene": scene,
         "history": float(history),
@@ -220,7 +218,6 @@ def slip_events(**values) -> xr.Dataset:
 
 
 def run_row(**given) -> dict:
-    """A row of stability.tsv."""
     return {
         "case": "a case",
         "xi": 0.5,

@@ -22,7 +22,6 @@ BESIDE = {
 
 
 def in_groups(given: dict[str, dict]) -> dict[str, dict]:
-    """Groups as programs read them."""
     groups = {}
     for name, values in given.items():
         for part, keys in PARTS.get(name, {}).items():

@@ -70,7 +70,6 @@ def crosses_in(axes: Axes) -> list[list[float]]:
 
 @pytest.fixture
 def atlas_drawn() -> Figure:
-    """The atlas of two planes."""
     rows = grid_of(0.8) + grid_of(0.5)
     figure = atlas.draw(rows, [curves_at(0.5), curves_at(0.8)], [], PLACES)
     figure.canvas.draw()
@@ -78,7 +77,6 @@ def atlas_drawn() -> Figure:
 
 
 def test_cells_have_the_colours_of_their_classes(atlas_drawn):
-    """Around the points, cut at the window."""
     (mesh,) = [item for item in atlas_drawn.axes[0].collections if isinstance(item, QuadMesh)]
     expected = [COLOURS[name] for name in ("fixed point", "cycle", "multi-loop cycle")]
     colours = mesh.get_facecolors().reshape(3, 4, 4)
@@ -272,7 +270,6 @@ def test_a_change_without_a_point_is_drawn_between_orbits():
 
 
 def test_a_branch_of_one_orbit_has_no_line():
-    """The other branch is drawn as before."""
     found = followed_cycles().isel(orbit=[5, 6, 7, 8, 9])
     (axes,) = cycles.draw([found], [], [[]], {}).axes
     assert labelled(axes, "2 unstable multipliers") == []

@@ -52,7 +52,6 @@ def made_parts(
 
 @pytest.fixture
 def tiny(smoke_config) -> dict:
-    """The smoke config, to change its atlas."""
     return {**smoke_config, "atlas": {**smoke_config["atlas"]}}
 
 

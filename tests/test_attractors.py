@@ -111,7 +111,6 @@ def test_histories_are_drawn_by_the_seed(full):
 
 
 def test_histories_fill_their_ranges(full):
-    """Evenly in theta, u and ln v."""
     ranges = {"seed": 3, "theta": [-1.0, 0.0], "u": [5.0, 7.0], "ln_v": [-4.0, -2.0]}
     drawn = attractor_surveys.drawn_histories(2000, ranges)
     for key, values in (
@@ -126,7 +125,6 @@ def test_histories_fill_their_ranges(full):
 
 
 def test_scene_has_its_parameters_and_histories(full):
-    """The scene's history is the first."""
     groups = attractor_surveys.scene_groups(full, "true_torus")
     points, scene = groups["points"], full["scenes"]["true_torus"]
     assert (points["epsilon"]["window"], points["tau"]["window"]) == ([0.5, 0.5], [12.5, 12.5])
@@ -279,7 +277,6 @@ def test_motions_that_only_a_route_shows_have_no_share():
 
 
 def test_undecided_runs_share_a_row_of_basins():
-    """Their exponents do not matter."""
     run = a_run(["undecided", "cycle", "undecided"], lyapunov_exponent=[0.1, 0.0, 0.5])
     rows = basins_table.basin_rows("mine", run, [])
     assert [(row["class"], round(3 * row["share"])) for row in rows] == [

@@ -191,7 +191,6 @@ def test_refinements_of_no_plane_are_refused(programs, groups, given, place):
 
 
 def test_points_that_are_none_or_too_many_are_refused(programs, groups):
-    """Neither is met as lack of memory."""
     points = {key: value for key, value in groups["points"].items() if key not in HISTORY}
     done = programs.run_groups("attractors", {**groups, "points": points})
     assert "number of histories = 0; expected" in done.stderr

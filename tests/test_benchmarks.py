@@ -2,19 +2,14 @@
 
 import dataclasses
 import math
-import subprocess
 import sys
 
 import compare
 import cycles
-import exponents
-import measuring
 import numpy as np
 import pytest
 import solvers
-from conftest import ROOT, write_script
 
-from scripts.files.tsv import read_table
 from scripts.tables.accuracy import Reference
 
 SCENE = solvers.Scene(
@@ -179,79 +174,6 @@ def test_no_tighter_tolerance_after_one_that_took_too_long(reference):
     assert "not a number" in rows[1]["status"]
     assert rows[2]["status"] == "longer than 0.5 s"
     assert {row["status"] for row in rows[3:]} == {"not tried: 1e-05 took too long"}
-
-
-def test_seconds_are_the_median_of_turns():
-    """One that fails in its turn keeps its words and has no time; a long one is measured once."""
-    scripts = {
-        "good": "for n, line in enumerate(sys.stdin):\n    print('answer:', n, 'ok')",
-        "bad": "for line in sys.stdin:\n    print('answer: 0 no more')",
-        "long": "for n, line in enumerate(sys.stdin):\n    print('answer:', 10 + n, 'ok')",
-    }
-    row = {"tolerance": 1e-3, "status": "ok", "error_max": 1.0, "seconds": None}
-    rows = [{"solver": name, **row} for name in scripts]
-    workers = {
-        name: solvers.Worker(stand_in(f"print('answer: 1')\n{script}"), SCENE)
-        for name, script in scripts.items()
-    }
-    try:
-        compare.measure_seconds(rows, workers, 5, 30.0)
-    finally:
-        for worker in workers.values():
-            worker.stop()
-    assert [one["status"] for one in rows] == ["ok", "no more", "ok"]
-    assert [one["seconds"] for one in rows] == [3.0, None, 10.0]
-
-
-@pytest.mark.parametrize(("seconds", "runs"), [(1.0, 1), (0.03, 4), (1e-3, 100), (0.0, 100)])
-def test_short_runs_are_repeated(seconds, runs):
-    """For about a tenth of a second."""
-    assert compare.runs_of(seconds) == runs
-
-
-def test_table_has_a_header_and_empty_cells(tmp_path):
-    """Comments, names, four digits; line ends within words are gone."""
-    rows = [{"a": 1.23456e-7, "b": None}, {"a": "two\nwords", "b": 3}]
-    path = tmp_path / "new" / "table.tsv"
-    measuring.write_table(path, rows, ["made here"])
-    assert path.read_text() == "# made here\na\tb\n1.235e-07\t\ntwo words\t3\n"
-    assert [row["a"] for row in read_table(path)] == [1.235e-7, "two words"]
-
-
-def test_run_says_how_it_is_used(tmp_path):
-    """From any folder, before anything is set up."""
-    run = subprocess.run(
-        [ROOT / "benchmarks" / "run", "--help"], cwd=tmp_path, capture_output=True, text=True
-    )
-    assert run.returncode == 0
-    for option in ("output", "scenes", "solvers", "time-limit", "repeats", "biftool"):
-        assert f"--{option} " in run.stdout
-
-
-def test_growth_over_pieces():
-    """Constant growth is its own mean in each piece, also over intervals of uneven length."""
-    edges = 5.0 * np.arange(1001.0) + 0.2 * np.sin(np.arange(1001.0) ** 2)
-    growth = {"growth": 0.25 * np.diff(edges)[:, None], "length": np.diff(edges)}
-    assert exponents.means(growth, 4) == pytest.approx(np.full((4, 1), 0.25))
-
-
-def test_answer_of_the_worker_is_read(monkeypatch, tmp_path):
-    """Seconds, time, and a table of values and errors for each number of pieces."""
-    lines = "read request\necho 2.0 100.0\necho 1 1 1 0.5 0.1\necho 1 1 2 -0.5 0.2\n"
-    lines += "for piece in 1 2; do echo 2 $piece 1 0.4 0.3; echo 2 $piece 2 -0.4 0.4; done"
-    write_script(tmp_path / "exponents_worker", lines)
-    monkeypatch.setattr(exponents, "BUILD", tmp_path)
-    seconds, passed, pieces = exponents.measure_here(exponents.CHAOS, 1e-8, 100, 2, [1, 2], True)
-    assert (seconds, passed) == (2.0, 100.0)
-    assert pieces[1].tolist() == [[[0.5, 0.1], [-0.5, 0.2]]]
-    assert pieces[2][1].tolist() == [[0.4, 0.3], [-0.4, 0.4]]
-
-
-def test_command_that_fails_says_why(tmp_path):
-    """In its own words."""
-    write_script(tmp_path / "program", "echo stopped at t = 7 >&2\nexit 1")
-    with pytest.raises(SystemExit, match="program: stopped at t = 7"):
-        measuring.measure_command([tmp_path / "program"])
 
 
 def test_answer_of_biftool_is_read():

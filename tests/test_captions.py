@@ -48,7 +48,6 @@ def test_captions_say_whether_claims_hold():
 
 @pytest.mark.parametrize("text", ['{{ verdict("other") }}', "{{ other }}"])
 def test_claim_or_number_that_is_not_there_is_an_error(text):
-    """The message names it."""
     with pytest.raises(Exception, match="other"):
         render(text, [])
 

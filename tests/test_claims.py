@@ -180,8 +180,6 @@ def test_good_claims_are_accepted(accept):
         ({}, "neither given; expected either test or not_testable"),
         ({"not_testable": "x"}, "look_at expected beside test"),
         ({"test": {}}, "test = {}; expected the name of one test"),
-        ({"test": {"route": {}, "leads_to": {}}}, "expected the name of one test"),
-        ({"test": {"route": None}}, "route = None; expected the parameters of the test"),
         ({"test": {"magic": {}}}, "unknown key ['magic']; allowed: attractor_class"),
         ({"test": {"velocity_step": {}}, "not_testable": "x"}, "test and not_testable given"),
         (
@@ -191,7 +189,6 @@ def test_good_claims_are_accepted(accept):
     ],
 )
 def test_bad_claim_is_refused(accept, given, words):
-    """In one line that names the place."""
     with pytest.raises(ConfigError) as caught:
         accept({"mine": {**TESTED, **given}})
     assert words in str(caught.value).splitlines()[1]
@@ -202,28 +199,14 @@ def test_bad_claim_is_refused(accept, given, words):
     [
         ("equation_10", {}, "key ['plane'] is missing"),
         ("equation_10", {"scene": "x", **PLANE}, "unknown key ['scene']; allowed: plane, limit"),
-        ("velocity_step", PLANE, "unknown key ['plane']"),
         ("equation_10", {"plane": "x"}, "plane = 'x'; expected name of a plane, one of: tau_of_ep"),
-        ("hopf_curves", {"planes": ["x"]}, "planes: 0 = 'x'; expected name of a plane, one of: ta"),
         ("hopf_curves", {"planes": []}, "planes = []; expected names of planes, at least one"),
-        ("second_hopf", {"scene": "x"}, "scene = 'x'; expected name of a scene, one of: fixed_poi"),
         ("equal_events", {"scenes": ["torus"] * 2}, "'torus']; expected names of scenes, at least"),
         ("chaos_by_a_and_b", {"routes": ["x"]}, "0 = 'x'; expected name of a route, one of: chaos"),
-        ("equation_10", {**PLANE, "limit": 0.0}, "limit = 0.0; expected residual"),
         ("equation_10", {**PLANE, "limit": 0.1}, "limit = 0.1; expected residual"),
         ("equation_10", {**PLANE, "limit": "1e-9"}, "write 1e-9 without quotes"),
-        ("roots_decide", {"least_motion": float("nan")}, "nan; expected largest v - 1"),
-        ("same_state_law", {"limit": True}, "limit = True; expected largest difference"),
-        (
-            "route",
-            {**ROUTE, "expected": ["ring"]},
-            "0 = 'ring'; expected one of: fixed point, cycle",
-        ),
-        (
-            "route",
-            {**ROUTE, "expected": []},
-            "expected = []; expected classes of attractors in turn",
-        ),
+        ("route", {**ROUTE, "expected": ["ring"]}, "0 = 'ring'; expected one of: fixed point, "),
+        ("route", {**ROUTE, "expected": []}, "expected = []; expected classes of attractors in"),
         (
             "delays_in_turn",
             {"scenes": ["torus", "chaos"], "expected": ["torus"], "route": "torus_in_tau"},
@@ -247,7 +230,6 @@ def test_bad_parameter_is_refused(accept, test, values, words):
 
 
 def read_ledger(folder) -> dict[str, dict]:
-    """Rows of claims.tsv by id."""
     with open(folder / "results" / "tables" / "claims.tsv", newline="") as file:
         return {row["id"]: row for row in csv.DictReader(file, delimiter="\t")}
 

@@ -17,7 +17,6 @@ from scripts.claims.claims_of_cycles import second_hopf, torus_of_scene
 
 
 def at_scene(met: str, tau: float, **given):
-    """Results of a scene on this line."""
     return Results(
         **{
             "attractors": [attractor_row(met)],
@@ -66,20 +65,3 @@ def test_second_hopf(met, tau, given, verdict):
     nowhere = "No torus bifurcation of a stable cycle is known on these lines."
     instead = nowhere if given else elsewhere
     assert found.instead == (instead if verdict == NO else "")
-
-
-def test_evidence_of_the_second_hopf():
-    """The cycle with its size and multiplier, each once, and torus points of all lines."""
-    lines = {"mine": cycles_to_a_torus(), "across": cycles_to_a_torus("epsilon", tau=0.15)}
-    row = stability_row(**{**PLACE, "tau": 0.15, "epsilon": 0.15})
-    lines["mine"].attrs["epsilon"] = 0.15
-    made = at_scene("cycle", 0.15, cycles=lines, linear_stability=[row])
-    made.cycle_points[0]["epsilon"] = 0.15
-    assert second_hopf(made, scene="mine").evidence == (
-        "A second Hopf bifurcation of a cycle is a torus bifurcation: a pair of multipliers leaves"
-        " the unit circle. Class of scene mine by its exponents: cycle. Cycles followed to these"
-        " parameters, and the modulus of their largest Floquet multiplier but 1: stable with $v$ up"
-        " to 1.15 (modulus 0.7). Torus bifurcations of stable cycles on lines through the scene:"
-        " at $tau = 0.25$ along $tau$ ($epsilon = 0.15$, $xi = 0.8$, $gamma = 0.8$); none along"
-        " $epsilon$ ($tau = 0.15$, $xi = 0.8$, $gamma = 0.8$)."
-    )

@@ -38,18 +38,6 @@ def test_aperiodic_events(times, of_cycle, verdict):
     assert aperiodic(times, of_cycle).verdict == verdict
 
 
-def test_variation_in_words():
-    """Uniform between 4 and 12: a standard deviation of 8/sqrt(12), over a mean of 8."""
-    even = np.linspace(4.0, 12.0, 10001)
-    words = aperiodic(np.random.default_rng(2).permutation(even), PERIOD_3).evidence
-    assert "has 10001 events. The mean recurrence time is 8 $L/v0$, with a coefficient" in words
-    assert (
-        "variation of 28.9 %. The mean slip is 6 $L$, with a coefficient of variation of 0 %"
-        in words
-    )
-    assert "repeats best after 3 events, with differences of 0 % of the mean." in words
-
-
 @pytest.mark.parametrize(
     ("times", "verdict"),
     [

@@ -20,7 +20,6 @@ HOPF = 0.64 * 0.5 / 1.14
 
 
 def finding(test: str, curves, limit: float = LIMIT):
-    """What a test finds on one plane."""
     name = "planes" if test in ("equation_6", "hopf_curves") else "plane"
     given = ["plane"] if name == "planes" else "plane"
     return getattr(claims_of_formulas, test)(on_plane(curves), **{name: given, "limit": limit})
@@ -106,7 +105,6 @@ def test_equation_9():
 
 
 def test_one_wrong_plane_is_enough():
-    """The worst of several planes counts."""
     both = Results(curves={"a": CURVE, "b": changed(CURVE, residual=1e-3)})
     found = claims_of_formulas.hopf_curves(both, planes=["a", "b"], limit=LIMIT)
     assert found.verdict == NO

@@ -73,7 +73,6 @@ def test_build_without_its_files_is_shown(tmp_path, capsys, lost, which):
 
 
 def test_lost_case_is_shown(tmp_path, capsys):
-    """A trajectory that ended early."""
     builds = [made_build(tmp_path, name) for name in ("one", "two")]
     path = builds[1] / "trajectories.txt"
     path.write_text("".join(path.read_text().splitlines(keepends=True)[:-1]))

@@ -40,7 +40,6 @@ def numbers_in(value, path: Place = ()) -> Iterator[Place]:
 
 
 def sections_in(config: dict, path: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
-    """Places of all mappings."""
     yield path
     for key, value in config.items():
         if isinstance(value, dict):
@@ -80,7 +79,6 @@ def whole(config) -> dict:
 
 
 def test_default_config_is_accepted_as_it_stands(config, default_config):
-    """Nothing that the file says is changed."""
     scenes = checked(config)["scenes"]
     for name, scene in default_config["scenes"].items():
         assert {key: scenes[name][key] for key in scene} == scene
@@ -94,7 +92,6 @@ def test_overlays_name_only_keys_that_there_are(config, name):
 
 
 def test_smoke_config_has_all_scenes(config):
-    """None is computed at full length."""
     assert set(read(ROOT / "config" / "smoke.yaml")["scenes"]) == set(config["scenes"])
 
 
@@ -227,7 +224,6 @@ def test_unknown_key_may_be_misspelt(config, key, hint):
     ],
 )
 def test_missing_key_is_named_once(config, path):
-    """With its section; nothing else is said."""
     section = config
     for key in path[:-1]:
         section = section[key]
@@ -237,7 +233,6 @@ def test_missing_key_is_named_once(config, path):
 
 @pytest.mark.parametrize(("path", "value"), [(("scenes",), None), (("figures",), [])])
 def test_section_that_is_no_mapping_is_refused(config, path, value):
-    """The line names it and the value."""
     put(config, path, value)
     assert f"{path[-1]} = {value!r}" in "\n".join(refuse(config))
 

@@ -71,7 +71,6 @@ def test_home_that_cannot_be_written_is_not_needed(scratch, monkeypatch):
 
 @pytest.mark.parametrize("place", ["results", "results/logs"])
 def test_results_that_cannot_be_written(scratch, place):
-    """./reproduce says so before it begins anything."""
     scratch.use_packages_at_hand()
     before = scratch.outputs()
     run = on_disk(READ_ONLY, place, scratch.folder, "./reproduce", "--forceall", "figure_1", *SMOKE)

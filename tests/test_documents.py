@@ -41,17 +41,14 @@ each = pytest.mark.parametrize("document", DOCUMENTS)
 
 @cache
 def text_of(document: str) -> str:
-    """The whole document."""
     return (ROOT / document).read_text()
 
 
 def blocks_of(document: str, language: str) -> list[str]:
-    """Its code blocks in a language."""
     return re.findall(rf"^```{language}\n(.*?)^```", text_of(document), re.DOTALL | re.MULTILINE)
 
 
 def prose_of(document: str) -> str:
-    """The document without its code blocks."""
     return re.sub(r"^```.*?^```$", "", text_of(document), flags=re.DOTALL | re.MULTILINE)
 
 
@@ -76,13 +73,11 @@ def code() -> str:
 
 @cache
 def words() -> set[str]:
-    """All words of the code."""
     return set(re.findall(r"\w+", code()))
 
 
 @cache
 def rules() -> set[str]:
-    """Names of the rules of the workflow."""
     workflow = "".join(path.read_text() for path in [ROOT / "Snakefile", *ROOT.glob("rules/*.smk")])
     return {
         *re.findall(r"^rule (\w+)", workflow, re.MULTILINE),
@@ -109,7 +104,6 @@ def is_made(path: str) -> bool:
 
 @cache
 def files_and_folders() -> set[str]:
-    """Those of the project."""
     files = {*project_files()}
     return files | {str(parent) for name in files for parent in PurePath(name).parents}
 
@@ -162,7 +156,6 @@ def test_relative_links_resolve(document):
 
 @each
 def test_files_that_are_named_exist(document):
-    """In the project, or something makes them."""
     paths = {token for token in ticked(document) if is_path(token) and "NAME" not in token}
     paths -= OF_THE_READER
     paths = {path for path in paths if path.partition("/")[0] not in USERS_FIGURES}
@@ -179,7 +172,6 @@ def test_words_of_code_exist(document):
 
 @each
 def test_targets_that_are_named_exist(document):
-    """Rules and files that the workflow makes."""
     commands = commands_in("\n".join([*blocks_of(document, "sh"), *ticked(document)]))
     targets = [word for command in commands for word in command]
     # TARGET, SCENE and such stand for any
@@ -216,7 +208,6 @@ def test_examples_of_config_are_accepted(document, default_config):
 
 
 def test_keys_of_a_scene_are_those_of_the_schema():
-    """Each in the table, and none besides."""
     table = text_of("config/README.md").partition("## Keys of a scene")[2].partition("\n## ")[0]
     rows = re.findall(r"^\| (`.*?) \|", table, re.MULTILINE)
     named = {key for row in rows for key in re.findall(r"`(\w+)`", row)}
@@ -230,7 +221,6 @@ def test_keys_of_a_scene_are_those_of_the_schema():
 
 
 def test_every_document_is_reached_from_the_readme():
-    """By links, over others."""
     reached, waiting = set(), ["README.md"]
     while waiting:
         document = waiting.pop()
@@ -253,7 +243,6 @@ def test_every_picture_is_shown_and_has_its_command():
 
 
 def cffconvert(*arguments: str) -> str:
-    """What it says about CITATION.cff."""
     program = ROOT / "tests" / "formats" / ".venv" / "bin" / "cffconvert"
     if not program.exists():
         pytest.skip("`setup/setup.sh tests/formats` sets it up, and so does ./test")

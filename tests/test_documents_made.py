@@ -12,7 +12,7 @@ from pathlib import Path
 import data_flow
 import offline_pages
 import pytest
-from conftest import ROOT
+from conftest import ROOT, write_script
 from PIL import Image
 from test_documents import blocks_of, prose_of
 
@@ -42,37 +42,22 @@ def test_picture_of_the_data_flow_is_up_to_date(project):
     assert drawn() == ({rule.name for rule in rules}, pairs)
 
 
-def with_stand_ins(folder: Path, ford: str) -> None:
-    """A set-up that does nothing, FORD as a line of shell, and Python that writes its call down."""
-    python = "echo $* >results/docs/called"
-    lines = {"setup/setup.sh": "exit 0", "docs/.venv/bin/ford": ford}
-    for path, line in {**lines, "docs/.venv/bin/python": python}.items():
-        script = folder / path
-        script.parent.mkdir(parents=True, exist_ok=True)
-        script.write_text(f"#!/bin/bash\n{line}\n")
-        script.chmod(0o755)
-
-
 def test_pages_about_the_code_are_made(project):
-    """By FORD with the settings of docs/ford.md; its pages are then made to fetch nothing."""
-    settings = (project.folder / "docs" / "ford.md").read_text()
-    assert re.search(r"^output_dir: \.\./results/docs$", settings, re.MULTILINE)
-    make = "mkdir -p results/docs && echo $* > results/docs/index.html"
-    with_stand_ins(project.folder, make)
-    run = project.snakemake("docs")
-    assert run.returncode == 0, run.stdout
-    pages = project.folder / "results" / "docs"
-    assert (pages / "index.html").read_text() == "--quiet docs/ford.md\n"
-    assert (pages / "called").read_text() == "docs/offline_pages.py results/docs\n"
-
-
-def test_warning_of_ford_is_a_failure(project):
-    """The warning is shown, and no pages are left."""
-    with_stand_ins(project.folder, "mkdir -p results/docs && echo 'Warning: a comment lost'")
+    """By FORD with the settings of docs/ford.md, then made to fetch nothing; a warning is a
+    failure that leaves no pages."""
+    pages, ford = project.folder / "results" / "docs", project.folder / "docs/.venv/bin/ford"
+    write_script(project.folder / "setup" / "setup.sh", "exit 0")
+    write_script(ford.with_name("python"), "echo $* >results/docs/called")
+    write_script(ford, "mkdir -p results/docs && echo 'Warning: a comment lost'")
     run = project.snakemake("docs")
     assert run.returncode != 0
     assert "Warning: a comment lost" in run.stdout
-    assert not (project.folder / "results" / "docs").exists()
+    assert not pages.exists()
+    write_script(ford, "mkdir -p results/docs && echo $* > results/docs/index.html")
+    run = project.snakemake("docs")
+    assert run.returncode == 0, run.stdout
+    assert (pages / "index.html").read_text() == "--quiet docs/ford.md\n"
+    assert (pages / "called").read_text() == "docs/offline_pages.py results/docs\n"
 
 
 def test_pages_fetch_nothing():
@@ -91,7 +76,6 @@ def test_pages_fetch_nothing():
 
 
 def test_unknown_fetch_is_refused():
-    """By its address."""
     with pytest.raises(
         ValueError, match=r"fetches https://cdn\.example/new\.js; expected Bootstrap"
     ):
@@ -105,8 +89,8 @@ def lines_of(path: Path) -> list[str]:
 
 
 def test_everything_has_a_comment():
-    """`!>` stands above modules, programs, types, procedures, and arguments of public procedures but
-    for the object itself.
+    """`!>` stands above modules, programs, types, procedures, and arguments of public procedures
+    other than `self`.
 
     FORD drops a first line such as `Name: text`.
     """
@@ -165,16 +149,13 @@ def with_procedures(source: str, *procedures: str) -> str:
     return grown.replace("delayed_sine(n=1,", "delayed_sine(analytic=.true., n=1,")
 
 
-def test_first_program_of_the_manual(run_of):
-    """It is the example, and has the published values."""
+def test_first_program_of_the_manual():
+    """It is the example, which test_solver_package.py runs, and has the published values."""
     source = blocks_of(MANUAL, "fortran")[0]
     assert source == (ROOT / "fortran" / "dde" / "example" / "mackey_glass.f90").read_text()
-    values = dict(map(float, line.split()) for line in run_of(source))
-    # as in fortran/dde/test/suites/test_dde_solutions.f90
-    assert values[50.0] == pytest.approx(1.060954362898, abs=1e-8)
-    assert values[200.0] == pytest.approx(1.186718107117, abs=1e-8)
     printed = re.findall(r"y\((\d+)\) = (\d+\.\d+)", prose_of(MANUAL))
-    assert printed == [(str(t), f"{values[t]:.6f}") for t in (50, 200)]
+    # as in fortran/dde/test/suites/test_dde_solutions.f90
+    assert printed == [("50", f"{1.060954362898:.6f}"), ("200", f"{1.186718107117:.6f}")]
 
 
 @pytest.mark.parametrize(

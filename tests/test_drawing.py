@@ -175,7 +175,6 @@ def test_peaks_are_named_by_kind():
     ],
 )
 def test_combinations_are_named(m, n, name):
-    """By their terms, a positive one first."""
     peak = a_spectrum("quasiperiodic", (0.1, 1.0, 3, m, n)).isel(peak=0)
     assert spectra.name_of(peak) == name
 
@@ -200,7 +199,6 @@ def test_peaks_beside_a_higher_one_get_a_dot_only():
     ],
 )
 def test_numbers_have_the_digits_that_their_error_lets_count(value, error, words):
-    """Of the same power of ten."""
     assert true_torus.in_power_of_ten(value, error) == words
 
 
@@ -263,7 +261,6 @@ def test_colours_are_seen_on_white():
 
 
 def test_saved_figures_have_the_same_bytes_each_time(tmp_path):
-    """And no date in them."""
     for name in ("first", "second"):
         with logged(tmp_path / "log"):
             figure, axes = plt.subplots()
@@ -282,7 +279,6 @@ def test_saved_figures_have_the_same_bytes_each_time(tmp_path):
 
 
 def test_failure_of_a_script_is_in_its_log(tmp_path):
-    """And is still a failure."""
     with pytest.raises(KeyError), logged(tmp_path / "log"):
         {}["missing"]
     assert "KeyError: 'missing'" in (tmp_path / "log").read_text()

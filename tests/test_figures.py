@@ -42,12 +42,10 @@ def drawn(smoke, smoke_config):
 
 @pytest.fixture
 def figure(drawn, request) -> Figure:
-    """One of them."""
     return drawn(request.param)
 
 
 def these(*names: str):
-    """Run a test on these figures."""
     return pytest.mark.parametrize("figure", names, indirect=True)
 
 

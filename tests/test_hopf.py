@@ -22,7 +22,6 @@ def plane(request, config) -> dict:
 
 @pytest.fixture
 def curves(programs, plane) -> xr.Dataset:
-    """The plane's curves."""
     return programs.made_by("hopf", plane)
 
 

@@ -67,7 +67,6 @@ MODULES = {path: text for path, text in SOURCES.items() if layer_of(path) != "ap
 
 
 def name_of(path: Path) -> str:
-    """File name without endings."""
     return path.name.split(".")[0]
 
 
@@ -128,14 +127,12 @@ def test_violation_is_caught(layer, line, wrong):
 
 
 def output_statements(text: str) -> list[str]:
-    """Statements that print or stop."""
     to_screen = r"write\s*\(\s*(?:\*|\w*error_unit\b|\w*output_unit\b)"
     said = rf"^.*\b(?:error\s+stop\b|stop\b|print\b|{to_screen}).*$"
     return re.findall(said, code_of(text), re.MULTILINE)
 
 
 def reals_without_kind(text: str) -> list[str]:
-    """Real numbers without `_wp`."""
     literal = r"(?<![\w.])(?:\d+\.\d*|\.\d+|\d+(?=[ed][+-]?\d))(?:[ed][+-]?\d+)?(?!\w*_wp)(?![\w.])"
     return re.findall(literal, re.sub(r"\.\w+\.", " ", code_of(text)))
 
@@ -155,12 +152,10 @@ def test_modules_keep_to_the_style():
 
 
 def test_only_some_modules_print_and_stop():
-    """The others return an error."""
     assert {name_of(path) for path in MODULES if output_statements(MODULES[path])} == MAY_SPEAK
 
 
 def test_every_real_number_has_its_kind():
-    """1.0_wp, never 1.0 or 1d0."""
     found = {path: reals_without_kind(text) for path, text in SOURCES.items()}
     assert {path: reals for path, reals in found.items() if reals} == {}
 
@@ -205,7 +200,6 @@ def layers_imported(text: str) -> set[str]:
 
 
 def test_no_python_module_imports_from_a_higher_layer():
-    """Of the project's own modules."""
     assert {path.parent.name for path in SCRIPTS} == set(PYTHON_LAYERS)
     wrong = {
         (path.relative_to(ROOT).as_posix(), layer)

@@ -18,7 +18,6 @@ SCENES |= {"no_delay_less": 1, "no_delay_more": 1}
 
 @pytest.fixture(params=SCENES)
 def stability(programs, good_inputs, smoke_config, request):
-    """Linear stability of a scene."""
     scene = smoke_config["scenes"][request.param]
     parameters = {key: scene[key] for key in PARAMETERS}
     return programs.made_by("linear_stability", good_inputs["linear_stability"] | parameters)
@@ -72,7 +71,6 @@ def test_amplitude_death(stability):
 
 @pytest.mark.parametrize("stability", ["fixed_point", "oscillation"], indirect=True)
 def test_state_stable_without_delay_does_not_die(stability):
-    """There is nothing to quench."""
     assert amplitude_death(stability) == []
     assert death_rows_of("mine", stability) == []
 
@@ -93,7 +91,6 @@ def test_tables_of_the_workflow(smoke):
 
 
 def test_bound_too_far_is_refused(programs, good_inputs):
-    """In words, with nothing left behind."""
     run = programs.run_with("linear_stability", {**good_inputs["linear_stability"], "tau": 1000.0})
     assert run.returncode == 1
     assert "a bound nearer to 0 expected" in run.stderr

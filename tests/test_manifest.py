@@ -116,7 +116,6 @@ def test_run_makes_damaged_results_again(smoke, scratch):
 
 
 def test_results_without_lists_cannot_be_compared(fresh: Project):
-    """In one line."""
     status, lines = verify(fresh.folder)
     assert (status, len(lines)) == (1, 1)
     assert "cannot be read; a run of ./reproduce writes" in lines[0]

@@ -40,5 +40,4 @@ def test_powers_and_indices_are_raised_and_lowered():
 
 
 def test_plain_words_have_no_dollars_around_mathematics():
-    """Nothing else changes."""
     assert to_plain("At $gamma^2 = 1e-06$ it costs $5.") == "At gamma^2 = 1e-06 it costs $5."

@@ -11,18 +11,15 @@ from scipy.integrate import solve_ivp
 
 @pytest.fixture
 def measured(programs, good_groups) -> xr.Dataset:
-    """Measured runs of the cases."""
     return programs.made_of("measure", good_groups["measure"])
 
 
 @pytest.fixture
 def references(programs, good_groups) -> list[dict]:
-    """References of the cases."""
     return references_of(programs, good_groups["reference"])
 
 
 def references_of(programs, groups: dict[str, dict]) -> list[dict]:
-    """References of cases."""
     done = programs.run_groups("reference", groups)
     assert done.returncode == 0, done.stderr
     with open(programs.output) as file:

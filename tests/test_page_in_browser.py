@@ -30,7 +30,6 @@ def mailed(smoke, folder: Path) -> Path:
 
 
 def made_up(smoke, folder: Path) -> Path:
-    """A page that has every part."""
     return made_up_page.written_to(folder, smoke.folder / "results" / "page")
 
 
@@ -47,7 +46,6 @@ def visited(request, smoke, tmp_path_factory) -> tuple[Path, dict]:
 
 @pytest.fixture
 def seen(visited) -> dict:
-    """What the browser saw."""
     return visited[1]
 
 
@@ -67,7 +65,6 @@ def test_nothing_is_asked_of_elsewhere(visited):
 
 
 def test_every_image_is_drawn_and_said_in_words(seen):
-    """None is empty."""
     assert len(seen["images"]) >= 2
     for image in seen["images"]:
         assert image["width"] > 0, image["src"]

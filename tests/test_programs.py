@@ -46,9 +46,9 @@ def refusal(programs: Programs, run) -> str:
 
 
 def flip_a_bit(content: bytes) -> bytes:
-    """The content with another bit in its middle, where a file of results has values."""
-    middle = len(content) // 2
-    return content[:middle] + bytes([content[middle] ^ 1]) + content[middle + 1 :]
+    """The content with another bit among the values of v, the last variable."""
+    place = len(content) * 4 // 5
+    return content[:place] + bytes([content[place] ^ 1]) + content[place + 1 :]
 
 
 @every_program
@@ -119,7 +119,6 @@ def test_bad_arguments_are_refused(programs, good_groups, program):
 
 @pytest.mark.parametrize("text", ["", "garbage\n", "&other a = 1 /\n", "\0\1\2\xff", "&settings\n"])
 def test_file_without_the_group_is_refused(programs, text):
-    """The line names file and group."""
     (programs.folder / "input.nml").write_text(text, encoding="latin-1")
     line = refusal(programs, programs.run("trajectory", "input.nml", "output.nc"))
     assert "input.nml" in line
@@ -233,7 +232,6 @@ def test_output_that_is_the_input_is_refused(programs, good_groups, program):
 
 
 def test_spectrum_does_not_replace_its_trajectory(programs, good_groups):
-    """Which the namelist names."""
     groups = good_groups["spectrum"]
     trajectory = programs.folder / "trajectory.nml"
     shutil.copy(groups["spectrum"]["trajectory"], trajectory)

@@ -22,7 +22,6 @@ def unquoted(command: str) -> set[str]:
 
 
 def test_every_command_is_found():
-    """None in another form."""
     texts = [path.read_text() for path in [ROOT / "Snakefile", *(ROOT / "rules").glob("*.smk")]]
     assert len(COMMANDS) == len(re.findall(r"\bshell\b\s*[:(]", "".join(texts))) > 2
 
@@ -34,6 +33,5 @@ def test_command_quotes_paths_and_texts(file, command):
 
 
 def test_what_is_not_quoted_is_found():
-    """Whatever it is named."""
     command = "run {threads} {input.a} {output:q} {params.b}/c || {{ cat {log}; }}"
     assert unquoted(command) == {"input.a", "params.b", "log"}

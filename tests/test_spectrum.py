@@ -16,7 +16,6 @@ BASE, HARMONIC, SECOND_BASE, COMBINATION, OTHER = range(5)
 
 @pytest.fixture
 def settings(good_inputs) -> dict:
-    """Settings that the program accepts, to change."""
     return {**good_inputs["spectrum"], "trajectory": "signal.nml"}
 
 
@@ -45,17 +44,13 @@ def sines(n: int, *parts: tuple[float, float]) -> np.ndarray:
     return 1.0 + sum(a * np.sin(2 * np.pi * f * t + 1.0) for a, f in parts)
 
 
-@pytest.mark.parametrize("window", ["hann", "boxcar"])
 @pytest.mark.parametrize(
-    ("n", "segments", "overlap", "length", "step"),
+    ("window", "n", "segments", "overlap", "length", "step"),
     [
-        (1000, 1, 0.0, 1000, 1000),
-        (999, 1, 0.5, 999, 999),
-        (1003, 4, 0.0, 250, 250),
-        (999, 3, 0.0, 333, 333),
-        (1000, 3, 0.5, 500, 250),
-        (1000, 5, 0.75, 500, 125),
-        (72, 8, 0.5, 16, 8),
+        ("hann", 999, 1, 0.5, 999, 999),
+        ("boxcar", 1003, 4, 0.0, 250, 250),
+        ("hann", 1000, 5, 0.75, 500, 125),
+        ("boxcar", 72, 8, 0.5, 16, 8),
     ],
 )
 def test_spectrum_agrees_with_scipy(spectrum_of, window, n, segments, overlap, length, step):
@@ -158,12 +153,3 @@ def test_signal_without_variation_has_no_peaks(spectrum_of):
     assert spectrum.sizes["base"] == 0
     assert spectrum.attrs["line_share"] == 0
     assert spectrum.attrs["spectrum_kind"] == "none"
-
-
-def test_attributes_tell_how_it_was_made(spectrum_of):
-    """Scene and settings."""
-    changes = {"window": "boxcar", "segments": 3, "overlap": 0.25}
-    changes |= {"peak_floor": 1e-5, "peak_prominence": 5.0}
-    attributes = spectrum_of(noise(1000), **changes).attrs
-    assert {key: attributes[key] for key in changes} == changes
-    assert attributes["scene"] == "made_up"

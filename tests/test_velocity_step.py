@@ -12,18 +12,15 @@ import xarray as xr
 
 @pytest.fixture
 def protocol(config) -> dict:
-    """The protocol of the config."""
     return config["velocity_step"]
 
 
 @pytest.fixture
 def response(programs, protocol) -> xr.Dataset:
-    """What the program makes of it."""
     return programs.made_by("velocity_step", protocol)
 
 
 def velocities(protocol: dict) -> list[float]:
-    """Velocity in each of the three phases."""
     slow, fast = protocol["v0"], protocol["v0"] + protocol["delta_v"]
     return [slow, fast, slow]
 

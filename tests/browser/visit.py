@@ -106,7 +106,6 @@ def of_trajectories(chrome: Chrome) -> dict | None:
 
 
 def axis_labels(plot) -> list[str]:
-    """Numbers along the time axis."""
     labels = plot.find_elements(By.CSS_SELECTOR, ".dygraph-axis-label-x")
     return [label.get_attribute("textContent") for label in labels]
 
@@ -176,7 +175,6 @@ def of_claims(chrome: Chrome) -> dict:
 
 
 def network(chrome: Chrome) -> dict:
-    """Addresses asked for, and requests that failed."""
     events = [json.loads(entry["message"])["message"] for entry in chrome.get_log("performance")]
     asked = [e["params"] for e in events if e["method"] == "Network.requestWillBeSent"]
     failed = [e["params"] for e in events if e["method"] == "Network.loadingFailed"]

@@ -142,7 +142,6 @@ def test_killed_jobs_are_redone_and_nothing_else(cluster, built, tmp_path):
 
 
 def users_of(cluster: Cluster) -> list[psutil.Process]:
-    """Daemons and jobs of a cluster."""
     configuration = cluster.environment["SLURM_CONF"]
     found = []
     for process in psutil.process_iter():

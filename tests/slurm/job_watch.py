@@ -20,8 +20,6 @@ def processes_in(folder: Path) -> dict[psutil.Process, str]:
 
 
 class Program(NamedTuple):
-    """A program that works in a job."""
-
     process: psutil.Process
     job: str
     namelist: str
