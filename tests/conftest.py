@@ -42,16 +42,7 @@ GROUPS = {
     "slip_events": "scene",
 }
 """Namelist group of each program that reads one alone, as tests name it."""
-MADE = {
-    ".git",
-    ".venv",
-    ".snakemake",
-    "build",
-    "results",
-    "__pycache__",
-    ".pytest_cache",
-    ".ruff_cache",
-}
+MADE = set(".git .venv .snakemake build results __pycache__ .pytest_cache .ruff_cache".split())
 """Folders that hold none of the project's own files."""
 
 
@@ -70,19 +61,17 @@ class Project:
 
     folder: Path
 
+    def run(self, *command: str | Path) -> subprocess.CompletedProcess[str]:
+        """Run a command in the folder; all it says is in stdout."""
+        together = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+        return subprocess.run(command, cwd=self.folder, timeout=900, **together)
+
     def snakemake(self, *arguments: str) -> subprocess.CompletedProcess[str]:
-        """Run Snakemake on two cores; all it says is in stdout."""
+        """Run Snakemake on two cores."""
         snakemake = Path(sys.executable).parent / "snakemake"
         # another process of the test run may be at work in the same folder
         with locked(self.folder.with_name(f"{self.folder.name}.lock")):
-            return subprocess.run(
-                [snakemake, "--cores", "2", *arguments],
-                cwd=self.folder,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.STDOUT,
-                text=True,
-                timeout=900,
-            )
+            return self.run(snakemake, "--cores", "2", *arguments)
 
     def use_packages_at_hand(self) -> None:
         """Let ./reproduce find everything set up."""
@@ -92,16 +81,9 @@ class Project:
             write_script(self.folder / ".venv" / "bin" / tool, f"exec '{path}' \"$@\"")
 
     def reproduce(self, *arguments: str) -> subprocess.CompletedProcess[str]:
-        """Run ./reproduce with the packages at hand; all it says is in stdout."""
+        """Run ./reproduce with the packages at hand."""
         self.use_packages_at_hand()
-        return subprocess.run(
-            [self.folder / "reproduce", *arguments],
-            cwd=self.folder,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            timeout=900,
-        )
+        return self.run(self.folder / "reproduce", *arguments)
 
     def copy_to(self, folder: Path) -> "Project":
         """A copy with results, programs and Snakemake's records."""

@@ -126,34 +126,6 @@ def test_scenes_stand_in_their_own_plane(atlas_drawn):
     assert styles == {"-", "--"}
 
 
-def curves_over(axes: Axes) -> list[tuple[str, list[list[float]]]]:
-    """Colours and points of the curves of cycles."""
-    colours = {style.colour for style in STYLES.values()}
-    lines = [line for line in axes.lines if line.get_color() in colours]
-    return [(line.get_color(), line.get_xydata().tolist()) for line in lines]
-
-
-def test_curves_of_cycles_lie_over_the_classes_of_their_plane(atlas_drawn):
-    """A line for each, by kind, not over the exponents; the legend names the kinds drawn."""
-    followed = [followed_cycles(xi=0.8), followed_cycles(xi=0.8, gamma=1e8)]
-    figure = atlas.draw(grid_of(0.5) + grid_of(0.8), [curves_at(0.8)], followed, {})
-    assert_on_page(figure)
-    assert [curves_over(axes) for axes in figure.axes[:4]] == [
-        *([], []),
-        [
-            (STYLES["fold"].colour, [[0.2, 1.0], [0.4, 2.0], [0.4, 3.0], [0.2, 4.0]]),
-            (STYLES["torus"].colour, [[0.6, 12.0], [1.0, 13.0]]),
-        ],
-        [],
-    ]
-    (legend,) = figure.legends
-    named = {line.get_label(): line.get_color() for line in legend.get_lines()}
-    assert named["fold of a cycle"] == STYLES["fold"].colour
-    assert named["torus bifurcation of a cycle"] == STYLES["torus"].colour
-    assert "period doubling of a cycle" not in named
-    assert "of a cycle" not in words_in(atlas_drawn)
-
-
 def a_route(along: str, places: list[float], maxima: list, **classes: list[str]):
     """The table and the runs of a route, given the classes of each run."""
     rows = [
@@ -220,22 +192,10 @@ def test_route_along_the_history():
     assert figure.axes[2].get_xlabel() == "velocity before the start $v$"
 
 
-def a_sweep(*maxima: float) -> xr.Dataset:
-    """A sweep with two places kept, the second without a maximum but one."""
-    kept = np.array([maxima, [maxima[0], np.nan]])
-    return xr.Dataset({"tau": ("point", [0.2, 0.4]), "maximum": (("point", "kept"), kept)})
-
-
 @pytest.fixture
 def cycles_drawn() -> Figure:
-    """Two lines, one along tau with two sweeps, one along epsilon without."""
-    lines = [followed_cycles("tau"), followed_cycles("epsilon")]
-    sweeps = [a_sweep(1.5, 1.25), a_sweep(3.5, 3.25)]
-    scene = {"tau": 0.3, "epsilon": 0.5, "xi": 0.8, "gamma": 0.8}
-    scenes = {"on_it": scene, "elsewhere": {**scene, "xi": 0.5}}
-    figure = cycles.draw(lines, sweeps, [["up", "down"], []], scenes)
-    figure.canvas.draw()
-    return figure
+    """Two lines, one along tau and one along epsilon."""
+    return cycles.draw([followed_cycles("tau"), followed_cycles("epsilon")], [], [[], []], {})
 
 
 def labelled(axes: Axes, label: str) -> list[Line2D]:

@@ -114,7 +114,7 @@ def test_reference_is_the_one_of_the_workflow(smoke, monkeypatch):
 
 
 def test_error_is_the_largest_of_all_samples(reference):
-    """Relative where the reference is above 1; its later samples do not count."""
+    """Relative where the reference is above 1; samples that are missing or late have none."""
     samples = samples_of(reference)
     assert solvers.error_max(samples, SCENE, reference) == 0.0
     samples[1, 3] = 0.125
@@ -122,22 +122,16 @@ def test_error_is_the_largest_of_all_samples(reference):
     samples[2, 1] += 5.0
     reference.state[:, 3] = 9.0
     assert solvers.error_max(samples, SCENE, reference) == 0.5
-
-
-@pytest.mark.parametrize(
-    ("place", "value"), [((1, 0), math.nan), ((1, 2), math.nan), ((1, 0), 0.6)]
-)
-def test_samples_missing_or_at_other_times_have_no_error(reference, place, value):
-    """A wrong number is not taken for an accurate one."""
-    samples = samples_of(reference)
     assert math.isnan(solvers.error_max(samples[:2], SCENE, reference))
-    samples[place] = value
-    assert math.isnan(solvers.error_max(samples, SCENE, reference))
+    for value in (math.nan, 0.6):
+        samples[1, 0] = value
+        assert math.isnan(solvers.error_max(samples, SCENE, reference))
 
 
 def test_worker_answers_and_says_why_not():
-    """Other output is left out; its memory can be asked while it runs."""
-    script = "print('hello')\nprint('answer: 1.2')\nfor line in sys.stdin:\n    print('answer: '"
+    """Other output is left out; after an answer that took too long it starts again."""
+    script = "print('hello')\nprint('answer: 1.2')\nfor line in sys.stdin:\n"
+    script += "    time.sleep(60 if line.split()[1] == '9' else 0)\n    print('answer: '"
     script += " + ('0.5 ok' if line.split()[1] == '7' else '0 too stiff for me'))"
     with solvers.Worker(stand_in(script), SCENE) as worker:
         assert worker.seconds(1e-3, 7, 30.0) == 0.5
@@ -145,18 +139,9 @@ def test_worker_answers_and_says_why_not():
         assert 1 < worker.peak_memory() < 1000
         with pytest.raises(solvers.SolverError, match="too stiff for me"):
             worker.seconds(1e-3, 8, 30.0)
-
-
-def test_worker_starts_again_after_its_end():
-    """After it ended by itself, and after it took too long."""
-    script = "print('answer: 1')\nline = input()\nif line.split()[1] == '1':\n    sys.exit(3)\n"
-    script += "if line.split()[1] == '2':\n    time.sleep(60)\nprint('answer: 0.5 ok')"
-    with solvers.Worker(stand_in(script), SCENE) as worker:
-        with pytest.raises(solvers.SolverError, match="status 3"):
-            worker.seconds(1e-3, 1, 30.0)
         with pytest.raises(solvers.TimeLimitError, match=r"longer than 0\.2 s"):
-            worker.seconds(1e-3, 2, 0.2)
-        assert worker.seconds(1e-3, 3, 30.0) == 0.5
+            worker.seconds(1e-3, 9, 0.2)
+        assert worker.seconds(1e-3, 7, 30.0) == 0.5
 
 
 def test_no_tighter_tolerance_after_one_that_took_too_long(reference):

@@ -260,9 +260,8 @@ def test_a_claim_alone_needs_no_other_files(smoke, smoke_config):
         assert {key: to_plain(value) for key, value in vars(found).items()} == expected
 
 
-@pytest.mark.parametrize(
-    ("epsilon", "verdict"), [pytest.param(0.35, YES, marks=pytest.mark.long), (0.2, NO)]
-)
+@pytest.mark.long
+@pytest.mark.parametrize(("epsilon", "verdict"), [(0.35, YES), (0.2, NO)])
 def test_scene_below_the_hopf_curve_oscillates_no_more(scratch, epsilon, verdict):
     """From the configuration to the verdict, through the whole workflow."""
     (scratch.folder / "mine.yaml").write_text(MOVED.format(epsilon=epsilon))

@@ -40,12 +40,7 @@ def test_aperiodic_events(times, of_cycle, verdict):
 
 @pytest.mark.parametrize(
     ("times", "verdict"),
-    [
-        (CYCLE, YES),
-        (np.tile([8.0, 8.1], 100), NO),
-        (RANDOM, NO),
-        (CYCLE[: FEWEST - 1], NO),
-    ],
+    [(CYCLE, YES), (np.tile([8.0, 8.1], 100), NO), (RANDOM, NO), (CYCLE[: FEWEST - 1], NO)],
 )
 def test_equal_events(times, verdict):
     """In every scene; a doubled period is the beginning of a cascade."""

@@ -205,8 +205,7 @@ def test_unknown_keys_are_refused(whole):
 
 
 @pytest.mark.parametrize(
-    ("key", "hint"),
-    [("taus", " (is it meant to be 'tau'?)"), ("colour", ""), (3, ""), (None, "")],
+    ("key", "hint"), [("taus", " (is it meant to be 'tau'?)"), ("colour", ""), (3, ""), (None, "")]
 )
 def test_unknown_key_may_be_misspelt(config, key, hint):
     """The nearest known key is named, if there is one."""

@@ -14,8 +14,7 @@ SNAKEMAKE = Path(sys.executable).parent / "snakemake"
 
 
 @pytest.mark.parametrize(
-    ("disk", "reason"),
-    [(FULL, "No space left on device"), (READ_ONLY, "Read-only file system")],
+    ("disk", "reason"), [(FULL, "No space left on device"), (READ_ONLY, "Read-only file system")]
 )
 @pytest.mark.parametrize("program", ["hopf", "reference"])
 def test_program_on_such_a_disk(programs, good_groups, program, disk, reason):

@@ -182,18 +182,6 @@ def test_targets_that_are_named_exist(document):
 
 
 @each
-def test_commands_that_are_named_exist(document):
-    """Those of the project, with a part of ./test where one is named."""
-    parts = re.findall(r"\b(\w+)\)", (ROOT / "test").read_text())
-    text = "\n".join([*blocks_of(document, "sh"), *ticked(document)])
-    named = r"^(\./\w+|\w+/(?:run|draw)\b)(?: +(\w+))?"
-    for command, first in re.findall(named, text, re.MULTILINE):
-        assert (ROOT / command).is_file()
-        if command == "./test" and first:
-            assert first in parts
-
-
-@each
 def test_examples_of_config_are_accepted(document, default_config):
     """Merged over the config, as Snakemake does it."""
     for block in blocks_of(document, "yaml"):

@@ -92,9 +92,7 @@ def test_curves_have_all_branches_and_kinds_of_bifurcations(figure, plane, smoke
 
 
 @pytest.mark.parametrize(
-    ("figure", "scenes"),
-    [("figure_2", {(0.7, 7.0)}), ("figure_3", set())],
-    indirect=["figure"],
+    ("figure", "scenes"), [("figure_2", {(0.7, 7.0)}), ("figure_3", set())], indirect=["figure"]
 )
 def test_scenes_stand_in_their_own_plane_only(figure, scenes):
     """Only chaos has xi = 0.5, and none has tau = 12: elsewhere they lie in a wrong region."""

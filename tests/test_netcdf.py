@@ -56,15 +56,3 @@ def test_files_name_their_origin(smoke, files):
         assert attributes["source"].endswith(attributes["program_version"])
         assert "Time-delay in spring-block model" in attributes["references"]
         assert "20" not in attributes["history"]
-
-
-def test_values_come_as_words_and_coordinates(smoke, files):
-    """Words without blanks at their end, flags with their words, points with their parameters."""
-    read = {kind: xr.load_dataset(smoke.folder / "results" / name) for kind, name in files.items()}
-    kinds = set(read["hopf"].special_kind.values)
-    assert kinds
-    assert kinds <= {"generalised_hopf", "double_hopf", "hopf_without_delay"}
-    assert set(read["measurements/stability"].method.values) == {"auto", "explicit"}
-    assert set(read["attractors/atlas"]["class"].coords) == {"epsilon", "tau", "xi", "gamma"}
-    flags = read["attractors/atlas"]["class"].attrs
-    assert flags["flag_values"].tolist() == list(range(len(flags["flag_meanings"].split())))

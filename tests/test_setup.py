@@ -12,9 +12,7 @@ SCRIPTS = [
     *("reproduce", "test", "setup/setup.sh", ".ci/run", "benchmarks/run", "compilers/run"),
     "docs/draw",
 ]
-LOCKS = [
-    *(".", "setup", "benchmarks", "docs", "tests/browser", "tests/formats", "profiles/slurm"),
-]
+LOCKS = [*(".", "setup", "benchmarks", "docs", "tests/browser", "tests/formats", "profiles/slurm")]
 """Folders with a lock of Python packages."""
 
 

@@ -30,8 +30,3 @@ def test_every_command_is_found():
 def test_command_quotes_paths_and_texts(file, command):
     """A folder may hold spaces, a file what a shell would run."""
     assert unquoted(command) == set()
-
-
-def test_what_is_not_quoted_is_found():
-    command = "run {threads} {input.a} {output:q} {params.b}/c || {{ cat {log}; }}"
-    assert unquoted(command) == {"input.a", "params.b", "log"}

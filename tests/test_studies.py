@@ -92,11 +92,7 @@ def test_samples_at_other_times_are_refused(reference):
 
 @pytest.mark.parametrize(
     ("errors", "sample"),
-    [
-        ([0.0, 1e-12, 1e-9, 0.0, 0.0], 1),
-        ([0.0, 1e-12, np.nan, 0.0, 0.0], 1),
-        ([0.0] * 5, 4),
-    ],
+    [([0.0, 1e-12, 1e-9, 0.0, 0.0], 1), ([0.0, 1e-12, np.nan, 0.0, 0.0], 1), ([0.0] * 5, 4)],
 )
 def test_horizon_is_where_trust_ends(reference, errors, sample):
     """The last sample before the first error that is too large, or the end."""

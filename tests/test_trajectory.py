@@ -92,8 +92,7 @@ def test_maxima_of_fast_events_are_stored(programs, good_inputs, scene):
 
 
 @pytest.mark.parametrize(
-    ("gamma", "epsilon", "tau"),
-    [(1.5, 10.0, 0.1), (1e6, 0.9, 9.0), (1e10, 3.0, 0.0)],
+    ("gamma", "epsilon", "tau"), [(1.5, 10.0, 0.1), (1e6, 0.9, 9.0), (1e10, 3.0, 0.0)]
 )
 def test_samples_follow_the_motion(programs, scene, gamma, epsilon, tau):
     """Between two of them v changes by a small part of its range, and even times are among them."""
@@ -135,13 +134,7 @@ def test_attributes_tell_where_the_numbers_come_from(programs, scene):
 
 @pytest.mark.parametrize(
     ("t_end", "interval", "samples"),
-    [
-        (30.1, 0.25, 121),
-        (29.99, 0.25, 120),
-        (0.7, 0.1, 8),
-        (8.0, 8.0, 2),
-        (819.2, 0.1, 8193),
-    ],
+    [(30.1, 0.25, 121), (29.99, 0.25, 120), (0.7, 0.1, 8), (8.0, 8.0, 2), (819.2, 0.1, 8193)],
 )
 def test_time_axis_counts_from_zero(programs, scene, t_end, interval, samples):
     """0, dt, 2 dt, ... up to t_end, also where it is no multiple of dt or blocks are full."""

@@ -65,15 +65,3 @@ def test_steps_are_imposed_by_the_protocol(protocol, response):
         ends = np.cumsum([0.0, *lengths])
         expected = [np.linspace(*span, n) for span in pairwise(ends)]
         np.testing.assert_allclose(response[name], np.concatenate(expected), rtol=1e-12)
-
-
-def test_file_has_units_and_protocol(protocol, response):
-    """SI units, and every parameter of the law."""
-    units = {name: response[name].attrs["units"] for name in response.variables}
-    assert units == {"time": "s", "slip": "m", "velocity": "m s-1", "theta": "s", "mu": "1"}
-    assert all(variable.attrs["long_name"] for variable in response.variables.values())
-    n, mu = protocol["samples"], response.mu.values
-    assert response.attrs["direct_effect"] == pytest.approx(mu[n] - mu[n - 1], rel=1e-9)
-    assert response.attrs["evolution_effect"] == pytest.approx(mu[2 * n - 1] - mu[n], rel=1e-3)
-    kept = ["mu0", "a", "b", "dc", "v0", "b_state", "delta_v", "tolerance"]
-    assert {key: response.attrs[key] for key in kept} == {key: protocol[key] for key in kept}
