@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
-from figure_contents import assert_on_page, points_in, title_of, words_in
+from figure_contents import assert_on_page, title_of, words_in
 from made_up_results import attractor_row, followed_cycles, hopf_curve
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
@@ -112,20 +112,6 @@ def test_points_not_computed_have_the_exponent_of_the_nearest_of_their_kind():
     assert (values[6], values[7]) == (-0.5, -0.01)
 
 
-def test_scenes_stand_in_their_own_plane(atlas_drawn):
-    """Named in the map of classes only, names apart; curves are dashed where subcritical."""
-    axes = atlas_drawn.axes[:4]
-    there = [{(x, y) for x, y, _ in points_in(panel)} for panel in axes]
-    assert there[0] == there[1] == {(0.7, 7.0)}
-    assert there[2] == there[3] == {(0.35, 10.0), (0.3, 0.0), (0.5, 10.0)}
-    names = [{text.get_text() for text in panel.texts} for panel in axes]
-    assert names == [{"elsewhere"}, set(), {"first", "at zero", "first neighbour"}, set()]
-    boxes = [text.get_window_extent() for text in axes[2].texts]
-    assert not any(one.overlaps(other) for one in boxes for other in boxes if one is not other)
-    styles = {line.get_linestyle() for line in axes[2].lines if line.get_marker() == "None"}
-    assert styles == {"-", "--"}
-
-
 def a_route(along: str, places: list[float], maxima: list, **classes: list[str]):
     """The table and the runs of a route, given the classes of each run."""
     rows = [
@@ -227,13 +213,6 @@ def test_a_change_without_a_point_is_drawn_between_orbits():
     assert x.tolist() == [0.1, 0.3, 0.4, 0.45, 0.4, 0.35, 0.2]
     assert y.tolist() == [1.1, 1.5, 2.0, 2.2, 2.5, 2.8, 3.5]
     assert unstable.tolist() == [2, 2, 2, 3, 3, 3]
-
-
-def test_a_branch_of_one_orbit_has_no_line():
-    found = followed_cycles().isel(orbit=[5, 6, 7, 8, 9])
-    (axes,) = cycles.draw([found], [], [[]], {}).axes
-    assert labelled(axes, "2 unstable multipliers") == []
-    assert len(labelled(axes, "stable cycle")) == 2
 
 
 def test_special_points_have_markers_by_kind(cycles_drawn):

@@ -6,15 +6,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import xarray as xr
-from figure_contents import points_in, words_in
+from figure_contents import points_in
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from test_page_contrast import luminance
 
 from scripts.drawing import spectra, trajectories
-from scripts.drawing.style import METADATA, STYLE, logged, save
-from scripts.figures import figure_4, figure_6, plane
+from scripts.drawing.style import METADATA, logged, save
+from scripts.figures import figure_6
 
 
 @pytest.fixture(autouse=True)
@@ -29,35 +27,6 @@ def a_trajectory(v: np.ndarray, u: np.ndarray) -> xr.Dataset:
     time = {"t": 0.1 * np.arange(v.size)}
     attributes = {"tau": 3.0, "epsilon": 0.25, "xi": 0.5, "gamma": 0.75, "t_transient": 50.0}
     return xr.Dataset({"u": ("t", u), "v": ("t", v)}, time, attributes)
-
-
-@pytest.fixture
-def spiral_and_circle() -> Figure:
-    """Rows of a point and of a cycle."""
-    t = 0.1 * np.arange(1001)
-    size = np.exp(-t / 4)
-    runs = [
-        a_trajectory(1 + size * np.cos(t), size * np.sin(t)),
-        a_trajectory(1 + 0.5 * np.cos(t), 0.5 * np.sin(t)),
-    ]
-    rows = {
-        label: {"scene": label, "paper": "", "time_shown": time_shown}
-        for label, time_shown in (("a", 40.0), ("b", 1e9))
-    }
-    settings = {"rows": rows, "end_shown": 20.0, "attractor_shown": 10.0}
-    return figure_4.draw(runs, [], settings)
-
-
-def test_velocity_is_shown_over_the_asked_times(spiral_and_circle):
-    """From the start, at most to the end, and up to the end."""
-    axes = spiral_and_circle.axes
-    assert [axes[i].get_xlim() for i in (0, 3)] == [(0, 40), (0, 100)]
-    assert [axes[i].get_xlim() for i in (1, 4)] == [(80, 100), (80, 100)]
-    (line,) = axes[1].lines
-    np.testing.assert_allclose(line.get_xdata()[[0, -1]], [80, 100])
-    np.testing.assert_allclose(
-        axes[4].lines[0].get_ydata(), 1 + 0.5 * np.cos(0.1 * np.arange(800, 1001))
-    )
 
 
 def test_dense_oscillations_are_drawn_as_their_envelope():
@@ -102,18 +71,6 @@ def test_missed_part_of_a_maximum():
         assert trajectories.share_missed(wave) == pytest.approx(most, rel=0.1)
     steady = xr.Dataset({"v": ("t", np.ones(9))}, {"t": np.arange(9.0)})
     assert trajectories.share_missed(steady) == 0
-
-
-def test_portrait_parts_transient_and_attractor(spiral_and_circle):
-    """The transient up to t_transient, the attractor over the last time shown, a point as a dot."""
-    transient, attractor, steady = spiral_and_circle.axes[5].lines
-    t = 0.1 * np.arange(1001)
-    np.testing.assert_allclose(transient.get_xdata(), 0.5 * np.sin(t[:501]))
-    np.testing.assert_allclose(attractor.get_xdata(), 0.5 * np.sin(t[900:]))
-    np.testing.assert_allclose(attractor.get_ydata(), 1 + 0.5 * np.cos(t[900:]))
-    assert (list(steady.get_xdata()), list(steady.get_ydata())) == ([0], [1])
-    assert transient.get_color() != attractor.get_color()
-    assert [len(points_in(spiral_and_circle.axes[i])) for i in (2, 5)] == [1, 0]
 
 
 def a_spectrum(kind: str, *peaks: tuple[float, float, int, int, int], **attributes) -> xr.Dataset:
@@ -178,52 +135,6 @@ def test_peaks_beside_a_higher_one_get_a_dot_only():
     axes = draw_spectrum("undecided", BASE, beside, beside_a_dot, beyond)
     assert [text.get_text() for text in axes.texts] == ["$f_1$\n0.1000"]
     assert {x for x, *_ in points_in(axes)} == {0.1, 0.13, 0.155}
-
-
-def a_plane(ordinate: str, fixed: str) -> xr.Dataset:
-    """A made-up plane: one piece that turns subcritical, and one of branch 1."""
-    epsilon = np.array([0.2, 0.3, 0.4, 0.5, 1.0, 1.0])
-    height = np.array([1.0, 2.0, 3.0, 4.0, 2.0, 4.0])
-    columns = {
-        "epsilon": epsilon,
-        ordinate: height,
-        "branch": np.array([0, 0, 0, 0, 1, 1]),
-        "piece": np.array([1, 1, 1, 1, 2, 2]),
-        "l1": np.array([-0.1, -0.2, 0.1, 0.2, -0.1, -0.1]),
-    }
-    data = {name: ("point", column) for name, column in columns.items()}
-    data["special_kind"] = ("special", np.array(["double_hopf"]))
-    data["special_epsilon"] = ("special", [0.35])
-    data[f"special_{ordinate}"] = ("special", [2.5])
-    data["map_epsilon"] = ("map_epsilon", [0.25, 0.75])
-    data["map_ordinate"] = ("map_ordinate", [1.0, 3.0])
-    data["map_unstable_pairs"] = (("map_ordinate", "map_epsilon"), [[0.0, 1.0], [1.0, 2.0]])
-    return xr.Dataset(data, attrs={"ordinate": ordinate, fixed: 0.5, "gamma": 0.8})
-
-
-@pytest.mark.parametrize(("ordinate", "fixed"), [("tau", "xi"), ("xi", "tau")])
-def test_curves_are_dashed_where_subcritical(ordinate, fixed):
-    """Solid and dashed parts of one colour meet; another branch has another colour."""
-    figure = plane.draw(a_plane(ordinate, fixed), {})
-    solid, dashed, other, double = figure.axes[0].lines
-    assert double.get_xydata().tolist() == [[0.35, 2.5]]
-    assert "double Hopf point" in words_in(figure)
-    assert "generalised Hopf point" not in words_in(figure)
-    assert solid.get_linestyle() == other.get_linestyle() == "-"
-    assert dashed.get_linestyle() != "-"
-    assert solid.get_color() == dashed.get_color() != other.get_color()
-    assert solid.get_xydata()[-1] == pytest.approx(dashed.get_xydata()[0])
-    assert solid.get_xydata()[0] == pytest.approx([0.2, 1.0])
-    assert dashed.get_xydata()[-1] == pytest.approx([0.5, 4.0])
-
-
-def test_colours_are_seen_on_white():
-    """Contrast of at least 4.5 to 1, as WCAG 2 asks for text; names of branches have them."""
-    with plt.style.context(STYLE):
-        colours = plt.rcParams["axes.prop_cycle"].by_key()["color"]
-    assert len(set(colours)) == 8
-    for colour in colours:
-        assert 1.05 / (luminance(f"#{colour.removeprefix('#')}") + 0.05) >= 4.5, colour
 
 
 def test_saved_figures_have_the_same_bytes_each_time(tmp_path):

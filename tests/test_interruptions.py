@@ -198,11 +198,12 @@ def test_locks_of_a_live_run_stay(scratch):
 
 WAIT = """
 import sys
+import time
 
 if any("write_namelist.py" in word for word in sys.orig_argv):
-    open({0!r}).close()
+    time.sleep(600)
 """
-"""What Python does before a script: that of the namelist waits until somebody writes to a pipe."""
+"""What Python does before a script: that of the namelist waits to be killed."""
 
 
 @contextlib.contextmanager
@@ -210,9 +211,7 @@ def about_to_write(project: Project, *arguments: str) -> Iterator[subprocess.Pop
     """A run of the workflow whose namelist job waits."""
     folder = project.folder.parent / "waiting"
     folder.mkdir()
-    pipe = folder / "pipe"
-    os.mkfifo(pipe)
-    (folder / "sitecustomize.py").write_text(WAIT.format(str(pipe)))
+    (folder / "sitecustomize.py").write_text(WAIT)
     with subprocess.Popen(
         [SNAKEMAKE, "--cores", "2", "results/trajectories/torus.nc", *SMOKE, *arguments],
         cwd=project.folder,

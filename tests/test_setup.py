@@ -39,18 +39,6 @@ def test_shell_script_is_sound(script):
     assert "set -euo pipefail" in text or "\nexec " in text
 
 
-def test_container_runs_what_the_project_has():
-    """The base has a version; every program and folder that a step names is there."""
-    steps = (ROOT / "containers" / "Containerfile").read_text().replace("\\\n", " ")
-    images = re.findall(r"^FROM (\S+)", steps, re.MULTILINE)
-    assert re.match(r"docker\.io/library/debian:\d+\.\d+-slim@", images[0])
-    assert set(images[1:]) == {"base"}
-    assert re.findall(r'^CMD \["(.*)"\]', steps, re.MULTILINE) == ["./test", "./reproduce"]
-    folders = re.findall(r"setup/setup\.sh (?!&)(\S+)", steps)
-    assert folders
-    assert [folder for folder in folders if not (ROOT / folder).is_dir()] == []
-
-
 @pytest.mark.parametrize("folder", LOCKS)
 def test_lock_holds_every_required_package(folder):
     """With version and hashes; it names no address, which is the user's business."""

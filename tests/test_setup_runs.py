@@ -73,24 +73,6 @@ def test_missing_packages_without_root_are_asked_for(bare):
     assert not (bare / ".venv").exists()
 
 
-def test_packages_of_parts_are_named(bare):
-    """One line to copy; once they are there the part needs no Python packages of its own."""
-    part, missing = "tests/slurm", ["munge", "slurmd"]
-    (bare / part).mkdir(parents=True)
-    shutil.copy(ROOT / part / "apt-packages.txt", bare / part)
-    wanted = debian_packages(part)
-    assert set(missing) <= set(wanted)
-    pretend_installed(bare, [name for name in wanted if name not in missing])
-    write_script(bare / "bin" / "apt-get", "exit 1")
-    run = set_up_in(bare, part=(part,))
-    assert run.returncode == 1
-    assert f"--no-install-recommends {' '.join(missing)}\n" in run.stderr
-    pretend_installed(bare, wanted)
-    run = set_up_in(bare, part=(part,))
-    assert (run.returncode, run.stderr) == (0, "")
-    assert not (bare / part / ".venv").exists()
-
-
 def test_each_compiler_has_a_preset():
     """By the name of its package, which compilers/run builds with."""
     presets = json.loads((ROOT / "fortran" / "CMakePresets.json").read_text())["configurePresets"]

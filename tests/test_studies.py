@@ -9,14 +9,11 @@ from scripts.files.tsv import read_table, write_table
 from scripts.namelists.program_groups import case_groups, work_precision_groups
 from scripts.namelists.study_cases import cases_of_family
 from scripts.namelists.write_namelist import end_at_horizons
-from scripts.tables import stability_table
 from scripts.tables.accuracy import (
     Reference,
     distances,
     errors_of,
     largest,
-    read_references,
-    read_runs,
 )
 from scripts.tables.trusted_horizons import horizon, row_of
 from scripts.tables.work_precision_table import proportionality
@@ -157,21 +154,3 @@ def test_errors_fall_with_the_tolerance(tables, smoke_config):
         if row["scene"] in ("oscillation", "torus"):
             order = {"rk4_linear": 2.0, "rk4_cubic": 4.0}.get(row["solver"], 1.0)
             assert row["slope"] == pytest.approx(order, rel=0.35)
-
-
-def test_references_are_beside_their_runs(smoke):
-    """Every run of a family has a reference at its times, which is far more accurate."""
-    results = smoke.folder / "results"
-    references = read_references([results / "references" / "stability" / "grid_fast.tsv"])
-    runs = read_runs(results / "measurements" / "stability" / "grid_fast.nc")
-    assert {run["case"] for run in runs} == set(references)
-    for run in runs:
-        row = stability_table.row_of("grid_fast", "quadruple", run, references[run["case"]])
-        assert row["reference_uncertainty"] < 1e-12 or row["status"] != "ok"
-
-
-def test_stationary_reference(tables):
-    """A case that has decayed is at rest to rounding or to tolerance."""
-    rows = [row for row in tables["stability"] if row["family"] == "long_decay"]
-    assert rows
-    assert all(row["error"] < 1e-8 and row["reference_status"] == "exact" for row in rows)
