@@ -15,7 +15,6 @@ from scripts.claims.claims_results import NOT_TESTABLE, VERDICTS, Finding, read_
 from scripts.config.check_config import checked
 from scripts.config.read_config import ConfigError
 from scripts.files.marked_words import to_plain
-from scripts.files.tsv import write_table
 
 CLAIMS = {
     "moves": {
@@ -79,19 +78,6 @@ def test_what_is_true_instead_is_said_where_a_claim_fails(verdict, instead):
     """A test of claims that leaves it out, or says it of a claim that holds, is an error."""
     with pytest.raises(ValueError, match=verdict):
         Finding(verdict, "The evidence.", instead)
-
-
-def test_files_are_read_by_name(tmp_path):
-    """Data sets by the names of their files, tables one after the other; the rest is empty."""
-    hopf_curve().to_netcdf(tmp_path / "a_plane.nc")
-    for name in "ab":
-        write_table(tmp_path / f"{name}.tsv", [{"route": name}])
-    files = {"curves": str(tmp_path / "a_plane.nc")}
-    found = read_results(files | {"routes": [str(tmp_path / f"{name}.tsv") for name in "ab"]})
-    assert list(found.curves) == ["a_plane"]
-    assert found.routes == [{"route": "a"}, {"route": "b"}]
-    assert found.spectra == {}
-    assert found.atlas == []
 
 
 def test_ledger_is_written_with_failing_claims_first_on_the_page(tmp_path):

@@ -155,16 +155,6 @@ def test_findings_follow_the_tables(holds):
     assert "Along the Hopf curves of 2 planes" in limit["words"]
 
 
-def test_citation_names_this_work_and_the_paper():
-    cited = page_provenance.citation(ROOT / "CITATION.cff")
-    assert cited["licence"] == "GPL-3.0-or-later"
-    project, paper = cited["works"]
-    assert project.startswith("The maintainers of this reproduction")
-    assert paper.startswith("Kostić, Srđan, Vasović, Nebojša, Franović, Igor, Todorović, Kristina")
-    assert "Time-delay in spring-block model for aperiodicity in earthquakes" in paper
-    assert re.search(r"<https://studylib\.net/doc/18071566/\S+>", paper)
-
-
 MOTION = {**attractor(0.5, 10.0), "scene": "my_scene", "history": 1.0}
 
 
@@ -192,15 +182,6 @@ def test_samples_that_follow_the_motion_keep_their_times():
     shown = page_views.describe_run(whole.interp(t=times), [])
     assert (shown["start"], shown["every"]) == (times[-12_000], 1)
     np.testing.assert_allclose(sent(shown["times"]), times[-12_000:] - times[-12_000], atol=1e-4)
-
-
-def test_scene_that_keeps_less_is_drawn_as_far_as_it_goes():
-    """Without u, v alone; without both there is nothing to draw."""
-    without_u = run(count=101).drop_vars("u")
-    series = page_views.describe_run(without_u, [MOTION])["series"]
-    assert [one["name"] for one in series] == ["v"]
-    assert page_views.can_be_drawn(without_u)
-    assert not page_views.can_be_drawn(without_u.drop_vars("v"))
 
 
 def test_seconds_are_summed_over_the_jobs_of_a_kind(tmp_path):

@@ -51,12 +51,6 @@ def test_log_gets_a_line_every_five_per_cent(long_run):
     assert [line.endswith(" in all") for line in lines] == [False] * (len(lines) - 1) + [True]
 
 
-def test_short_program_says_nothing(programs, good_inputs):
-    programs.made_by("trajectory", good_inputs["trajectory"])
-    run = programs.start("trajectory", stderr=subprocess.PIPE, text=True)
-    assert run.communicate(timeout=60)[1] == ""
-
-
 def test_standard_error_that_takes_nothing_does_not_stop_the_work(long_run):
     """A log on a full disk: the result is whole."""
     with open("/dev/full", "w") as full:

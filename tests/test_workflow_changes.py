@@ -88,8 +88,8 @@ def test_removed_results_are_made_again(scratch):
     """By a run without targets, to the same bytes; one part of the atlas, and no program."""
     before = scratch.outputs()
     results = scratch.folder / "results"
-    part = "attractors/atlas/xi_08/0002.nc"
-    for name in (part, "spectra/torus.nc", "trajectories/torus.nc", "tables/claims.json"):
+    part, table = "attractors/atlas/xi_08/0002.nc", "tables/atlas.tsv"
+    for name in (part, table, "spectra/torus.nc", "trajectories/torus.nc", "tables/claims.json"):
         (results / name).unlink()
     (results / "page" / "style.css").unlink()
     (scratch.folder / "build" / "release" / "bin" / "measure").unlink()
