@@ -161,23 +161,6 @@ def test_routes_show_maxima_classes_and_exponents(routes_drawn):
     assert len(below.containers) == 2
 
 
-def test_route_along_the_history():
-    """All dots are within the axes; a fixed point is at v = 1, without its transient maxima."""
-    classes = {"near": ["fixed point"] * 3, "slip": ["cycle"] * 3}
-    rows, runs = a_route("v", [0.5, 1.5, 2.5], [[2.0, 2.001]] * 3, **classes)
-    figure = routes.draw([rows], runs, PLACES)
-    assert_on_page(figure)
-    above = figure.axes[0]
-    assert title_of(above).startswith(r"$\tau = 7$, $\varepsilon = 0.5$")
-    near, slip = (line.get_xydata() for line in above.lines)
-    np.testing.assert_allclose(near, [[0.5, 1], [1.5, 1], [2.5, 1]])
-    assert {y for _, y in slip} == {2.0, 2.001}
-    (left, right), (bottom, top) = above.get_xlim(), above.get_ylim()
-    for points in (near, slip):
-        assert np.all((points > [left, bottom]) & (points < [right, 0.9 * top]))
-    assert figure.axes[2].get_xlabel() == "velocity before the start $v$"
-
-
 @pytest.fixture
 def cycles_drawn() -> Figure:
     """Two lines, one along tau and one along epsilon."""

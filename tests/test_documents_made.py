@@ -176,40 +176,6 @@ def test_second_program_of_the_manual(run_of, method, added):
     assert lines[-1].split()[0] == "T"
 
 
-CALL_OF_TANGENT_SERIES = """
-program mine
-   use dde, only: wp
-   use delayed_sine_problem, only: delayed_sine
-   implicit none (type, external)
-   type(delayed_sine) :: problem
-   real(wp) :: dy(0:3, 1, 2), dz(0:3, 1, 2), y(0:3, 1), z(0:3, 1)
-   integer :: i
-   problem = delayed_sine(rate=2.0_wp, n=1, lag=[1.0_wp], component=[1])
-   z = reshape([3.0_wp, 5.0_wp, 7.0_wp, 9.0_wp], [4, 1])
-   y = 1.0_wp
-   dz(:, :, 1) = z
-   dz(:, :, 2) = 10.0_wp
-   dy = 1.0_wp
-   call problem%series(0.0_wp, 0.5_wp, 3, z, y)
-   call problem%tangent_series(0.0_wp, 0.5_wp, 3, z, y, 2, dz, dy)
-   print "(4f12.6)", y, (dy(:, 1, i), i=1, 2)
-end program mine
-"""
-
-
-def test_disturbances_of_the_manual(run_of):
-    """The equation is linear: with the solution's state and delayed value, a disturbance is the
-    solution. The other is worked out by hand."""
-    blocks = blocks_of(MANUAL, "fortran")
-    source = blocks[1].replace("dde_problem_type", "problem_with_tangents")
-    module = with_procedures(source, blocks[3], blocks[5]).partition("\nprogram mine")[0]
-    y, same, ramp = (
-        [float(n) for n in line.split()] for line in run_of(module + CALL_OF_TANGENT_SERIES)
-    )
-    assert y == same
-    assert ramp == [1.0, -10.0, -5.0, pytest.approx(-10 / 3, abs=1e-6)]
-
-
 def test_recipes_in_python_run(smoke, tmp_path):
     """In their order, on the results of the smoke run."""
     (tmp_path / "results").symlink_to(smoke.folder / "results")

@@ -49,13 +49,6 @@ def these(*names: str):
     return pytest.mark.parametrize("figure", names, indirect=True)
 
 
-# titles of the true torus are longer in smoke size; test_drawing.py has it on its page
-@these(*(name for name in registry.FIGURES if name != "true_torus"))
-def test_figure_fits_a_page(figure):
-    """Printed at the size drawn: text, lines and legends end inside, letters can be read."""
-    assert_on_page(figure)
-
-
 @these(*registry.FIGURES[1:8])
 def test_axes_are_labelled(figure):
     """Every axes with data says what its two axes are, itself or through those it shares."""
@@ -69,9 +62,14 @@ def test_axes_are_labelled(figure):
         assert any(other.get_ylabel() for other in beside)
 
 
-@these(*registry.FIGURES)
-def test_no_formula_is_left_as_source(figure):
-    """Every `$` has its partner, no key stands for a symbol, and minus signs are no hyphens."""
+@pytest.mark.parametrize("name", registry.FIGURES)
+def test_figure_can_be_read(drawn, name):
+    """All is on its page. Every `$` has its partner, no key stands for a symbol, and minus signs
+    are no hyphens."""
+    figure = drawn(name)
+    # its titles are longer in smoke size
+    if name != "true_torus":
+        assert_on_page(figure)
     for text in figure.findobj(Text):
         assert text.get_text().count("$") % 2 == 0
         assert "_" not in "".join(text.get_text().split("$")[::2])
