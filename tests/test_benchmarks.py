@@ -1,6 +1,5 @@
 """The benchmarks where they need no other solver: ratios, scenes, workers, tables."""
 
-import dataclasses
 import math
 import sys
 
@@ -90,29 +89,6 @@ def test_ratios_are_of_runs_that_ended_well():
     assert {row["bad"] for row in found} == {None}
 
 
-def test_scenes_are_those_of_work_against_precision():
-    """With their histories, up to when they can be trusted."""
-    study = solvers.read_study()
-    names = tuple(study["cases"])
-    assert names == ("fixed_point", "oscillation", "torus", "chaos", "stick", "stiff")
-    horizons = {name: 100.0 + i for i, name in enumerate(names)}
-    torus, stiff = (solvers.scene_of(study, horizons, name) for name in ("torus", "stiff"))
-    assert (torus.tau, torus.epsilon, torus.t_end, torus.sample_interval) == (10.0, 0.5, 102.0, 1.0)
-    assert torus.past == (0.0, 0.0, math.log(1.1))
-    assert stiff.line() == f"1 0.69999999999999996 0.5 1000000 0 0 {math.log(1.1):.17g} 105 1"
-
-
-def test_reference_is_the_one_of_the_workflow(smoke, monkeypatch):
-    """Under its name, with the start of the scene."""
-    monkeypatch.setattr(solvers, "ROOT", smoke.folder)
-    monkeypatch.setattr(solvers, "HORIZONS", smoke.folder / "results/tables/trusted-horizons.tsv")
-    scene = solvers.scene_of(solvers.read_study(), solvers.read_horizons(), "torus")
-    found = solvers.read_reference("torus")
-    assert found.time[0] == 0.0
-    assert found.time[-1] >= scene.t_end > 0.0
-    assert found.state[:, 0] == pytest.approx(scene.past)
-
-
 def test_error_is_the_largest_of_all_samples(reference):
     """Relative where the reference is above 1; samples that are missing or late have none."""
     samples = samples_of(reference)
@@ -142,23 +118,6 @@ def test_worker_answers_and_says_why_not():
         with pytest.raises(solvers.TimeLimitError, match=r"longer than 0\.2 s"):
             worker.seconds(1e-3, 9, 0.2)
         assert worker.seconds(1e-3, 7, 30.0) == 0.5
-
-
-def test_no_tighter_tolerance_after_one_that_took_too_long(reference):
-    """The other failures do not stop the series."""
-    script = (
-        "print('answer: 1')\nfor line in sys.stdin:\n    tolerance, runs, path = line.split()\n"
-    )
-    script += "    time.sleep(60 if tolerance == '1e-05' else 0)\n"
-    script += "    value = 'nan' if tolerance == '0.0001' else '0.25'\n"
-    script += "    open(path, 'w').write(f'0\\t0\\t0\\t{value}\\n')\n    print('answer: 0 ok')"
-    start = dataclasses.replace(SCENE, t_end=0.0)
-    with solvers.Worker(stand_in(script), start) as worker:
-        rows = compare.measure_errors(worker, reference, 0.5)
-    assert rows[0]["error_max"] == 0.25
-    assert "not a number" in rows[1]["status"]
-    assert rows[2]["status"] == "longer than 0.5 s"
-    assert {row["status"] for row in rows[3:]} == {"not tried: 1e-05 took too long"}
 
 
 def test_answer_of_biftool_is_read():

@@ -114,31 +114,6 @@ def test_number_of_a_claim_is_its_own():
         declare.claim(1, "mine", "here", look_at="routes")(declare.says("So.")(route))
 
 
-def test_files_and_names_of_claims():
-    """Those that the tests read and name, once each; of what none reads, no file."""
-    tests = {
-        "single_peak": {"scene": "torus"},
-        "aperiodic_events": {"scene": "chaos", "periodic": "torus"},
-        "equal_events": {"scenes": ["chaos"]},
-        "hopf_depends_on": {"at_fixed_xi": "a", "at_fixed_tau": "b", "limit": 1e-3},
-        "positive_exponent": {"scene": "chaos"},
-    }
-    claims = {name: {"test": {name: given}} for name, given in tests.items()} | {"no": UNTESTED}
-    assert ledger.inputs_for(claims, {"scenes": {"chaos": {}}}) == {
-        "spectra": ["<results>/spectra/torus.nc"],
-        "slip_events": ["<results>/slip_events/chaos.nc", "<results>/slip_events/torus.nc"],
-        "curves": ["<results>/hopf/a.nc", "<results>/hopf/b.nc"],
-        "attractors": ["<results>/tables/attractors.tsv"],
-        # no scene has exponents
-        "exponents": [],
-    }
-    assert ledger.names_in(claims) == {
-        "scenes": ["torus", "chaos", "torus", "chaos", "chaos"],
-        "planes": ["a", "b"],
-        "routes": [],
-    }
-
-
 @pytest.fixture
 def accept(default_config):
     """Check the claims of a user's file over the default configuration."""

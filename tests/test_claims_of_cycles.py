@@ -32,7 +32,6 @@ def at_scene(met: str, tau: float, **given):
     ("met", "tau", "verdict"),
     [
         ("torus", 0.35, YES),
-        ("torus", 0.26, YES),
         ("torus", 0.24, PARTLY),
         ("cycle", 0.15, NO),
         ("chaos", 0.35, NO),
@@ -48,12 +47,10 @@ def test_torus_of_scene(met, tau, verdict):
     [
         ("torus", 0.35, {}, YES),
         ("torus", 0.15, {}, NO),
-        ("cycle", 0.15, {}, NO),
         ("chaos", 0.35, {}, NO),
         ("torus", 0.35, {"cycle_points": []}, NO),
         ("torus", 0.35, {"cycle_points": [torus_point(kind="fold")]}, NO),
         ("torus", 0.35, {"cycle_points": [torus_point(unstable_before=2.0)]}, NO),
-        ("torus", 0.35, {"cycle_points": [torus_point(xi=0.5)]}, NO),
         ("torus", 0.35, {"cycles": {"mine": cycles_to_a_torus(xi=0.5)}}, NO),
     ],
 )

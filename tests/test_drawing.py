@@ -10,7 +10,7 @@ from figure_contents import points_in
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 
-from scripts.drawing import spectra, trajectories
+from scripts.drawing import trajectories
 from scripts.drawing.style import METADATA, logged, save
 from scripts.figures import figure_6
 
@@ -73,43 +73,29 @@ def test_missed_part_of_a_maximum():
     assert trajectories.share_missed(steady) == 0
 
 
-def a_spectrum(kind: str, *peaks: tuple[float, float, int, int, int], **attributes) -> xr.Dataset:
-    """A made-up spectrum with peaks of frequency, power, kind and multiples of both bases."""
-    frequency = np.linspace(0, 5, 501)
-    columns = np.reshape(peaks, (-1, 5)).T
-    names = ["peak_frequency", "peak_power", "peak_kind", "peak_multiple", "peak_second_multiple"]
-    bases = [f for f, _, its_kind, *_ in peaks if its_kind in (0, 2)]
-    return xr.Dataset(
-        {
-            "power": ("frequency", 1e-3 + 0 * frequency),
-            "base_frequency": ("base", bases),
-            **{name: ("peak", column) for name, column in zip(names, columns, strict=True)},
-        },
-        {"frequency": frequency},
-        {
-            "scene": "made_up",
-            "line_share": 0.75,
-            "continuum_share": 0.2,
-            "spectrum_kind": kind,
-            **attributes,
-        },
-    )
-
-
 BASE, HARMONIC, OTHER = (0.1, 9.0, 0, 1, 0), (0.2, 5.0, 1, 2, 0), (0.27, 1.0, 4, 0, 0)
 SECOND = (0.35, 4.0, 2, 0, 1)
 
 
-def draw_spectrum(kind: str, *peaks: tuple) -> Axes:
-    """The logarithmic panel of a made-up spectrum up to a frequency of 0.5."""
+def draw_spectrum(*peaks: tuple[float, float, int, int, int]) -> Axes:
+    """The logarithmic panel of a made-up spectrum up to a frequency of 0.5, with peaks of
+    frequency, power, kind and multiples of both bases."""
+    frequency = np.linspace(0, 5, 501)
+    names = ["peak_frequency", "peak_power", "peak_kind", "peak_multiple", "peak_second_multiple"]
+    columns = dict(zip(names, np.transpose(peaks), strict=True))
+    data = {name: ("peak", column) for name, column in columns.items()}
+    data["power"] = ("frequency", 1e-3 + 0 * frequency)
+    data["base_frequency"] = ("base", [f for f, _, kind, *_ in peaks if kind in (0, 2)])
+    attributes = {"scene": "made_up", "line_share": 0.75, "spectrum_kind": "undecided"}
+    spectrum = xr.Dataset(data, {"frequency": frequency}, attributes)
     settings = {"rows": {"a": {"paper": "word"}}, "frequency_shown": 0.5}
-    return figure_6.draw([a_spectrum(kind, *peaks)], settings).axes[0]
+    return figure_6.draw([spectrum], settings).axes[0]
 
 
 def test_peaks_are_named_by_kind():
     """Base, harmonic with its multiple, other in another colour, each with its frequency."""
     peaks = [BASE, HARMONIC, SECOND, OTHER]
-    axes = draw_spectrum("undecided", *peaks)
+    axes = draw_spectrum(*peaks)
     labels = {text.get_text(): text.get_color() for text in axes.texts}
     names = ["$f_1$\n0.1000", "$2f_1$\n0.2000", "$f_2$\n0.3500", "other\n0.2700"]
     assert list(labels) == names
@@ -119,20 +105,11 @@ def test_peaks_are_named_by_kind():
     assert {(x, y) for x, y, _ in points_in(axes)} == {p[:2] for p in peaks}
 
 
-@pytest.mark.parametrize(
-    ("m", "n", "name"),
-    [(1, 1, "$f_1 + f_2$"), (-1, 1, "$f_2 - f_1$"), (3, -2, "$3f_1 - 2f_2$"), (0, 2, "$2f_2$")],
-)
-def test_combinations_are_named(m, n, name):
-    peak = a_spectrum("quasiperiodic", (0.1, 1.0, 3, m, n)).isel(peak=0)
-    assert spectra.name_of(peak) == name
-
-
 def test_peaks_beside_a_higher_one_get_a_dot_only():
     """Labels would lie on each other or on a dot; peaks beyond the axis get nothing."""
     beside, beyond = (0.13, 2.0, 3, -3, 2), (0.6, 3.0, 1, 6, 0)
     beside_a_dot = (0.155, 1.0, 3, -2, 2)
-    axes = draw_spectrum("undecided", BASE, beside, beside_a_dot, beyond)
+    axes = draw_spectrum(BASE, beside, beside_a_dot, beyond)
     assert [text.get_text() for text in axes.texts] == ["$f_1$\n0.1000"]
     assert {x for x, *_ in points_in(axes)} == {0.1, 0.13, 0.155}
 

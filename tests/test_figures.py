@@ -5,7 +5,7 @@ import functools
 import numpy as np
 import pytest
 import xarray as xr
-from figure_contents import assert_on_page, hyphens_before_numbers, points_in, words_in
+from figure_contents import assert_on_page, hyphens_before_numbers, words_in
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from matplotlib.text import Text
@@ -87,27 +87,3 @@ def test_curves_have_all_branches_and_kinds_of_bifurcations(figure, plane, smoke
         assert word in words
     assert "unstable pairs" in words
     assert {"-", "--"} <= {line.get_linestyle() for line in figure.axes[0].lines}
-
-
-@pytest.mark.parametrize(
-    ("figure", "scenes"), [("figure_2", {(0.7, 7.0)}), ("figure_3", set())], indirect=["figure"]
-)
-def test_scenes_stand_in_their_own_plane_only(figure, scenes):
-    """Only chaos has xi = 0.5, and none has tau = 12: elsewhere they lie in a wrong region."""
-    assert {(x, y) for x, y, _ in points_in(figure.axes[0])} == scenes
-    words = words_in(figure)
-    assert ("chaos" in words) == ("scene" in words) == bool(scenes)
-    assert not any(name in words for name in ("torus", "fixed point", "oscillation"))
-
-
-@these("figure_6", "figure_7")
-def test_spectra_are_shown_on_both_scales(figure):
-    """The same frequencies and powers; all rows have the same logarithmic axes."""
-    logarithmic, linear = figure.axes[::2], figure.axes[1::2]
-    assert {axes.get_yscale() for axes in logarithmic} == {"log"}
-    assert {axes.get_yscale() for axes in linear} == {"linear"}
-    assert len({axes.get_ylim() for axes in logarithmic}) == 1
-    assert len({axes.get_xlim() for axes in figure.axes}) == 1
-    assert figure.axes[0].get_xlim()[0] == 0
-    for one, other in zip(logarithmic, linear, strict=True):
-        np.testing.assert_array_equal(one.lines[0].get_xydata(), other.lines[0].get_xydata())

@@ -2,20 +2,10 @@
 
 import numpy as np
 import pytest
-import xarray as xr
-from made_up_results import slip_events
 from scipy.integrate import solve_ivp
-
-from scripts.figures import events
 
 ENDS = {"t_end": 300.0, "t_transient": 100.0}
 FINE = 0.005
-
-
-def named(scene: str, **values) -> xr.Dataset:
-    """Made-up events with the attributes of a file."""
-    attributes = {"scene": scene, "tau": 7.0, "epsilon": 0.7, "xi": 0.5, "gamma": 0.8}
-    return slip_events(**values).assign_attrs(attributes)
 
 
 def test_events_are_those_of_the_trajectory(programs, good_inputs, smoke_config):
@@ -84,11 +74,3 @@ def test_stuck_block_is_that_of_another_solver(programs, good_inputs):
     assert found.sizes["event"] > 3
     np.testing.assert_allclose(found.recurrence_time, recurrence_time, rtol=1e-8)
     np.testing.assert_allclose(found.least_velocity, least_velocity, rtol=1e-5)
-
-
-def test_share_of_larger_events_is_drawn():
-    """All events have at least the smallest slip, one in four at least the largest of four."""
-    figure = events.draw([named("chaos", slip=np.array([4.0, 1.0, 2.0, 8.0]))], ["a"])
-    (line,) = figure.axes[2].lines
-    drawn = dict(zip(line.get_xdata()[1:], line.get_ydata()[1:], strict=True))
-    assert drawn == {1.0: 1.0, 2.0: 0.75, 4.0: 0.5, 8.0: 0.25}

@@ -11,7 +11,6 @@ from scipy.signal import welch
 from scipy.special import ndtr
 
 INTERVAL = 0.1
-BASE, HARMONIC, SECOND_BASE, COMBINATION, OTHER = range(5)
 
 
 @pytest.fixture
@@ -102,33 +101,6 @@ def test_events_shorter_than_the_interval_leave_no_false_peaks(spectrum_of, prog
     np.testing.assert_allclose(spectrum.peak_frequency, lines / period, atol=0.02 * bin_width)
     np.testing.assert_allclose(spectrum.peak_power, 2 / (1.5 * bin_width), rtol=0.02)
     assert spectrum.attrs["spectrum_kind"] == "periodic"
-
-
-def test_peaks_are_labelled(spectrum_of):
-    """Base, its multiples, a second base, their sum, and one that is none of these."""
-    second, third = 0.3 * 2**0.5, 0.3 * np.pi
-    parts = (1, 0.3), (0.2, 0.6), (0.1, 0.9), (0.5, second), (0.1, 0.3 + second), (0.2, third)
-    spectrum = spectrum_of(sines(8000, *parts), segments=1)
-    known = {
-        0.3: (BASE, 1, 0),
-        second: (SECOND_BASE, 0, 1),
-        0.6: (HARMONIC, 2, 0),
-        0.3 + second: (COMBINATION, 1, 1),
-        0.9: (HARMONIC, 3, 0),
-        third: (OTHER, 0, 0),
-    }
-    np.testing.assert_allclose(spectrum.peak_frequency, list(known), rtol=1e-5)
-    labels = zip(
-        spectrum.peak_kind.values,
-        spectrum.peak_multiple.values,
-        spectrum.peak_second_multiple.values,
-        strict=True,
-    )
-    assert [tuple(label) for label in labels] == [known[f] for f in sorted(known)]
-    np.testing.assert_allclose(spectrum.base_frequency, [0.3, second], rtol=1e-5)
-    kinds = spectrum.peak_kind.attrs
-    words = dict(zip(kinds["flag_meanings"].split(), kinds["flag_values"], strict=True))
-    assert words == {"base": 0, "harmonic": 1, "second_base": 2, "combination": 3, "other": 4}
 
 
 @pytest.mark.parametrize(
