@@ -6,7 +6,6 @@ import json
 import re
 
 import pytest
-from conftest import SMOKE
 from made_up_results import NO, PARTLY, YES, Results, attractor_row, hopf_curve, stability_row
 
 from scripts.claims import declare, ledger
@@ -31,17 +30,6 @@ CLAIMS = {
     },
     "real": {"place": "section 5", "claim": "Faults do so.", "not_testable": "No data."},
 }
-MOVED = """
-scenes:
-  oscillation:
-    epsilon: {epsilon}
-    t_transient: 7000.0
-    t_end: 10000.0
-    exponents: {{ count: 6, t_end: 12000.0 }}
-attractors:
-  observation: {{ t_observed: 6000.0, t_turning: 3000.0 }}
-"""
-"""The oscillation as in the full reproduction, at an epsilon."""
 TESTED = {"place": "Figure 2", "claim": "Something is so.", "look_at": "figure_2"}
 UNTESTED = {"place": "section 5", "claim": "Something is so.", "not_testable": "No data."}
 PLANE, ROUTE = {"plane": "tau_of_epsilon"}, {"routes": ["torus_in_tau"]}
@@ -219,15 +207,3 @@ def test_a_claim_alone_needs_no_other_files(smoke, smoke_config):
         found = ledger.find(claim, read_results(json.loads(files.replace("<results>", results))))
         expected = {key: rows[name][key] for key in ("verdict", "evidence", "instead")}
         assert {key: to_plain(value) for key, value in vars(found).items()} == expected
-
-
-@pytest.mark.long
-@pytest.mark.parametrize(("epsilon", "verdict"), [(0.35, YES), (0.2, NO)])
-def test_scene_below_the_hopf_curve_oscillates_no_more(scratch, epsilon, verdict):
-    """From the configuration to the verdict, through the whole workflow."""
-    (scratch.folder / "mine.yaml").write_text(MOVED.format(epsilon=epsilon))
-    run = scratch.snakemake("claims", *SMOKE, "mine.yaml")
-    assert run.returncode == 0, run.stdout
-    row = read_ledger(scratch.folder)["figure_4b"]
-    assert row["verdict"] == verdict, row["evidence"]
-    assert f"epsilon = {epsilon}" in row["evidence"]

@@ -7,6 +7,7 @@ import pytest
 from conftest import ROOT, project_files
 
 from scripts.config.read_config import read
+from scripts.results.programs import RUNS
 
 SCRIPTS = [
     *("reproduce", "test", "setup/setup.sh", ".ci/run", "benchmarks/run", "compilers/run"),
@@ -115,3 +116,37 @@ def test_continuous_integration_calls_the_tests():
     assert [line for line in lines if line and not line.startswith("#")] == [
         'exec "$(dirname "$(readlink -f "$0")")/../test"'
     ]
+
+
+NUMBERS = {"threads"}
+"""Names in braces whose values Snakemake itself makes, without characters of a shell."""
+COMMANDS = [
+    (path.name, command)
+    for path in [ROOT / "Snakefile", *sorted((ROOT / "rules").glob("*.smk"))]
+    for command in re.findall(r"^ +shell:\n((?: {8,}.*\n)+)", path.read_text(), re.MULTILINE)
+]
+"""Each command with the file of its rule."""
+
+
+def unquoted(command: str) -> set[str]:
+    """Names in braces without `:q`; doubled braces are for the shell."""
+    names = re.findall(r"\{([^{}]*)\}", re.sub(r"\{\{|\}\}", "", command))
+    return {name for name in names if not name.endswith(":q")} - NUMBERS
+
+
+def test_every_command_is_found():
+    texts = [path.read_text() for path in [ROOT / "Snakefile", *(ROOT / "rules").glob("*.smk")]]
+    assert len(COMMANDS) == len(re.findall(r"\bshell\b\s*[:(]", "".join(texts))) > 2
+
+
+@pytest.mark.parametrize(("file", "command"), COMMANDS)
+def test_command_quotes_paths_and_texts(file, command):
+    """A folder may hold spaces, a file what a shell would run."""
+    assert unquoted(command) == set()
+
+
+def test_jobs_of_the_cluster_ask_for_memory_and_time():
+    """Every rule that takes minutes, and no other rule."""
+    resources = read(ROOT / "profiles" / "slurm" / "config.yaml")["set-resources"]
+    assert set(resources) == {run.rule for run in RUNS if run.takes_minutes}
+    assert all(set(values) == {"mem_mb", "runtime"} for values in resources.values())
