@@ -1,12 +1,11 @@
-"""Figures of the atlas, of routes and of cycles, from small made-up results."""
+"""Figures of the atlas and of cycles, from small made-up results."""
 
 import math
 
 import numpy as np
 import pytest
-import xarray as xr
-from figure_contents import assert_on_page, title_of, words_in
-from made_up_results import attractor_row, followed_cycles, hopf_curve
+from figure_contents import title_of, words_in
+from made_up_results import attractor_row, followed_cycles
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.collections import PatchCollection, QuadMesh
@@ -17,16 +16,10 @@ from matplotlib.lines import Line2D
 from scripts.drawing import class_map
 from scripts.drawing.special_points import STYLES
 from scripts.drawing.style import STYLE
-from scripts.figures import atlas, cycles, routes
+from scripts.figures import atlas, cycles
 from scripts.results import paths
 from scripts.tables.motion_rows import COLOURS
 
-PLACES = {
-    "first": {"epsilon": 0.35, "tau": 10.0, "xi": 0.8, "gamma": 0.8},
-    "at_zero": {"epsilon": 0.3, "tau": 0.0, "xi": 0.8, "gamma": 0.8},
-    "first_neighbour": {"epsilon": 0.5, "tau": 10.0, "xi": 0.8, "gamma": 0.8},
-    "elsewhere": {"epsilon": 0.7, "tau": 7.0, "xi": 0.5, "gamma": 0.8},
-}
 STABLE, ONE, TWO, MANY = (style["color"] for style in cycles.LINES)
 
 
@@ -39,7 +32,7 @@ def _style():
 
 
 def a_row(met: str, epsilon: float, tau: float = 7.0, xi: float = 0.5, **given) -> dict:
-    """A row of the atlas or a route."""
+    """A row of the atlas."""
     place = {"epsilon": epsilon, "tau": tau, "xi": xi, "gamma": 0.8, "problem": math.nan}
     return attractor_row(met) | place | given
 
@@ -55,14 +48,6 @@ def grid_of(xi: float) -> list[dict]:
     return rows
 
 
-def curves_at(xi: float) -> xr.Dataset:
-    """A Hopf curve that changes its kind."""
-    curve = hopf_curve(xi=xi)
-    size = curve.sizes["point"]
-    l1 = np.where(np.arange(size) < size // 2, -0.1, 0.1)
-    return curve.assign(piece=("point", np.zeros(size, int)), l1=("point", l1))
-
-
 def crosses_in(axes: Axes) -> list[list[float]]:
     """Places of failed runs."""
     return [line.get_xydata()[0].tolist() for line in axes.lines if line.get_marker() == "x"]
@@ -71,7 +56,7 @@ def crosses_in(axes: Axes) -> list[list[float]]:
 @pytest.fixture
 def atlas_drawn() -> Figure:
     rows = grid_of(0.8) + grid_of(0.5)
-    figure = atlas.draw(rows, [curves_at(0.5), curves_at(0.8)], [], PLACES)
+    figure = atlas.draw(rows, [], [], {})
     figure.canvas.draw()
     return figure
 
@@ -110,55 +95,6 @@ def test_points_not_computed_have_the_exponent_of_the_nearest_of_their_kind():
     assert "12 points, 10 computed, 1 undecided, 1 failed" in title_of(figure.axes[0])
     values = figure.axes[1].collections[0].get_array().ravel()
     assert (values[6], values[7]) == (-0.5, -0.01)
-
-
-def a_route(along: str, places: list[float], maxima: list, **classes: list[str]):
-    """The table and the runs of a route, given the classes of each run."""
-    rows = [
-        a_row(met, **{"epsilon": 0.5, "tau": 7.0, "theta": 0.0, "u": 0.0, "v": 1.0, along: place})
-        | {"run": run}
-        for run, of_run in classes.items()
-        for met, place in zip(of_run, places, strict=True)
-    ]
-    varied = along if along in ("epsilon", "tau") else f"history_{along}"
-    data = {varied: ("point", places), "maximum": (("point", "kept"), np.array(maxima))}
-    return rows, [xr.Dataset(data) for _ in classes]
-
-
-@pytest.fixture
-def routes_drawn() -> Figure:
-    """Two routes with two runs each: one along epsilon, one along tau, which has a scene on it."""
-    maxima = [[1.0, np.nan], [2.0, 2.5], [3.0, 3.5], [4.0, 4.5]]
-    near = ["cycle", "undecided", "torus", "chaos"]
-    up = ["cycle", "torus", "torus", "chaos"]
-    made = [
-        a_route(along, [0.1, 0.2, 0.3, 0.4], maxima, near=near, up=up)
-        for along in ("epsilon", "tau")
-    ]
-    made[0][0][3] |= {"problem": "it stopped", "class": "undecided"}
-    scene = {"tau": 0.2, "epsilon": 0.5, "xi": 0.5, "gamma": 0.8}
-    scenes = {"on_it": scene, "elsewhere": {**scene, "xi": 0.8}}
-    tables, runs = zip(*made, strict=True)
-    return routes.draw(list(tables), [*runs[0], *runs[1]], scenes)
-
-
-def test_routes_show_maxima_classes_and_exponents(routes_drawn):
-    """A panel each, one below the other, named by the parameter that varies."""
-    assert_on_page(routes_drawn)
-    above, strips, below = routes_drawn.axes[:3]
-    shown = np.array([point for line in above.lines for point in line.get_xydata()])
-    np.testing.assert_allclose(np.unique(shown[:, 1]), [1, 2, 2.5, 3, 3.5, 4, 4.5])
-    title = title_of(above)
-    assert r"$\tau = 7$, $\xi = 0.5$, $\gamma = 0.8$: 8 points, 1 undecided, 1 failed" in title
-    assert below.get_xlabel() == r"sensitivity of the velocity relaxation $\varepsilon$"
-    assert routes_drawn.axes[5].get_xlabel() == r"delay $\tau$ (units of $L/v_0$)"
-    assert [text.get_text() for text in strips.get_yticklabels()] == ["near", "up"]
-    meshes = [item for item in strips.collections if isinstance(item, QuadMesh)]
-    expected = [COLOURS[name] for name in ("cycle", "torus", "torus", "chaos")]
-    colours = meshes[1].get_facecolors().reshape(-1, 4)
-    np.testing.assert_allclose(colours, [to_rgba(colour) for colour in expected])
-    assert crosses_in(strips) == [[0.4, 0]]
-    assert len(below.containers) == 2
 
 
 @pytest.fixture

@@ -104,38 +104,29 @@ def test_hopf_by_delay_at_faults(depth, verdict):
 
 
 @pytest.mark.parametrize(
-    ("l1", "pairs", "expected", "verdict", "instead"),
+    ("l1", "pairs", "expected", "verdict"),
     [
-        (-0.1, 0, ["supercritical"], YES, ""),
-        (0.1, 0, ["supercritical"], NO, "All 12 points are subcritical."),
-        (np.where(FIRST, 0.1, -0.1), 0, ["supercritical"], PARTLY, "Both kinds occur: 9 "),
-        (np.where(FIRST, 0.1, -0.1), 0, ["supercritical", "subcritical"], YES, ""),
+        (-0.1, 0, ["supercritical"], YES),
+        (0.1, 0, ["supercritical"], NO),
+        (np.where(FIRST, 0.1, -0.1), 0, ["supercritical"], PARTLY),
+        (np.where(FIRST, 0.1, -0.1), 0, ["supercritical", "subcritical"], YES),
         # a bifurcation beside other unstable pairs is counted, not judged
-        (np.where(FIRST, 0.1, -0.1), np.where(FIRST, 1, 0), ["supercritical"], YES, ""),
-        (-0.1, 2, ["supercritical"], NO, "Steady sliding does not change its stability."),
+        (np.where(FIRST, 0.1, -0.1), np.where(FIRST, 1, 0), ["supercritical"], YES),
+        (-0.1, 2, ["supercritical"], NO),
     ],
 )
-def test_kinds_of_hopf(l1, pairs, expected, verdict, instead):
+def test_kinds_of_hopf(l1, pairs, expected, verdict):
     """All of the kind, none, or some of another, where stability changes."""
     made = on_plane(changed(hopf_curve(), l1=l1, unstable_pairs=pairs))
-    found = kinds_of_hopf(made, planes=["plane"], expected=expected)
-    assert found.verdict == verdict
-    assert found.instead.startswith(instead)
-    subcritical = int((np.broadcast_to(l1, 12) > 0).sum())
-    assert f"Of all 12 points {subcritical} are subcritical" in found.evidence
+    assert kinds_of_hopf(made, planes=["plane"], expected=expected).verdict == verdict
 
 
 @pytest.mark.parametrize(
-    ("crossing", "verdict", "instead"),
-    [
-        (np.where(FIRST, 1, -1), YES, ""),
-        (1, NO, "A longer delay makes no pair stable."),
-        (-1, NO, "A longer delay makes no pair unstable."),
-    ],
+    ("crossing", "verdict"), [(np.where(FIRST, 1, -1), YES), (1, NO), (-1, NO)]
 )
-def test_pairs_gained_and_lost(crossing, verdict, instead):
-    found = pairs_gained_and_lost(on_plane(changed(hopf_curve(), crossing=crossing)), plane="plane")
-    assert (found.verdict, found.instead) == (verdict, instead)
+def test_pairs_gained_and_lost(crossing, verdict):
+    made = on_plane(changed(hopf_curve(), crossing=crossing))
+    assert pairs_gained_and_lost(made, plane="plane").verdict == verdict
 
 
 @pytest.mark.parametrize(

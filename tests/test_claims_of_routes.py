@@ -132,22 +132,19 @@ def test_torus_route(point, verdict):
 
 
 @pytest.mark.parametrize(
-    ("first", "second", "verdict", "words"),
+    ("first", "second", "verdict"),
     [
-        (BREAKDOWN, STRICT, YES, ""),
-        (BREAKDOWN, ["torus", "chaos"], PARTLY, "chaos), but not the third frequency"),
-        (["cycle", *STRICT], ["chaos"], PARTLY, "Newhouse, but not torus breakdown"),
-        (["cycle", "chaos"], ["torus", "3-torus"], NO, "show neither torus"),
+        (BREAKDOWN, STRICT, YES),
+        (BREAKDOWN, ["torus", "chaos"], PARTLY),
+        (["cycle", *STRICT], ["chaos"], PARTLY),
+        (["cycle", "chaos"], ["torus", "3-torus"], NO),
     ],
 )
-def test_quasiperiodic_route(first, second, verdict, words):
+def test_quasiperiodic_route(first, second, verdict):
     """Torus breakdown and a third frequency, one of them, or neither."""
     rows = twice(*first) + twice(*second, name="other")
     made = Results(routes=rows, cycle_points=[torus_point()])
-    found = quasiperiodic_route(made, routes=["mine", "other"])
-    assert found.verdict == verdict
-    assert words in found.instead
-    assert found.evidence.endswith("The atlas has no torus of three frequencies.")
+    assert quasiperiodic_route(made, routes=["mine", "other"]).verdict == verdict
 
 
 @pytest.mark.parametrize(
