@@ -67,7 +67,6 @@ class Project:
         return subprocess.run(command, cwd=self.folder, timeout=900, **together)
 
     def snakemake(self, *arguments: str) -> subprocess.CompletedProcess[str]:
-        """Run Snakemake on two cores."""
         snakemake = Path(sys.executable).parent / "snakemake"
         # another process of the test run may be at work in the same folder
         with locked(self.folder.with_name(f"{self.folder.name}.lock")):
@@ -81,12 +80,10 @@ class Project:
             write_script(self.folder / ".venv" / "bin" / tool, f"exec '{path}' \"$@\"")
 
     def reproduce(self, *arguments: str) -> subprocess.CompletedProcess[str]:
-        """Run ./reproduce with the packages at hand."""
         self.use_packages_at_hand()
         return self.run(self.folder / "reproduce", *arguments)
 
     def copy_to(self, folder: Path) -> "Project":
-        """A copy with results, programs and Snakemake's records."""
         shutil.copytree(self.folder, folder)
         return Project(folder)
 
@@ -154,7 +151,6 @@ class Programs:
         return run
 
     def run_with(self, program: str, values: dict) -> subprocess.CompletedProcess[str]:
-        """Run a program with a namelist of these values."""
         return self.run_groups(program, {GROUPS[program]: values})
 
     def write(self, groups: dict[str, dict]) -> Path:
@@ -162,7 +158,6 @@ class Programs:
         return self.folder / "input.nml"
 
     def run_groups(self, program: str, groups: dict[str, dict]) -> subprocess.CompletedProcess[str]:
-        """Run a program with a namelist of these groups."""
         return self.run(program, self.write(groups).name, self.output.name)
 
     def made_of(self, program: str, groups: dict[str, dict]) -> xr.Dataset:
@@ -171,7 +166,6 @@ class Programs:
         return xr.load_dataset(self.output)
 
     def made_by(self, program: str, values: dict) -> xr.Dataset:
-        """What a program of GROUPS makes of good values."""
         return self.made_of(program, {GROUPS[program]: values})
 
     def left_behind(self) -> list[str]:

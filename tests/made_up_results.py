@@ -38,7 +38,6 @@ def hopf_curve(gamma: float = 0.8, xi: float = 0.5, k: int = 1, ordinate: str = 
 
 
 def changed(curves: xr.Dataset, **values) -> xr.Dataset:
-    """The same curve with other values of some variables."""
     size = curves.sizes["point"]
     new = {name: ("point", np.broadcast_to(value, size).copy()) for name, value in values.items()}
     return curves.assign(new)

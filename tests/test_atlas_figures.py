@@ -32,7 +32,6 @@ def _style():
 
 
 def a_row(met: str, epsilon: float, tau: float = 7.0, xi: float = 0.5, **given) -> dict:
-    """A row of the atlas."""
     place = {"epsilon": epsilon, "tau": tau, "xi": xi, "gamma": 0.8, "problem": math.nan}
     return attractor_row(met) | place | given
 
@@ -49,7 +48,6 @@ def grid_of(xi: float) -> list[dict]:
 
 
 def crosses_in(axes: Axes) -> list[list[float]]:
-    """Places of failed runs."""
     return [line.get_xydata()[0].tolist() for line in axes.lines if line.get_marker() == "x"]
 
 
@@ -85,7 +83,6 @@ def test_undecided_cells_are_hatched_and_failures_crossed(atlas_drawn):
 
 
 def test_points_not_computed_have_the_exponent_of_the_nearest_of_their_kind():
-    """And their own class; the title counts both."""
     rows = grid_of(0.5)
     rows[0]["exponent_1"] = -0.5
     for i, nearest in ((6, 0), (7, 1)):  # a fixed point above the first, a cycle above the second
@@ -99,12 +96,10 @@ def test_points_not_computed_have_the_exponent_of_the_nearest_of_their_kind():
 
 @pytest.fixture
 def cycles_drawn() -> Figure:
-    """Two lines, one along tau and one along epsilon."""
     return cycles.draw([followed_cycles("tau"), followed_cycles("epsilon")], [], [[], []], {})
 
 
 def labelled(axes: Axes, label: str) -> list[Line2D]:
-    """What is drawn under a name of the legend."""
     return [line for line in axes.lines if line.get_label() == label]
 
 
@@ -135,7 +130,6 @@ def test_a_change_without_a_point_is_drawn_between_orbits():
 
 
 def test_special_points_have_markers_by_kind(cycles_drawn):
-    """At their places; Hopf points stand on steady sliding."""
     expected = {
         "fold": ("fold", [[0.45, 2.2]]),
         "torus bifurcation": ("torus", [[0.3, 3.0]]),

@@ -126,7 +126,6 @@ def a_run(classes: list[str], **given) -> xr.Dataset:
 
 
 def test_points_that_were_not_computed_have_class_and_period_only():
-    """With their parameters and history; `computed` stands before the class."""
     run = a_run(["cycle", "cycle"], period=[3, 3], time=[900.0, math.nan])
     run["computed"] = ("point", [1, 0], {"flag_meanings": "no yes"})
     first, second = attractor_tables.atlas_rows(run)
@@ -236,7 +235,6 @@ def test_motions_that_only_a_route_shows_have_no_share():
 
 
 def test_points_are_counted_and_cycles_parted():
-    """Failures are named only where there are some."""
     rows = [
         {"class": "cycle", "period": 1.0, "problem": math.nan},
         {"class": "cycle", "period": 2.0, "problem": math.nan},

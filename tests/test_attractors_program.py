@@ -155,7 +155,6 @@ def test_same_bytes_in_one_thread_and_in_two(programs, groups, monkeypatch, refi
     ],
 )
 def test_refinements_of_no_plane_are_refused(programs, groups, given, place):
-    """Refinements need cells of epsilon and tau, and one history."""
     groups["points"] |= {**ONE_HISTORY, "refinements": 1, **given}
     done = programs.run_groups("attractors", groups)
     assert f"refinements = 1 {place}; expected 0, or a plane of epsilon and tau" in done.stderr

@@ -38,7 +38,6 @@ def reference() -> Reference:
 
 
 def samples_of(reference: Reference) -> np.ndarray:
-    """Samples of a run over the scene without errors."""
     return np.column_stack([reference.time, reference.state.T])[:3]
 
 
@@ -66,7 +65,6 @@ POINTS = [(1e-4, 1.0), (1e-6, 4.0)]
     ],
 )
 def test_time_at_an_error(level, points, expected):
-    """From errors and seconds in the order of their tolerances."""
     assert compare.seconds_at(level, points) == (expected and pytest.approx(expected))
 
 
@@ -121,7 +119,6 @@ def test_worker_answers_and_says_why_not():
 
 
 def test_answer_of_biftool_is_read():
-    """Branches are added up; words of DDE-BIFTOOL are passed over."""
     said = (
         "BR_CONTN warning: boundary hit.\nbranch 10 4.0 1.0 2e-9\nfold 0.5 6.25\n\n"
         "branch 10 2.0 1.0 1e-6\ntorus 0.75 8.5\n"

@@ -48,7 +48,6 @@ def with_changes(*cells: str | float) -> Results:
 
 
 def test_changes_of_a_cell():
-    """Every place with its pairs; none of an empty cell."""
     assert changes("2.5 (0 -> 1); 1e-3 (12 -> 11)") == [(2.5, 0, 1), (1e-3, 12, 11)]
     assert changes(math.nan) == []
 
@@ -69,7 +68,6 @@ def test_changes_of_a_cell():
     ],
 )
 def test_changes_with_the_delay(test, cells, verdict, words):
-    """Where a longer delay changes the number of unstable pairs."""
     found = test(with_changes(*cells), scenes=list("abc"[: len(cells)]))
     assert found.verdict == verdict
     assert words.removesuffix(".") in found.evidence

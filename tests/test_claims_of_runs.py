@@ -50,7 +50,6 @@ def test_runs_at_the_gamma_of_faults(test, runs, verdict, words):
     ],
 )
 def test_stationary_state(given, verdict):
-    """All long runs that decay must end there."""
     row = run_row(**{"reference": "exact stationary state, at t_end only", **given})
     assert stationary_state(Results(stability=[row]), within=1e-6).verdict == verdict
 
@@ -73,7 +72,6 @@ def test_single_peak(made, verdict):
 
 @pytest.mark.parametrize("kind", ["periodic", "quasiperiodic", "continuum", "undecided", "none"])
 def test_spectrum_class(kind):
-    """The kind of the spectrum in the figure."""
     made = Results(spectra={"mine": spectrum(kind, x1=1.0)})
     found = spectrum_class(made, scene="mine", expected="quasiperiodic")
     assert found.verdict == (YES if kind == "quasiperiodic" else NO)
@@ -97,7 +95,6 @@ def a_step(direct=0.006, evolution=-0.009, theta=10.0, end=0.0, first=0.6, faste
     [({}, YES), ({"direct": -0.006}, NO), ({"evolution": -0.003}, NO), ({"end": 0.01}, NO)],
 )
 def test_velocity_step(given, verdict):
-    """A jump, a larger fall, and back again."""
     assert velocity_step(a_step(**given)).verdict == verdict
 
 
@@ -130,7 +127,6 @@ def test_mu0_is_steady_friction(first, verdict):
 
 
 def test_same_state_law():
-    """Different away from v theta = Dc, equal there."""
     found = same_state_law(a_step(), limit=1e-6)
     assert found.verdict == NO
     # theta = 10 s at v = 1e-5 m/s: x = 10, 1 - x and -x ln x

@@ -89,7 +89,6 @@ def test_test_runs_a_part(recording, tmp_path, arguments, tools, last):
     [("compilers", "compilers/*"), ("slurm", "tests/slurm"), ("slurm", "profiles/slurm")],
 )
 def test_part_whose_packages_are_missing_is_refused(recording, part, missing):
-    """The set-up's own words and status, and nothing is started."""
     write_script(recording / "setup" / "setup.sh", f"[[ ${{1-}} != {missing} ]] || exit 7")
     assert calls_of(recording / "test", part) == (7, [])
 

@@ -32,7 +32,6 @@ def made_build(folder: Path, name: str, last: float = 0.25, failed: int = 0) -> 
 
 
 def test_same_bits_and_no_failures_are_well(tmp_path, capsys):
-    """Status 0, each build with its compiler and counts."""
     assert compare_builds.main([made_build(tmp_path, name) for name in ("one", "two")]) == 0
     said = capsys.readouterr()
     cells = [cell.strip() for cell in said.out.splitlines()[2].split("  ") if cell.strip()]
@@ -52,7 +51,6 @@ def test_same_bits_and_no_failures_are_well(tmp_path, capsys):
     ],
 )
 def test_build_that_differs_or_fails_is_shown(tmp_path, capsys, first, second, failed, shown):
-    """With status 1 and the place of its log."""
     builds = [made_build(tmp_path, "one", first), made_build(tmp_path, "two", second, failed)]
     assert compare_builds.main(builds) == 1
     said = capsys.readouterr()

@@ -23,7 +23,6 @@ MANY = [float(i) for i in range(1000)]
 
 
 def put(config: dict, path: Place, value) -> None:
-    """Set the value at a place of a config."""
     for key in path[:-1]:
         config = config[key]
     config[path[-1]] = value
@@ -56,7 +55,6 @@ def places(config: dict, path: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]
 
 
 def refuse(config: dict) -> list[str]:
-    """What is wrong with a config, one line each."""
     with pytest.raises(ConfigError) as caught:
         checked(config)
     title, *lines = str(caught.value).splitlines()
@@ -178,7 +176,6 @@ REFUSED = [
 
 @pytest.mark.parametrize(("path", "value", "words"), REFUSED)
 def test_bad_value_is_refused(whole, path, value, words):
-    """The line names the section and what is expected."""
     put(whole, path, value)
     lines = refuse(whole)
     start = place_of(path[:-1])
@@ -208,7 +205,6 @@ def test_unknown_keys_are_refused(whole):
     ("key", "hint"), [("taus", " (is it meant to be 'tau'?)"), ("colour", ""), (3, ""), (None, "")]
 )
 def test_unknown_key_may_be_misspelt(config, key, hint):
-    """The nearest known key is named, if there is one."""
     config["scenes"]["torus"][key] = 1.0
     (line,) = refuse(config)
     assert line.startswith(f"scene 'torus': unknown key [{key!r}]; allowed: tau, epsilon, xi, ")
@@ -293,7 +289,6 @@ def test_endless_combinations_are_counted_not_made(config):
 
 @pytest.mark.parametrize("along", ["tau", "v"])
 def test_route_along_any_parameter_and_the_history(config, along):
-    """It has the values of the other parameters."""
     values = {"tau": 7.0, "epsilon": 0.5, "xi": 0.5, "gamma": 0.8}
     values.pop(along, None)
     line = {"along": along, "window": [0.1, 0.2], "count": 3, **values}

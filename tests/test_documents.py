@@ -58,7 +58,6 @@ def ticked(document: str) -> list[str]:
 
 
 def anchors_of(document: str) -> set[str]:
-    """Names of its headings, as links write them."""
     headings = re.findall(r"^#+ (.*)$", prose_of(document), re.MULTILINE)
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
@@ -120,7 +119,6 @@ def exists(path: str, document: str) -> bool:
 
 
 def is_path(token: str) -> bool:
-    """Whether a word in backticks is meant as a path."""
     if not re.fullmatch(r"[\w.*/-]+", token) or token.startswith(("-", ".f")):
         return False
     return "/" in token.strip(".") or token.rpartition(".")[2] in ENDINGS
@@ -183,7 +181,6 @@ def test_targets_that_are_named_exist(document):
 
 @each
 def test_examples_of_config_are_accepted(document, default_config):
-    """Merged over the config, as Snakemake does it."""
     for block in blocks_of(document, "yaml"):
         mine = parse(block)
         config = copy.deepcopy(default_config)

@@ -29,7 +29,6 @@ PUBLIC = r"^ *public :: ((?:.*&\n)*.*)$"
 
 
 def drawn() -> tuple[set[str], set[tuple[str, str]]]:
-    """Rules and pairs of rules in the committed picture."""
     svg = (ROOT / "docs" / "data-flow.svg").read_text()
     names = set(re.findall(r'id="(\w+)" class="node"><path', svg)) - {"config"}
     return names, set(re.findall(r'id="(\w+)\.(\w+)" class="edge"', svg))
@@ -177,7 +176,6 @@ def test_second_program_of_the_manual(run_of, method, added):
 
 
 def test_recipes_in_python_run(smoke, tmp_path):
-    """In their order, on the results of the smoke run."""
     (tmp_path / "results").symlink_to(smoke.folder / "results")
     recipes = "".join(blocks_of("docs/results-in-python.md", "python"))
     run = subprocess.run(

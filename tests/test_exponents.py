@@ -44,7 +44,6 @@ def test_exponents_of_a_fixed_point_are_its_roots(programs, groups):
 
 
 def test_rows_hold_the_values_of_their_run(programs, groups):
-    """Each column that of its name, at each tolerance."""
     made = programs.made_of("exponents", groups)
     rows = exponents_table.rows_of(made)
     assert len(rows) == made.value.size

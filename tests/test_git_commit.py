@@ -12,7 +12,6 @@ pytestmark = pytest.mark.skipif(not shutil.which("git"), reason="no git")
 
 @pytest.fixture
 def repository(tmp_path, monkeypatch):
-    """A repository with one file and one commit."""
     for name, value in (("NAME", "me"), ("EMAIL", "me@here")):
         monkeypatch.setenv(f"GIT_AUTHOR_{name}", value)
         monkeypatch.setenv(f"GIT_COMMITTER_{name}", value)

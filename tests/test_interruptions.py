@@ -130,7 +130,6 @@ def workflow(scratch) -> Iterator[subprocess.Popen[bytes]]:
 
 
 def processes_of(run: subprocess.Popen[bytes]) -> list[tuple[int, str, str]]:
-    """Number, program and command of each process of a run."""
     command = ["ps", "-ww", "-o", "pid=,comm=,args=", "-g", str(run.pid)]
     listed = subprocess.run(command, capture_output=True, text=True).stdout
     lines = [line.split(maxsplit=2) for line in listed.splitlines()]
@@ -223,7 +222,6 @@ def about_to_write(project: Project, *arguments: str) -> Iterator[subprocess.Pop
 
 
 def namelist_job(run: subprocess.Popen[str]) -> list[int]:
-    """The processes that are to write the namelist."""
     return [number for number, _, words in processes_of(run) if "write_namelist.py" in words]
 
 

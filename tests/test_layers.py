@@ -42,7 +42,6 @@ def code_of(text: str) -> str:
 
 
 def layer_of(path: Path) -> str:
-    """Name of the layer that a file lives on."""
     *folder, _ = path.relative_to(FORTRAN).parts
     return "dde" if folder[0] == "dde" else folder[:2][-1]
 
@@ -67,7 +66,6 @@ def name_of(path: Path) -> str:
 
 
 def uses_of(text: str) -> list[str]:
-    """Modules that a file uses."""
     return re.findall(r"^\s*use\b(?:\s*,\s*\w+)?\s*(?:::)?\s*(\w+)", code_of(text), re.MULTILINE)
 
 
@@ -134,7 +132,6 @@ def test_only_some_modules_print_and_stop():
 
 
 def test_versions_agree():
-    """Of the programs, the citation and the changelog."""
     build = re.search(r"project\(.* VERSION (\S+)", (FORTRAN / "CMakeLists.txt").read_text())[1]
     citation = re.search(
         r"^version: \"?([\d.]+)", (ROOT / "CITATION.cff").read_text(), re.MULTILINE

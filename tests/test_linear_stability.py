@@ -76,7 +76,6 @@ def test_state_stable_without_delay_does_not_die(stability):
 
 
 def test_tables_of_the_workflow(smoke):
-    """Every scene has its row; both tables are there."""
     tables = smoke.folder / "results" / "tables"
     rows = read_table(tables / "linear-stability.tsv")
     assert {row["scene"]: row["unstable_pairs"] for row in rows} == SCENES

@@ -48,7 +48,6 @@ def verify(folder: Path, *lists: str) -> tuple[int, list[str]]:
 
 
 def test_lists_hold_all_results(results):
-    """In the format of sha256sum; what was measured is apart."""
     listed = [Path(path).read_text().splitlines() for path in LISTS]
     kept, measured = ({line.split("  ")[1] for line in lines} for lines in listed)
     assert (kept, measured) == (set(results[:3]), set(results[3:]))

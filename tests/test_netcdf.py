@@ -28,7 +28,6 @@ def one_of_each_kind(smoke: Project) -> dict[str, str]:
 
 @pytest.fixture(scope="module")
 def files(smoke) -> dict[str, str]:
-    """One file of each kind of the smoke run."""
     return one_of_each_kind(smoke)
 
 
@@ -47,7 +46,6 @@ def test_files_follow_the_cf_conventions(smoke, files):
 
 
 def test_files_name_their_origin(smoke, files):
-    """Program and version, the paper, and no time."""
     for name in files.values():
         attributes = xr.open_dataset(smoke.folder / "results" / name).attrs
         assert attributes["Conventions"] == "CF-1.8"

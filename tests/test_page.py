@@ -48,7 +48,6 @@ def page(smoke) -> str:
 
 
 def caption_of(smoke, figure: str) -> str:
-    """A caption of the smoke run, as HTML."""
     return captions.as_html(smoke.folder / "results" / "figures" / f"{figure}.rst")
 
 
@@ -118,7 +117,6 @@ def motion(scene: str, kind: str, exponents: list[float], f2: float) -> dict:
 
 
 def tables_of_findings() -> dict[str, list[dict]]:
-    """Made-up tables that the findings are taken from."""
     torus = motion("torus", "cycle", [0.0, -0.01, -0.02], np.nan)
     true_torus = motion("true_torus", "torus", [0.002, -0.002, -0.02], 0.3) | {"tau": 12.5}
     kinds = ("a", "hopf_without_delay"), ("b", "generalised_hopf"), ("c", "amplitude_death_begin")
@@ -258,7 +256,6 @@ def test_every_claim_stands_in_the_page_once(smoke, page):
 
 
 def test_every_figure_stands_in_the_page(smoke, page):
-    """With its rule and the first sentence of its caption."""
     shown = Elements(page)
     images = {given["src"]: given["alt"] for tag, given in shown.found if tag == "img"}
     sentences = {name: captions.first_sentence(caption_of(smoke, name)) for name in FIGURES}

@@ -45,7 +45,6 @@ def seen(visited) -> dict:
 
 
 def test_nothing_is_complained_about(seen):
-    """No word on the console, no request that failed."""
     assert seen["console"] == []
     assert seen["failed"] == []
 
@@ -67,7 +66,6 @@ def test_every_image_is_drawn_and_said_in_words(seen):
 
 
 def test_page_is_as_wide_as_the_window(seen):
-    """On a phone, a tablet, a desk and on paper."""
     assert set(seen["too_wide"].values()) == {0}
     assert len(seen["too_wide"]) == 7
 
@@ -78,7 +76,6 @@ def test_page_is_accessible(seen):
 
 
 def test_keyboard_skips_to_the_content(seen):
-    """The first stop is seen, and leads there."""
     first = seen["keyboard"]
     assert first["words"] == "Skip to the content"
     assert first["shown"]

@@ -220,7 +220,6 @@ def test_input_that_is_no_file_is_refused(programs, good_groups, program):
 
 @each_kind
 def test_output_that_is_the_input_is_refused(programs, good_groups, program):
-    """By its own name or another; the namelist stays."""
     namelist = programs.write(good_groups[program])
     before = namelist.read_bytes()
     other = programs.folder / "another name.nml"
@@ -268,7 +267,6 @@ def test_integration_that_fails_says_where(programs, good_groups):
     ids=["missing", "truncated", "one bit"],
 )
 def test_spectrum_of_a_damaged_trajectory_is_refused(programs, good_groups, damage, words):
-    """The line names the trajectory and says what to do."""
     groups = good_groups["spectrum"]
     content = damage(Path(groups["spectrum"]["trajectory"]).read_bytes())
     if content:

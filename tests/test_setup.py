@@ -80,7 +80,6 @@ def test_no_file_names_a_package_index():
 
 
 def test_test_names_its_parts():
-    """An unknown part is refused before anything is set up."""
     result = run(str(ROOT / "test"), "nonsense")
     assert result.returncode == 2
     assert result.stdout == ""
@@ -92,7 +91,6 @@ def test_test_names_its_parts():
 
 
 def test_reproduce_says_how_it_is_used(tmp_path):
-    """From any folder, before anything is set up."""
     result = run(str(ROOT / "reproduce"), "--help", cwd=tmp_path)
     assert result.returncode == 0
     assert "./reproduce [FILE.yaml] [TARGET...]" in result.stdout

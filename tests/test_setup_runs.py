@@ -63,7 +63,6 @@ def pretend_installed(folder: Path, packages: list[str]) -> None:
 
 
 def test_missing_packages_without_root_are_asked_for(bare):
-    """One line to copy, exit status 1, and nothing made."""
     wanted = debian_packages()
     pretend_installed(bare, [name for name in wanted if name not in ("cmake", "gfortran")])
     write_script(bare / "bin" / "sudo", "exit 1")

@@ -20,8 +20,6 @@ def settings(good_inputs) -> dict:
 
 @pytest.fixture
 def spectrum_of(programs, settings):
-    """A function that hands a signal to the program."""
-
     def run(v: np.ndarray, t_transient: float = 0.0, **changes) -> xr.Dataset:
         attributes = {"scene": "made_up", "sample_interval": INTERVAL, "t_transient": t_transient}
         times = INTERVAL * np.arange(v.size)

@@ -68,7 +68,6 @@ def write_new_file(path: Path) -> subprocess.CompletedProcess[str]:
 
 
 def state_of(results: Path) -> dict[str, tuple[int, int]]:
-    """When each file was written, and its size."""
     files = [path for path in results.rglob("*") if path.is_file()]
     return {str(path): (path.stat().st_mtime_ns, path.stat().st_size) for path in files}
 
@@ -146,7 +145,6 @@ def test_one_key_of_a_scene_can_be_changed(tmp_path):
     ],
 )
 def test_bad_file_is_refused(tmp_path, text, words):
-    """The message names the file or the place in it."""
     path = tmp_path / "mine.yaml"
     if text is not None:
         path.write_text(text)
@@ -155,7 +153,6 @@ def test_bad_file_is_refused(tmp_path, text, words):
 
 
 def test_bad_file_stops_the_workflow_in_words(smoke, tmp_path):
-    """No traceback, a status other than 0, and nothing made."""
     (tmp_path / "mine.yaml").write_text("scenes: { torus: { tau: -1.0 } }")
     before = state_of(smoke.folder / "results")
     run = smoke.snakemake("--config", f"user_file={tmp_path}/mine.yaml")
@@ -240,7 +237,6 @@ def test_folder_is_named_after_the_file():
 
 
 def test_list_of_what_a_file_adds():
-    """Names alone; all of a section whose shared settings change."""
     whole = read(CONFIG)
     overlay = read(ROOT / "config" / "new.yaml") | {"atlas": {"tau_count": 9}, "cycles": 3}
     names = {section: found for section, found in added(overlay, whole).items() if found}

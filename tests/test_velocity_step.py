@@ -53,7 +53,6 @@ def test_response_is_the_exact_one(protocol, response):
 
 
 def test_steps_are_imposed_by_the_protocol(protocol, response):
-    """Velocity, slip and time of the three phases."""
     n, dc = protocol["samples"], protocol["dc"]
     v = np.array(velocities(protocol))
     slip = dc * np.array([protocol["slip_before"], protocol["slip_after"], protocol["slip_after"]])

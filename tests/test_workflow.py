@@ -132,7 +132,6 @@ WORK_PRECISION |= {"work_precision_runs_namelist", "work_precision_runs", "work_
     ],
 )
 def test_target_needs_only_its_own_rules(planned, target, rules, data):
-    """From nothing: its data, their programs, and no other."""
     needed = needed_for(target, planned)
     assert rules_of(needed) - {target} == rules
     assert data is None or data_of_jobs(needed) == data

@@ -113,7 +113,6 @@ def test_changed_scene_reruns_only_what_depends_on_it(scratch):
     ],
 )
 def test_changed_setting_makes_nothing_else_anew(smoke, tmp_path, text, rules, data):
-    """A family of cases, and the length of an axis."""
     (tmp_path / "mine.yaml").write_text(text)
     run = smoke.snakemake("--dry-run", *SMOKE, str(tmp_path / "mine.yaml"))
     assert rules_in(run.stdout) == {"all", *rules}

@@ -110,18 +110,15 @@ def started(cluster: Cluster, project: Project, *arguments: str) -> SlurmRun:
 
 
 def run_on(cluster: Cluster, project: Project, *arguments: str) -> tuple[int, str]:
-    """Exit status and log of the workflow through Slurm."""
     with started(cluster, project, *arguments) as run:
         return run.result()
 
 
 def counted(log: str, rule: str) -> int:
-    """How many jobs of a rule a log tells of."""
     return len(re.findall(rf"^(?:local)?rule {rule}:", log, flags=re.MULTILINE))
 
 
 def result_of(namelist: str) -> str:
-    """What a program makes of a namelist."""
     return namelist.replace("namelists/", "", 1).replace(".nml", ".nc")
 
 
