@@ -150,9 +150,6 @@ class Programs:
         wait_for(lambda: bool(unfinished(self.output) - before))
         return run
 
-    def run_with(self, program: str, values: dict) -> subprocess.CompletedProcess[str]:
-        return self.run_groups(program, {GROUPS[program]: values})
-
     def write(self, groups: dict[str, dict]) -> Path:
         write_namelist(self.folder / "input.nml", in_groups(groups))
         return self.folder / "input.nml"

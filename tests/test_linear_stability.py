@@ -90,7 +90,8 @@ def test_tables_of_the_workflow(smoke):
 
 
 def test_bound_too_far_is_refused(programs, good_inputs):
-    run = programs.run_with("linear_stability", {**good_inputs["linear_stability"], "tau": 1000.0})
+    groups = {"linear_stability": {**good_inputs["linear_stability"], "tau": 1000.0}}
+    run = programs.run_groups("linear_stability", groups)
     assert run.returncode == 1
     assert "a bound nearer to 0 expected" in run.stderr
     assert programs.left_behind() == []

@@ -4,7 +4,7 @@ import subprocess
 
 import pytest
 import xarray as xr
-from conftest import ROOT, Project
+from conftest import ROOT
 
 CHECKER = ROOT / "tests" / "formats" / ".venv" / "bin" / "compliance-checker"
 KINDS = {
@@ -15,20 +15,16 @@ KINDS = {
 """Folders with NetCDF files, each with those of one program."""
 
 
-def one_of_each_kind(smoke: Project) -> dict[str, str]:
+@pytest.fixture(scope="module")
+def files(smoke) -> dict[str, str]:
     """The largest file of each kind, as path from the results."""
     results = smoke.folder / "results"
-    files: dict[str, list[str]] = {}
+    found: dict[str, str] = {}
     for path in sorted(results.rglob("*.nc"), key=lambda path: path.stat().st_size):
         name = path.relative_to(results).as_posix()
         parts = 2 if name.startswith(("attractors/", "measurements/")) else 1
-        files.setdefault("/".join(name.split("/")[:parts]), []).append(name)
-    return {kind: names[-1] for kind, names in files.items()}
-
-
-@pytest.fixture(scope="module")
-def files(smoke) -> dict[str, str]:
-    return one_of_each_kind(smoke)
+        found["/".join(name.split("/")[:parts])] = name
+    return found
 
 
 @pytest.mark.skipif(

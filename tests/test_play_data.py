@@ -58,8 +58,7 @@ def play() -> str:
             paths += [None, turn(10.0, 3.0), turn(20.0, 5.0), longer]
     rows[7] |= {"computed": "no", **none}
     paths[7] = None
-    scenes = {"my_scene": {"xi": 0.8, "gamma": 0.8, "epsilon": 0.21, "tau": 4.0}}
-    return play_data.write_script(rows, [atlas_run(*paths[:3]), atlas_run(*paths[3:])], scenes)
+    return play_data.write_script(rows, [atlas_run(*paths[:3]), atlas_run(*paths[3:])], {})
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import f90nml
 import pytest
 from conftest import ROOT, SMOKE, rules_in
-from dry_runs import Job, data_of_jobs, jobs_in, needed_for, rules_of
+from dry_runs import Job, data_of_jobs, jobs_in, needed_for
 
 from scripts.namelists.study_cases import measured_study
 
@@ -133,7 +133,7 @@ WORK_PRECISION |= {"work_precision_runs_namelist", "work_precision_runs", "work_
 )
 def test_target_needs_only_its_own_rules(planned, target, rules, data):
     needed = needed_for(target, planned)
-    assert rules_of(needed) - {target} == rules
+    assert {job.rule for job in needed} - {target} == rules
     assert data is None or data_of_jobs(needed) == data
 
 
