@@ -1,32 +1,15 @@
 """Parts of a page, made up for tests."""
 
-from pathlib import Path
-
 import numpy as np
 import xarray as xr
-from conftest import ROOT
 
 from scripts.claims.claims_results import VERDICTS
-
-PICTURE = (
-    '<svg xmlns="http://www.w3.org/2000/svg" width="60pt" height="40pt" viewBox="0 0 60 40">'
-    '<path d="M0 0h9v9"/></svg>'
-)
 
 
 def claim(name: str, verdict: str = VERDICTS[0], **values) -> dict:
     row = {"id": name, "place": "section 1", "claim": f"It is {name}.", "verdict": verdict}
     row |= {"evidence": "0 < 1 & so on", "instead": "", "look_at": "", "table": ""}
     return {**row, **values}
-
-
-def figure(folder: Path, name: str, category: str = "Figures", *data: str) -> dict:
-    """A figure as the rule describes it; its drawing is in the folder."""
-    drawing = folder / "drawing.svg"
-    drawing.write_text(PICTURE)
-    caption = ROOT / "scripts" / "figures" / "figure_1.rst"
-    files = {"caption": str(caption), "drawing": str(drawing), "data": list(data)}
-    return {"name": name, "category": category, "shows_classes": False, **files}
 
 
 def attractor(epsilon: float, tau: float, **given) -> dict:

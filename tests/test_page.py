@@ -6,14 +6,13 @@ import re
 from collections import Counter
 from html.parser import HTMLParser
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from conftest import ROOT
 from docutils.utils import SystemMessage
 from jinja2 import UndefinedError
-from made_up_page import attractor, claim, figure, run
+from made_up_page import attractor, claim, run
 
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, NOT_TESTABLE, VERDICTS
 from scripts.claims.ledger import paper_claims
@@ -205,36 +204,6 @@ def test_page_loads_nothing_from_elsewhere(page):
     policies = [a["content"] for tag, a in found if a.get("http-equiv", "").endswith("Policy")]
     (directives,) = [[one.strip() for one in policy.split(";")] for policy in policies]
     assert {"default-src 'none'", "base-uri 'none'", "form-action 'none'"} <= {*directives}
-
-
-def test_page_of_a_users_file(tmp_path):
-    """Its figures by category, each with its claims; other claims below; links from its folder."""
-    results = tmp_path / "mine"
-    (results / "tables").mkdir(parents=True)
-    look_at = f"{results}/figures/scenes/small.png"
-    claims = [claim("of_scene", look_at=look_at), claim("of_nothing")]
-    (results / "tables" / "claims.json").write_text(json.dumps(claims))
-    run(count=101).to_netcdf(results / "small.nc")
-    given = SimpleNamespace(
-        claims=results / "tables" / "claims.json", attractors=[], play=[],
-        tables=[results / "tables" / "basins.tsv"], trajectories=[results / "small.nc"],
-    )  # fmt: skip
-    figures = [
-        figure(tmp_path, "planes/a", "Hopf curves"),
-        figure(tmp_path, "scenes/small", "Scenes"),
-    ]
-    history = {"theta": 0.0, "u": 0.0, "v": 1.1}
-    params = SimpleNamespace(is_users=True, figures=figures, history=history, commit="unknown")
-    shown = write_page.content(given, params, results)
-    assert [(key, [one["name"] for one in some]) for key, some in shown["sections"].items()] == [
-        ("Hopf curves", ["planes/a"]),
-        ("Scenes", ["scenes/small"]),
-    ]
-    assert [one["id"] for one in shown["sections"]["Scenes"][0]["claims"]] == ["of_scene"]
-    assert [one["id"] for one in shown["unplaced"]] == ["of_nothing"]
-    made = Elements(write_page.render("index.html.jinja", **shown))
-    assert {"figures/scenes/small.svg", "tables/basins.tsv"} <= {*made.values("href")}
-    assert "my scene" in made.text
 
 
 def test_every_claim_stands_in_the_page_once(smoke, page):
