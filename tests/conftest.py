@@ -42,16 +42,7 @@ GROUPS = {
     "slip_events": "scene",
 }
 """Namelist group of each program that reads one alone, as tests name it."""
-MADE = {
-    ".git",
-    ".venv",
-    ".snakemake",
-    "build",
-    "results",
-    "__pycache__",
-    ".pytest_cache",
-    ".ruff_cache",
-}
+MADE = set(".git .venv .snakemake build results __pycache__ .pytest_cache .ruff_cache".split())
 """Folders that hold none of the project's own files."""
 
 
@@ -70,19 +61,16 @@ class Project:
 
     folder: Path
 
+    def run(self, *command: str | Path) -> subprocess.CompletedProcess[str]:
+        """Run a command in the folder; all it says is in stdout."""
+        together = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+        return subprocess.run(command, cwd=self.folder, timeout=900, **together)
+
     def snakemake(self, *arguments: str) -> subprocess.CompletedProcess[str]:
-        """Run Snakemake on two cores; all it says is in stdout."""
         snakemake = Path(sys.executable).parent / "snakemake"
         # another process of the test run may be at work in the same folder
         with locked(self.folder.with_name(f"{self.folder.name}.lock")):
-            return subprocess.run(
-                [snakemake, "--cores", "2", *arguments],
-                cwd=self.folder,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.STDOUT,
-                text=True,
-                timeout=900,
-            )
+            return self.run(snakemake, "--cores", "2", *arguments)
 
     def use_packages_at_hand(self) -> None:
         """Let ./reproduce find everything set up."""
@@ -92,19 +80,10 @@ class Project:
             write_script(self.folder / ".venv" / "bin" / tool, f"exec '{path}' \"$@\"")
 
     def reproduce(self, *arguments: str) -> subprocess.CompletedProcess[str]:
-        """Run ./reproduce with the packages at hand; all it says is in stdout."""
         self.use_packages_at_hand()
-        return subprocess.run(
-            [self.folder / "reproduce", *arguments],
-            cwd=self.folder,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            timeout=900,
-        )
+        return self.run(self.folder / "reproduce", *arguments)
 
     def copy_to(self, folder: Path) -> "Project":
-        """A copy with results, programs and Snakemake's records."""
         shutil.copytree(self.folder, folder)
         return Project(folder)
 
@@ -133,7 +112,6 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 def wait_for(done: Callable[[], bool]) -> None:
-    """Return when something is so."""
     end = time.monotonic() + 60
     while not done():
         assert time.monotonic() < end
@@ -149,11 +127,9 @@ class Programs:
 
     @property
     def output(self) -> Path:
-        """Where a program writes."""
         return self.folder / "output.nc"
 
     def run(self, program: str, *arguments: str | Path) -> subprocess.CompletedProcess[str]:
-        """Run a program with these arguments."""
         return subprocess.run(
             [self.binaries / program, *arguments],
             cwd=self.folder,
@@ -174,27 +150,19 @@ class Programs:
         wait_for(lambda: bool(unfinished(self.output) - before))
         return run
 
-    def run_with(self, program: str, values: dict) -> subprocess.CompletedProcess[str]:
-        """Run a program with a namelist of these values."""
-        return self.run_groups(program, {GROUPS[program]: values})
-
     def write(self, groups: dict[str, dict]) -> Path:
-        """The namelist of a run."""
         write_namelist(self.folder / "input.nml", in_groups(groups))
         return self.folder / "input.nml"
 
     def run_groups(self, program: str, groups: dict[str, dict]) -> subprocess.CompletedProcess[str]:
-        """Run a program with a namelist of these groups."""
         return self.run(program, self.write(groups).name, self.output.name)
 
     def made_of(self, program: str, groups: dict[str, dict]) -> xr.Dataset:
-        """What a program makes of good groups."""
         run = self.run_groups(program, groups)
         assert (run.returncode, run.stdout, run.stderr) == (0, "", "")
         return xr.load_dataset(self.output)
 
     def made_by(self, program: str, values: dict) -> xr.Dataset:
-        """What a program of GROUPS makes of good values."""
         return self.made_of(program, {GROUPS[program]: values})
 
     def left_behind(self) -> list[str]:
@@ -203,7 +171,6 @@ class Programs:
 
 
 def write_script(path: Path, text: str) -> None:
-    """A shell script that can be run."""
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(f"#!/bin/bash\n{text}\n")
     path.chmod(0o755)
@@ -251,7 +218,6 @@ def filled_config(default_config) -> dict:
 
 @pytest.fixture
 def config(default_config) -> dict:
-    """A config to change."""
     return copy.deepcopy(default_config)
 
 
@@ -327,7 +293,6 @@ def scratch(smoke, tmp_path) -> Project:
 
 @pytest.fixture
 def programs(binaries, tmp_path) -> Programs:
-    """The programs and an empty folder."""
     folder = tmp_path / "a folder"
     folder.mkdir()
     return Programs(binaries, folder)

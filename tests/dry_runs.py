@@ -35,11 +35,6 @@ def needed_for(target: str, jobs: list[Job]) -> set[Job]:
     return needed
 
 
-def rules_of(jobs: set[Job]) -> set[str]:
-    """Names of their rules."""
-    return {job.rule for job in jobs}
-
-
 def data_of_jobs(jobs: set[Job]) -> set[str]:
     """Programs and data files that they make, each by folder and name."""
     made = {path for job in jobs for path in job.made}

@@ -7,7 +7,6 @@ from matplotlib.text import Text
 
 
 def words_in(figure: Figure) -> str:
-    """All text of a figure."""
     return "\n".join(text.get_text() for text in figure.findobj(Text))
 
 
@@ -18,7 +17,6 @@ def hyphens_before_numbers(figure: Figure) -> list[str]:
 
 
 def title_of(axes) -> str:
-    """The title, wherever it stands."""
     return "".join(axes.get_title(loc=place) for place in ("left", "center", "right"))
 
 

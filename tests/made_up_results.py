@@ -38,14 +38,12 @@ def hopf_curve(gamma: float = 0.8, xi: float = 0.5, k: int = 1, ordinate: str = 
 
 
 def changed(curves: xr.Dataset, **values) -> xr.Dataset:
-    """The same curve with other values of some variables."""
     size = curves.sizes["point"]
     new = {name: ("point", np.broadcast_to(value, size).copy()) for name, value in values.items()}
     return curves.assign(new)
 
 
 def on_plane(curves: xr.Dataset) -> Results:
-    """Results with one plane of Hopf curves."""
     return Results(curves={"plane": curves})
 
 
@@ -62,7 +60,6 @@ def stability_row(scene: str = "mine", **given) -> dict:
 
 
 def attractor_row(met: str, scene: str = "mine", history: int = 1, **given) -> dict:
-    """A row of attractors.tsv."""
     return {
         "scene": scene,
         "history": float(history),
@@ -104,7 +101,6 @@ def followed_cycles(along: str = "tau", **fixed: float) -> xr.Dataset:
 
     The first starts at a Hopf point, turns at a fold at 0.45 and is stable behind a torus
     bifurcation at 0.3. The second is closed and doubles its period at 0.7, in both directions.
-    The curve of the period doubling has one point.
     """
     place = {key: value for key, value in {**PLACE, **fixed}.items() if key != along}
     other = "epsilon" if along == "tau" else "tau"
@@ -122,10 +118,6 @@ def followed_cycles(along: str = "tau", **fixed: float) -> xr.Dataset:
         "unstable_before": [2, 3, 0, 1],
         "unstable_behind": [3, 1, 1, 0],
     }
-    curves = {
-        "epsilon": [0.2, 0.4, 0.4, 0.2, 0.6, 1.0, 0.9],
-        "tau": [1.0, 2.0, 3.0, 4.0, 12.0, 13.0, 5.0],
-    }
     return xr.Dataset(
         {
             **{name: ("orbit", values) for name, values in orbits.items()},
@@ -134,9 +126,6 @@ def followed_cycles(along: str = "tau", **fixed: float) -> xr.Dataset:
             "branch_ending": ("branches", ["window", "closed"]),
             f"hopf_{along}": ("hopf", [0.1]),
             f"hopf_{other}": ("hopf", [place[other]]),
-            **{f"curve_{name}": ("curve_point", values) for name, values in curves.items()},
-            "curve": ("curve_point", [1, 1, 1, 1, 2, 2, 3]),
-            "curve_kind": ("curves", [points["kind"][i] for i in (0, 1, 2)]),
         },
         attrs={"along": along, **place},
     )
@@ -220,7 +209,6 @@ def slip_events(**values) -> xr.Dataset:
 
 
 def run_row(**given) -> dict:
-    """A row of stability.tsv."""
     return {
         "case": "a case",
         "xi": 0.5,

@@ -21,7 +21,6 @@ BESIDE = {
 
 
 def in_groups(given: dict[str, dict]) -> dict[str, dict]:
-    """Groups as programs read them."""
     groups = {}
     for name, values in given.items():
         for part, keys in PARTS.get(name, {}).items():
@@ -68,18 +67,10 @@ OBSERVATION = {
 }
 POINTS = {
     "name": "a part",
-    "epsilon_window": [0.1, 0.5],
-    "epsilon_count": 3,
-    "epsilon_part": [2, 3],
-    "tau_window": [0.0, 10.0],
-    "tau_count": 2,
-    "tau_part": [1, 2],
-    "xi_window": [0.8, 0.8],
-    "xi_count": 1,
-    "xi_part": [1, 1],
-    "gamma_window": [0.8, 0.8],
-    "gamma_count": 1,
-    "gamma_part": [1, 1],
+    **{"epsilon_window": [0.1, 0.5], "epsilon_count": 3, "epsilon_part": [2, 3]},
+    **{"tau_window": [0.0, 10.0], "tau_count": 2, "tau_part": [1, 2]},
+    **{"xi_window": [0.8, 0.8], "xi_count": 1, "xi_part": [1, 1]},
+    **{"gamma_window": [0.8, 0.8], "gamma_count": 1, "gamma_part": [1, 1]},
     "theta": [0.0, 0.5],
     "u": [0.0, -0.5],
     "v": [1.1, 1.5],

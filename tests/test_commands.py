@@ -1,6 +1,7 @@
 """./reproduce and ./test, with stand-ins for the set-up and the tools that they call."""
 
 import os
+import re
 import subprocess
 import tempfile
 from pathlib import Path
@@ -57,42 +58,30 @@ def test_reproduce_hands_its_arguments_on(recording, tmp_path, arguments, passed
 
 
 def test_reproduce_shows_a_dry_run(recording):
-    """With all its jobs."""
     status, calls = calls_of(recording / "reproduce", "--dry-run")
     assert (status, calls) == (0, ["snakemake --snakefile Snakefile --cores 2 --dry-run"])
 
 
-def test_test_runs_everything(recording, tmp_path):
-    """Lint, Fortran and Python, from any folder."""
-    status, calls = calls_of(recording / "test", cwd=tmp_path)
-    assert status == 0
-    assert {call.split()[0] for call in calls} == set(TOOLS)
-    assert calls[-1] == "pytest --numprocesses 2"
-
-
-def test_quick_test_needs_no_browser_and_no_workflow(recording):
-    """Lint, Fortran, and what is left of Python."""
-    write_script(recording / "setup" / "setup.sh", "[[ ! ${1-} ]] || exit 7")
-    status, calls = calls_of(recording / "test", "quick")
-    assert status == 0
-    assert {call.split()[0] for call in calls} == set(TOOLS)
-    assert calls[-1] == "pytest --numprocesses 2 -m not workflow and not browser and not long"
-
-
 @pytest.mark.parametrize(
-    ("part", "tools"),
+    ("arguments", "tools", "last"),
     [
-        ("lint", {"ruff", "snakefmt", "fortitude", "snakemake"}),
-        ("fortran", {"cmake", "ctest"}),
-        ("python", {"pytest"}),
-        ("long", {"pytest"}),
+        ([], TOOLS, "pytest --numprocesses 2"),
+        (["quick"], TOOLS, "pytest --numprocesses 2 -m not workflow and not browser and not long"),
+        (["lint"], ["ruff", "snakefmt", "fortitude", "snakemake"], "snakemake --lint"),
+        (["fortran", "-R", "a"], ["cmake", "ctest"], "ctest .* -R a"),
+        (["python", "-k", "a or b"], ["pytest"], "pytest -k a or b"),
+        (["long"], ["pytest"], "pytest -m long"),
+        (["slurm"], ["pytest"], "pytest tests/slurm/cluster_runs.py"),
     ],
 )
-def test_test_runs_one_part(recording, part, tools):
-    """Only its tools."""
-    status, calls = calls_of(recording / "test", part)
+def test_test_runs_a_part(recording, tmp_path, arguments, tools, last):
+    """Only its tools, from any folder; the quick part sets up neither browser nor formats."""
+    if "quick" in arguments:
+        write_script(recording / "setup" / "setup.sh", "[[ ! ${1-} ]] || exit 7")
+    status, calls = calls_of(recording / "test", *arguments, cwd=tmp_path)
     assert status == 0
-    assert {call.split()[0] for call in calls} == tools
+    assert {call.split()[0] for call in calls} == set(tools)
+    assert re.fullmatch(last, calls[-1])
 
 
 @pytest.mark.parametrize(
@@ -100,24 +89,11 @@ def test_test_runs_one_part(recording, part, tools):
     [("compilers", "compilers/*"), ("slurm", "tests/slurm"), ("slurm", "profiles/slurm")],
 )
 def test_part_whose_packages_are_missing_is_refused(recording, part, missing):
-    """The set-up's own words and status, and nothing is started."""
     write_script(recording / "setup" / "setup.sh", f"[[ ${{1-}} != {missing} ]] || exit 7")
     assert calls_of(recording / "test", part) == (7, [])
 
 
-def test_slurm_runs_its_own_tests(recording):
-    """And no others."""
-    status, calls = calls_of(recording / "test", "slurm")
-    assert (status, calls) == (0, ["pytest tests/slurm/cluster_runs.py"])
-
-
-def test_test_hands_arguments_to_pytest(recording):
-    """And keeps their words apart."""
-    status, calls = calls_of(recording / "test", "python", "-k", "a or b")
-    assert (status, calls) == (0, ["pytest -k a or b"])
-
-
-@pytest.mark.parametrize("tool", TOOLS)
+@pytest.mark.parametrize("tool", ["ruff", "ctest"])
 def test_test_stops_at_the_first_failure(recording, tool):
     """With its exit status, whichever tool it is; nothing runs after it."""
     write_script(recording / ".venv" / "bin" / tool, 'echo "${0##*/}" >>"$CALLS"; exit 3')

@@ -17,11 +17,12 @@ Place = tuple[str | int, ...]
 """Keys, and places in lists, that lead to a value."""
 ROUTE = ("routes", "lines", "chaos_in_epsilon")
 FAMILY = ("stability", "families", "growth")
-CASE = ("work_precision", "cases", "stick")
+SCENE = {"tau": 1.0, "epsilon": 0.7, "xi": 0.5, "gamma": 1.0, "t_end": 10.0}
+LONG_NAMES = {"tau": [1.0], "epsilon": [0.5], "xi": [1.0], "gamma": [1.0, 1e4], "t_end": 1.0}
+MANY = [float(i) for i in range(1000)]
 
 
 def put(config: dict, path: Place, value) -> None:
-    """Set the value at a place of a config."""
     for key in path[:-1]:
         config = config[key]
     config[path[-1]] = value
@@ -38,7 +39,6 @@ def numbers_in(value, path: Place = ()) -> Iterator[Place]:
 
 
 def sections_in(config: dict, path: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
-    """Places of all mappings."""
     yield path
     for key, value in config.items():
         if isinstance(value, dict):
@@ -55,7 +55,6 @@ def places(config: dict, path: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]
 
 
 def refuse(config: dict) -> list[str]:
-    """What is wrong with a config, one line each."""
     with pytest.raises(ConfigError) as caught:
         checked(config)
     title, *lines = str(caught.value).splitlines()
@@ -78,7 +77,6 @@ def whole(config) -> dict:
 
 
 def test_default_config_is_accepted_as_it_stands(config, default_config):
-    """Nothing that the file says is changed."""
     scenes = checked(config)["scenes"]
     for name, scene in default_config["scenes"].items():
         assert {key: scenes[name][key] for key in scene} == scene
@@ -92,7 +90,6 @@ def test_overlays_name_only_keys_that_there_are(config, name):
 
 
 def test_smoke_config_has_all_scenes(config):
-    """None is computed at full length."""
     assert set(read(ROOT / "config" / "smoke.yaml")["scenes"]) == set(config["scenes"])
 
 
@@ -124,67 +121,65 @@ def test_every_number_must_be_one(whole):
             assert [line for line in lines if line.startswith(start) and "number" in line], path
 
 
-@pytest.mark.parametrize(
-    ("path", "value", "words"),
-    [
-        (("scenes", "torus", "tau"), -1e-300, "delay, nondimensional, a finite number >= 0"),
-        (("scenes", "torus", "epsilon"), -1.0, "a finite number > -1"),
-        (("scenes", "torus", "xi"), 0.0, "a finite number > 0"),
-        (("scenes", "torus", "gamma"), 0.0, "a finite number > 0"),
-        (("scenes", "torus", "t_end"), 10**400, "a finite number > 0"),
-        (("scenes", "torus", "tolerance"), 9.9e-14, "[1e-13, 1e-2]"),
-        (("scenes", "torus", "method"), "radau", "one of: auto, explicit"),
-        (("scenes", "torus", "variables"), ["v", "v"], "theta, u, v"),
-        (("scenes", "torus", "history", "v"), 0.0, "a finite number > 0"),
-        (("scenes", "torus", "exponents", "count"), 65, "a whole number >= 2"),
-        (("scenes", "torus", "attractors", "histories"), 1001, "a whole number >= 1"),
-        (("figures", "figure_4", "end_shown"), 0.0, "> 0"),
-        (("spectra", "segments"), 8.0, "a whole number >= 1"),
-        (("spectra", "overlap"), 1.0, "[0, 1)"),
-        (("linear_stability", "root_bound"), 0.1, "<= 0"),
-        (("hopf_curves", "tau_of_epsilon", "cells"), 2001, "a whole number >= 1"),
-        (("hopf_curves", "tau_of_epsilon", "ordinate"), "gamma", "tau, xi"),
-        (("atlas", "refinements"), 5, "a whole number >= 0 and <= 4"),
-        (("routes", "sweeps", 0), "left", "one of: up, down"),
-        ((*ROUTE, "along"), "w", "one of: tau, epsilon, xi, gamma, theta, u, v"),
-        ((*FAMILY, "tau"), [], "at least one finite number >= 0"),
-        ((*FAMILY, "epsilon", 0), -1.0, "> -1"),
-        (("work_precision", "reference", "tolerance"), 1.1e-16, "[1e-22, 1e-16]"),
-        (("work_precision", "methods", 0), "euler", "one of: explicit"),
-        (("pathvars", "results"), "results/$(touch X)", "folder of the results"),
-        (("pathvars", "results"), "../outside/", "folder of the results"),
-    ],
-)
-def test_value_out_of_range_is_refused(whole, path, value, words):
-    """The line names section, key, value and range."""
+REFUSED = [
+    # ranges of one value
+    (("scenes", "torus", "tau"), -1e-300, "delay, nondimensional, a finite number >= 0"),
+    (("scenes", "torus", "epsilon"), -1.0, "epsilon = -1.0; expected"),
+    (("scenes", "torus", "t_end"), 10**400, "a finite number > 0"),
+    (("scenes", "torus", "tolerance"), 9.9e-14, "[1e-13, 1e-2]"),
+    (("scenes", "torus", "method"), "radau", "one of: auto, explicit"),
+    (("scenes", "torus", "variables"), ["v", "v"], "theta, u, v"),
+    (("scenes", "torus", "exponents", "count"), 65, "a whole number >= 2"),
+    (("spectra", "segments"), 8.0, "a whole number >= 1"),
+    (("spectra", "overlap"), 1.0, "[0, 1)"),
+    (("linear_stability", "root_bound"), 0.1, "<= 0"),
+    (("routes", "sweeps", 0), "left", "one of: up, down"),
+    ((*FAMILY, "tau"), [], "at least one finite number >= 0"),
+    (("pathvars", "results"), "results/$(touch X)", "folder of the results"),
+    (("pathvars", "results"), "../outside/", "folder of the results"),
+    # windows
+    ((*ROUTE, "window"), [0.5], "two ascending"),
+    ((*ROUTE, "window"), 0.5, "two ascending"),
+    ((*ROUTE, "window"), [0.5, 0.5], "two ascending"),
+    ((*ROUTE, "window"), [0.6, 0.5], "two ascending"),
+    ((*ROUTE, "window"), [-1.0, 0.5], "> -1.0"),
+    (("hopf_curves", "xi_of_epsilon", "epsilon_window"), [-0.5, 0.0], "> 0"),
+    (("attractors", "histories", "theta"), [-1e308, 1e308], "two ascending numbers"),
+    (("atlas", "planes", "xi_05", "tau_window"), [-0.1, 5.0], ">= 0.0"),
+    # values that contradict others: the range is what the other value leaves
+    (("scenes", "torus", "t_transient"), 8000.0, "a finite number >= 0 and < t_end = 8000.0"),
+    (("scenes", "torus", "sample_interval"), 8000.5, "> 0 and <= t_end = 8000.0"),
+    (("scenes", "torus", "exponents", "t_end"), 2000.0, "> t_transient = 2000.0 and > tau = 10.0"),
+    (("scenes", "fixed_point", "exponents"), {"count": 4}, ">= 2 and <= 3 without delay"),
+    (("figures", "true_torus", "rows", "a", "scene"), "no_delay", "with the key attractors"),
+    (("figures", "figure_6", "rows", "a", "scene"), "nowhere", "expected one of: fixed_point, "),
+    (("hopf_curves", "tau_of_epsilon", "fixed"), 0.0, "fixed (xi) = 0.0; expected a finite "),
+    (("routes", "histories", "up"), {}, "'up'; expected another, this is the name of a sweep"),
+    ((*ROUTE, "epsilon"), 0.5, "epsilon = 0.5; expected no value, it is along epsilon"),
+    (("cycles", "lines", "torus_in_tau", "starts"), [17.0], "expected a number in [0.05, 16.0]"),
+    (("atlas", "parts"), 26, "parts = 26; expected a whole number >= 1 and <= tau_count = 25"),
+    (("atlas", "epsilon_count"), 1, "refinements = 2; expected 0 for one line, epsilon_count = 1"),
+    (("routes", "observation", "kept"), 0, "kept = 0; expected a "),
+    (("work_precision", "scenes", "mine"), {"t_end": 1.0}, "'mine'; expected one of: fixed_point"),
+    (("work_precision", "cases", "chaos"), SCENE, "'chaos'; expected a name that no scene has"),
+    (
+        ("stability", "reference"),
+        {"tolerance": 1e-17, "check_tolerance": 1e-17},
+        "check_tolerance = 1e-17; expected a finite number > tolerance = 1e-17",
+    ),
+    ((*FAMILY, "tau"), MANY, "2000 combinations; expected at most 1000"),
+    (("stability", "families", "abcdefghij" * 6), LONG_NAMES, "of 72 letters; expected at most 64"),
+    ((*FAMILY, "reference"), "stationary", "t_end = 400.0; expected a finite number >= 10000.0"),
+]
+"""A place of the configuration, a value that is refused there, and words of the refusal."""
+
+
+@pytest.mark.parametrize(("path", "value", "words"), REFUSED)
+def test_bad_value_is_refused(whole, path, value, words):
     put(whole, path, value)
     lines = refuse(whole)
-    start = f"{place_of(path[:-1])}: {path[-1]} = {value!r}; expected "
+    start = place_of(path[:-1])
     assert [line for line in lines if line.startswith(start) and words in line], lines
-
-
-@pytest.mark.parametrize(
-    ("path", "bounds", "beyond"),
-    [
-        (("hopf_curves", "tau_of_epsilon", "epsilon_window"), "> -1", [-1.0, 1.0]),
-        (("hopf_curves", "tau_of_epsilon", "ordinate_window"), ">= 0", [-0.1, 1.0]),
-        (("hopf_curves", "xi_of_epsilon", "epsilon_window"), "> 0", [-0.5, 0.0]),
-        (("attractors", "histories", "theta"), "two ascending numbers", [-1e308, 1e308]),
-        (("basins", "histories", "ln_v"), ">= -700.0 and <= 700.0", [0.0, 701.0]),
-        (("atlas", "epsilon_window"), "> -1.0", [-1.0, 0.5]),
-        (("atlas", "planes", "xi_05", "tau_window"), ">= 0.0", [-0.1, 5.0]),
-        ((*ROUTE, "window"), "> -1.0", [-1.0, 0.5]),
-    ],
-)
-def test_window_that_is_none_is_refused(whole, path, bounds, beyond):
-    """No pair, a point, descending numbers, and numbers beyond the range of what varies."""
-    for value, words in (
-        *(((value, "two ascending")) for value in ([0.5], 0.5, None, [0.5, 0.5], [0.6, 0.5])),
-        (beyond, bounds),
-    ):
-        put(whole, path, value)
-        (line,) = [line for line in refuse(whole) if f"{path[-1]} = {value}; expected" in line]
-        assert words in line
 
 
 def test_unknown_keys_are_refused(whole):
@@ -207,11 +202,9 @@ def test_unknown_keys_are_refused(whole):
 
 
 @pytest.mark.parametrize(
-    ("key", "hint"),
-    [("taus", " (is it meant to be 'tau'?)"), ("colour", ""), (3, ""), (None, "")],
+    ("key", "hint"), [("taus", " (is it meant to be 'tau'?)"), ("colour", ""), (3, ""), (None, "")]
 )
 def test_unknown_key_may_be_misspelt(config, key, hint):
-    """The nearest known key is named, if there is one."""
     config["scenes"]["torus"][key] = 1.0
     (line,) = refuse(config)
     assert line.startswith(f"scene 'torus': unknown key [{key!r}]; allowed: tau, epsilon, xi, ")
@@ -221,13 +214,11 @@ def test_unknown_key_may_be_misspelt(config, key, hint):
 @pytest.mark.parametrize(
     "path",
     [
-        *(("scenes", "torus", key) for key in ("tau", "epsilon", "xi", "gamma", "t_end")),
-        *(("attractors", "histories"), ("atlas", "planes"), ("routes", "histories")),
-        *((*ROUTE, "window"), (*ROUTE, "xi"), (*FAMILY, "t_end"), (*CASE, "tau"), ("scenes",)),
+        *(("scenes",), ("scenes", "torus", "tau"), ("routes", "histories")),
+        *((*ROUTE, "window"), (*ROUTE, "xi"), (*FAMILY, "t_end")),
     ],
 )
 def test_missing_key_is_named_once(config, path):
-    """With its section; nothing else is said."""
     section = config
     for key in path[:-1]:
         section = section[key]
@@ -235,51 +226,38 @@ def test_missing_key_is_named_once(config, path):
     assert refuse(config) == [f"{place_of(path[:-1])}: key ['{path[-1]}'] is missing"]
 
 
-@pytest.mark.parametrize("value", [None, 5, "torus", []])
-@pytest.mark.parametrize("path", [("scenes",), ("scenes", "torus", "history"), ("figures",)])
+@pytest.mark.parametrize(("path", "value"), [(("scenes",), None), (("figures",), [])])
 def test_section_that_is_no_mapping_is_refused(config, path, value):
-    """The line names it and the value."""
     put(config, path, value)
     assert f"{path[-1]} = {value!r}" in "\n".join(refuse(config))
 
 
-@pytest.mark.parametrize(
-    "path",
-    [
-        *(("scenes",), ("atlas", "planes"), ("routes", "lines"), ("routes", "histories")),
-        *(("basins", "places"), CASE[:2], ("hopf_curves",), ("cycles", "lines")),
-    ],
-)
+@pytest.mark.parametrize("path", [("scenes",), ("routes", "lines")])
 def test_name_that_makes_no_file_name_is_refused(config, path):
     """Snakemake takes a name that ends with 20 equal parts for an endless recursion."""
     section = config
     for key in path:
         section = section[key]
-    good = ["a" * 19, "torus" + "_1" * 19, "a" * 40 + "b"]
-    bad = ["Torus", "1st", "a b", "a/b", "", "torus\n", "a" * 65, "a" * 64, "torus" + "_1" * 20]
     first = next(iter(section.values()))
-    section |= {name: copy.deepcopy(first) for name in good}
+    for name in ("a" * 19, "torus" + "_1" * 19, "a" * 40 + "b"):
+        section[name] = copy.deepcopy(first)
     checked(copy.deepcopy(config))
-    for name in (*bad, 5, True, 1.5):
+    bad = ["Torus", "1st", "a b", "a/b", "", "torus\n", "a" * 65, "torus" + "_1" * 20]
+    for names in (bad, [5, True]):
         spoiled = copy.deepcopy(config)
-        put(spoiled, (*path, name), copy.deepcopy(first))
-        assert f"{place_of(path)}: name {name!r}; expected " in "\n".join(refuse(spoiled))
+        for name in names:
+            put(spoiled, (*path, name), copy.deepcopy(first))
+        lines = refuse(spoiled)
+        starts = [f"{place_of(path)}: name {name!r}; expected " for name in names]
+        assert all(any(line.startswith(start) for line in lines) for start in starts), lines
 
 
-@pytest.mark.parametrize("value", ["1e-9", "1.5", "-3"])
-def test_number_in_quotes_is_explained(config, value):
+@pytest.mark.parametrize(("value", "hint"), [("1e-9", True), ("inf", False), ("1,5", False)])
+def test_number_in_quotes_is_explained(config, value, hint):
     """What the hint says to write is a number."""
     config["scenes"]["torus"]["tolerance"] = value
     (line,) = refuse(config)
-    assert line.endswith(f" (this is text; write {value} without quotes for the number)")
-
-
-@pytest.mark.parametrize("value", ["inf", ".inf", "1:30", "1,5", "a: b", "[1", "yes", ""])
-def test_text_that_is_no_finite_number_gets_no_hint(config, value):
-    """What the hint would say to write would be refused again."""
-    config["scenes"]["torus"]["tolerance"] = value
-    (line,) = refuse(config)
-    assert "without quotes" not in line
+    assert line.endswith(f" (this is text; write {value} without quotes for the number)") is hint
 
 
 def test_all_problems_are_listed_at_once(config):
@@ -294,125 +272,11 @@ def test_all_problems_are_listed_at_once(config):
     assert len(lines) == 4
 
 
-@pytest.mark.parametrize(
-    ("path", "value", "line"),
-    [
-        (
-            ("scenes", "torus", "t_transient"),
-            8000.0,
-            "scene 'torus': t_transient = 8000.0; expected a finite number >= 0 and <"
-            " t_end = 8000.0",
-        ),
-        (
-            ("scenes", "torus", "sample_interval"),
-            8000.5,
-            "scene 'torus': sample_interval = 8000.5; expected a finite number > 0 and"
-            " <= t_end = 8000.0",
-        ),
-        (
-            ("scenes", "torus", "exponents", "t_end"),
-            2000.0,
-            "scene 'torus' exponents: t_end = 2000.0; expected a finite number >"
-            " t_transient = 2000.0 and > tau = 10.0",
-        ),
-        (
-            ("scenes", "fixed_point", "exponents"),
-            {"count": 4},
-            "scene 'fixed_point' exponents: count = 4; expected a whole number >= 2 and <= 3"
-            " without delay",
-        ),
-        (
-            ("figures", "figure_6", "rows", "a", "scene"),
-            "nowhere",
-            "config figures figure_6 rows a: scene = 'nowhere'; expected one of: fixed_point, ",
-        ),
-        (
-            ("hopf_curves", "tau_of_epsilon", "fixed"),
-            0.0,
-            "config hopf_curves tau_of_epsilon: fixed (xi) = 0.0; expected a finite number > 0",
-        ),
-        (
-            ("routes", "histories", "up"),
-            {},
-            "config routes histories: name 'up'; expected another, this is the name of a sweep",
-        ),
-        (
-            (*ROUTE, "epsilon"),
-            0.5,
-            "config routes lines chaos_in_epsilon: epsilon = 0.5; expected no value, it is along"
-            " epsilon",
-        ),
-        (
-            ("cycles", "lines", "torus_in_tau", "starts"),
-            [17.0],
-            "config cycles lines torus_in_tau: starts = 17.0; expected a number in [0.05, 16.0]",
-        ),
-        (
-            ("atlas", "parts"),
-            26,
-            "config atlas: parts = 26; expected a whole number >= 1 and <= tau_count = 25",
-        ),
-        (
-            ("atlas", "epsilon_count"),
-            1,
-            "config atlas: refinements = 2; expected 0 for one line, epsilon_count = 1,"
-            " tau_count = 25",
-        ),
-        (("routes", "observation", "kept"), 0, "config routes observation: kept = 0; expected a "),
-        (
-            ("work_precision", "scenes", "mine"),
-            {"t_end": 1.0},
-            "config work_precision scenes: 'mine'; expected one of: fixed_point, ",
-        ),
-        (
-            ("work_precision", "cases", "chaos"),
-            {"tau": 1.0, "epsilon": 0.7, "xi": 0.5, "gamma": 1.0, "t_end": 10.0},
-            "config work_precision cases: 'chaos'; expected a name that no scene has",
-        ),
-        (
-            ("stability", "reference"),
-            {"tolerance": 1e-17, "check_tolerance": 1e-17},
-            "config stability reference: check_tolerance = 1e-17; expected a finite number >"
-            " tolerance = 1e-17",
-        ),
-        (
-            (*FAMILY, "tau"),
-            [float(i) for i in range(501)],
-            "config stability families growth: 1002 combinations; expected at most 1000",
-        ),
-        (
-            ("stability", "families", "abcdefghij" * 6),
-            {"tau": [1.0], "epsilon": [0.5], "xi": [1.0], "gamma": [1.0, 1e4], "t_end": 1.0},
-            f"config stability families {'abcdefghij' * 6}: case '{'abcdefghij' * 6}"
-            " gamma=10000' of 72 letters; expected at most 64",
-        ),
-        (
-            (*FAMILY, "reference"),
-            "stationary",
-            "config stability families growth: t_end = 400.0; expected a finite number >= 10000.0",
-        ),
-    ],
-)
-def test_values_that_contradict_others_are_refused(config, path, value, line):
-    """The line names the range that the other value leaves."""
-    put(config, path, value)
-    lines = refuse(config)
-    assert [each for each in lines if each.startswith(line)], lines
-
-
-def test_scene_of_the_true_torus_needs_attractors(config):
-    """Its figure shows points of the section."""
-    del config["scenes"]["torus"]["attractors"]
-    (line,) = refuse(config)
-    assert line.startswith("config figures true_torus rows a: scene = 'torus'; expected a scene")
-
-
 def test_part_of_too_many_points_is_refused(config):
     """One run of the program takes a million of them."""
     config["atlas"] |= {"epsilon_count": 100000, "tau_count": 80, "parts": 7, "refinements": 0}
-    assert "config atlas: parts = 7 of 1200000 points; expected at most 1000000 in each" in refuse(
-        config
-    )
+    words = "config atlas: parts = 7 of 1200000 points; expected at most 1000000 in each"
+    assert words in refuse(config)
 
 
 def test_endless_combinations_are_counted_not_made(config):
@@ -423,9 +287,8 @@ def test_endless_combinations_are_counted_not_made(config):
     assert f"{10**18} combinations; expected at most 1000" in refuse(config)[0]
 
 
-@pytest.mark.parametrize("along", ["tau", "epsilon", "xi", "gamma", "v"])
+@pytest.mark.parametrize("along", ["tau", "v"])
 def test_route_along_any_parameter_and_the_history(config, along):
-    """It has the values of the other parameters."""
     values = {"tau": 7.0, "epsilon": 0.5, "xi": 0.5, "gamma": 0.8}
     values.pop(along, None)
     line = {"along": along, "window": [0.1, 0.2], "count": 3, **values}
@@ -436,7 +299,7 @@ def test_route_along_any_parameter_and_the_history(config, along):
     assert refuse(config) == [f"config routes lines mine: key ['{missing}'] is missing"]
 
 
-@pytest.mark.parametrize("section", ["attractors", "atlas", "routes", "basins"])
+@pytest.mark.parametrize("section", ["attractors", "atlas"])
 def test_samples_of_an_observation_suffice_for_a_spectrum(config, section):
     """Eight segments that overlap by half are as long as four and a half."""
     given = {"kept": 10, "t_observed": 100.0, "sample_interval": 100.0 / (4.5 * FEWEST_SAMPLES)}

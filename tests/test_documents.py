@@ -4,7 +4,6 @@ code; and no sentence stands twice."""
 import copy
 import re
 import subprocess
-from collections import Counter
 from fnmatch import fnmatch
 from functools import cache
 from pathlib import PurePath
@@ -36,25 +35,20 @@ OF_THE_READER = {"mine.yaml", "mine.f90", "CMakeLists.txt"}
 """Files that the documents ask the reader to write."""
 USERS_FIGURES = {"scenes", "exponents", "planes", "routes", "cycles", "atlas"}
 """Folders of the figures of a user's file."""
-MOST_LINES = 150
-"""Of the README: three minutes."""
 
 each = pytest.mark.parametrize("document", DOCUMENTS)
 
 
 @cache
 def text_of(document: str) -> str:
-    """The whole document."""
     return (ROOT / document).read_text()
 
 
 def blocks_of(document: str, language: str) -> list[str]:
-    """Its code blocks in a language."""
     return re.findall(rf"^```{language}\n(.*?)^```", text_of(document), re.DOTALL | re.MULTILINE)
 
 
 def prose_of(document: str) -> str:
-    """The document without its code blocks."""
     return re.sub(r"^```.*?^```$", "", text_of(document), flags=re.DOTALL | re.MULTILINE)
 
 
@@ -64,7 +58,6 @@ def ticked(document: str) -> list[str]:
 
 
 def anchors_of(document: str) -> set[str]:
-    """Names of its headings, as links write them."""
     headings = re.findall(r"^#+ (.*)$", prose_of(document), re.MULTILINE)
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
@@ -79,13 +72,11 @@ def code() -> str:
 
 @cache
 def words() -> set[str]:
-    """All words of the code."""
     return set(re.findall(r"\w+", code()))
 
 
 @cache
 def rules() -> set[str]:
-    """Names of the rules of the workflow."""
     workflow = "".join(path.read_text() for path in [ROOT / "Snakefile", *ROOT.glob("rules/*.smk")])
     return {
         *re.findall(r"^rule (\w+)", workflow, re.MULTILINE),
@@ -112,7 +103,6 @@ def is_made(path: str) -> bool:
 
 @cache
 def files_and_folders() -> set[str]:
-    """Those of the project."""
     files = {*project_files()}
     return files | {str(parent) for name in files for parent in PurePath(name).parents}
 
@@ -129,7 +119,6 @@ def exists(path: str, document: str) -> bool:
 
 
 def is_path(token: str) -> bool:
-    """Whether a word in backticks is meant as a path."""
     if not re.fullmatch(r"[\w.*/-]+", token) or token.startswith(("-", ".f")):
         return False
     return "/" in token.strip(".") or token.rpartition(".")[2] in ENDINGS
@@ -165,7 +154,6 @@ def test_relative_links_resolve(document):
 
 @each
 def test_files_that_are_named_exist(document):
-    """In the project, or something makes them."""
     paths = {token for token in ticked(document) if is_path(token) and "NAME" not in token}
     paths -= OF_THE_READER
     paths = {path for path in paths if path.partition("/")[0] not in USERS_FIGURES}
@@ -182,7 +170,6 @@ def test_words_of_code_exist(document):
 
 @each
 def test_targets_that_are_named_exist(document):
-    """Rules and files that the workflow makes."""
     commands = commands_in("\n".join([*blocks_of(document, "sh"), *ticked(document)]))
     targets = [word for command in commands for word in command]
     # TARGET, SCENE and such stand for any
@@ -193,20 +180,7 @@ def test_targets_that_are_named_exist(document):
 
 
 @each
-def test_commands_that_are_named_exist(document):
-    """Those of the project, with a part of ./test where one is named."""
-    parts = re.findall(r"\b(\w+)\)", (ROOT / "test").read_text())
-    text = "\n".join([*blocks_of(document, "sh"), *ticked(document)])
-    named = r"^(\./\w+|\w+/(?:run|draw)\b)(?: +(\w+))?"
-    for command, first in re.findall(named, text, re.MULTILINE):
-        assert (ROOT / command).is_file()
-        if command == "./test" and first:
-            assert first in parts
-
-
-@each
 def test_examples_of_config_are_accepted(document, default_config):
-    """Merged over the config, as Snakemake does it."""
     for block in blocks_of(document, "yaml"):
         mine = parse(block)
         config = copy.deepcopy(default_config)
@@ -219,7 +193,6 @@ def test_examples_of_config_are_accepted(document, default_config):
 
 
 def test_keys_of_a_scene_are_those_of_the_schema():
-    """Each in the table, and none besides."""
     table = text_of("config/README.md").partition("## Keys of a scene")[2].partition("\n## ")[0]
     rows = re.findall(r"^\| (`.*?) \|", table, re.MULTILINE)
     named = {key for row in rows for key in re.findall(r"`(\w+)`", row)}
@@ -232,20 +205,7 @@ def test_keys_of_a_scene_are_those_of_the_schema():
     assert named == set(scene["properties"])
 
 
-def test_readme_is_short():
-    """Detail is for docs/."""
-    assert len(text_of("README.md").splitlines()) <= MOST_LINES
-
-
-def test_nothing_is_said_twice():
-    """No long line stands in two places."""
-    lines = [line.strip() for name in DOCUMENTS for line in prose_of(name).splitlines()]
-    repeated = [line for line, n in Counter(lines).items() if n > 1 and len(line) > 60]
-    assert repeated == []
-
-
 def test_every_document_is_reached_from_the_readme():
-    """By links, over others."""
     reached, waiting = set(), ["README.md"]
     while waiting:
         document = waiting.pop()
@@ -268,7 +228,6 @@ def test_every_picture_is_shown_and_has_its_command():
 
 
 def cffconvert(*arguments: str) -> str:
-    """What it says about CITATION.cff."""
     program = ROOT / "tests" / "formats" / ".venv" / "bin" / "cffconvert"
     if not program.exists():
         pytest.skip("`setup/setup.sh tests/formats` sets it up, and so does ./test")
@@ -278,13 +237,9 @@ def cffconvert(*arguments: str) -> str:
     return run.stdout
 
 
-def test_citation_is_valid():
-    """By the schema of the Citation File Format."""
+def test_citation_is_valid_and_complete():
+    """By its schema; BibTeX gets author, title and year; authors of the paper have first names."""
     assert "valid according to schema" in cffconvert("--validate")
-
-
-def test_citation_is_complete():
-    """BibTeX gets author, title and year; the authors of the paper have first names."""
     entry = cffconvert("--format", "bibtex")
     assert set(re.findall(r"^(\w+) = {.+}", entry, re.MULTILINE)) >= {"author", "title", "year"}
     [paper] = read(ROOT / "CITATION.cff")["references"]
@@ -292,17 +247,6 @@ def test_citation_is_complete():
     names = [author["given-names"] for author in paper["authors"]]
     assert len(names) == 4
     assert not [name for name in names if "." in name]
-
-
-def test_missing_files_and_targets_are_caught():
-    """The checker itself."""
-    for token in ("fortran/src/nowhere.f90", "scripts/removed.py", "results/tables/no-such.tsv"):
-        assert is_path(token)
-        assert not exists(token, "README.md")
-        assert not is_made(token)
-    found = commands_in("snakemake --cores 2 no_such --configfile=x.yaml\n./reproduce figure_5 -n")
-    assert found == [["no_such"], ["figure_5"]]
-    assert "no_such" not in rules()
 
 
 def test_friction_law_quotes_its_example():

@@ -5,14 +5,8 @@ The suites lyapunov_spectrum and tangent_runs show long intervals and other meth
 
 import numpy as np
 import pytest
-import xarray as xr
 from conftest import of_trajectory
-from figure_contents import assert_on_page, title_of, words_in
-from matplotlib import pyplot as plt
 
-from scripts.drawing.style import STYLE
-from scripts.figures import exponents
-from scripts.files.tsv import read_table
 from scripts.tables import exponents_table
 
 SCENES = ["oscillation", "torus", "chaos", "true_torus"]
@@ -49,24 +43,7 @@ def test_exponents_of_a_fixed_point_are_its_roots(programs, groups):
     assert made.attrs["zero_exponents"] == 0
 
 
-def test_table_holds_all_exponents_of_all_scenes(smoke):
-    """The exponents of each tolerance are in descending order, as in the files."""
-    rows = read_table(smoke.folder / "results/tables/exponents.tsv")
-    for scene in SCENES:
-        made = xr.load_dataset(smoke.folder / f"results/exponents/{scene}.nc")
-        own = [row for row in rows if row["scene"] == scene]
-        values = np.array([row["exponent"] for row in own]).reshape(4, 6)
-        np.testing.assert_allclose(values, made.value, rtol=1e-5)
-        bounds = np.maximum(made.attrs["zero_level"], 3 * made.error)
-        np.testing.assert_allclose(made.sign_bound, bounds, rtol=1e-12)
-        assert (np.diff(values) <= 0).all()
-        assert [row["i"] for row in own] == 4 * [1, 2, 3, 4, 5, 6]
-        signs = [row["sign"] for row in own[:6]]
-        assert signs.count("zero") == made.attrs["zero_exponents"]
-
-
 def test_rows_hold_the_values_of_their_run(programs, groups):
-    """Each column that of its name, at each tolerance."""
     made = programs.made_of("exponents", groups)
     rows = exponents_table.rows_of(made)
     assert len(rows) == made.value.size
@@ -79,18 +56,3 @@ def test_rows_hold_the_values_of_their_run(programs, groups):
         assert row["t"] == made.attrs["t_end"] - made.attrs["t_begin"]
         assert (row["tolerance"], row["mean_step"]) == (at.tolerance, at.mean_step)
     assert exponents_table.sign(0.02, 0.01) == "positive"
-
-
-def test_figure_shows_time_tolerance_and_resolution(smoke):
-    """A row a scene, with its verdict; all is on the page."""
-    results = smoke.folder / "results"
-    runs = [xr.load_dataset(results / f"exponents/{scene}.nc") for scene in SCENES]
-    with plt.style.context(STYLE):
-        figure = exponents.draw(runs, read_table(results / "tables/exponents.tsv"))
-    assert len(figure.axes) == 12
-    for scene, axes in zip(SCENES, figure.axes[::3], strict=True):
-        assert f"scene {scene.replace('_', ' ')}: " in title_of(axes)
-        assert len([line for line in axes.lines if len(line.get_xdata()) > 10]) == 6
-    assert "time averaged over" in words_in(figure)
-    assert_on_page(figure)
-    plt.close(figure)

@@ -12,7 +12,6 @@ pytestmark = pytest.mark.skipif(not shutil.which("git"), reason="no git")
 
 @pytest.fixture
 def repository(tmp_path, monkeypatch):
-    """A repository with one file and one commit."""
     for name, value in (("NAME", "me"), ("EMAIL", "me@here")):
         monkeypatch.setenv(f"GIT_AUTHOR_{name}", value)
         monkeypatch.setenv(f"GIT_COMMITTER_{name}", value)
@@ -22,33 +21,21 @@ def repository(tmp_path, monkeypatch):
     return tmp_path
 
 
-def test_commit_is_named(repository):
-    """By its full hash."""
+def test_commit_is_named(repository, monkeypatch):
+    """By its full hash, with a word on changes; a repository around a copy is not its own."""
     head = (repository / ".git" / "HEAD").read_text().removeprefix("ref: ").strip()
-    assert commit_of(repository) == (repository / ".git" / head).read_text().strip()
-
-
-def test_changes_are_told(repository):
-    """Also those of files that git does not know."""
-    clean = commit_of(repository)
-    (repository / "other").write_text("two")
-    assert commit_of(repository) == f"{clean} with changes"
-
-
-def test_repository_around_the_folder_is_not_its_own(repository):
-    """A copy of the project in somebody's repository."""
+    commit = (repository / ".git" / head).read_text().strip()
+    assert commit_of(repository) == commit
     (repository / "copy").mkdir()
     assert commit_of(repository / "copy") == UNKNOWN
+    (repository / "other").write_text("two")
+    assert commit_of(repository) == f"{commit} with changes"
+    # a machine without git
+    monkeypatch.setenv("PATH", "")
+    assert commit_of(repository) == UNKNOWN
 
 
 def test_no_repository_and_no_commit_yet(tmp_path):
-    """Nothing to name."""
     assert commit_of(tmp_path) == UNKNOWN
     subprocess.run(["git", "init", tmp_path], check=True, capture_output=True)
     assert commit_of(tmp_path) == UNKNOWN
-
-
-def test_machine_without_git(repository, monkeypatch):
-    """The same."""
-    monkeypatch.setenv("PATH", "")
-    assert commit_of(repository) == UNKNOWN

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from scripts.files.tsv import read_table, write_table
-from scripts.tables.hopf_points_table import COLUMNS, rows_of
+from scripts.tables.hopf_points_table import rows_of
 
 PLANES = ["tau_of_epsilon", "xi_of_epsilon"]
 
@@ -22,7 +21,6 @@ def plane(request, config) -> dict:
 
 @pytest.fixture
 def curves(programs, plane) -> xr.Dataset:
-    """The plane's curves."""
     return programs.made_by("hopf", plane)
 
 
@@ -141,15 +139,3 @@ def test_special_points_solve_the_characteristic_equation(curves):
         elif row["kind"] == "generalised_hopf":
             assert float(row["l2"]) != 0
             assert (row["unfolding"], row["torus_1"]) == ("", "")
-
-
-@pytest.mark.parametrize("plane", PLANES[:1], indirect=True)
-def test_table_of_points_is_whole(curves, tmp_path):
-    """What is written is read again, also of no points."""
-    rows = rows_of("plane", curves)
-    write_table(tmp_path / "points.tsv", rows, COLUMNS)
-    read = read_table(tmp_path / "points.tsv")
-    assert [list(row) for row in read] == [COLUMNS] * len(rows)
-    assert [row["tau"] for row in read] == [float(row["tau"]) for row in rows]
-    write_table(tmp_path / "none.tsv", [], COLUMNS)
-    assert (tmp_path / "none.tsv").read_text().split() == COLUMNS

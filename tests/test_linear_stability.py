@@ -18,7 +18,6 @@ SCENES |= {"no_delay_less": 1, "no_delay_more": 1}
 
 @pytest.fixture(params=SCENES)
 def stability(programs, good_inputs, smoke_config, request):
-    """Linear stability of a scene."""
     scene = smoke_config["scenes"][request.param]
     parameters = {key: scene[key] for key in PARAMETERS}
     return programs.made_by("linear_stability", good_inputs["linear_stability"] | parameters)
@@ -72,13 +71,11 @@ def test_amplitude_death(stability):
 
 @pytest.mark.parametrize("stability", ["fixed_point", "oscillation"], indirect=True)
 def test_state_stable_without_delay_does_not_die(stability):
-    """There is nothing to quench."""
     assert amplitude_death(stability) == []
     assert death_rows_of("mine", stability) == []
 
 
 def test_tables_of_the_workflow(smoke):
-    """Every scene has its row; both tables are there."""
     tables = smoke.folder / "results" / "tables"
     rows = read_table(tables / "linear-stability.tsv")
     assert {row["scene"]: row["unstable_pairs"] for row in rows} == SCENES
@@ -93,8 +90,8 @@ def test_tables_of_the_workflow(smoke):
 
 
 def test_bound_too_far_is_refused(programs, good_inputs):
-    """In words, with nothing left behind."""
-    run = programs.run_with("linear_stability", {**good_inputs["linear_stability"], "tau": 1000.0})
+    groups = {"linear_stability": {**good_inputs["linear_stability"], "tau": 1000.0}}
+    run = programs.run_groups("linear_stability", groups)
     assert run.returncode == 1
     assert "a bound nearer to 0 expected" in run.stderr
     assert programs.left_behind() == []

@@ -48,7 +48,6 @@ def verify(folder: Path, *lists: str) -> tuple[int, list[str]]:
 
 
 def test_lists_hold_all_results(results):
-    """In the format of sha256sum; what was measured is apart."""
     listed = [Path(path).read_text().splitlines() for path in LISTS]
     kept, measured = ({line.split("  ")[1] for line in lines} for lines in listed)
     assert (kept, measured) == (set(results[:3]), set(results[3:]))
@@ -98,25 +97,31 @@ def test_results_of_a_killed_run_stay(results):
     assert Path(made).exists()
 
 
-def test_run_makes_damaged_results_again(smoke, scratch):
-    """To the bytes that they had, and the lists agree with those of another copy."""
+def test_run_makes_damaged_and_removed_results_again(smoke, scratch):
+    """To the bytes that they had, and the lists agree with those of another copy; of the atlas
+    the removed part alone is computed."""
     results = scratch.folder / "results"
     before = scratch.outputs()
     os.truncate(results / "trajectories" / "torus.nc", 1000)
     with open(results / "tables" / "claims.tsv", "a") as table:
         table.write("edited\n")
     assert verify(scratch.folder)[0] == 1
+    part, other = (results / "attractors" / "atlas" / "xi_08" / f"000{i}.nc" for i in (2, 1))
+    for path in (part, results / "tables" / "atlas.tsv", results / "page" / "style.css"):
+        path.unlink()
+    (scratch.folder / "build" / "release" / "bin" / "measure").unlink()
+    written = other.stat().st_mtime_ns
     run = scratch.reproduce("--configfile", "config/smoke.yaml")
     assert run.returncode == 0, run.stdout
     for name in ("trajectories/torus.nc", "tables/claims.tsv"):
         assert f"results/{name}: was changed or damaged since a run made it" in run.stdout
     assert scratch.outputs() == before
+    assert other.stat().st_mtime_ns == written
     assert verify(scratch.folder)[0] == 0
     assert verify(scratch.folder, str(smoke.folder / LISTS[0]))[0] == 0
 
 
 def test_results_without_lists_cannot_be_compared(fresh: Project):
-    """In one line."""
     status, lines = verify(fresh.folder)
     assert (status, len(lines)) == (1, 1)
     assert "cannot be read; a run of ./reproduce writes" in lines[0]

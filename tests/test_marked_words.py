@@ -34,11 +34,5 @@ def test_words_become_mathematics(words, expected):
     assert html.unescape(re.sub("<[^>]*>", "", to_html(words))) == expected
 
 
-def test_powers_and_indices_are_raised_and_lowered():
-    """As elements, so that they are read as such."""
-    assert to_html("$gamma^2 < v0$") == "<var>γ</var><sup>2</sup> &lt; <var>v</var><sub>0</sub>"
-
-
 def test_plain_words_have_no_dollars_around_mathematics():
-    """Nothing else changes."""
     assert to_plain("At $gamma^2 = 1e-06$ it costs $5.") == "At gamma^2 = 1e-06 it costs $5."

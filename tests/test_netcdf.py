@@ -4,7 +4,7 @@ import subprocess
 
 import pytest
 import xarray as xr
-from conftest import ROOT, Project
+from conftest import ROOT
 
 CHECKER = ROOT / "tests" / "formats" / ".venv" / "bin" / "compliance-checker"
 KINDS = {
@@ -15,21 +15,16 @@ KINDS = {
 """Folders with NetCDF files, each with those of one program."""
 
 
-def one_of_each_kind(smoke: Project) -> dict[str, str]:
+@pytest.fixture(scope="module")
+def files(smoke) -> dict[str, str]:
     """The largest file of each kind, as path from the results."""
     results = smoke.folder / "results"
-    files: dict[str, list[str]] = {}
+    found: dict[str, str] = {}
     for path in sorted(results.rglob("*.nc"), key=lambda path: path.stat().st_size):
         name = path.relative_to(results).as_posix()
         parts = 2 if name.startswith(("attractors/", "measurements/")) else 1
-        files.setdefault("/".join(name.split("/")[:parts]), []).append(name)
-    return {kind: names[-1] for kind, names in files.items()}
-
-
-@pytest.fixture(scope="module")
-def files(smoke) -> dict[str, str]:
-    """One file of each kind of the smoke run."""
-    return one_of_each_kind(smoke)
+        found["/".join(name.split("/")[:parts])] = name
+    return found
 
 
 @pytest.mark.skipif(
@@ -47,7 +42,6 @@ def test_files_follow_the_cf_conventions(smoke, files):
 
 
 def test_files_name_their_origin(smoke, files):
-    """Program and version, the paper, and no time."""
     for name in files.values():
         attributes = xr.open_dataset(smoke.folder / "results" / name).attrs
         assert attributes["Conventions"] == "CF-1.8"
@@ -56,15 +50,3 @@ def test_files_name_their_origin(smoke, files):
         assert attributes["source"].endswith(attributes["program_version"])
         assert "Time-delay in spring-block model" in attributes["references"]
         assert "20" not in attributes["history"]
-
-
-def test_values_come_as_words_and_coordinates(smoke, files):
-    """Words without blanks at their end, flags with their words, points with their parameters."""
-    read = {kind: xr.load_dataset(smoke.folder / "results" / name) for kind, name in files.items()}
-    kinds = set(read["hopf"].special_kind.values)
-    assert kinds
-    assert kinds <= {"generalised_hopf", "double_hopf", "hopf_without_delay"}
-    assert set(read["measurements/stability"].method.values) == {"auto", "explicit"}
-    assert set(read["attractors/atlas"]["class"].coords) == {"epsilon", "tau", "xi", "gamma"}
-    flags = read["attractors/atlas"]["class"].attrs
-    assert flags["flag_values"].tolist() == list(range(len(flags["flag_meanings"].split())))

@@ -61,7 +61,6 @@ def test_last_of_two_writers_wins(tmp_path, first_to_end):
 
 
 def test_failure_leaves_the_older_file_and_nothing_else(tmp_path):
-    """An interrupted write changes nothing."""
     path = tmp_path / "table.tsv"
     path.write_text("older")
 
@@ -131,7 +130,6 @@ def test_problem_with_a_file_ends_a_script_in_one_line(tmp_path):
 
 @pytest.mark.parametrize("log", ["nowhere/log", "."])
 def test_log_that_cannot_be_written_is_refused(tmp_path, log):
-    """The script does not begin."""
     with (
         pytest.raises(SystemExit, match=r"error: .*; check that its folder"),
         logged(tmp_path / log),

@@ -4,7 +4,6 @@ import base64
 import json
 import struct
 
-import made_up_page
 import numpy as np
 import pytest
 import xarray as xr
@@ -18,7 +17,6 @@ KINDS = list(COLOURS)
 
 
 def read(text: str) -> dict:
-    """The object of a file."""
     head, _, value = text.removesuffix(";\n").partition("const playData = ")
     assert head == '"use strict";\n'
     return json.loads(value)
@@ -43,10 +41,29 @@ def unpacked(text: str, time: float) -> dict[int, np.ndarray]:
     return found
 
 
+def play() -> str:
+    """Two planes: classes change with epsilon; the last point of the first was not computed."""
+    none = {f"exponent_{i}": np.nan for i in (1, 2, 3)}
+    rows, paths = [], []
+    for xi in (0.5, 0.8):
+        for tau in (0.0, 5.0):
+            rows += [
+                attractor(0.1, tau, xi=xi, **{"class": "fixed point"}, f1=np.nan, f2=np.nan),
+                attractor(0.2, tau, xi=xi, f1=0.1, f2=np.nan),
+                attractor(0.3, tau, xi=xi, period=2.0, f1=0.05, f2=np.nan),
+                attractor(0.4, tau, xi=xi, **{"class": "chaos"}, f1=np.nan, f2=np.nan),
+            ]
+            later = np.add(turn(30.0, 90.0), [[30.0], [0.0], [0.0]])
+            longer = np.concatenate([turn(30.0, 40.0), later], axis=1)
+            paths += [None, turn(10.0, 3.0), turn(20.0, 5.0), longer]
+    rows[7] |= {"computed": "no", **none}
+    paths[7] = None
+    return play_data.write_script(rows, [atlas_run(*paths[:3]), atlas_run(*paths[3:])], {})
+
+
 @pytest.fixture(scope="module")
 def made_up() -> dict:
-    """The data of the made-up page."""
-    return read(made_up_page.play())
+    return read(play())
 
 
 def test_paths_are_those_of_their_points(made_up):
@@ -76,33 +93,7 @@ def test_path_with_a_long_gap_has_points_between():
     assert set(np.round(path[0], 6)) <= set(np.round(found[0], 6))
 
 
-def test_point_without_extent_is_packed():
-    """A path of which u does not change."""
-    path = np.array([[0.0, 30.0, 60.0], [1.5] * 3, [0.0, 1.0, 0.0]])
-    packed = base64.b64encode(play_data.pack_path(0, path, 60.0)).decode()
-    (found,) = unpacked(packed, 60.0).values()
-    assert set(found[1]) == {1.5}
-
-
-def test_planes_have_axes_classes_and_words(made_up):
-    """Point by point along epsilon, from the least tau upwards."""
-    first, second = made_up["planes"]
-    assert (first["xi"], second["xi"], first["gamma"], first["time"]) == (0.5, 0.8, 0.8, 60.0)
-    assert (first["epsilon"], first["tau"]) == ([0.1, 0.2, 0.3, 0.4], [0.0, 5.0])
-    kinds = [KINDS[int(digit)] for digit in first["kinds"]]
-    assert kinds == 2 * ["fixed point", "cycle", "multi-loop cycle", "chaos"]
-    assert first["words"]["1"] == [
-        "cycle",
-        "−0.01 ± 0.001, −0.02 ± 0.001, −0.03 ± 0.001",
-        "period 10 (units of L/v₀)",
-    ]
-    assert first["words"]["2"][0] == "cycle with 2 loops"
-    assert first["words"]["2"][2] == "period 20 (units of L/v₀)"
-    assert first["words"]["3"][2] == ""
-
-
 def test_point_that_was_not_computed_shows_the_nearest_of_its_class(made_up):
-    """All others show themselves."""
     first, second = made_up["planes"]
     assert first["shown"] == [0, 1, 2, 3, 4, 5, 6, 3]
     assert "7" not in first["words"]
@@ -110,7 +101,6 @@ def test_point_that_was_not_computed_shows_the_nearest_of_its_class(made_up):
 
 
 def test_cycle_that_was_not_computed_shows_one_of_its_period():
-    """Not the nearer one of another period."""
     rows = [
         attractor(0.1 * i, 0.0, period=period, f1=0.1, f2=np.nan)
         for i, period in enumerate((4.0, 2.0, 4.0))
@@ -118,29 +108,6 @@ def test_cycle_that_was_not_computed_shows_one_of_its_period():
     rows[2]["computed"] = "no"
     (plane,) = read(play_data.write_script(rows, [atlas_run(None, None, None)], {}))["planes"]
     assert plane["shown"] == [0, 1, 0]
-
-
-def test_torus_and_failed_run_in_words():
-    """All fundamental frequencies; why there is no class."""
-    torus = attractor(0.1, 0.0, f1=0.1, f2=0.0437, **{"class": "torus"})
-    assert play_data.words_of(torus)[2] == "fundamental frequencies 0.1 and 0.0437 (units of v₀/L)"
-    torus |= {"class": "3-torus", "f3": 0.25, "exponent_4": -0.3, "error_4": 0.01}
-    assert play_data.words_of(torus)[1].endswith(", −0.3 ± 0.01")
-    assert (
-        play_data.words_of(torus)[2]
-        == "fundamental frequencies 0.1, 0.0437 and 0.25 (units of v₀/L)"
-    )
-    failed = attractor(0.1, 0.0, f1=np.nan, f2=np.nan, problem="too stiff")
-    failed |= {"class": "undecided", **{f"exponent_{i}": np.nan for i in (1, 2, 3)}}
-    assert play_data.words_of(failed) == ["no result: too stiff", "", ""]
-
-
-def test_scenes_lie_on_their_planes(made_up):
-    """Those of no plane are left out."""
-    assert made_up["scenes"] == [{"name": "my scene", "plane": 1, "epsilon": 0.21, "tau": 4.0}]
-    elsewhere = {"one": {"xi": 0.7, "gamma": 0.8, "epsilon": 0.1, "tau": 0.0}}
-    rows = [attractor(0.1, 0.0, f1=np.nan, f2=np.nan)]
-    assert read(play_data.write_script(rows, [atlas_run(None)], elsewhere))["scenes"] == []
 
 
 def test_smoke_run_has_each_point_of_its_atlas(smoke):

@@ -7,7 +7,7 @@ import time
 from typing import IO
 
 import pytest
-from conftest import SMOKE, Programs
+from conftest import Programs
 
 TOLD = re.compile(r"trajectory of torus: (\d+) %, (\d+) of (\d+), (?:\d+ min )?\d+ s (left|in all)")
 """A line of progress: per cent, samples done, samples in all."""
@@ -51,27 +51,9 @@ def test_log_gets_a_line_every_five_per_cent(long_run):
     assert [line.endswith(" in all") for line in lines] == [False] * (len(lines) - 1) + [True]
 
 
-def test_short_program_says_nothing(programs, good_inputs):
-    """Nothing on standard error."""
-    programs.made_by("trajectory", good_inputs["trajectory"])
-    run = programs.start("trajectory", stderr=subprocess.PIPE, text=True)
-    assert run.communicate(timeout=60)[1] == ""
-
-
 def test_standard_error_that_takes_nothing_does_not_stop_the_work(long_run):
     """A log on a full disk: the result is whole."""
     with open("/dev/full", "w") as full:
         run = held_up_run(long_run, full)
     assert run.wait(timeout=60) == 0
     assert long_run.left_behind() == ["output.nc"]
-
-
-def test_failure_is_shown_without_the_progress_before_it(scratch):
-    """That stays in the log."""
-    program = scratch.folder / "build" / "release" / "bin" / "hopf"
-    told, reason = "hopf: 5 %, 1 of 20, 2 s left", "error: it cannot go on"
-    program.write_text(f"#!/bin/sh\necho '{told}' >&2\necho '{reason}' >&2\nexit 1\n")
-    run = scratch.snakemake("results/hopf/xi_of_epsilon.nc", *SMOKE)
-    assert run.returncode != 0
-    assert f"\n{reason}\n" in run.stdout
-    assert told not in run.stdout

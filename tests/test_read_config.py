@@ -42,7 +42,6 @@ def test_scalar_is_what_yaml_1_2_says(text, value):
     ],
 )
 def test_what_cannot_be_read_is_named_in_one_line(tmp_path, text, words):
-    """File, line where there is one, and what is wrong."""
     path = tmp_path / "mine.yaml"
     if text is not None:
         path.write_bytes(text)

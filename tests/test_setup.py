@@ -2,27 +2,19 @@
 
 import re
 import subprocess
-from pathlib import Path
 
 import pytest
 from conftest import ROOT, project_files
 
 from scripts.config.read_config import read
+from scripts.results.programs import RUNS
 
 SCRIPTS = [
-    "reproduce",
-    "test",
-    "setup/setup.sh",
-    ".ci/run",
-    "benchmarks/run",
-    "compilers/run",
+    *("reproduce", "test", "setup/setup.sh", ".ci/run", "benchmarks/run", "compilers/run"),
     "docs/draw",
 ]
-LOCKS = {
-    **{".": 10, "setup": 0, "benchmarks": 2, "docs": 0, "tests/browser": 1, "tests/formats": 0},
-    "profiles/slurm": 0,
-}
-"""Folders with a lock of Python packages, and more than how many of them are named by hand."""
+LOCKS = [*(".", "setup", "benchmarks", "docs", "tests/browser", "tests/formats", "profiles/slurm")]
+"""Folders with a lock of Python packages."""
 
 
 def run(*command: str, **options) -> subprocess.CompletedProcess[str]:
@@ -48,50 +40,15 @@ def test_shell_script_is_sound(script):
     assert "set -euo pipefail" in text or "\nexec " in text
 
 
-def test_container_runs_what_the_project_has():
-    """The base has a version; every program and folder that a step names is there."""
-    steps = (ROOT / "containers" / "Containerfile").read_text().replace("\\\n", " ")
-    images = re.findall(r"^FROM (\S+)", steps, re.MULTILINE)
-    assert re.match(r"docker\.io/library/debian:\d+\.\d+-slim@", images[0])
-    assert set(images[1:]) == {"base"}
-    assert re.findall(r'^CMD \["(.*)"\]', steps, re.MULTILINE) == ["./test", "./reproduce"]
-    folders = re.findall(r"setup/setup\.sh (?!&)(\S+)", steps)
-    assert folders
-    assert [folder for folder in folders if not (ROOT / folder).is_dir()] == []
-
-
-def test_container_leaves_out_what_git_ignores():
-    """By the last part of each path."""
-
-    def names_in(file: str) -> set[str]:
-        lines = (ROOT / file).read_text().splitlines()
-        return {Path(line).name for line in lines if line and not line.startswith("#")}
-
-    assert names_in(".gitignore") == names_in(".dockerignore")
-
-
-@pytest.mark.parametrize("folder", LOCKS)
-def test_every_locked_package_has_version_and_hash(folder):
-    """Nothing but `name==version` with sha256 hashes."""
-    packages = locked_packages(folder)
-    assert len(packages) > {".": 30, "setup": 0}.get(folder, 5)
-    line = re.compile(r"[a-zA-Z0-9._-]+==\S+( ; [^;]+?)?( +--hash=sha256:[0-9a-f]{64})+ *")
-    assert [package for package in packages if not line.fullmatch(package)] == []
-
-
 @pytest.mark.parametrize("folder", LOCKS)
 def test_lock_holds_every_required_package(folder):
-    """What requirements.in names is locked."""
+    """With version and hashes; it names no address, which is the user's business."""
+    packages = locked_packages(folder)
+    line = re.compile(r"[a-zA-Z0-9._-]+==\S+( ; [^;]+?)?( +--hash=sha256:[0-9a-f]{64})+ *")
+    assert [package for package in packages if not line.fullmatch(package)] == []
     text = (ROOT / folder / "requirements.in").read_text()
     wanted = {name.lower() for name in re.findall(r"^([a-zA-Z][\w.-]*)", text, re.MULTILINE)}
-    locked = {package.split("==")[0].lower() for package in locked_packages(folder)}
-    assert len(wanted) > LOCKS[folder]
-    assert wanted <= locked
-
-
-@pytest.mark.parametrize("folder", LOCKS)
-def test_lock_names_no_address(folder):
-    """Where packages come from is the user's business."""
+    assert set() < wanted <= {package.split("==")[0].lower() for package in packages}
     text = (ROOT / folder / "requirements.lock").read_text()
     assert not re.search(r"://|index-url|find-links|trusted-host", text)
 
@@ -112,7 +69,6 @@ def test_lock_of_the_profile_agrees_with_the_main_one():
 
 
 def test_no_file_names_a_package_index():
-    """Nor does any other file."""
     address = re.compile(
         r"(?<!no-emit)-index-url|find-links|trusted-host|PIP_INDEX|UV_INDEX|/simple\b|^deb(-src)? ",
         re.MULTILINE,
@@ -123,18 +79,7 @@ def test_no_file_names_a_package_index():
     assert [name for name, text in texts.items() if address.search(text)] == []
 
 
-@pytest.mark.parametrize("folder", ["setup", "benchmarks", "tests/browser", "tests/slurm"])
-def test_apt_list_is_sorted_out(folder):
-    """One Debian package a line, none twice."""
-    text = (ROOT / folder / "apt-packages.txt").read_text()
-    packages = [line for line in re.sub(r"#.*", "", text).split("\n") if line.strip()]
-    assert len(packages) > (10 if folder == "setup" else 1)
-    assert len(packages) == len(set(packages))
-    assert all(re.fullmatch(r"[a-z0-9][a-z0-9+.-]+", package) for package in packages)
-
-
 def test_test_names_its_parts():
-    """An unknown part is refused before anything is set up."""
     result = run(str(ROOT / "test"), "nonsense")
     assert result.returncode == 2
     assert result.stdout == ""
@@ -145,35 +90,61 @@ def test_test_names_its_parts():
     )
 
 
-@pytest.mark.parametrize("option", ["--help", "-h"])
-def test_reproduce_says_how_it_is_used(option, tmp_path):
-    """From any folder, before anything is set up."""
-    result = run(str(ROOT / "reproduce"), option, cwd=tmp_path)
+def test_reproduce_says_how_it_is_used(tmp_path):
+    result = run(str(ROOT / "reproduce"), "--help", cwd=tmp_path)
     assert result.returncode == 0
     assert "./reproduce [FILE.yaml] [TARGET...]" in result.stdout
     assert "./test" in result.stdout
 
 
-def test_images_and_actions_are_named_by_digest():
-    """A tag may be moved to other contents."""
-    recipe = (ROOT / "containers" / "Containerfile").read_text()
-    images = re.findall(r"^FROM (\S*/\S+)", recipe, re.MULTILINE)
-    job = read(ROOT / ".github" / "workflows" / "ci.yml")["jobs"]["test"]
-    images += job["strategy"]["matrix"]["image"]
-    assert len(images) == 3
-    assert all(re.search("@sha256:[0-9a-f]{64}$", image) for image in images)
-    actions = [step["uses"] for step in job["steps"] if "uses" in step]
-    assert actions
-    assert all(re.search("@[0-9a-f]{40}$", action) for action in actions)
-
-
 def test_continuous_integration_calls_the_tests():
-    """And nothing else; the hosted one does so in a container of each Debian that is supported."""
+    """And nothing else, in a container of each Debian that is supported. Images and actions are
+    named by digest: a tag may be moved to other contents."""
     job = read(ROOT / ".github" / "workflows" / "ci.yml")["jobs"]["test"]
     images = job["strategy"]["matrix"]["image"]
     assert [re.match(r"debian:(\d+)", image)[1] for image in images] == ["12", "13"]
+    recipe = (ROOT / "containers" / "Containerfile").read_text()
+    for image in [*images, *re.findall(r"^FROM (\S*/\S+)", recipe, re.MULTILINE)]:
+        assert re.search("@sha256:[0-9a-f]{64}$", image)
+    actions = [step["uses"] for step in job["steps"] if "uses" in step]
+    assert actions
+    assert all(re.search("@[0-9a-f]{40}$", action) for action in actions)
     assert {".ci/run", "./test long"} <= {step.get("run") for step in job["steps"]}
     lines = (ROOT / ".ci" / "run").read_text().splitlines()
     assert [line for line in lines if line and not line.startswith("#")] == [
         'exec "$(dirname "$(readlink -f "$0")")/../test"'
     ]
+
+
+NUMBERS = {"threads"}
+"""Names in braces whose values Snakemake itself makes, without characters of a shell."""
+COMMANDS = [
+    (path.name, command)
+    for path in [ROOT / "Snakefile", *sorted((ROOT / "rules").glob("*.smk"))]
+    for command in re.findall(r"^ +shell:\n((?: {8,}.*\n)+)", path.read_text(), re.MULTILINE)
+]
+"""Each command with the file of its rule."""
+
+
+def unquoted(command: str) -> set[str]:
+    """Names in braces without `:q`; doubled braces are for the shell."""
+    names = re.findall(r"\{([^{}]*)\}", re.sub(r"\{\{|\}\}", "", command))
+    return {name for name in names if not name.endswith(":q")} - NUMBERS
+
+
+def test_every_command_is_found():
+    texts = [path.read_text() for path in [ROOT / "Snakefile", *(ROOT / "rules").glob("*.smk")]]
+    assert len(COMMANDS) == len(re.findall(r"\bshell\b\s*[:(]", "".join(texts))) > 2
+
+
+@pytest.mark.parametrize(("file", "command"), COMMANDS)
+def test_command_quotes_paths_and_texts(file, command):
+    """A folder may hold spaces, a file what a shell would run."""
+    assert unquoted(command) == set()
+
+
+def test_jobs_of_the_cluster_ask_for_memory_and_time():
+    """Every rule that takes minutes, and no other rule."""
+    resources = read(ROOT / "profiles" / "slurm" / "config.yaml")["set-resources"]
+    assert set(resources) == {run.rule for run in RUNS if run.takes_minutes}
+    assert all(set(values) == {"mem_mb", "runtime"} for values in resources.values())

@@ -12,6 +12,11 @@ from pathlib import Path
 import pytest
 from conftest import ROOT, write_script
 
+NOBODY = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
+"""Another user than root."""
+if os.geteuid() != 0:
+    NOBODY = []
+
 
 @pytest.fixture
 def bare() -> Iterator[Path]:
@@ -41,7 +46,6 @@ def set_up_in(
 
 
 def debian_packages(folder: str = "setup") -> list[str]:
-    """Packages that the set-up wants, sorted."""
     text = (ROOT / folder / "apt-packages.txt").read_text()
     return sorted({line for line in text.split("\n") if line and not line.startswith("#")})
 
@@ -55,41 +59,17 @@ def made_from(folder: Path) -> str:
 
 
 def pretend_installed(folder: Path, packages: list[str]) -> None:
-    """Let dpkg-query list these."""
     (folder / "installed").write_text("".join(f"{package} installed\n" for package in packages))
 
 
 def test_missing_packages_without_root_are_asked_for(bare):
-    """One line to copy, exit status 1, and nothing made."""
     wanted = debian_packages()
     pretend_installed(bare, [name for name in wanted if name not in ("cmake", "gfortran")])
     write_script(bare / "bin" / "sudo", "exit 1")
-    nobody = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
-    run = set_up_in(bare, *(nobody if os.geteuid() == 0 else []))
+    run = set_up_in(bare, *NOBODY)
     assert run.returncode == 1
     assert "sudo apt-get install -y --no-install-recommends cmake gfortran\n" in run.stderr
     assert not (bare / ".venv").exists()
-
-
-@pytest.mark.parametrize(
-    ("part", "missing"),
-    [("compilers/bookworm", ["flang-19", "gfortran-11"]), ("tests/slurm", ["munge", "slurmd"])],
-)
-def test_packages_of_parts_are_named(bare, part, missing):
-    """One line to copy; once they are there the part needs no Python packages of its own."""
-    (bare / part).mkdir(parents=True)
-    shutil.copy(ROOT / part / "apt-packages.txt", bare / part)
-    wanted = debian_packages(part)
-    assert set(missing) <= set(wanted)
-    pretend_installed(bare, [name for name in wanted if name not in missing])
-    write_script(bare / "bin" / "apt-get", "exit 1")
-    run = set_up_in(bare, part=(part,))
-    assert run.returncode == 1
-    assert f"--no-install-recommends {' '.join(missing)}\n" in run.stderr
-    pretend_installed(bare, wanted)
-    run = set_up_in(bare, part=(part,))
-    assert (run.returncode, run.stderr) == (0, "")
-    assert not (bare / part / ".venv").exists()
 
 
 def test_each_compiler_has_a_preset():
@@ -135,11 +115,9 @@ def test_folder_in_which_nothing_can_be_built_is_refused(tmp_path, character):
 
 
 def test_read_only_folder_is_told(bare):
-    """Before anything is installed."""
     pretend_installed(bare, debian_packages())
     bare.chmod(0o555)
-    nobody = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
-    run = set_up_in(bare, *(nobody if os.geteuid() == 0 else []))
+    run = set_up_in(bare, *NOBODY)
     bare.chmod(0o755)
     assert run.returncode == 1
     (line,) = run.stderr.splitlines()
@@ -149,9 +127,11 @@ def test_read_only_folder_is_told(bare):
 
 
 def test_only_missing_packages_are_installed(bare):
-    """As root or with sudo, without what is only recommended."""
+    """As root or with sudo, without what is only recommended; a half-installed one is missing."""
     wanted = debian_packages()
     pretend_installed(bare, [name for name in wanted if name not in ("cmake", "gfortran")])
+    with open(bare / "installed", "a") as listed:
+        listed.write("cmake half-configured\n")
     write_script(bare / "bin" / "apt-get", f'echo "$*" >>"{bare}/calls"; [[ $1 == update ]]')
     run = set_up_in(bare)
     assert run.returncode == 1
@@ -160,18 +140,6 @@ def test_only_missing_packages_are_installed(bare):
     assert "--no-install-recommends" in install
     assert install.endswith(" cmake gfortran")
     assert "sudo apt-get install -y --no-install-recommends cmake gfortran\n" in run.stderr
-
-
-def test_half_installed_package_counts_as_missing(bare):
-    """dpkg knows it, but not as installed."""
-    wanted = debian_packages()
-    pretend_installed(bare, [name for name in wanted if name != "cmake"])
-    with open(bare / "installed", "a") as listed:
-        listed.write("cmake half-configured\n")
-    write_script(bare / "bin" / "apt-get", "exit 1")
-    run = set_up_in(bare)
-    assert run.returncode == 1
-    assert "--no-install-recommends cmake\n" in run.stderr
 
 
 def test_set_up_that_is_complete_does_nothing(bare):

@@ -2,21 +2,10 @@
 
 import numpy as np
 import pytest
-import xarray as xr
-from figure_contents import title_of
-from made_up_results import slip_events
 from scipy.integrate import solve_ivp
-
-from scripts.figures import events
 
 ENDS = {"t_end": 300.0, "t_transient": 100.0}
 FINE = 0.005
-
-
-def named(scene: str, **values) -> xr.Dataset:
-    """Made-up events with the attributes of a file."""
-    attributes = {"scene": scene, "tau": 7.0, "epsilon": 0.7, "xi": 0.5, "gamma": 0.8}
-    return slip_events(**values).assign_attrs(attributes)
 
 
 def test_events_are_those_of_the_trajectory(programs, good_inputs, smoke_config):
@@ -85,42 +74,3 @@ def test_stuck_block_is_that_of_another_solver(programs, good_inputs):
     assert found.sizes["event"] > 3
     np.testing.assert_allclose(found.recurrence_time, recurrence_time, rtol=1e-8)
     np.testing.assert_allclose(found.least_velocity, least_velocity, rtol=1e-5)
-
-
-def test_figure_shows_each_scene():
-    """A row each, with its number of events; slips on one scale for all."""
-    rows = {
-        "a": named("oscillation"),
-        "b": named(
-            "chaos", slip=np.linspace(0.2, 30.0, 500), recurrence_time=np.arange(1.0, 501.0)
-        ),
-    }
-    figure = events.draw(list(rows.values()), list(rows))
-    grid = np.reshape(figure.axes, (2, 3))
-    assert "scene oscillation" in title_of(grid[0, 0])
-    assert "500 events" in title_of(grid[1, 0])
-    assert grid[0, 2].get_xlim() == grid[1, 2].get_xlim()
-    ((times,), (bars,)) = ([*grid[1, 0].lines], [*grid[1, 1].containers])
-    assert times.get_ydata()[:3].tolist() == [1.0, 2.0, 3.0]
-    assert sum(bar.get_height() for bar in bars) == pytest.approx(1.0)
-    assert times.get_xdata()[-1] == events.EVENTS_SHOWN < 500
-    assert [axes.get_xlabel() for axes in grid[1]] == [
-        f"number of the event, up to {events.EVENTS_SHOWN}",
-        "recurrence time (units of $L/v_0$)",
-        "slip $s$ (units of $L$)",
-    ]
-
-
-def test_share_of_larger_events_is_drawn():
-    """All events have at least the smallest slip, one in four at least the largest of four."""
-    figure = events.draw([named("chaos", slip=np.array([4.0, 1.0, 2.0, 8.0]))], ["a"])
-    (line,) = figure.axes[2].lines
-    drawn = dict(zip(line.get_xdata()[1:], line.get_ydata()[1:], strict=True))
-    assert drawn == {1.0: 1.0, 2.0: 0.75, 4.0: 0.5, 8.0: 0.25}
-
-
-def test_scene_without_events_is_said():
-    """A row with its title and no data."""
-    figure = events.draw([named("fixed_point", slip=np.array([]))], ["a"])
-    assert "0 events" in title_of(figure.axes[0])
-    assert not any(axes.lines for axes in figure.axes)

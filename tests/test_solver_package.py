@@ -22,7 +22,6 @@ def run(*command, **settings) -> str:
 
 
 def largest_error(printed: str) -> float:
-    """As the outside project prints it."""
     return float(re.search(r"largest error +(\S+)", printed)[1])
 
 
@@ -53,7 +52,6 @@ def test_cmake_finds_it(installed, tmp_path):
 
 
 def compiler_flags(prefix: Path) -> str:
-    """Those that pkg-config gives."""
     [folder] = [path.parent for path in prefix.rglob("dde.pc")]
     environment = {**os.environ, "PKG_CONFIG_PATH": str(folder)}
     return run("pkg-config", "--cflags", "--libs", "dde", env=environment)

@@ -4,22 +4,16 @@ import math
 
 import numpy as np
 import pytest
-from matplotlib import pyplot as plt
 
-from scripts.drawing.style import STYLE
-from scripts.figures import stability, work_precision
-from scripts.files.tsv import as_digits, read_table, write_table
+from scripts.files.tsv import read_table, write_table
 from scripts.namelists.program_groups import case_groups, work_precision_groups
 from scripts.namelists.study_cases import cases_of_family
 from scripts.namelists.write_namelist import end_at_horizons
-from scripts.tables import stability_table
 from scripts.tables.accuracy import (
     Reference,
     distances,
     errors_of,
     largest,
-    read_references,
-    read_runs,
 )
 from scripts.tables.trusted_horizons import horizon, row_of
 from scripts.tables.work_precision_table import proportionality
@@ -29,14 +23,12 @@ TABLES = ["stability", "work-precision", "tolerance-proportionality"]
 
 @pytest.fixture(scope="module")
 def tables(smoke) -> dict[str, list[dict]]:
-    """Tables of the smoke run."""
     folder = smoke.folder / "results" / "tables"
     return {name: read_table(folder / f"{name}.tsv") for name in TABLES}
 
 
 @pytest.fixture
 def reference() -> Reference:
-    """A made-up case of five samples."""
     time = np.arange(5.0)
     uncertainty = np.full(5, 1e-17)
     return Reference(
@@ -49,7 +41,6 @@ def reference() -> Reference:
 
 
 def made_up_run(errors: list[float]) -> dict:
-    """A run off zero by these errors."""
     state = np.zeros((3, len(errors)))
     state[1] = errors
     time = np.arange(float(len(errors)))
@@ -57,7 +48,6 @@ def made_up_run(errors: list[float]) -> dict:
 
 
 def test_table_is_read_as_written(tmp_path):
-    """Words, numbers, and no number."""
     rows = [{"a": "word", "b": 1.5e-9, "c": math.nan}, {"a": "two words", "b": 3.0, "c": 0.0}]
     write_table(tmp_path / "table.tsv", rows)
     assert (tmp_path / "table.tsv").read_text() == "a\tb\tc\nword\t1.5e-09\t\ntwo words\t3\t0\n"
@@ -65,14 +55,6 @@ def test_table_is_read_as_written(tmp_path):
     assert read[0]["b"] == 1.5e-9
     assert math.isnan(read[0]["c"])
     assert read[1] == {"a": "two words", "b": 3.0, "c": 0.0}
-
-
-def test_cell_has_the_digits_that_matter(tmp_path):
-    """Rounding errors are 0 unless all values matter; what a row lacks is an empty cell."""
-    assert [as_digits(value, 3) for value in (1 / 3, 2e-13, math.nan)] == ["0.333", "0", ""]
-    assert as_digits(2.04e-13, 2, zero=0) == "2e-13"
-    write_table(tmp_path / "table.tsv", [{"b": 1}], ["a", "b"])
-    assert (tmp_path / "table.tsv").read_text() == "a\tb\n\t1\n"
 
 
 def test_family_is_all_combinations():
@@ -107,11 +89,7 @@ def test_samples_at_other_times_are_refused(reference):
 
 @pytest.mark.parametrize(
     ("errors", "sample"),
-    [
-        ([0.0, 1e-12, 1e-9, 0.0, 0.0], 1),
-        ([0.0, 1e-12, np.nan, 0.0, 0.0], 1),
-        ([0.0] * 5, 4),
-    ],
+    [([0.0, 1e-12, 1e-9, 0.0, 0.0], 1), ([0.0, 1e-12, np.nan, 0.0, 0.0], 1), ([0.0] * 5, 4)],
 )
 def test_horizon_is_where_trust_ends(reference, errors, sample):
     """The last sample before the first error that is too large, or the end."""
@@ -119,7 +97,6 @@ def test_horizon_is_where_trust_ends(reference, errors, sample):
 
 
 def test_uncertain_reference_ends_trust_too(reference):
-    """A run cannot be compared with it."""
     reference.uncertainty[3] = 1e-9
     assert horizon(made_up_run([0.0] * 5), reference, 1e-10) == 2
 
@@ -133,7 +110,6 @@ def test_row_of_a_horizon(reference):
 
 
 def test_measured_runs_end_at_the_horizon(smoke_config):
-    """As the table says for the scene."""
     rows = [{"scene": "torus", "horizon": 17.0}, {"scene": "chaos", "horizon": 8.0}]
     groups = end_at_horizons(work_precision_groups(smoke_config, "chaos"), rows)
     assert [case["t_end"] for case in groups["cases"]] == [8.0]
@@ -178,77 +154,3 @@ def test_errors_fall_with_the_tolerance(tables, smoke_config):
         if row["scene"] in ("oscillation", "torus"):
             order = {"rk4_linear": 2.0, "rk4_cubic": 4.0}.get(row["solver"], 1.0)
             assert row["slope"] == pytest.approx(order, rel=0.35)
-
-
-def test_references_are_beside_their_runs(smoke):
-    """Every run of a family has a reference at its times, which is far more accurate."""
-    results = smoke.folder / "results"
-    references = read_references([results / "references" / "stability" / "grid_fast.tsv"])
-    runs = read_runs(results / "measurements" / "stability" / "grid_fast.nc")
-    assert {run["case"] for run in runs} == set(references)
-    for run in runs:
-        row = stability_table.row_of("grid_fast", "quadruple", run, references[run["case"]])
-        assert row["reference_uncertainty"] < 1e-12 or row["status"] != "ok"
-
-
-def test_stationary_reference(tables):
-    """A case that has decayed is at rest to rounding or to tolerance."""
-    rows = [row for row in tables["stability"] if row["family"] == "long_decay"]
-    assert rows
-    assert all(row["error"] < 1e-8 and row["reference_status"] == "exact" for row in rows)
-
-
-@pytest.fixture
-def style():
-    """The style of the figures."""
-    with plt.style.context(STYLE):
-        yield
-    plt.close("all")
-
-
-def test_stability_figure(tables, style):
-    """Two maps of the grid and all cases below."""
-    figure = stability.draw(tables["stability"])
-    figure.canvas.draw()
-    titles = [axes.get_title(loc="left") for axes in figure.axes[:3]]
-    words = ["auto", "explicit", "all cases with a reference"]
-    assert [title.split("  ")[1] for title in titles] == [
-        f"{word}, tolerance $10^{{-9}}$" for word in words
-    ]
-    frequencies = [label.get_text() for label in figure.axes[0].get_yticklabels()]
-    assert frequencies == [
-        "$0.01$",
-        "$0.8$",
-        "$100$",
-        *(f"$10^{{{k}}}$" for k in (4, 6, 8, 10, 12)),
-    ]
-    crosses = [line for line in figure.axes[1].get_lines() if line.get_marker() == "x"]
-    ended = [
-        row
-        for row in tables["stability"]
-        if row["method"] == "explicit" and row["family"].startswith("grid_")
-        if row["status"] != "ok"
-    ]
-    assert len(crosses) == len(ended) > 5
-
-
-def test_work_precision_figure(tables, style):
-    """A panel a scene; over it the other solvers, where their runs are as long, and their date."""
-    rows = tables["work-precision"]
-    t_end = next(row["t_end"] for row in rows if row["scene"] == "torus")
-    other = {"scene": "torus", "solver": "other", "version": 1.5, "t_end": t_end, "seconds": 0.1}
-    other |= {"tolerance": 1e-6, "error_max": 1e-5}
-    others = [other, {**other, "solver": "ours"}, {**other, "t_end": t_end + 1, "seconds": 0.2}]
-    figure = work_precision.draw(rows, others, "2026-11-22")
-    figure.canvas.draw()
-    scenes = list(dict.fromkeys(row["scene"] for row in rows))
-    titles = [axes.get_title(loc="left").split(",")[0] for axes in figure.axes]
-    assert titles == [scene.replace("_", " ") for scene in scenes]
-    words = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert {"auto", "rk4 cubic", "other 1.5"} <= set(words)
-    assert not any("ours" in word for word in words)
-    assert "measured on 2026-11-22" in figure.legends[0].get_title().get_text()
-    drawn = {line.get_label(): line for line in figure.axes[scenes.index("torus")].get_lines()}
-    assert drawn["other 1.5"].get_xdata().tolist() == [0.1]
-    looks = [(line.get_color(), line.get_linestyle(), line.get_marker()) for line in drawn.values()]
-    assert len(set(looks)) == len(looks)

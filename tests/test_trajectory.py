@@ -72,7 +72,6 @@ def test_delays_of_any_length_agree_with_scipy(programs, scene, tau):
 
 
 def test_history_of_all_variables_is_taken(programs, scene):
-    """A start far from steady sliding."""
     scene["history"] = {"theta": 0.3, "u": -0.2, "v": 0.7}
     trajectory = programs.made_by("trajectory", scene)
     assert [float(trajectory[name][0]) for name in VARIABLES] == [0.3, -0.2, 0.7]
@@ -93,8 +92,7 @@ def test_maxima_of_fast_events_are_stored(programs, good_inputs, scene):
 
 
 @pytest.mark.parametrize(
-    ("gamma", "epsilon", "tau"),
-    [(1.5, 10.0, 0.1), (1e4, 3.0, 0.1), (1e6, 3.0, 0.0), (1e6, 0.9, 9.0), (1e10, 3.0, 0.0)],
+    ("gamma", "epsilon", "tau"), [(1.5, 10.0, 0.1), (1e6, 0.9, 9.0), (1e10, 3.0, 0.0)]
 )
 def test_samples_follow_the_motion(programs, scene, gamma, epsilon, tau):
     """Between two of them v changes by a small part of its range, and even times are among them."""
@@ -117,19 +115,6 @@ def test_steady_sliding_stays_exactly(programs, scene, tau):
     assert all((trajectory[name] == value).all() for name, value in scene["history"].items())
 
 
-def test_file_has_one_coordinate_and_the_variables(programs, scene):
-    """Dimension and coordinate `t`, everything nondimensional and named."""
-    trajectory = programs.made_by("trajectory", scene)
-    assert dict(trajectory.sizes) == {"t": 121}
-    assert list(trajectory.coords) == ["t"]
-    assert list(trajectory.data_vars) == VARIABLES
-    for variable in trajectory.variables.values():
-        assert variable.dims == ("t",)
-        assert variable.dtype == np.float64
-        assert variable.attrs["units"] == "1"
-        assert variable.attrs["long_name"]
-
-
 def test_attributes_tell_where_the_numbers_come_from(programs, scene):
     """All scene parameters, the method, its work, the program and the compiler."""
     scene |= {"tau": 9.5, "epsilon": 0.45, "xi": 0.85, "gamma": 0.75, "tolerance": 3e-8}
@@ -149,18 +134,7 @@ def test_attributes_tell_where_the_numbers_come_from(programs, scene):
 
 @pytest.mark.parametrize(
     ("t_end", "interval", "samples"),
-    [
-        (30.0, 0.25, 121),
-        (30.1, 0.25, 121),
-        (29.99, 0.25, 120),
-        (0.3, 0.1, 4),
-        (0.7, 0.1, 8),
-        (8.0, 8.0, 2),
-        (8.0, 5.0, 2),
-        (819.1, 0.1, 8192),
-        (819.2, 0.1, 8193),
-        (1638.4, 0.1, 16385),
-    ],
+    [(30.1, 0.25, 121), (29.99, 0.25, 120), (0.7, 0.1, 8), (8.0, 8.0, 2), (819.2, 0.1, 8193)],
 )
 def test_time_axis_counts_from_zero(programs, scene, t_end, interval, samples):
     """0, dt, 2 dt, ... up to t_end, also where it is no multiple of dt or blocks are full."""
@@ -171,17 +145,11 @@ def test_time_axis_counts_from_zero(programs, scene, t_end, interval, samples):
     np.testing.assert_allclose(t, interval * np.arange(samples), rtol=1e-15, atol=0)
 
 
-def test_sampling_does_not_change_the_numbers(programs, scene):
-    """Coarse samples are the fine ones left out, to the last bit."""
+@pytest.mark.parametrize("variables", [["v"], ["v", "theta"]])
+def test_what_is_stored_does_not_change_the_numbers(programs, scene, variables):
+    """Coarse samples of some variables are those of a run that stores all, to the last bit."""
     fine = programs.made_by("trajectory", {**scene, "sample_interval": 0.125})
-    coarse = programs.made_by("trajectory", {**scene, "sample_interval": 1.0})
-    xr.testing.assert_equal(coarse, fine.sel(t=coarse.t))
-
-
-@pytest.mark.parametrize("variables", [["v"], ["v", "theta"], ["u"], ["u", "v", "theta"]])
-def test_only_listed_variables_are_stored(programs, scene, variables):
-    """With the values of a run that stores all, to the last bit."""
-    everything = programs.made_by("trajectory", scene)
-    some = programs.made_by("trajectory", {**scene, "variables": variables})
+    coarse = {**scene, "sample_interval": 1.0, "variables": variables}
+    some = programs.made_by("trajectory", coarse)
     assert list(some.data_vars) == variables
-    xr.testing.assert_equal(some, everything[variables])
+    xr.testing.assert_equal(some, fine[variables].sel(t=some.t))

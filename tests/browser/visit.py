@@ -1,9 +1,8 @@
 """Open the page in a headless Chromium and print, as JSON, what a reader would meet.
 
-visit.py PAGE FOLDER    the page's index.html, and where the screenshots go
+visit.py PAGE    the page's index.html
 """
 
-import base64
 import json
 import sys
 from pathlib import Path
@@ -19,28 +18,13 @@ SCHEMES = ["light", "dark"]
 FACTS = """
 return {
   lang: document.documentElement.lang,
-  title: document.title,
-  headings: [...document.querySelectorAll("h1,h2,h3,h4,h5,h6")].map((h) => Number(h.tagName[1])),
   images: [...document.images].map((i) => ({ src: i.src, alt: i.alt, width: i.naturalWidth })),
-  links: [...document.querySelectorAll("a")].map((a) => a.href),
 };
 """
 
 
 DRAWN = "const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(done))"
 """Waits until what follows an event or the size of the window has been drawn."""
-FIRST = "return document.querySelector('.answer img')?.getBoundingClientRect().right"
-"""The right end of the figure of the findings."""
-SCALES = "return [...document.images].map((i) => i.clientWidth / i.naturalWidth)"
-"""Of images, against the size that they are drawn for."""
-
-INDICES = """
-return [...document.querySelectorAll("msub")].filter((m) => m.checkVisibility()).map((m) => {
-  const [base, index] = [...m.children].map((part) => part.getBoundingClientRect().bottom);
-  return (index - base) / parseFloat(getComputedStyle(m).fontSize);
-});
-"""
-"""How far the index of each variable in a formula ends below it, in letter heights."""
 
 
 def browser() -> Chrome:
@@ -64,14 +48,6 @@ def emulate(chrome: Chrome, width: int, **media: str) -> None:
     }
     chrome.execute_cdp_cmd("Emulation.setEmulatedMedia", wishes)
     chrome.execute_async_script(DRAWN)
-
-
-def photograph(chrome: Chrome, path: Path) -> None:
-    """The whole page, from its top, not only what the window shows."""
-    chrome.execute_script("window.scrollTo(0, 0)")
-    wanted = {"captureBeyondViewport": True, "format": "png", "optimizeForSpeed": True}
-    picture = chrome.execute_cdp_cmd("Page.captureScreenshot", wanted)["data"]
-    path.write_bytes(base64.b64decode(picture))
 
 
 def too_wide(chrome: Chrome) -> int:
@@ -130,7 +106,6 @@ def of_trajectories(chrome: Chrome) -> dict | None:
 
 
 def axis_labels(plot) -> list[str]:
-    """Numbers along the time axis."""
     labels = plot.find_elements(By.CSS_SELECTOR, ".dygraph-axis-label-x")
     return [label.get_attribute("textContent") for label in labels]
 
@@ -199,25 +174,7 @@ def of_claims(chrome: Chrome) -> dict:
     return met
 
 
-def reading(chrome: Chrome) -> list[dict]:
-    """Headings and images in the order in which a screen reader meets them, with their places."""
-    chrome.execute_cdp_cmd("DOM.enable", {})
-    nodes = chrome.execute_cdp_cmd("Accessibility.getFullAXTree", {})["nodes"]
-    by_id = {node["nodeId"]: node for node in nodes}
-    waiting, met = [nodes[0]], []
-    while waiting:
-        node = waiting.pop()
-        waiting += [by_id[child] for child in reversed(node.get("childIds", [])) if child in by_id]
-        role = node.get("role", {}).get("value")
-        if role in ("heading", "image") and not node["ignored"]:
-            wanted = {"backendNodeId": node["backendDOMNodeId"]}
-            box = chrome.execute_cdp_cmd("DOM.getBoxModel", wanted)["model"]["border"]
-            met.append({"role": role, "name": node["name"]["value"], "top": box[1]})
-    return met
-
-
 def network(chrome: Chrome) -> dict:
-    """Addresses asked for, and requests that failed."""
     events = [json.loads(entry["message"])["message"] for entry in chrome.get_log("performance")]
     asked = [e["params"] for e in events if e["method"] == "Network.requestWillBeSent"]
     failed = [e["params"] for e in events if e["method"] == "Network.loadingFailed"]
@@ -227,7 +184,7 @@ def network(chrome: Chrome) -> dict:
     }
 
 
-def visit(chrome: Chrome, page: Path, folder: Path) -> dict:
+def visit(chrome: Chrome, page: Path) -> dict:
     """All that is looked at, in an order in which no look disturbs the next."""
     emulate(chrome, WIDTHS[-1])
     chrome.get(page.resolve().as_uri())
@@ -244,15 +201,9 @@ def visit(chrome: Chrome, page: Path, folder: Path) -> dict:
         for width in WIDTHS:
             emulate(chrome, width, scheme=scheme)
             seen["too_wide"][f"{scheme} {width}"] = too_wide(chrome)
-            photograph(chrome, folder / f"{scheme}-{width}.png")
-            if width == WIDTHS[0]:
-                seen |= {"reading": reading(chrome), "scales": chrome.execute_script(SCALES)}
-                seen |= {"first_figure_ends": chrome.execute_script(FIRST)}
-                seen |= {"indices": chrome.execute_script(INDICES)}
         seen["axe"][scheme] = violations(chrome, scheme)
     emulate(chrome, 700, media="print")
     seen["too_wide"]["print"] = too_wide(chrome)
-    photograph(chrome, folder / "print.png")
     messages = [entry["message"] for entry in chrome.get_log("browser")]
     return {**seen, "console": messages, **network(chrome)}
 
@@ -260,6 +211,6 @@ def visit(chrome: Chrome, page: Path, folder: Path) -> dict:
 if __name__ == "__main__":
     window = browser()
     try:
-        print(json.dumps(visit(window, Path(sys.argv[1]), Path(sys.argv[2]))))
+        print(json.dumps(visit(window, Path(sys.argv[1]))))
     finally:
         window.quit()

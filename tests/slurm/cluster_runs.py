@@ -12,18 +12,40 @@ import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import psutil
 import pytest
 from conftest import Project, copy_of_project, rules_in
-from job_watch import GONE, Program, running_program
-from slurm_cluster import Cluster, until
+from slurm_cluster import Cluster
 
 SHORT_PARTS = ("--configfile", "config/smoke.yaml", "tests/slurm/short_parts.yaml")
 ATLAS = "results/tables/atlas.tsv"
 PARTS = [f"results/attractors/atlas/xi_05/{part:04}.nc" for part in range(1, 5)]
 PART = r"results/attractors/atlas/\w+/000[1-4].nc"
 PATIENCE = 300.0
+
+
+GONE = (psutil.NoSuchProcess, psutil.AccessDenied, psutil.ZombieProcess)
+
+
+class Program(NamedTuple):
+    """A program that works in a job."""
+
+    process: psutil.Process
+    job: str
+    namelist: str
+
+
+def running_program(folder: Path, besides: str = "") -> Program | None:
+    """One that works now in the folder, on another namelist than `besides`."""
+    for process in psutil.process_iter():
+        with contextlib.suppress(*GONE):
+            words, job = process.cmdline(), process.environ().get("SLURM_JOB_ID")
+            here = words and job and process.cwd() == str(folder)
+            if here and words[0].startswith("build/release/bin/") and words[1] != besides:
+                return Program(process, job, words[1])
+    return None
 
 
 @pytest.fixture(scope="module")
@@ -88,18 +110,15 @@ def started(cluster: Cluster, project: Project, *arguments: str) -> SlurmRun:
 
 
 def run_on(cluster: Cluster, project: Project, *arguments: str) -> tuple[int, str]:
-    """Exit status and log of the workflow through Slurm."""
     with started(cluster, project, *arguments) as run:
         return run.result()
 
 
 def counted(log: str, rule: str) -> int:
-    """How many jobs of a rule a log tells of."""
     return len(re.findall(rf"^(?:local)?rule {rule}:", log, flags=re.MULTILINE))
 
 
 def result_of(namelist: str) -> str:
-    """What a program makes of a namelist."""
     return namelist.replace("namelists/", "", 1).replace(".nml", ".nc")
 
 
@@ -139,32 +158,3 @@ def test_killed_jobs_are_redone_and_nothing_else(cluster, built, tmp_path):
     assert ATLAS.removeprefix("results/") in outputs
     assert len(outputs.keys() - built.outputs().keys()) == 1 + 2 * len(again)
     assert project.outputs() == outputs
-
-
-def users_of(cluster: Cluster) -> list[psutil.Process]:
-    """Daemons and jobs of a cluster."""
-    configuration = cluster.environment["SLURM_CONF"]
-    found = []
-    for process in psutil.process_iter():
-        with contextlib.suppress(*GONE):
-            if process.environ().get("SLURM_CONF") == configuration:
-                found.append(process)
-    return found
-
-
-def failure_amid_a_job(cluster: Cluster) -> None:
-    """A test that fails while a job runs."""
-    with cluster:
-        cluster.command("sbatch", "--output=/dev/null", "--wrap", "sleep 600")
-        until(lambda: cluster.command("squeue", "-h", "-o", "%T") == "RUNNING\n", "start of a job")
-        assert {"munged", "slurmctld", "slurmd", "sleep"} <= {p.name() for p in users_of(cluster)}
-        raise RuntimeError("amid a job")
-
-
-def test_nothing_is_left_of_a_cluster_that_fails():
-    """Neither daemons nor the job that ran, nor a file."""
-    cluster = Cluster()
-    with pytest.raises(RuntimeError, match="amid a job"):
-        failure_amid_a_job(cluster)
-    assert users_of(cluster) == []
-    assert not cluster.folder.exists()

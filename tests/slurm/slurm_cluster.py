@@ -30,7 +30,6 @@ def free_ports(count: int) -> list[int]:
 
 
 def until(done, what: str) -> None:
-    """Wait until `done()`."""
     end = time.monotonic() + PATIENCE
     while not done():
         if time.monotonic() > end:
