@@ -19,7 +19,6 @@ module test_dde_large
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_large(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
