@@ -217,10 +217,7 @@ contains
    !> nothing is known of those.
    pure logical function never_at_level(self, least, most, least_slope, most_slope) result(value)
       class(event_table), intent(in) :: self
-      !> Bounds of each component, shape (n)
-      real(wp), intent(in) :: least(:), most(:)
-      !> Bounds of its time derivative, shape (n)
-      real(wp), intent(in) :: least_slope(:), most_slope(:)
+      real(wp), intent(in) :: least(:), most(:), least_slope(:), most_slope(:)
       type(event_table) :: plain
 
       value = same_type_as(self, plain)

@@ -5,7 +5,7 @@ module test_dde_history
    use dde, only: integrate, integration_options, integration_result, out_of_memory
    use dde_cursor, only: cursor_type
    use dde_history, only: history_type
-   use dde_time, only: instant, instant_at, later
+   use dde_time, only: instant, later
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_between, expect_close, expect_failure
    use dde_kinds, only: wp
@@ -73,21 +73,21 @@ contains
       integer :: i
 
       problem = delayed([200.0_wp], [1])
-      past = history_type(problem, instant_at(0.0_wp))
+      past = history_type(problem, instant(0.0_wp))
       cursor = cursor_type(problem)
       do i = 0, 199
-         call past%append(instant_at(real(i, wp)), 1.0_wp, [0.0_wp], &
+         call past%append(instant(real(i, wp)), 1.0_wp, [0.0_wp], &
                           reshape([real(i, wp), 0.0_wp], [2, 1]), valid_for=1.0_wp)
       end do
       call expect_number(error, past, cursor, problem, 2.5_wp, 2.0_wp)
-      call past%forget(instant_at(100.5_wp))
+      call past%forget(instant(100.5_wp))
       call expect_number(error, past, cursor, problem, 2.5_wp, 100.0_wp)
       call expect_number(error, past, cursor, problem, 100.25_wp, 100.0_wp)
       call expect_number(error, past, cursor, problem, 101.5_wp, 101.0_wp)
       call expect_number(error, past, cursor, problem, 199.5_wp, 199.0_wp)
-      call past%forget(instant_at(150.0_wp))
+      call past%forget(instant(150.0_wp))
       call expect_number(error, past, cursor, problem, 2.5_wp, 150.0_wp)
-      call past%forget(instant_at(1000.0_wp))
+      call past%forget(instant(1000.0_wp))
       call expect_number(error, past, cursor, problem, 2.5_wp, 199.0_wp)
    end subroutine test_forget
 
@@ -99,14 +99,14 @@ contains
       real(wp) :: coefficient(0:12, 1), length, nodes(12), valid_for
       integer :: i
 
-      past = history_type(delayed([2.0_wp], [1]), instant_at(0.0_wp))
+      past = history_type(delayed([2.0_wp], [1]), instant(0.0_wp))
       nodes = 0.0_wp
       coefficient = 7.0_wp
       do i = 0, 63
-         call past%append(instant_at(real(i, wp)), 1.0_wp, nodes, coefficient, valid_for=1.0_wp)
-         call past%forget(instant_at(i + 1.0_wp))
+         call past%append(instant(real(i, wp)), 1.0_wp, nodes, coefficient, valid_for=1.0_wp)
+         call past%forget(instant(i + 1.0_wp))
       end do
-      call past%append(instant_at(64.0_wp), 1.0_wp, odd_nodes, reshape([3.0_wp, 4.0_wp], [2, 1]), &
+      call past%append(instant(64.0_wp), 1.0_wp, odd_nodes, reshape([3.0_wp, 4.0_wp], [2, 1]), &
                        valid_for=1.5_wp)
       call past%recall(past%newest, start, length, valid_for, nodes, coefficient)
       call expect_close(error, valid_for, 1.5_wp, 0.0_wp, "validity")
@@ -154,7 +154,7 @@ contains
       integer :: found, i, j, k
 
       problem = delayed(lag, [3, 1, 3])
-      now = instant_at(0.0_wp)
+      now = instant(0.0_wp)
       past = history_type(problem, now)
       cursor = cursor_type(problem)
       misfit = 0.0_wp
@@ -220,7 +220,7 @@ contains
       real(wp), intent(in) :: t, number
       real(wp) :: z(1, 1)
 
-      call cursor%set(problem, past, instant_at(t + problem%lag(1)), 0.1_wp)
+      call cursor%set(problem, past, instant(t + problem%lag(1)), 0.1_wp)
       call cursor%values(problem, past, [0.0_wp], z)
       call expect_close(error, z(:, 1), [number], 0.0_wp, "number of the step at t = "//text(t))
    end subroutine expect_number
