@@ -214,9 +214,8 @@ def with_procedures(source: str, *procedures: str) -> str:
 
 
 def test_first_program_of_the_manual(run_of):
-    """It is the example, and has the published values."""
-    source = blocks_of(MANUAL, "fortran")[0]
-    assert source == (ROOT / "fortran" / "dde" / "example" / "mackey_glass.f90").read_text()
+    """The example has the published values."""
+    source = (ROOT / "fortran" / "dde" / "example" / "mackey_glass.f90").read_text()
     values = dict(map(float, line.split()) for line in run_of(source))
     # as in fortran/dde/test/suites/test_dde_solutions.f90
     assert values[50.0] == pytest.approx(1.060954362898, abs=1e-8)
@@ -226,13 +225,13 @@ def test_first_program_of_the_manual(run_of):
 
 
 @pytest.mark.parametrize(
-    ("method", "added"), [("auto", ()), ("taylor", (2, 3)), ("radau9", (2, 3))]
+    ("method", "added"), [("auto", ()), ("taylor", (1, 2)), ("radau9", (1, 2))]
 )
 def test_second_program_of_the_manual(run_of, method, added):
     """Maxima of sin t, and its values after going on, to 100 x tolerance; also with the procedures
     that the manual adds."""
     blocks = blocks_of(MANUAL, "fortran")
-    source = blocks[1].replace('method="auto"', f'method="{method}"')
+    source = blocks[0].replace('method="auto"', f'method="{method}"')
     if added:
         source = with_procedures(source, *(blocks[i] for i in added))
     lines = run_of(source)
@@ -268,8 +267,8 @@ def test_disturbances_of_the_manual(run_of):
     """The equation is linear: with the solution's state and delayed value, a disturbance is the
     solution. The other is worked out by hand."""
     blocks = blocks_of(MANUAL, "fortran")
-    source = blocks[1].replace("dde_problem_type", "problem_with_tangents")
-    module = with_procedures(source, blocks[3], blocks[5]).partition("\nprogram mine")[0]
+    source = blocks[0].replace("dde_problem_type", "problem_with_tangents")
+    module = with_procedures(source, blocks[2], blocks[4]).partition("\nprogram mine")[0]
     y, same, ramp = (
         [float(n) for n in line.split()] for line in run_of(module + CALL_OF_TANGENT_SERIES)
     )
