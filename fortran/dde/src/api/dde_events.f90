@@ -231,11 +231,7 @@ contains
    !> Components or slopes, less their levels.
    pure subroutine less_level(self, t, y, slope, g)
       class(event_table), intent(in) :: self
-      !> Time, without influence
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(:)
-      !> Time derivative of the state
-      real(wp), intent(in) :: slope(:)
+      real(wp), intent(in) :: t, y(:), slope(:)
       real(wp), intent(out) :: g(:)
       integer :: i
 
@@ -253,9 +249,7 @@ contains
       class(event_table), intent(inout) :: self
       integer, intent(in) :: which
       type(instant), intent(in) :: t
-      real(wp), intent(in) :: y(:)
-      !> Time derivative of the state, not kept
-      real(wp), intent(in) :: slope(:)
+      real(wp), intent(in) :: y(:), slope(:)
 
       if (.not. allocated(self%time)) then
          allocate (self%time(first_rows), self%which(first_rows), self%y(size(y), first_rows))

@@ -138,7 +138,6 @@ contains
       type(instant), intent(in) :: finish
       type(integration_options), intent(in) :: options
       real(wp), intent(out) :: lacking
-      !> Where the earlier run ended
       type(continuation_type), intent(in) :: continuation
       character(len=8) :: method
       type(kink_type), allocatable :: kinks(:)
@@ -215,7 +214,6 @@ contains
    !> or two equal steps end there. On return the cursor is on the step.
    pure subroutine plan(self, longest, h, goal, landing)
       class(run_type), intent(inout) :: self
-      !> Longest step allowed
       real(wp), intent(in) :: longest
       real(wp), intent(out) :: h
       !> Number of the breaking point at which it should end
@@ -276,7 +274,6 @@ contains
    subroutine keep(self, options, continuation)
       class(run_type), intent(inout) :: self
       type(integration_options), intent(in) :: options
-      !> What is kept
       type(continuation_type), intent(out) :: continuation
 
       continuation%time = [self%now%hi, self%now%lo]

@@ -55,7 +55,6 @@ contains
    !> Append the delayed components' dense output to the past.
    pure subroutine remember(past, step, start, smooth, share)
       type(history_type), intent(inout) :: past
-      !> The step, extended
       class(step_type), intent(in) :: step
       type(instant), intent(in) :: start
       !> Time from there on without a kink
@@ -111,9 +110,7 @@ contains
    !> Let the next sample follow a time by no more than the sampler's share of the step.
    pure subroutine limit_next(sampler, time, step_size)
       class(sampler_type), intent(inout) :: sampler
-      !> Time of the last sample, or of the start of the step
-      real(wp), intent(in) :: time
-      real(wp), intent(in) :: step_size
+      real(wp), intent(in) :: time, step_size
 
       if (sampler%share_of_step >= huge(1.0_wp)) return
       sampler%next = min(sampler%next, time + max(sampler%share_of_step*step_size, spacing(time)))
