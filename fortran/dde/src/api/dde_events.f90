@@ -217,10 +217,7 @@ contains
    !> nothing is known of those.
    pure logical function never_at_level(self, least, most, least_slope, most_slope) result(value)
       class(event_table), intent(in) :: self
-      !> Bounds of each component, shape (n)
-      real(wp), intent(in) :: least(:), most(:)
-      !> Bounds of its time derivative, shape (n)
-      real(wp), intent(in) :: least_slope(:), most_slope(:)
+      real(wp), intent(in) :: least(:), most(:), least_slope(:), most_slope(:)
       type(event_table) :: plain
 
       value = same_type_as(self, plain)
@@ -234,11 +231,7 @@ contains
    !> Components or slopes, less their levels.
    pure subroutine less_level(self, t, y, slope, g)
       class(event_table), intent(in) :: self
-      !> Time, without influence
-      real(wp), intent(in) :: t
-      real(wp), intent(in) :: y(:)
-      !> Time derivative of the state
-      real(wp), intent(in) :: slope(:)
+      real(wp), intent(in) :: t, y(:), slope(:)
       real(wp), intent(out) :: g(:)
       integer :: i
 
@@ -256,9 +249,7 @@ contains
       class(event_table), intent(inout) :: self
       integer, intent(in) :: which
       type(instant), intent(in) :: t
-      real(wp), intent(in) :: y(:)
-      !> Time derivative of the state, not kept
-      real(wp), intent(in) :: slope(:)
+      real(wp), intent(in) :: y(:), slope(:)
 
       if (.not. allocated(self%time)) then
          allocate (self%time(first_rows), self%which(first_rows), self%y(size(y), first_rows))

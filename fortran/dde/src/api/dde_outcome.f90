@@ -28,10 +28,8 @@ module dde_outcome
       real(wp) :: t = 0.0_wp
       !> State there, shape (n)
       real(wp), allocatable :: y(:)
-      !> Steps accepted
-      integer(int64) :: accepted = 0
-      !> Steps rejected
-      integer(int64) :: rejected = 0
+      !> Steps accepted, and rejected
+      integer(int64) :: accepted = 0, rejected = 0
       !> Right-hand sides, or Taylor series, evaluated, those for differences included
       integer(int64) :: evaluations = 0
       !> Work as `auto` counts it, in evaluations of the explicit pair: evaluations times their cost

@@ -93,10 +93,7 @@ contains
    !> Derivatives of the right-hand side by y and z: `not_given` unless the extension gives them.
    pure subroutine no_jacobian(self, t, y, z, by_y, by_z)
       class(dde_problem_type), intent(in) :: self
-      !> Time
-      real(wp), intent(in) :: t
-      !> State, shape (n)
-      real(wp), intent(in) :: y(self%n)
+      real(wp), intent(in) :: t, y(self%n)
       !> Delayed values, shape (size(lag))
       real(wp), intent(in) :: z(size(self%lag))
       !> Derivatives by y, shape (n, n)
@@ -113,7 +110,6 @@ contains
    !> extension gives it.
    pure subroutine no_series(self, t, unit, degree, z, y)
       class(dde_problem_type), intent(in) :: self
-      !> Time
       real(wp), intent(in) :: t
       !> Unit of time of the powers
       real(wp), intent(in) :: unit
@@ -133,9 +129,7 @@ contains
       class(dde_problem_type), intent(in) :: self
       !> Time, at which the series begins
       real(wp), intent(in) :: t
-      !> Index into y, one of self%component
       integer, intent(in) :: component
-      !> Unit of time of the powers
       real(wp), intent(in) :: unit
       !> Coefficients, shape (0:degree)
       real(wp), intent(out) :: y(0:)
@@ -147,10 +141,7 @@ contains
    !> y_c' = rate (balance - y_c) near it. 0 unless the extension gives it.
    pure function no_relaxation(self, t, y) result(rate)
       class(dde_problem_type), intent(in) :: self
-      !> Time
-      real(wp), intent(in) :: t
-      !> State, shape (n)
-      real(wp), intent(in) :: y(self%n)
+      real(wp), intent(in) :: t, y(self%n)
       !> The rate, in units of one over time
       real(wp) :: rate
 
@@ -163,13 +154,8 @@ contains
    !> The others follow as in `series`. Not a number unless the extension gives it.
    pure subroutine no_slow_series(self, t, unit, degree, z, y)
       class(dde_problem_type), intent(in) :: self
-      !> Time
-      real(wp), intent(in) :: t
-      !> Unit of time of the powers
-      real(wp), intent(in) :: unit
-      !> Degree of the series
+      real(wp), intent(in) :: t, unit
       integer, intent(in) :: degree
-      !> Coefficients of the delayed values
       real(wp), intent(in) :: z(0:degree, size(self%lag))
       !> Coefficients of the last iteration (at first the state at t and zeros), then better ones
       real(wp), intent(inout) :: y(0:degree, self%n)

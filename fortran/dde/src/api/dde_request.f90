@@ -7,13 +7,12 @@ module dde_request
    use dde_lapack, only: lapack_is_there
    use dde_problem, only: dde_problem_type
    use dde_sampler, only: sampler_type
-   use dde_time, only: elapsed, instant, instant_at
-   use dde_tolerance, only: tolerance_type
+   use dde_time, only: elapsed, instant
    use dde_errors, only: error_type, raise, text
    use dde_kinds, only: int64, wp
    implicit none (type, external)
    private
-   public :: causes, check, implicit_methods, integration_options, methods, tolerance_of
+   public :: causes, check, implicit_methods, integration_options, methods
 
    !> Methods. `taylor` is for problems that give their series. `auto` changes between it (the
    !> explicit pair for other problems) and an implicit method.
@@ -47,17 +46,6 @@ module dde_request
 
 contains
 
-   !> The tolerances of all components.
-   pure type(tolerance_type) function tolerance_of(problem, options) result(tolerance)
-      !> The problem
-      class(dde_problem_type), intent(in) :: problem
-      !> What the caller chose
-      type(integration_options), intent(in) :: options
-
-      tolerance = tolerance_type(problem%n, options%relative, options%absolute, &
-                                 options%each_relative, options%each_absolute)
-   end function tolerance_of
-
    !> The jumps that the user gave. Before the initial time the history jumps, after it the
    !> right-hand side.
    pure function causes(options, origin) result(kinks)
@@ -71,7 +59,7 @@ contains
       if (.not. allocated(options%break_at)) return
       deallocate (kinks)
       allocate (kinks(size(options%break_at)))
-      kinks%at = instant_at(options%break_at)
+      kinks%at%hi = options%break_at
       kinks%passages = merge(-1, 0, options%break_at < origin%hi)
    end function causes
 
@@ -153,11 +141,11 @@ contains
       type(instant) :: start
 
       if (all(ieee_is_finite([t_start, t_end]))) then
-         start = instant_at(t_start)
+         start = instant(t_start)
          if (present(continuation)) then
             if (allocated(continuation%y)) start%lo = continuation%time(2)
          end if
-         if (elapsed(start, instant_at(t_end)) >= 0.0_wp) return
+         if (elapsed(start, instant(t_end)) >= 0.0_wp) return
       end if
       call raise(error, "integrate: t_end = "//text(t_end)//"; finite and >= "//text(t_start) &
                  //" expected")
@@ -176,8 +164,12 @@ contains
          call raise(error, "integrate: tolerances relative = "//text(options%relative) &
                     //", absolute = "//text(options%absolute) &
                     //"; finite, >= 0 and > 0 expected")
-      else if (allocated(options%each_relative) .or. allocated(options%each_absolute)) then
-         call check_each(problem%n, options, error)
+      end if
+      if (.not. allocated(error)) then
+         call check_list(problem%n, "each_relative", ">= 0", error, options%each_relative)
+      end if
+      if (.not. allocated(error)) then
+         call check_list(problem%n, "each_absolute", "> 0", error, options%each_absolute)
       end if
       if (allocated(error)) return
       if (.not. (positive(options%first_step) .or. is_zero(options%first_step))) then
@@ -209,41 +201,22 @@ contains
       end if
    end subroutine check_options
 
-   !> Refuse tolerances of components out of range.
-   pure subroutine check_each(n, options, error)
+   !> Refuse a list of tolerances of wrong size or out of range, if there is one.
+   pure subroutine check_list(n, name, range, error, values)
       integer, intent(in) :: n
-      type(integration_options), intent(in) :: options
+      character(len=*), intent(in) :: name, range
       type(error_type), allocatable, intent(out) :: error
-
-      if (allocated(options%each_relative)) then
-         call check_list(n, "each_relative", options%each_relative, ">= 0", &
-                         positive(options%each_relative) .or. is_zero(options%each_relative), error)
-      end if
-      if (allocated(options%each_absolute) .and. .not. allocated(error)) then
-         call check_list(n, "each_absolute", options%each_absolute, "> 0", &
-                         positive(options%each_absolute), error)
-      end if
-   end subroutine check_each
-
-   !> Refuse a list of tolerances of wrong size or out of range.
-   pure subroutine check_list(n, name, values, range, allowed, error)
-      integer, intent(in) :: n
-      character(len=*), intent(in) :: name
-      real(wp), intent(in) :: values(:)
-      !> What is allowed
-      character(len=*), intent(in) :: range
-      !> Which of them are, shape of values
-      logical, intent(in) :: allowed(:)
-      type(error_type), allocatable, intent(out) :: error
+      real(wp), intent(in), optional :: values(:)
       integer :: i
 
+      if (.not. present(values)) return
       if (size(values) /= n) then
          call raise(error, "integrate: "//text(size(values))//" tolerances "//name//" for " &
                     //text(n)//" equations; "//text(n)//" expected")
          return
       end if
       do i = 1, n
-         if (allowed(i)) cycle
+         if (positive(values(i)) .or. range == ">= 0" .and. is_zero(values(i))) cycle
          call raise(error, "integrate: "//name//"("//text(i)//") = "//text(values(i)) &
                     //"; finite and "//range//" expected")
          return

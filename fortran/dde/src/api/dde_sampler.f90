@@ -95,7 +95,6 @@ contains
       class(table_sampler), intent(in) :: self
       integer, intent(in) :: n
       real(wp), intent(in) :: t_start
-      !> Whether the run goes on from an earlier one
       logical, intent(in) :: goes_on
       type(error_type), allocatable, intent(out) :: error
       integer :: i
@@ -126,7 +125,6 @@ contains
    pure function new_table(wanted, time) result(table)
       !> Components wanted
       integer, intent(in) :: wanted(:)
-      !> Times, ascending
       real(wp), intent(in) :: time(:)
       type(table_sampler) :: table
 

@@ -51,19 +51,12 @@ contains
    !> `slow_series`. Not a number unless the extension gives it.
    pure subroutine no_slow_tangent_series(self, t, unit, degree, z, before, y, vectors, dz, dy)
       class(problem_with_tangents), intent(in) :: self
-      !> Time
-      real(wp), intent(in) :: t
-      !> Unit of time of the powers
-      real(wp), intent(in) :: unit
-      !> Degree of the series
+      real(wp), intent(in) :: t, unit
       integer, intent(in) :: degree
-      !> Coefficients of the delayed values
       real(wp), intent(in) :: z(0:degree, size(self%lag))
       !> Coefficients of the solution before the iteration of `slow_series`, and after it
       real(wp), intent(in) :: before(0:degree, self%n), y(0:degree, self%n)
-      !> Number of disturbances
       integer, intent(in) :: vectors
-      !> Coefficients of the disturbances of the delayed values
       real(wp), intent(in) :: dz(0:degree, size(self%lag), vectors)
       !> Coefficients of the disturbances before the iteration, then after it
       real(wp), intent(inout) :: dy(0:degree, self%n, vectors)

@@ -4,7 +4,7 @@ module dde_time
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: instant, elapsed, instant_at, later
+   public :: instant, elapsed, later
 
    !> A point in time, hi + lo with |lo| at most half a unit in the last place of hi.
    type :: instant
@@ -15,15 +15,6 @@ module dde_time
    end type instant
 
 contains
-
-   !> The time of an ordinary number.
-   elemental function instant_at(time) result(point)
-      !> Time
-      real(wp), intent(in) :: time
-      type(instant) :: point
-
-      point = instant(hi=time, lo=0.0_wp)
-   end function instant_at
 
    !> The time `step` after `point` (before it where step is negative).
    elemental function later(point, step) result(moved)

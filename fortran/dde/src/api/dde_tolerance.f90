@@ -32,14 +32,8 @@ contains
    pure function new_tolerance(n, relative, absolute, each_relative, each_absolute) &
       result(tolerance)
       integer, intent(in) :: n
-      !> Relative tolerance
-      real(wp), intent(in) :: relative
-      !> Absolute tolerance
-      real(wp), intent(in) :: absolute
-      !> Relative tolerances in its place, shape (n)
-      real(wp), intent(in), optional :: each_relative(:)
-      !> Absolute tolerances in its place, shape (n)
-      real(wp), intent(in), optional :: each_absolute(:)
+      real(wp), intent(in) :: relative, absolute
+      real(wp), intent(in), optional :: each_relative(:), each_absolute(:)
       type(tolerance_type) :: tolerance
 
       allocate (tolerance%relative(n), source=relative)

@@ -151,7 +151,6 @@ contains
       class(cursor_type), intent(inout) :: self
       type(history_type), intent(in) :: past
       integer, intent(in) :: k
-      !> Time since the start of the current step
       real(wp), intent(in) :: ahead
 
       do while (self%offset(k) + ahead < 0.0_wp .and. self%step(k) > past%oldest)

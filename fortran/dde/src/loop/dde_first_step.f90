@@ -49,9 +49,7 @@ contains
 
    !> The norm of x; huge if x is not finite.
    pure function length_of(x, scale) result(length)
-      real(wp), intent(in) :: x(:)
-      !> Their scales, > 0, shape of x
-      real(wp), intent(in) :: scale(:)
+      real(wp), intent(in) :: x(:), scale(:)
       real(wp) :: length
 
       length = scaled_norm(size(x), x, scale)

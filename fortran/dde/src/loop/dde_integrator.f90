@@ -9,7 +9,7 @@ module dde_integrator
    use dde_methods, only: limiting_delay, longest_step, price_of_trial
    use dde_outcome, only: event_met, explain, integration_result, limit_met, out_of_memory, &
                           reached_end, value_not_finite
-   use dde_output, only: deliver, sample_start
+   use dde_output, only: deliver
    use dde_problem, only: dde_problem_type
    use dde_request, only: check, integration_options
    use dde_run, only: run_type
@@ -63,7 +63,12 @@ contains
          call explain(outcome, t_end, 0.0_wp, options, "", lacking, error)
          return
       end if
-      if (present(sampler)) call sample_start(sampler, run%now, run%step%y)
+      if (present(sampler)) then
+         ! the first samples: those at (or before) the initial time
+         do while (elapsed(instant(sampler%next), run%now) >= 0.0_wp)
+            call sampler%take(run%step%y(sampler%wanted))
+         end do
+      end if
       if (present(watcher)) call run%search%begin(watcher, run%now, run%step%y, run%first_slope)
       longest_of_all = options%longest_step
       if (present(watcher)) then

@@ -12,10 +12,11 @@ module dde_run
    use dde_memory, only: bytes_of, lacks
    use dde_methods, only: change_method, choose_method, longest_step, matching_method
    use dde_problem, only: dde_problem_type
-   use dde_request, only: causes, implicit_methods, integration_options, tolerance_of
+   use dde_request, only: causes, implicit_methods, integration_options
    use dde_step, only: step_type
    use dde_step_context, only: step_context
-   use dde_time, only: elapsed, instant, instant_at
+   use dde_time, only: elapsed, instant
+   use dde_tolerance, only: tolerance_type
    use dde_work, only: work_type
    use dde_kinds, only: wp
    implicit none (type, external)
@@ -79,14 +80,15 @@ contains
       lacking = bytes_of(16.0_wp*problem%n) + memory_of_past(2*steps, size(problem%lag))
       if (lacks(lacking)) return
       self%context%problem => problem
-      self%context%tolerance = tolerance_of(problem, options)
+      self%context%tolerance = tolerance_type(problem%n, options%relative, options%absolute, &
+                                              options%each_relative, options%each_absolute)
       self%context%cursor = cursor_type(problem)
       self%context%work = work_type(problem%n)
       self%reach = maxval([problem%lag, options%past_kept])
       if (continued) then
-         call self%continue_run(instant_at(t_end), options, lacking, continuation)
+         call self%continue_run(instant(t_end), options, lacking, continuation)
       else
-         call self%start_anew(instant_at(t_start), instant_at(t_end), options, lacking)
+         call self%start_anew(instant(t_start), instant(t_end), options, lacking)
       end if
       if (lacking > 0.0_wp) return
       if (options%first_step > 0.0_wp) then
@@ -136,7 +138,6 @@ contains
       type(instant), intent(in) :: finish
       type(integration_options), intent(in) :: options
       real(wp), intent(out) :: lacking
-      !> Where the earlier run ended
       type(continuation_type), intent(in) :: continuation
       character(len=8) :: method
       type(kink_type), allocatable :: kinks(:)
@@ -171,13 +172,15 @@ contains
    subroutine prepare_start(self, options)
       class(run_type), intent(inout) :: self
       type(integration_options), intent(in) :: options
+      integer :: i
 
       self%may_jump = allocated(options%break_at)
       if (self%may_jump) then
          associate (past => self%context%past)
             past%history_jumps = any(options%break_at < past%origin%hi)
          end associate
-         self%at_cause = any(.not. abs(elapsed(self%now, instant_at(options%break_at))) > 0.0_wp)
+         self%at_cause = .not. all(abs([(elapsed(self%now, instant(options%break_at(i))), &
+                                         i=1, size(options%break_at))]) > 0.0_wp)
       end if
       associate (problem => self%context%problem)
          call self%context%go_to(self%now, &
@@ -211,7 +214,6 @@ contains
    !> or two equal steps end there. On return the cursor is on the step.
    pure subroutine plan(self, longest, h, goal, landing)
       class(run_type), intent(inout) :: self
-      !> Longest step allowed
       real(wp), intent(in) :: longest
       real(wp), intent(out) :: h
       !> Number of the breaking point at which it should end
@@ -272,7 +274,6 @@ contains
    subroutine keep(self, options, continuation)
       class(run_type), intent(inout) :: self
       type(integration_options), intent(in) :: options
-      !> What is kept
       type(continuation_type), intent(out) :: continuation
 
       continuation%time = [self%now%hi, self%now%lo]

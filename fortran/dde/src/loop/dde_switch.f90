@@ -138,9 +138,7 @@ contains
    pure logical function is_limited(problem, step, shortest_delay, h_next) result(limited)
       class(dde_problem_type), intent(in) :: problem
       class(step_type), intent(in) :: step
-      real(wp), intent(in) :: shortest_delay
-      !> Length proposed for the next
-      real(wp), intent(in) :: h_next
+      real(wp), intent(in) :: shortest_delay, h_next
       logical :: delay_limits
 
       delay_limits = h_next/beyond_the_delay > shortest_delay

@@ -96,9 +96,7 @@ contains
    !> Refuse a problem that cannot continue from here, and arrays of inconsistent shapes.
    pure subroutine check(self, problem, t_start, error)
       class(continuation_type), intent(in) :: self
-      !> The problem of the run to come
       class(dde_problem_type), intent(in) :: problem
-      !> Initial time of the run to come
       real(wp), intent(in) :: t_start
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: delayed, kept
@@ -213,7 +211,6 @@ contains
    !> Give the past back.
    pure subroutine restore(self, past, kinks)
       class(continuation_type), intent(in) :: self
-      !> The past, empty
       type(history_type), intent(inout) :: past
       type(kink_type), allocatable, intent(out) :: kinks(:)
       integer :: i

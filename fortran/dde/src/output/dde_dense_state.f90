@@ -49,9 +49,7 @@ contains
    pure subroutine begin(self, t, y, slope, components)
       class(dense_state), intent(inout) :: self
       type(instant), intent(in) :: t
-      real(wp), intent(in) :: y(:)
-      !> Time derivative of the state, shape (n)
-      real(wp), intent(in) :: slope(:)
+      real(wp), intent(in) :: y(:), slope(:)
       integer, intent(in) :: components(:)
 
       self%t = t

@@ -45,9 +45,7 @@ contains
       class(event_search), intent(inout) :: self
       class(event_watcher_type), intent(in) :: watcher
       type(instant), intent(in) :: t
-      real(wp), intent(in) :: y(:)
-      !> Time derivative of the state, shape (n)
-      real(wp), intent(in) :: slope(:)
+      real(wp), intent(in) :: y(:), slope(:)
       integer :: i
 
       call self%here%begin(t, y, slope, watcher%reads(size(y)))

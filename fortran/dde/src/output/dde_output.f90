@@ -7,11 +7,11 @@ module dde_output
    use dde_run, only: run_type
    use dde_sampler, only: sampler_type
    use dde_step, only: step_type
-   use dde_time, only: elapsed, instant, instant_at, later
+   use dde_time, only: elapsed, instant, later
    use dde_kinds, only: wp
    implicit none (type, external)
    private
-   public :: deliver, sample_start
+   public :: deliver
 
 contains
 
@@ -34,7 +34,7 @@ contains
       sampled = .false.
       if (present(sampler)) then
          call limit_next(sampler, run%now%hi, run%step%h)
-         sampled = elapsed(instant_at(sampler%next), step_end) >= 0.0_wp
+         sampled = elapsed(instant(sampler%next), step_end) >= 0.0_wp
       end if
       if (delayed .or. sampled .or. present(watcher)) then
          call run%step%extend(run%context)
@@ -55,7 +55,6 @@ contains
    !> Append the delayed components' dense output to the past.
    pure subroutine remember(past, step, start, smooth, share)
       type(history_type), intent(inout) :: past
-      !> The step, extended
       class(step_type), intent(in) :: step
       type(instant), intent(in) :: start
       !> Time from there on without a kink
@@ -79,20 +78,6 @@ contains
       end do
    end subroutine remember
 
-   !> The first samples: those at (or before) the initial time.
-   subroutine sample_start(sampler, start, y)
-      !> Receiver
-      class(sampler_type), intent(inout) :: sampler
-      !> Initial time
-      type(instant), intent(in) :: start
-      !> State there, shape (n)
-      real(wp), intent(in) :: y(:)
-
-      do while (elapsed(instant_at(sampler%next), start) >= 0.0_wp)
-         call sampler%take(y(sampler%wanted))
-      end do
-   end subroutine sample_start
-
    !> The samples that lie in an accepted and extended step.
    subroutine sample(sampler, step, start, step_end)
       class(sampler_type), intent(inout) :: sampler
@@ -111,9 +96,9 @@ contains
       do i = 1, size(sampler%wanted)
          call step%interpolant(sampler%wanted(i), sampler%dense(:degree, i))
       end do
-      do while (elapsed(instant_at(sampler%next), step_end) >= 0.0_wp)
+      do while (elapsed(instant(sampler%next), step_end) >= 0.0_wp)
          time = sampler%next
-         s = elapsed(start, instant_at(time))/step%h
+         s = elapsed(start, instant(time))/step%h
          do i = 1, size(sampler%wanted)
             sampler%values_here(i) = newton_value(degree, step%nodes, sampler%dense(:, i), s)
          end do
@@ -125,9 +110,7 @@ contains
    !> Let the next sample follow a time by no more than the sampler's share of the step.
    pure subroutine limit_next(sampler, time, step_size)
       class(sampler_type), intent(inout) :: sampler
-      !> Time of the last sample, or of the start of the step
-      real(wp), intent(in) :: time
-      real(wp), intent(in) :: step_size
+      real(wp), intent(in) :: time, step_size
 
       if (sampler%share_of_step >= huge(1.0_wp)) return
       sampler%next = min(sampler%next, time + max(sampler%share_of_step*step_size, spacing(time)))

@@ -108,7 +108,6 @@ contains
 
    !> Replace values at x by their divided differences.
    pure subroutine divide_differences(x, values)
-      !> Places
       real(wp), intent(in) :: x(0:)
       !> Values there, replaced by Newton coefficients
       real(wp), intent(inout) :: values(0:)

@@ -91,7 +91,8 @@ contains
 
       self%last_h = 0.0_wp
       self%jacobian_is_good = .false.
-      call self%stages%forget()
+      self%stages%contraction = 1.0_wp
+      self%stages%remainder = 1.0_wp
    end subroutine reset
 
    !> Attempt a step: iterate, check the result, estimate its error.

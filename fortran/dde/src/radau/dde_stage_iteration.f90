@@ -49,7 +49,7 @@ module dde_stage_iteration
       !> does not measure theta.
       real(wp) :: remainder = 1.0_wp
    contains
-      procedure :: forget, place_delays, start, expect_delayed, iterate, slope_at_end
+      procedure :: place_delays, start, expect_delayed, iterate, slope_at_end
       procedure, private :: slopes_at_stages
    end type stage_iteration
 
@@ -75,14 +75,6 @@ contains
       iteration%x = [0.0_wp, method%c]
       iteration%systems = stage_systems(method, n)
    end function new_iteration
-
-   !> Forget the contraction of earlier steps.
-   pure subroutine forget(self)
-      class(stage_iteration), intent(inout) :: self
-
-      self%contraction = 1.0_wp
-      self%remainder = 1.0_wp
-   end subroutine forget
 
    !> Delayed values of all stages, and the places of those that lie in the step itself.
    pure subroutine place_delays(self, context, method)

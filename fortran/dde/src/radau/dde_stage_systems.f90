@@ -119,13 +119,9 @@ contains
    pure subroutine couple(self, method, by_z, component, own_place, own_weights, work, singular)
       class(stage_systems), intent(inout) :: self
       type(radau_tableau), intent(in) :: method
-      !> Jacobian by the delayed values
       real(wp), intent(in) :: by_z(:, :)
       integer, intent(in) :: component(:)
-      !> Place of each stage's delayed values in the step
-      real(wp), intent(in) :: own_place(:, :)
-      !> Weights of the stage increments in those
-      real(wp), intent(in) :: own_weights(:, :, :)
+      real(wp), intent(in) :: own_place(:, :), own_weights(:, :, :)
       type(work_type), intent(inout) :: work
       logical, intent(out) :: singular
       integer :: i, j, k, unknown

@@ -134,7 +134,6 @@ contains
       class(taylor_step_type), intent(in) :: self
       integer, intent(in) :: i
       real(wp), contiguous, intent(out) :: a(0:)
-
       real(wp) :: power
       integer :: k
 

@@ -23,7 +23,6 @@ module test_dde_behaviour
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_behaviour(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -34,8 +33,7 @@ contains
                    new_unittest("kinks are landed on", test_landing), &
                    new_unittest("first and longest step", test_steps), &
                    new_unittest("first step chosen", test_first_step), &
-                   new_unittest("work without delays", test_work_without_delays), &
-                   new_unittest("work with a delay", test_work_with_delay)]
+                   new_unittest("work", test_work)]
    end subroutine collect_dde_behaviour
 
    !> Samples are the wanted components, in their order, at the times wanted: the start, the end,
@@ -167,8 +165,9 @@ contains
    end subroutine test_first_step
 
    !> Eleven evaluations a try and one more when it is accepted, three more where a sample wants
-   !> dense output, one at the start.
-   subroutine test_work_without_delays(error)
+   !> dense output, one at the start. With a delay each step needs dense output, and each breaking
+   !> point a new first slope.
+   subroutine test_work(error)
       type(error_type), allocatable, intent(out) :: error
       type(failure_type), allocatable :: failure
       type(integration_options) :: options
@@ -185,18 +184,11 @@ contains
       call expect(error, sampled%evaluations == outcome%evaluations + 6, &
                   "evaluations for two steps with samples: "//text(sampled%evaluations))
       call expect_close(error, sampled%y, outcome%y, 0.0_wp, "state with and without samples")
-   end subroutine test_work_without_delays
-
-   !> With a delay each step needs dense output, and each breaking point a new first slope.
-   subroutine test_work_with_delay(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(integration_result) :: outcome
-
       call run(error, linear(), 0.0_wp, 20.0_wp, &
                integration_options("explicit", first_step=0.9_wp), outcome)
       call expect(error, outcome%evaluations == 1 + 11*tries(outcome) + 4*outcome%accepted &
                   + outcome%breaking_points, "evaluations: "//text(outcome%evaluations))
-   end subroutine test_work_with_delay
+   end subroutine test_work
 
    !> Steps tried.
    pure integer(int64) function tries(outcome) result(value)

@@ -20,12 +20,10 @@ module test_dde_continuation
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_continuation(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("with a delay", test_sine), &
-                   new_unittest("two delays", test_infection), &
+      testsuite = [new_unittest("known solutions", test_known), &
                    new_unittest("kinks are landed on", test_kink), &
                    new_unittest("another rate, a shorter delay", test_changes), &
                    new_unittest("a longer delay", test_longer_lag), &
@@ -55,30 +53,22 @@ contains
       end do
    end subroutine test_names
 
-   !> y = sin t, in the middle of the first delay, at its end, and on.
-   subroutine test_sine(error)
+   !> y = sin t, in the middle of the first delay, at its end, and on; and the published values of
+   !> the infection problem.
+   subroutine test_known(error)
       type(error_type), allocatable, intent(out) :: error
-      real(wp), parameter :: ends(7) = [0.7_wp, 0.8_wp, 0.5_wp*pi, pi, 4.0_wp, 19.0_wp, 30.0_wp]
       integer :: i
 
       do i = 1, size(methods)
-         call expect_end(error, sine(), ends, at_tolerance(1.0e-10_wp, methods(i)), &
-                         [sin(30.0_wp)], 1.0e-8_wp, trim(methods(i)))
+         call expect_end(error, sine(), [0.7_wp, 0.8_wp, 0.5_wp*pi, pi, 4.0_wp, 19.0_wp, 30.0_wp], &
+                         at_tolerance(1.0e-10_wp, methods(i)), [sin(30.0_wp)], 1.0e-8_wp, &
+                         "sine by "//methods(i))
+         call expect_end(error, infection(), &
+                         [0.5_wp, 1.0_wp, 3.7_wp, 10.0_wp, 11.0_wp, 25.0_wp, 40.0_wp], &
+                         at_tolerance(1.0e-10_wp, methods(i)), published_infection, 2.0e-8_wp, &
+                         "infection by "//methods(i))
       end do
-   end subroutine test_sine
-
-   !> The published values of the infection problem.
-   subroutine test_infection(error)
-      type(error_type), allocatable, intent(out) :: error
-      real(wp), parameter :: ends(7) = [0.5_wp, 1.0_wp, 3.7_wp, 10.0_wp, 11.0_wp, 25.0_wp, 40.0_wp]
-      integer :: i
-
-      do i = 1, size(methods)
-         call expect_end(error, infection(), ends, at_tolerance(1.0e-10_wp, methods(i)), &
-                         published_infection, 2.0e-8_wp, &
-                         trim(methods(i)))
-      end do
-   end subroutine test_infection
+   end subroutine test_known
 
    !> Where all kinks are still landed on, piecewise polynomials come out exact at any tolerance:
    !> with a kink and with a jump, which is one passage rougher.

@@ -27,7 +27,6 @@ module test_dde_implicit_order
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_implicit_order(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

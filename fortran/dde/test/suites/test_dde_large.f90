@@ -19,7 +19,6 @@ module test_dde_large
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_large(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -28,7 +27,6 @@ contains
       ! a build without LAPACK refuses banded Jacobians
       if (.not. lapack_is_there) return
       testsuite = [testsuite, new_unittest("a banded Jacobian", test_banded), &
-                   new_unittest("every cell delayed", test_every_cell), &
                    new_unittest("100 000 equations", test_stack)]
    end subroutine collect_dde_large
 
@@ -94,23 +92,6 @@ contains
          end do
       end do
    end subroutine test_banded
-
-   !> 730 equations, each with a delayed value, by a full and by a banded Jacobian.
-   subroutine test_every_cell(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(integration_result) :: banded, explicit, full
-      type(cells) :: problem
-
-      problem = cells(730, diffusion=10.0_wp, delayed=.true.)
-      call run(error, problem, 0.0_wp, 1.5_wp, at_tolerance(1.0e-6_wp, "explicit"), explicit)
-      call run(error, problem, 0.0_wp, 1.5_wp, at_tolerance(1.0e-3_wp, "radau5"), full)
-      problem%lower = 1
-      problem%upper = 1
-      call run(error, problem, 0.0_wp, 1.5_wp, at_tolerance(1.0e-6_wp, "radau9"), banded)
-      if (allocated(error)) return
-      call expect_close(error, banded%y, explicit%y, 1.0e-5_wp, "banded")
-      call expect_close(error, full%y, explicit%y, 1.0e-2_wp, "full")
-   end subroutine test_every_cell
 
    !> No array on the stack grows with the number of equations.
    subroutine test_stack(error)

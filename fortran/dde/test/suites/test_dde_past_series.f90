@@ -2,7 +2,7 @@
 module test_dde_past_series
    use dde_delayed_series, only: delayed_series
    use dde_step_context, only: step_context
-   use dde_time, only: instant_at
+   use dde_time, only: instant
    use dde_tolerance, only: tolerance_type
    use dde_errors, only: text
    use expectations, only: expect_close
@@ -21,7 +21,6 @@ module test_dde_past_series
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_past_series(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -46,7 +45,7 @@ contains
       ! 1 + 2 t - t^2 + t^3/2 over steps of 0.5 and 1
       problem = delayed()
       context = new_context(problem, 0.0_wp, 0.1_wp, 0.0_wp, 1.0_wp)
-      call context%past%append(instant_at(0.0_wp), 0.5_wp, nodes, &
+      call context%past%append(instant(0.0_wp), 0.5_wp, nodes, &
                                reshape([1.0_wp, 0.8125_wp, -0.1875_wp, 0.0625_wp], [4, 1]), &
                                valid_for=0.5_wp)
       call append(context, 0.5_wp, 1.0_wp, [1.8125_wp, 1.375_wp, -0.25_wp, 0.5_wp], 1.2_wp)
@@ -77,7 +76,7 @@ contains
       problem = delayed()
       do i = 1, 2
          context = new_context(problem, 0.0_wp, 0.5_wp, 0.0_wp, 1.0_wp)
-         call context%past%append(instant_at(0.0_wp), 1.0_wp, orders(:, i), &
+         call context%past%append(instant(0.0_wp), 1.0_wp, orders(:, i), &
                                   reshape([1.0_wp, 0.0_wp, 1.0_wp], [3, 1]), valid_for=1.0_wp)
          ! in units of 0.75, for which it is valid
          call expect_series(error, context, 0.25_wp, 0.5_wp, 1.0_wp, .false., &
@@ -167,7 +166,7 @@ contains
       real(wp) :: found_unit, found_valid_for
 
       series = delayed_series(degree=ubound(known, 1), delays=1)
-      call context%go_to(instant_at(t + lag), h)
+      call context%go_to(instant(t + lag), h)
       found_unit = unit
       call series%read_past(context, skipping, found_unit, found_valid_for)
       call expect_close(error, series%coefficients(:, 1), known, 1.0e-15_wp, what)
@@ -212,7 +211,7 @@ contains
       !> Coefficients, shape (1 + degree)
       real(wp), intent(in) :: coefficients(:)
 
-      call context%past%append(instant_at(start), length, &
+      call context%past%append(instant(start), length, &
                                spread(0.0_wp, 1, size(coefficients) - 1), &
                                reshape(coefficients, [size(coefficients), 1]), valid_for)
    end subroutine append

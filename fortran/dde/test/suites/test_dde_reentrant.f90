@@ -34,7 +34,6 @@ module test_dde_reentrant
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_reentrant(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

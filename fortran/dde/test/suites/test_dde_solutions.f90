@@ -24,7 +24,6 @@ module test_dde_solutions
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_solutions(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

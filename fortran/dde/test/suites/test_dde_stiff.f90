@@ -1,7 +1,7 @@
-!> Stiff runs of the implicit methods and of `auto`: accuracy at and between the ends of steps,
-!> events, and steps longer than the delay.
+!> Stiff runs of the implicit methods and of `auto`: accuracy at and between the ends of steps, and
+!> steps longer than the delay.
 module test_dde_stiff
-   use dde, only: event_table, integration_result
+   use dde, only: integration_result
    use dde_kinds, only: wp
    use expectations, only: expect_between, expect_close
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
@@ -13,19 +13,15 @@ module test_dde_stiff
 
    !> Methods under test.
    character(len=8), parameter :: methods(4) = ["radau5  ", "radau9  ", "radau13 ", "auto    "]
-   !> Half a turn.
-   real(wp), parameter :: pi = acos(-1.0_wp)
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_stiff(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [new_unittest("stiff accuracy", test_prothero_robinson), &
                    new_unittest("between the ends of stiff steps", test_inside), &
-                   new_unittest("steps longer than the delay", test_overlap), &
-                   new_unittest("events of stiff relaxation", test_events)]
+                   new_unittest("steps longer than the delay", test_overlap)]
    end subroutine collect_dde_stiff
 
    !> y = cos t at rates up to -1e12, in steps that the solution needs and not the rate. Here the
@@ -81,19 +77,4 @@ contains
       end do
    end subroutine test_overlap
 
-   !> cos t = 1/2 with a rate of -1e6, in steps far longer than its inverse.
-   subroutine test_events(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(event_table) :: table
-      type(integration_result) :: outcome
-      integer :: i
-
-      do i = 1, size(methods)
-         table = event_table([1], [0.5_wp], [0])
-         call run(error, prothero_robinson(-1.0e6_wp), 0.0_wp, 10.0_wp, &
-                  at_tolerance(1.0e-10_wp, methods(i)), outcome, watcher=table)
-         call expect_close(error, table%time(:table%received)%hi, &
-                           [pi/3, 5*pi/3, 7*pi/3], 1.0e-8_wp, methods(i))
-      end do
-   end subroutine test_events
 end module test_dde_stiff

@@ -9,7 +9,7 @@ module test_dde_switch
    use expectations, only: expect, expect_close
    use lines_of_cells, only: cells
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use piecewise_problems, only: switching, switching_kinds
+   use piecewise_problems, only: piecewise, switching_kinds
    use published_problems, only: enzyme, infection, mackey_glass
    use single_step, only: held_back
    use solving, only: at_tolerance, run
@@ -21,7 +21,6 @@ module test_dde_switch
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_switch(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -105,7 +104,7 @@ contains
    end subroutine compare_work
 
    !> A problem that switches.
-   type(switching) function switch(kind, k) result(problem)
+   type(piecewise) function switch(kind, k) result(problem)
       integer, intent(in) :: kind
       real(wp), intent(in) :: k
 

@@ -1,7 +1,7 @@
 !> Time that does not lose small steps, by itself and in an integration.
 module test_dde_time
    use dde, only: integration_options, integration_result
-   use dde_time, only: elapsed, instant, instant_at, later
+   use dde_time, only: elapsed, instant, later
    use expectations, only: expect, expect_close
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
@@ -16,7 +16,6 @@ module test_dde_time
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_time(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -34,11 +33,11 @@ contains
       type(instant) :: now(2)
       integer :: i
 
-      now = instant_at(100.0_wp)
+      now = instant(100.0_wp)
       do i = 1, many
          now = later(now, steps)
       end do
-      call expect_close(error, elapsed(instant_at(100.0_wp), now)/(many*steps), &
+      call expect_close(error, elapsed(instant(100.0_wp), now)/(many*steps), &
                         [1.0_wp, 1.0_wp], 1.0e-12_wp, "time elapsed over time stepped")
       call expect(error, now(2)%hi > 100.0_wp, "the leading part moves in the end")
       call expect(error, all(abs(now%lo) <= 0.5_wp*spacing_of_100), "the rest stays below rounding")
@@ -51,17 +50,17 @@ contains
       type(instant) :: now
       integer :: i
 
-      now = instant_at(1.0e6_wp)
+      now = instant(1.0e6_wp)
       do i = 1, 65536
          now = later(now, 2.0_wp**(-60))
       end do
-      call expect_close(error, elapsed(instant_at(1.0e6_wp), now), 2.0_wp**(-44), 0.0_wp, "time")
-      call expect_close(error, elapsed(now, instant_at(1.0e6_wp)), -2.0_wp**(-44), 0.0_wp, &
+      call expect_close(error, elapsed(instant(1.0e6_wp), now), 2.0_wp**(-44), 0.0_wp, "time")
+      call expect_close(error, elapsed(now, instant(1.0e6_wp)), -2.0_wp**(-44), 0.0_wp, &
                         "time back")
-      call expect_close(error, elapsed(now, instant_at(1000003.0_wp)), 3.0_wp - 2.0_wp**(-44), &
+      call expect_close(error, elapsed(now, instant(1000003.0_wp)), 3.0_wp - 2.0_wp**(-44), &
                         0.0_wp, "time to a later instant")
-      now = later(instant_at(1.0_wp), 2.0_wp**(-54))
-      call expect_close(error, elapsed(instant_at(1.5_wp*2.0_wp**(-53)), now), &
+      now = later(instant(1.0_wp), 2.0_wp**(-54))
+      call expect_close(error, elapsed(instant(1.5_wp*2.0_wp**(-53)), now), &
                         1.0_wp - 2.0_wp**(-53), 0.0_wp, "time over almost 1")
    end subroutine test_exact_sums
 

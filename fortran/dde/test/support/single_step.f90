@@ -6,7 +6,7 @@ module single_step
    use dde_problem, only: dde_problem_type
    use dde_step, only: step_type
    use dde_step_context, only: step_context
-   use dde_time, only: instant_at
+   use dde_time, only: instant
    use dde_taylor_step, only: taylor_step_type
    use dde_tolerance, only: tolerance_type
    use dde_work, only: work_type
@@ -26,11 +26,11 @@ contains
       type(step_context) :: context
 
       context%problem => problem
-      context%past = history_type(problem, instant_at(t))
+      context%past = history_type(problem, instant(t))
       context%cursor = cursor_type(problem)
       context%tolerance = tolerance_type(problem%n, relative, absolute)
       context%work = work_type(problem%n)
-      call context%go_to(instant_at(t), h)
+      call context%go_to(instant(t), h)
    end function new_context
 
    !> Take one step from the initial state, dense output included.
