@@ -1,10 +1,6 @@
-"""One block in JiTCDDE: a scene, compiled once and run on request (compare.py).
-
-With the argument `exponents`: growth of its tangent vectors, a request in JSON (exponents.py).
-"""
+"""One block in JiTCDDE: a scene, compiled once and run on request (compare.py)."""
 
 import contextlib
-import json
 import os
 import sys
 import time
@@ -84,39 +80,9 @@ def serve_scene(out: TextIO) -> None:
         print(f"answer: {reply}", file=out, flush=True)
 
 
-def measure_growth(request: dict) -> dict:
-    """CPU seconds after the transient, and growth of the vectors and length of each interval."""
-    equations, helpers = equations_of(*(request[key] for key in ("tau", "epsilon", "xi", "gamma")))
-    solver = jitcdde.jitcdde_lyap(
-        equations,
-        helpers=helpers,
-        n_lyap=request["vectors"],
-        max_delay=request["tau"],
-        verbose=False,
-    )
-    solver.compile_C()
-    prepare(solver, request["past"], request["tolerance"])
-    solver.step_on_discontinuities()
-    interval = request["interval"]
-    begins = solver.t
-    while solver.t < begins + request["t_transient"]:
-        solver.integrate(solver.t + interval)
-    growth, length = [], []
-    end = solver.t + request["t_measured"]
-    start = time.process_time()
-    while solver.t < end:
-        _, exponents, passed = solver.integrate(solver.t + interval)
-        growth.append([float(value * passed) for value in exponents])
-        length.append(float(passed))
-    return {"seconds": time.process_time() - start, "growth": growth, "length": length}
-
-
 if __name__ == "__main__":
     warnings.simplefilter("ignore")
     # other output of JiTCDDE must not be taken for an answer
     with os.fdopen(os.dup(1), "w") as answers, contextlib.redirect_stdout(sys.stderr):
         os.dup2(2, 1)
-        if sys.argv[1:] == ["exponents"]:
-            json.dump(measure_growth(json.load(sys.stdin)), answers)
-        else:
-            serve_scene(answers)
+        serve_scene(answers)

@@ -241,12 +241,6 @@ rule claims:
             "<results>/tables/claims.tsv",
             caption="../scripts/claims/ledger.rst",
             category="Claims",
-            labels={"content": "Table"},
-        ),
-        page=report(
-            "<results>/tables/claims.html",
-            caption="../scripts/claims/ledger.rst",
-            category="Claims",
             labels={"content": "Verdicts"},
         ),
         json="<results>/tables/claims.json",
@@ -255,6 +249,6 @@ rule claims:
     localrule: True
     params:
         claims=plan.claims,
-        code=code_of("claims/ledger.py", "page/verdicts.html.jinja"),
+        code=code_of("claims/ledger.py"),
     script:
         "../scripts/claims/ledger.py"

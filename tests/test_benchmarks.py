@@ -228,23 +228,17 @@ def test_run_says_how_it_is_used(tmp_path):
         assert f"--{option} " in run.stdout
 
 
-def test_growth_over_pieces():
-    """Constant growth is its own mean in each piece, also over intervals of uneven length."""
-    edges = 5.0 * np.arange(1001.0) + 0.2 * np.sin(np.arange(1001.0) ** 2)
-    growth = {"growth": 0.25 * np.diff(edges)[:, None], "length": np.diff(edges)}
-    assert exponents.means(growth, 4) == pytest.approx(np.full((4, 1), 0.25))
-
-
 def test_answer_of_the_worker_is_read(monkeypatch, tmp_path):
-    """Seconds, time, and a table of values and errors for each number of pieces."""
-    lines = "read request\necho 2.0 100.0\necho 1 1 1 0.5 0.1\necho 1 1 2 -0.5 0.2\n"
-    lines += "for piece in 1 2; do echo 2 $piece 1 0.4 0.3; echo 2 $piece 2 -0.4 0.4; done"
+    """The time, and a table of values and errors for each number of pieces."""
+    lines = "read request\necho 100.0\n"
+    lines += "for i in 1 2 3; do echo 1 1 $i 0.5 0.1; done\n"
+    lines += "for piece in 1 2; do for i in 1 2 3; do echo 2 $piece $i 0.4 0.$i; done; done"
     write_script(tmp_path / "exponents_worker", lines)
     monkeypatch.setattr(exponents, "BUILD", tmp_path)
-    seconds, passed, pieces = exponents.measure_here(exponents.CHAOS, 1e-8, 100, 2, [1, 2], True)
-    assert (seconds, passed) == (2.0, 100.0)
-    assert pieces[1].tolist() == [[[0.5, 0.1], [-0.5, 0.2]]]
-    assert pieces[2][1].tolist() == [[0.4, 0.3], [-0.4, 0.4]]
+    passed, pieces = exponents.measure_pieces(exponents.MOTIONS[0], [1, 2])
+    assert passed == 100.0
+    assert pieces[1].tolist() == [[[0.5, 0.1]] * 3]
+    assert pieces[2][1].tolist() == [[0.4, 0.1], [0.4, 0.2], [0.4, 0.3]]
 
 
 def test_command_that_fails_says_why(tmp_path):

@@ -1,5 +1,5 @@
-"""What is made for the documents: the picture of the data flow, the pages about the code, and the
-programs of the solver's manual, built and run as they are printed."""
+"""What is made for the documents: the pages about the code, and the programs of the solver's
+manual, built and run as they are printed."""
 
 import math
 import os
@@ -9,7 +9,6 @@ import sys
 from itertools import pairwise
 from pathlib import Path
 
-import data_flow
 import offline_pages
 import pytest
 from conftest import ROOT
@@ -17,27 +16,6 @@ from PIL import Image
 from test_documents import blocks_of, prose_of
 
 from scripts.files.tsv import read_table
-
-FILEGRAPH = """digraph snakemake_dag {
-0 [ shape=none, margin=0, label=<<table border="2">
-<b><font point-size="18">all</font></b>
-<tr><td align="right">  </td> </tr>
-</table>>]
-1 [ shape=none, margin=0, label=<<table border="2">
-<b><font point-size="18">later</font></b>
-<td align="left"><font face="monospace">results/data/{scene}.nc</font></td>
-<tr><td align="right"> <b><font point-size="14">output &rarr;</font></b> </td> </tr>
-<td align="left"><font face="monospace">results/tables/a.tsv</font></td></tr>
-</table>>]
-2 [ shape=none, margin=0, label=<<table border="2">
-<b><font point-size="18">earlier</font></b>
-<tr><td align="right"> <b><font point-size="14">output &rarr;</font></b> </td> </tr>
-<td align="left"><font face="monospace">results/data/{scene,one|two}.nc</font></td></tr>
-</table>>]
-\t1 -> 0
-\t2 -> 1
-}
-"""
 
 SOURCES = sorted(
     path
@@ -47,48 +25,6 @@ SOURCES = sorted(
 """What the pages about the code are made from."""
 PUBLIC = r"^ *public :: ((?:.*&\n)*.*)$"
 """The names that a module exports."""
-
-
-def drawn() -> tuple[set[str], set[tuple[str, str]]]:
-    """Rules and pairs of rules in the committed picture."""
-    svg = (ROOT / "docs" / "data-flow.svg").read_text()
-    names = set(re.findall(r'id="(\w+)" class="node"><path', svg)) - {"config"}
-    return names, set(re.findall(r'id="(\w+)\.(\w+)" class="edge"', svg))
-
-
-def test_picture_of_the_data_flow_is_up_to_date(project):
-    """Its boxes are the rules that everything needs, its arrows theirs; else run docs/draw."""
-    rules, pairs = data_flow.read_filegraph(project.snakemake("--filegraph", "all").stdout)
-    assert len(rules) > 30
-    assert drawn() == ({rule.name for rule in rules}, pairs)
-
-
-def test_filegraph_is_read_and_drawn():
-    """Rules by name with their files and without the target; one line a box and an arrow."""
-    rules, pairs = data_flow.read_filegraph(FILEGRAPH)
-    assert rules == [
-        data_flow.Rule("earlier", ("results/data/{scene}.nc",)),
-        data_flow.Rule("later", ("results/tables/a.tsv",)),
-    ]
-    assert pairs == {("earlier", "later")}
-    svg = '<g id="a" class="node">\n<title>a</title>\n<path d="M0"/>\n</g>\n<!-- b -->\n</svg>'
-    assert data_flow.compact(svg) == '<g id="a" class="node"><path d="M0"/></g>\n</svg>'
-
-
-@pytest.mark.parametrize(
-    ("path", "stage"),
-    [
-        ("results/namelists/hopf/{plane}.nml", "namelist"),
-        ("build/release/bin/{program}", "program"),
-        ("results/references/trust/{family}.tsv", "data"),
-        ("results/tables/claims.tsv", "table"),
-        ("results/figures/figure_1.pdf", "figure"),
-        ("results/index.html", "page"),
-    ],
-)
-def test_stage_is_that_of_the_file(path, stage):
-    """From the config to the page."""
-    assert data_flow.Rule("a_rule", (path,)).stage == stage
 
 
 def with_stand_ins(folder: Path, ford: str) -> None:

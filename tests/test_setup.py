@@ -16,7 +16,6 @@ SCRIPTS = [
     ".ci/run",
     "benchmarks/run",
     "compilers/run",
-    "docs/draw",
 ]
 LOCKS = {
     **{".": 10, "setup": 0, "benchmarks": 2, "docs": 0, "tests/browser": 1, "tests/formats": 0},
