@@ -6,220 +6,142 @@ from scripts.results import paths
 MEASURED = measured_study(config)
 
 
-rule attractors_table:
-    """Table of the attractors of the scenes, with their classes."""
-    input:
-        runs=paths.attractors_of_scenes(config),
-    output:
-        "<results>/tables/attractors.tsv",
-    log:
-        "<results>/logs/tables/attractors.log",
-    priority: PAPER
-    localrule: True
-    params:
-        of="scenes",
-        code=code_of("tables/attractor_tables.py"),
-    script:
-        "../scripts/tables/attractor_tables.py"
+def measured_runs(study):
+    """Inputs of a table of measured runs: those of a study, and references of the same cases."""
+    return {
+        "measurements": [
+            f"<results>/measurements/{study}/{case}.nc" for case in MEASURED["cases"]
+        ],
+        "references": [
+            f"<results>/references/trust/{case}.tsv" for case in MEASURED["cases"]
+        ],
+    }
 
 
-rule route_table:
-    """Table of the attractors along a route: one parameter changes, all others are fixed."""
-    input:
-        runs=lambda wildcards: paths.runs_of_route(config, wildcards.line),
-    output:
-        "<results>/tables/routes/{line}.tsv",
-    log:
-        "<results>/logs/tables/routes/{line}.log",
-    localrule: True
-    params:
-        of="route",
-        code=code_of("tables/attractor_tables.py"),
-    script:
-        "../scripts/tables/attractor_tables.py"
-
-
-rule basins_table:
-    """Table of the attractors that are reached from random histories."""
-    input:
-        runs=paths.runs_of_basins(config),
-        routes=paths.tables_of_routes(config),
-    output:
-        "<results>/tables/basins.tsv",
-    log:
-        "<results>/logs/tables/basins.log",
-    localrule: True
-    params:
-        code=code_of("tables/basins_table.py"),
-    script:
-        "../scripts/tables/basins_table.py"
-
-
-rule atlas_table:
-    """Table of the atlas: the class of motion at points of epsilon and tau."""
-    input:
-        runs=paths.parts_of_atlas(config),
-    output:
-        "<results>/tables/atlas.tsv",
-    log:
-        "<results>/logs/tables/atlas.log",
-    localrule: True
-    params:
-        of="atlas",
-        code=code_of("tables/attractor_tables.py"),
-    script:
-        "../scripts/tables/attractor_tables.py"
-
-
-use rule atlas_table as atlas_plane_table with:
-    input:
-        runs=lambda wildcards: paths.parts_of_plane(config, wildcards.atlas_plane),
-    output:
-        "<results>/tables/atlas/{atlas_plane}.tsv",
-    log:
-        "<results>/logs/tables/atlas/{atlas_plane}.log",
-
-
-rule hopf_points:
-    """Table of the special points on the Hopf curves."""
-    input:
-        curves=paths.curves_of_planes(config),
-        scenes=paths.paths_of_scenes("linear_stability", config["scenes"]),
-    output:
-        "<results>/tables/hopf-points.tsv",
-    log:
-        "<results>/logs/tables/hopf-points.log",
-    localrule: True
-    params:
-        code=code_of("tables/hopf_points_table.py"),
-    script:
-        "../scripts/tables/hopf_points_table.py"
-
-
-rule fault_limit_table:
-    """Table of the least epsilon of all Hopf curves over gamma, at the xi of Figure 2."""
-    output:
-        "<results>/tables/fault-limit.tsv",
-    log:
-        "<results>/logs/tables/fault-limit.log",
-    localrule: True
-    params:
-        xi=lambda wildcards: config["hopf_curves"]["tau_of_epsilon"]["fixed"],
-        code=code_of("tables/fault_limit_table.py"),
-    script:
-        "../scripts/tables/fault_limit_table.py"
-
-
-rule cycle_points:
-    """Table of the points where cycles bifurcate."""
-    input:
-        cycles=paths.cycles_of_lines(config),
-        routes=paths.tables_of_routes(config),
-    output:
-        "<results>/tables/cycle-points.tsv",
-    log:
-        "<results>/logs/tables/cycle-points.log",
-    localrule: True
-    params:
-        code=code_of("tables/cycle_points_table.py"),
-    script:
-        "../scripts/tables/cycle_points_table.py"
-
-
-rule linear_stability_table:
-    """Table of the linear stability of steady sliding in the scenes."""
-    input:
-        scenes=paths.paths_of_scenes("linear_stability", config["scenes"]),
-    output:
-        "<results>/tables/linear-stability.tsv",
-    log:
-        "<results>/logs/tables/linear-stability.log",
-    localrule: True
-    params:
-        code=code_of("tables/linear_stability_table.py"),
-    script:
-        "../scripts/tables/linear_stability_table.py"
-
-
-rule exponents_table:
-    """Table of the Lyapunov exponents of the scenes."""
-    input:
-        runs=paths.exponents_of_scenes(config),
-    output:
-        "<results>/tables/exponents.tsv",
-    log:
-        "<results>/logs/tables/exponents.log",
-    localrule: True
-    params:
-        code=code_of("tables/exponents_table.py"),
-    script:
-        "../scripts/tables/exponents_table.py"
-
-
-rule dimensions_table:
-    """Table of L/v0, xi, gamma and the paper's delay for a laboratory sample and a fault."""
-    output:
-        "<results>/tables/dimensions.tsv",
-    log:
-        "<results>/logs/tables/dimensions.log",
-    localrule: True
-    params:
-        presets=config["dimensions"],
-        code=code_of("tables/dimensions_table.py"),
-    script:
-        "../scripts/tables/dimensions_table.py"
-
-
-rule stability_table:
-    """Table of the errors of the solver on stiff and extreme cases."""
-    input:
-        measurements=paths.runs_of_families(config),
-        references=paths.references_of_families(config),
-    output:
-        "<results>/tables/stability.tsv",
-    log:
-        "<results>/logs/tables/stability.log",
-    localrule: True
-    params:
-        references={
-            name: family["reference"]
-            for name, family in config["stability"]["families"].items()
+# For each rule its table, its script, its inputs and its parameters.
+TABLES = {
+    "attractors_table": (
+        "attractors.tsv",
+        "attractor_tables",
+        {"runs": paths.attractors_of_scenes(config)},
+        {"of": "scenes"},
+    ),
+    "route_table": (
+        "routes/{line}.tsv",
+        "attractor_tables",
+        {"runs": lambda wildcards: paths.runs_of_route(config, wildcards.line)},
+        {"of": "route"},
+    ),
+    "atlas_table": (
+        "atlas.tsv",
+        "attractor_tables",
+        {"runs": paths.parts_of_atlas(config)},
+        {"of": "atlas"},
+    ),
+    "atlas_plane_table": (
+        "atlas/{atlas_plane}.tsv",
+        "attractor_tables",
+        {"runs": lambda wildcards: paths.parts_of_plane(config, wildcards.atlas_plane)},
+        {"of": "atlas"},
+    ),
+    "basins_table": (
+        "basins.tsv",
+        "basins_table",
+        {
+            "runs": paths.runs_of_basins(config),
+            "routes": paths.tables_of_routes(config),
         },
-        code=code_of("tables/stability_table.py"),
-    script:
-        "../scripts/tables/stability_table.py"
+        {},
+    ),
+    "hopf_points": (
+        "hopf-points.tsv",
+        "hopf_points_table",
+        {
+            "curves": paths.curves_of_planes(config),
+            "scenes": paths.paths_of_scenes("linear_stability", config["scenes"]),
+        },
+        {},
+    ),
+    "fault_limit_table": (
+        "fault-limit.tsv",
+        "fault_limit_table",
+        {},
+        {"xi": config["hopf_curves"]["tau_of_epsilon"]["fixed"]},
+    ),
+    "cycle_points": (
+        "cycle-points.tsv",
+        "cycle_points_table",
+        {
+            "cycles": paths.cycles_of_lines(config),
+            "routes": paths.tables_of_routes(config),
+        },
+        {},
+    ),
+    "linear_stability_table": (
+        "linear-stability.tsv",
+        "linear_stability_table",
+        {"scenes": paths.paths_of_scenes("linear_stability", config["scenes"])},
+        {},
+    ),
+    "exponents_table": (
+        "exponents.tsv",
+        "exponents_table",
+        {"runs": paths.exponents_of_scenes(config)},
+        {},
+    ),
+    "dimensions_table": (
+        "dimensions.tsv",
+        "dimensions_table",
+        {},
+        {"presets": config["dimensions"]},
+    ),
+    "stability_table": (
+        "stability.tsv",
+        "stability_table",
+        {
+            "measurements": paths.runs_of_families(config),
+            "references": paths.references_of_families(config),
+        },
+        {
+            "references": {
+                name: family["reference"]
+                for name, family in config["stability"]["families"].items()
+            }
+        },
+    ),
+    "trusted_horizons": (
+        "trusted-horizons.tsv",
+        "trusted_horizons",
+        measured_runs("trust"),
+        {"trusted_error": MEASURED["trusted_error"]},
+    ),
+}
 
+for name, (table, script, inputs, parameters) in TABLES.items():
 
-rule trusted_horizons:
-    """Table of the times up to which runs of the scenes can be compared."""
-    input:
-        measurements=expand(
-            "<results>/measurements/trust/{case}.nc", case=MEASURED["cases"]
-        ),
-        references=expand(
-            "<results>/references/trust/{case}.tsv", case=MEASURED["cases"]
-        ),
-    output:
-        "<results>/tables/trusted-horizons.tsv",
-    log:
-        "<results>/logs/tables/trusted-horizons.log",
-    localrule: True
-    params:
-        trusted_error=MEASURED["trusted_error"],
-        code=code_of("tables/trusted_horizons.py"),
-    script:
-        "../scripts/tables/trusted_horizons.py"
+    rule:
+        name:
+            name
+        input:
+            **inputs,
+        output:
+            f"<results>/tables/{table}",
+        log:
+            f"<results>/logs/tables/{table.removesuffix('.tsv')}.log",
+        priority: PAPER if name == "attractors_table" else 0
+        localrule: True
+        params:
+            **parameters,
+            script=f"tables/{script}.py",
+            code=code_of(f"tables/{script}.py"),
+        script:
+            "../scripts/{params.script}"
 
 
 rule work_precision_table:
     """Tables of error against run time, and of error against tolerance."""
     input:
-        measurements=expand(
-            "<results>/measurements/work_precision/{case}.nc", case=MEASURED["cases"]
-        ),
-        references=expand(
-            "<results>/references/trust/{case}.tsv", case=MEASURED["cases"]
-        ),
+        **measured_runs("work_precision"),
     output:
         errors="<results>/tables/work-precision.tsv",
         proportionality="<results>/tables/tolerance-proportionality.tsv",

@@ -47,7 +47,7 @@ def change(project: Project, *names: str) -> None:
 def scripts() -> list[str]:
     """All scripts of rules."""
     files = (ROOT / "scripts").glob("*/*.py")
-    marks = ("logged(snakemake.log[0])", "make_figure(draw, snakemake)")
+    marks = ("logged(snakemake.log[0])", "\ndef draw(")
     of_rules = [path for path in files if any(mark in path.read_text() for mark in marks)]
     return sorted(path.relative_to(ROOT).as_posix() for path in of_rules)
 

@@ -25,7 +25,6 @@ from scripts.drawing.class_map import (
 from scripts.drawing.hopf_plane import SCENE, SUBCRITICAL, draw_piece, mark_scenes
 from scripts.drawing.special_points import STYLES, in_words, words_of
 from scripts.drawing.style import INK
-from scripts.figures.make_figure import make_figure
 from scripts.figures.wording import place_in_words, short, with_error
 from scripts.results.paths import (
     curves_of_atlas,
@@ -185,7 +184,3 @@ def numbers(table: list[dict]) -> dict:
             }
         )
     return {"planes": planes}
-
-
-if __name__ == "__main__":
-    make_figure(draw, snakemake)

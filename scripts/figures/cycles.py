@@ -15,7 +15,6 @@ from scripts.drawing import parameters
 from scripts.drawing.along_parameter import mark_scenes, maxima_of
 from scripts.drawing.special_points import STYLES, in_words, words_of
 from scripts.drawing.style import FAINT, INK
-from scripts.figures.make_figure import make_figure
 from scripts.figures.wording import count, counted_at, place_in_words, short
 from scripts.results.paths import (
     cycles_of_lines,
@@ -199,7 +198,3 @@ def stable_stretches(cycles: xr.Dataset, along: str) -> list[str]:
                 found.add((float(values.min()), float(values.max())))
     words = [(short(first), short(last)) for first, last in sorted(found)]
     return [first if first == last else f"{first} to {last}" for first, last in words]
-
-
-if __name__ == "__main__":
-    make_figure(draw, snakemake)

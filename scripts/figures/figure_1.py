@@ -7,7 +7,6 @@ from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch, Polygon, Rectangle
 
 from scripts.drawing.style import FAINT, INK
-from scripts.figures.make_figure import make_figure
 
 BLOCK = (2.6, 0.9, 2.2, 1.2)
 """Left, bottom, width and height of the block."""
@@ -89,7 +88,3 @@ def draw() -> Figure:
     axes.set(xlim=(0.1, 10.5), ylim=(0.05, 4.15), aspect="equal")
     axes.axis("off")
     return figure
-
-
-if __name__ == "__main__":
-    make_figure(draw, snakemake)

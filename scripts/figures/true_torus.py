@@ -12,7 +12,6 @@ from scripts.drawing import parameters
 from scripts.drawing.spectra import label_peaks, lines_in_words
 from scripts.drawing.trajectories import draw_velocity
 from scripts.figures.figure_6 import peaks_in_words
-from scripts.figures.make_figure import make_figure
 from scripts.figures.wording import short, with_error
 from scripts.results.paths import paths_of_scenes, scenes_of
 from scripts.tables.exponents_table import sign
@@ -148,7 +147,3 @@ def numbers(table: list[dict], spectra: list[xr.Dataset], settings: dict) -> dic
             "bases": peaks_in_words(spectrum)["bases"],
         }
     return {"rows": rows}
-
-
-if __name__ == "__main__":
-    make_figure(draw, snakemake)
