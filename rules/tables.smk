@@ -117,7 +117,7 @@ TABLES = {
     ),
 }
 
-for name, (table, script, inputs, parameters) in TABLES.items():
+for name, (table, module, inputs, parameters) in TABLES.items():
 
     rule:
         name:
@@ -132,8 +132,8 @@ for name, (table, script, inputs, parameters) in TABLES.items():
         localrule: True
         params:
             **parameters,
-            script=f"tables/{script}.py",
-            code=code_of(f"tables/{script}.py"),
+            script=f"tables/{module}.py",
+            code=code_of(f"tables/{module}.py"),
         script:
             "../scripts/{params.script}"
 
