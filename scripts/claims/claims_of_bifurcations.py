@@ -38,11 +38,9 @@ KINDS = {"supercritical": -1, "subcritical": 1}
 Kinds = Annotated[list[str], some("kinds of Hopf bifurcations", list(KINDS))]
 Share = Annotated[
     float,
-    number("interval of epsilon, over its end, up to which it counts as none, a finite number > 0"),
+    number("interval of epsilon, over its end, up to which it counts as none"),
 ]
-Motion = Annotated[
-    float, number("largest v - 1 up to which the block is at rest, a finite number > 0")
-]
+Motion = Annotated[float, number("largest v - 1 up to which the block is at rest")]
 
 
 @claim(1, "hopf_by_delay", "abstract", look_at="linear-stability.tsv")

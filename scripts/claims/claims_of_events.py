@@ -24,13 +24,11 @@ PERIODIC = 1e-3
 NOTHING = 1e-5
 """Shares below this are not given as numbers: they are errors of the solver."""
 
-Ratio = Annotated[float, number("largest velocity over least, a finite number > 1", above=1)]
+Ratio = Annotated[float, number("largest velocity over least", above=1)]
 Share = Annotated[
     float,
     number(
-        "least share of the time in which the block is slower than the plate,"
-        " a finite number in (0, 1)",
-        exclusiveMaximum=1,
+        "least share of the time in which the block is slower than the plate", exclusiveMaximum=1
     ),
 ]
 

@@ -29,7 +29,7 @@ class Names:
 
     def schema(self, known: list[str]) -> dict:
         """What the parameter may be, if these names are known."""
-        one = among(f"name of a {self.kind}, ", known)
+        one = among(f"name of a {self.kind}", known)
         if not self.several:
             return one
         words = f"names of {self.kind}s, at least one, each once"
@@ -40,7 +40,7 @@ class Names:
 
 def among(words: str, values: list[str]) -> dict:
     """JSON schema of one of these values."""
-    return {"enum": values, "description": f"{words}one of: {', '.join(values)}"}
+    return {"enum": values, "description": words}
 
 
 def some(words: str, values: list[str]) -> dict:
@@ -50,7 +50,7 @@ def some(words: str, values: list[str]) -> dict:
 
 
 def number(words: str, above: float = 0, **bounds: float) -> dict:
-    """JSON schema of a number in a range, which the words give."""
+    """JSON schema of a number in a range."""
     return {"type": "number", "exclusiveMinimum": above, "description": words, **bounds}
 
 
@@ -63,20 +63,17 @@ Plane = Annotated[str, Names("plane")]
 Planes = Annotated[list[str], Names("plane", several=True)]
 Route = Annotated[str, Names("route")]
 Routes = Annotated[list[str], Names("route", several=True)]
-Class = Annotated[str, among("class of an attractor, ", CLASSES)]
+Class = Annotated[str, among("class of an attractor", CLASSES)]
 Classes = Annotated[list[str], some("classes of attractors in turn", CLASSES)]
-Gamma = Annotated[float, number("gamma, nondimensional, a finite number > 0")]
+Gamma = Annotated[float, number("gamma, nondimensional")]
 Residual = Annotated[
     float,
     number(
-        "residual up to which an equation counts as holding, over its largest term,"
-        " a finite number in (0, 1e-2]",
-        maximum=1e-2,
+        "residual up to which an equation counts as holding, over its largest term", maximum=1e-2
     ),
 ]
 Spread = Annotated[
-    float,
-    number("spread of the critical epsilon up to which it counts as the same, a finite number > 0"),
+    float, number("spread of the critical epsilon up to which it counts as the same")
 ]
 
 

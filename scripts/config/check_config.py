@@ -19,15 +19,15 @@ MOST_CASES = 1000
 """Cases that one namelist holds."""
 LONGEST_NAME = 64
 """Letters of a case's name."""
+SIGNS = {"exclusiveMinimum": ">", "minimum": ">=", "exclusiveMaximum": "<", "maximum": "<="}
+"""Bounds of numbers in the schema, as messages write them."""
 LONG = 1e4
 """Time after which a decaying case counts as stationary."""
 
 
 def checked(config: dict) -> dict:
     """Return `config` with its defaults; raise ConfigError naming place, key, value and range."""
-    problems = list(_names_that_are_no_text(config))
-    if not problems:
-        problems = [in_words(error) for error in validator_of(SCHEMA).iter_errors(config)]
+    problems = [in_words(error) for error in validator_of(SCHEMA).iter_errors(config)]
     if not problems:
         _fill_in_ends_of_exponents(config)
         problems = list(_contradictions(config))
@@ -78,29 +78,6 @@ def _is_finite_number(value) -> bool:
         return False
 
 
-def _names_that_are_no_text(config: dict):
-    """Names of a user's choice that YAML read as numbers or truth values."""
-    for path in (
-        ["scenes"],
-        ["hopf_curves"],
-        ["stability", "families"],
-        ["work_precision", "scenes"],
-        ["work_precision", "cases"],
-        ["atlas", "planes"],
-        ["routes", "histories"],
-        ["routes", "lines"],
-        ["basins", "places"],
-        ["cycles", "lines"],
-        ["dimensions"],
-    ):
-        named = config
-        for key in path:
-            named = named.get(key) if isinstance(named, dict) else None
-        for name in named if isinstance(named, dict) else ():
-            if not isinstance(name, str):
-                yield f"{_place(path)}: name {name!r}; expected text (quote it)"
-
-
 def in_words(error: jsonschema.ValidationError) -> str:
     """One problem as a line: place, key, value met, what is allowed."""
     path = [str(part) for part in error.absolute_path]
@@ -113,13 +90,28 @@ def in_words(error: jsonschema.ValidationError) -> str:
     if error.validator == "required":
         missing = [key for key in error.validator_value if key not in error.instance]
         return f"{_place(path)}: key {missing} is missing"
+    if error.validator == "type" and "propertyNames" in error.absolute_schema_path:
+        return f"{_place(path)}: name {error.instance!r}; expected text (quote it)"
     if "propertyNames" in error.absolute_schema_path:
         return (
             f"{_place(path)}: name {error.instance!r}; expected small letters, digits and"
             " underscores, a letter first, at most 64, and not 20 equal parts at the end"
         )
-    expected = error.schema.get("description", "keys with values below it")
+    known = filter(None, [error.schema.get("description"), range_in_words(error.schema)])
+    expected = ", ".join(known) or "keys with values below it"
     return _value_in_words(path, error.instance, expected)
+
+
+def range_in_words(rules: dict) -> str:
+    """The values that a number or a word may have; empty if the description has them."""
+    described = rules.get("description", "")
+    if any(words in described for words in ("finite number", "whole number", "one of:")):
+        return ""
+    if "enum" in rules:
+        return f"one of: {', '.join(rules['enum'])}"
+    kind = {"number": "a finite number", "integer": "a whole number"}.get(rules.get("type"), "")
+    bounds = [f"{sign} {rules[key]}" for key, sign in SIGNS.items() if key in rules]
+    return f"{kind} {' and '.join(bounds)}".strip()
 
 
 def _value_in_words(path: list[str], value, expected: str) -> str:
