@@ -164,8 +164,8 @@ def _add(name: str, number: int, about: dict) -> None:
     _CLAIMS[name] = number, about
 
 
-def declared_claims() -> dict[str, dict]:
-    """Claims of the modules that are imported, by name, in the order of their numbers."""
+def paper_claims() -> dict[str, dict]:
+    """Claims of the paper in the form of a user's file, by name, in the order of their numbers."""
     return {
         name: about for name, (_, about) in sorted(_CLAIMS.items(), key=lambda item: item[1][0])
     }

@@ -16,7 +16,7 @@ from scripts.claims import (  # noqa: F401  (they declare the claims)
     claims_without_test,
 )
 from scripts.claims.claims_results import FILES, NOT_TESTABLE, Finding, Results, read_results
-from scripts.claims.declare import TESTS, Names, Test, declared_claims
+from scripts.claims.declare import TESTS, Names, Test, paper_claims  # noqa: F401
 from scripts.config.check_config import in_words, validator_for
 from scripts.config.read_config import ConfigError
 from scripts.files import marked_words
@@ -28,11 +28,6 @@ TABLES = [Path(path).name for path in FILES.values() if path.endswith(".tsv") an
 """Tables that a claim may tell the reader to look at."""
 KINDS = ("scene", "plane", "route")
 """What parameters of tests name."""
-
-
-def paper_claims() -> dict[str, dict]:
-    """The claims of the paper in the form of a user's file, by name, in the paper's order."""
-    return declared_claims()
 
 
 def check_user_claims(said: dict, config: dict, shown: set[str]) -> dict:

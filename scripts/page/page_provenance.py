@@ -2,10 +2,22 @@
 
 import csv
 from collections import Counter
+from importlib import metadata
 from pathlib import Path
 
 from scripts.config.read_config import read as read_yaml
 from scripts.files.inputs import read
+
+PACKAGES = [
+    *("snakemake", "ruamel.yaml", "jsonschema", "f90nml", "numpy", "xarray", "netCDF4"),
+    *("matplotlib", "jinja2", "MarkupSafe", "docutils"),
+]
+"""Python packages that results or the page go through."""
+
+
+def packages() -> dict[str, str]:
+    """Version of each package."""
+    return {name: metadata.version(name) for name in PACKAGES}
 
 
 def programs(files: list[str]) -> list[dict]:

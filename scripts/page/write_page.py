@@ -9,14 +9,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from scripts.files.inputs import read
 from scripts.files.outputs import logged, written
 from scripts.files.tsv import read_table
-from scripts.page import (
-    findings,
-    mathematics,
-    packages,
-    page_content,
-    page_provenance,
-    page_views,
-)
+from scripts.page import findings, mathematics, page_content, page_provenance, page_views
 from scripts.page.page_assets import ASSETS, PROJECT
 from scripts.tables.motion_rows import COLOURS
 
@@ -68,7 +61,7 @@ def content(given, params, folder: Path) -> dict:
         "colours": COLOURS,
         "commit": params.commit,
         "programs": page_provenance.programs(sorted(data)),
-        "packages": {"Python": platform.python_version(), **packages.versions()},
+        "packages": {"Python": platform.python_version(), **page_provenance.packages()},
         "measured": [figure for figure in figures if figure["measured"]],
     }
 
