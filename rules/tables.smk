@@ -3,6 +3,11 @@ from scripts.claims.ledger import inputs_for
 from scripts.namelists.study_cases import measured_study
 from scripts.results import paths
 
+FAMILIES = {
+    name: family["reference"]
+    for name, family in config["stability"]["families"].items()
+}
+"""What each family of cases is compared with."""
 MEASURED = measured_study(config)
 
 
@@ -23,7 +28,11 @@ TABLES = {
     "attractors_table": (
         "attractors.tsv",
         "attractor_tables",
-        {"runs": paths.attractors_of_scenes(config)},
+        {
+            "runs": paths.paths_of_scenes(
+                "attractors/scenes", paths.scenes_with(config, "attractors")
+            )
+        },
         {"of": "scenes"},
     ),
     "route_table": (
@@ -57,7 +66,7 @@ TABLES = {
         "hopf-points.tsv",
         "hopf_points_table",
         {
-            "curves": paths.curves_of_planes(config),
+            "curves": [f"<results>/hopf/{plane}.nc" for plane in config["hopf_curves"]],
             "scenes": paths.paths_of_scenes("linear_stability", config["scenes"]),
         },
         {},
@@ -99,15 +108,16 @@ TABLES = {
         "stability.tsv",
         "stability_table",
         {
-            "measurements": paths.runs_of_families(config),
-            "references": paths.references_of_families(config),
+            "measurements": [
+                f"<results>/measurements/stability/{name}.nc" for name in FAMILIES
+            ],
+            "references": [
+                f"<results>/references/stability/{name}.tsv"
+                for name, reference in FAMILIES.items()
+                if reference == "quadruple"
+            ],
         },
-        {
-            "references": {
-                name: family["reference"]
-                for name, family in config["stability"]["families"].items()
-            }
-        },
+        {"references": FAMILIES},
     ),
     "trusted_horizons": (
         "trusted-horizons.tsv",

@@ -149,7 +149,7 @@ def test_scenes_stand_in_their_own_plane(atlas_drawn):
 
 def curves_over(axes: Axes) -> list[tuple[str, list[list[float]]]]:
     """Colours and points of the curves of cycles."""
-    colours = {style.colour for style in STYLES.values()}
+    colours = {colour for _, colour in STYLES.values()}
     lines = [line for line in axes.lines if line.get_color() in colours]
     return [(line.get_color(), line.get_xydata().tolist()) for line in lines]
 
@@ -162,15 +162,15 @@ def test_curves_of_cycles_lie_over_the_classes_of_their_plane(atlas_drawn):
     assert [curves_over(axes) for axes in figure.axes[:4]] == [
         *([], []),
         [
-            (STYLES["fold"].colour, [[0.2, 1.0], [0.4, 2.0], [0.4, 3.0], [0.2, 4.0]]),
-            (STYLES["torus"].colour, [[0.6, 12.0], [1.0, 13.0]]),
+            (STYLES["fold"][1], [[0.2, 1.0], [0.4, 2.0], [0.4, 3.0], [0.2, 4.0]]),
+            (STYLES["torus"][1], [[0.6, 12.0], [1.0, 13.0]]),
         ],
         [],
     ]
     (legend,) = figure.legends
     named = {line.get_label(): line.get_color() for line in legend.get_lines()}
-    assert named["fold of a cycle"] == STYLES["fold"].colour
-    assert named["torus bifurcation of a cycle"] == STYLES["torus"].colour
+    assert named["fold of a cycle"] == STYLES["fold"][1]
+    assert named["torus bifurcation of a cycle"] == STYLES["torus"][1]
     assert "period doubling of a cycle" not in named
     assert "of a cycle" not in words_in(atlas_drawn)
 
@@ -348,7 +348,7 @@ def test_special_points_have_markers_by_kind(cycles_drawn):
     for axes in cycles_drawn.axes:
         for label, (kind, places) in expected.items():
             (points,) = labelled(axes, label)
-            assert points.get_marker() == STYLES[kind].marker
+            assert points.get_marker() == STYLES[kind][0]
             assert points.get_xydata().tolist() == places
         (hopf,) = labelled(axes, "Hopf point")
         assert hopf.get_xydata().tolist() == [[0.1, 1.0]]

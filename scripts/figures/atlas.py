@@ -42,7 +42,7 @@ from scripts.tables.motion_rows import (
 
 LINEAR, LARGEST = 1e-3, 0.1
 """Exponents closer to zero are coloured on a linear scale, larger ones all alike."""
-CURVES = {kind: {"color": style.colour, "lw": 0.9} for kind, style in STYLES.items()}
+CURVES = {kind: {"color": colour, "lw": 0.9} for kind, (_, colour) in STYLES.items()}
 """Of special points of cycles, by their kind."""
 EDGE = [withStroke(linewidth=1.7, foreground="white")]
 """Around curves of cycles, so that they are seen over dark cells."""

@@ -16,12 +16,7 @@ from scripts.drawing.along_parameter import mark_scenes, maxima_of
 from scripts.drawing.special_points import STYLES, in_words, words_of
 from scripts.drawing.style import FAINT, INK
 from scripts.figures.wording import count, counted_at, place_in_words, short
-from scripts.results.paths import (
-    cycles_of_lines,
-    places_in_atlas,
-    sweeps_beside_cycles,
-    sweeps_on_lines,
-)
+from scripts.results.paths import cycles_of_lines, places_in_atlas, sweeps_on_lines
 from scripts.tables.cycle_branches import branch_of
 
 HEIGHT = 1.7
@@ -47,7 +42,8 @@ SLIDING = {"color": FAINT, "lw": 0.8, "label": "steady sliding", "zorder": 0}
 
 def inputs(config: dict) -> dict:
     """Cycles of each line, and the sweeps of routes on the same lines."""
-    return {"cycles": cycles_of_lines(config), "sweeps": sweeps_beside_cycles(config)}
+    sweeps = [path for on_line in sweeps_on_lines(config).values() for path in on_line]
+    return {"cycles": cycles_of_lines(config), "sweeps": sweeps}
 
 
 def params(config: dict) -> dict:
@@ -130,17 +126,17 @@ def draw_points(axes: Axes, cycles: xr.Dataset, along: str) -> None:
     x, branch = cycles[along].values, cycles.branch.values
     sizes = [np.ptp(x[branch == number]) for number in cycles.special_branch.values]
     large = np.array(sizes) > SMALL * np.ptp(axes.get_xlim())
-    for kind, style in STYLES.items():
+    for kind, (marker, colour) in STYLES.items():
         these = cycles.isel(special=(kinds == kind) & large)
         if these.sizes["special"]:
             axes.plot(
                 these[f"special_{along}"],
                 these.special_v_most,
                 ls="",
-                marker=style.marker,
+                marker=marker,
                 ms=3.6,
                 mfc="white",
-                mec=style.colour,
+                mec=colour,
                 mew=0.9,
                 label=in_words(kind),
                 zorder=5,

@@ -28,13 +28,10 @@ def as_html(path: str | Path) -> str:
 
 def as_words(markup: str) -> str:
     """The text of some HTML on one line, formulas in plain signs without spaces."""
-    closed = re.sub(r"(?s)<math.*?</math>", lambda formula: _closed(formula[0]), markup)
+    closed = re.sub(
+        r"(?s)<math.*?</math>", lambda formula: re.sub(r">\s+<", "><", formula[0]), markup
+    )
     return " ".join(html.unescape(re.sub(r"<[^>]*>", "", closed)).split())
-
-
-def _closed(formula: str) -> str:
-    """A formula without the spaces between its signs."""
-    return re.sub(r">\s+<", "><", formula)
 
 
 def first_sentence(markup: str) -> str:

@@ -31,16 +31,6 @@ def exponents_of_scenes(config: dict) -> list[str]:
     return paths_of_scenes("exponents", scenes_with(config, "exponents"))
 
 
-def attractors_of_scenes(config: dict) -> list[str]:
-    """Attractors of all scenes that ask for them."""
-    return paths_of_scenes("attractors/scenes", scenes_with(config, "attractors"))
-
-
-def curves_of_planes(config: dict) -> list[str]:
-    """Hopf curves of all planes."""
-    return [f"<results>/hopf/{plane}.nc" for plane in config["hopf_curves"]]
-
-
 def runs_of_route(config: dict, line: str) -> list[str]:
     """Runs along a route: from each history, and sweeps of a parameter."""
     routes = config["routes"]
@@ -79,11 +69,6 @@ def sweeps_on_lines(config: dict) -> dict[str, list[str]]:
         ]
         for line, settings in config["cycles"]["lines"].items()
     }
-
-
-def sweeps_beside_cycles(config: dict) -> list[str]:
-    """Sweeps on the lines of cycles, as one list."""
-    return [path for paths in sweeps_on_lines(config).values() for path in paths]
 
 
 def runs_of_basins(config: dict) -> list[str]:
@@ -126,21 +111,6 @@ def cycles_in_atlas(config: dict) -> list[str]:
         f"<results>/cycles/{name}.nc"
         for name, line in config["cycles"]["lines"].items()
         if (line.get("xi"), line.get("gamma")) in planes
-    ]
-
-
-def runs_of_families(config: dict) -> list[str]:
-    """Measured runs of all families of cases."""
-    families = config["stability"]["families"]
-    return [f"<results>/measurements/stability/{family}.nc" for family in families]
-
-
-def references_of_families(config: dict) -> list[str]:
-    """Reference files of the families that have one."""
-    return [
-        f"<results>/references/stability/{name}.tsv"
-        for name, family in config["stability"]["families"].items()
-        if family["reference"] == "quadruple"
     ]
 
 
