@@ -170,7 +170,7 @@ def numbers(cycles: list[xr.Dataset]) -> dict:
         lines.append(
             {
                 "letter": letter,
-                "symbol": parameters.symbol_of(along),
+                "symbol": parameters.SYMBOLS[along],
                 "place": place_in_words(line.attrs, along),
                 "branches": line.sizes["branches"],
                 "points": [count(len(places), name) for name, places in at.items()],

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from scripts.drawing.hopf_plane import SCENE, SUBCRITICAL, draw_piece, mark_scenes
-from scripts.drawing.parameters import axis_of, in_words, symbol_of
+from scripts.drawing.parameters import SYMBOLS, axis_of, in_words
 from scripts.drawing.special_points import words_of
 from scripts.drawing.style import INK
 from scripts.figures.wording import counted_at, place_in_words, short
@@ -134,7 +134,7 @@ def numbers(curves: xr.Dataset, scenes: dict[str, dict]) -> dict:
     }
     return {
         "place": place_in_words(curves.attrs, "epsilon", ordinate),
-        "ordinate": f":math:`{symbol_of(ordinate)}`",
+        "ordinate": f":math:`{SYMBOLS[ordinate]}`",
         "branches": np.unique(curves.branch).size,
         "points": curves.sizes["point"],
         "subcritical": int((curves.l1 > 0).sum()),

@@ -55,42 +55,16 @@ class Figure:
     section: tuple[str, ...] = ()
     """Keys of the section in the configuration of which the module shows one entry."""
     entry: str = ""
-    title: str = ""
-    """What is drawn, if it is not what the module's first line says."""
 
 
 OF_THE_PAPER = {
     "figure_1": Figure("Figures", figure_1),
-    "figure_2": Figure(
-        "Figures",
-        plane,
-        ("hopf_curves",),
-        "tau_of_epsilon",
-        "Figure 2: Hopf curves tau(epsilon) at fixed xi and gamma.",
-    ),
-    "figure_3": Figure(
-        "Figures",
-        plane,
-        ("hopf_curves",),
-        "xi_of_epsilon",
-        "Figure 3: Hopf curves xi(epsilon) at fixed tau and gamma.",
-    ),
+    "figure_2": Figure("Figures", plane, ("hopf_curves",), "tau_of_epsilon"),
+    "figure_3": Figure("Figures", plane, ("hopf_curves",), "xi_of_epsilon"),
     "figure_4": Figure("Figures", figure_4, ("figures",), "figure_4"),
-    "figure_5": Figure(
-        "Figures",
-        figure_4,
-        ("figures",),
-        "figure_5",
-        "Figure 5: velocity and phase portrait, rows a (the paper's torus) and b (chaos).",
-    ),
+    "figure_5": Figure("Figures", figure_4, ("figures",), "figure_5"),
     "figure_6": Figure("Figures", figure_6, ("figures",), "figure_6"),
-    "figure_7": Figure(
-        "Figures",
-        figure_6,
-        ("figures",),
-        "figure_7",
-        "Figure 7: power spectrum of the chaotic scene.",
-    ),
+    "figure_7": Figure("Figures", figure_6, ("figures",), "figure_7"),
     "figure_8": Figure("Figures", figure_8),
     "exponents": Figure("Supplement", exponents),
     "fault_limit": Figure("Supplement", fault_limit),
@@ -104,6 +78,13 @@ OF_THE_PAPER = {
 }
 """By name, in the order of the page."""
 FIGURES = list(OF_THE_PAPER)
+TITLES = {
+    "figure_2": "Figure 2: Hopf curves tau(epsilon) at fixed xi and gamma.",
+    "figure_3": "Figure 3: Hopf curves xi(epsilon) at fixed tau and gamma.",
+    "figure_5": "Figure 5: velocity and phase portrait, rows a (the paper's torus) and b (chaos).",
+    "figure_7": "Figure 7: power spectrum of the chaotic scene.",
+}
+"""Of figures by the module of another one; else the first line of the module is the title."""
 OF_USERS = {
     "scenes": Figure("Scenes", scene, ("scenes",)),
     "exponents": Figure("Exponents", exponents, ("scenes",)),
@@ -170,8 +151,7 @@ def shows_classes(figure: str) -> bool:
 
 def title_of(figure: str) -> str:
     """What is drawn."""
-    found = find(figure)
-    return found.title or found.module.__doc__.splitlines()[0]
+    return TITLES.get(figure) or find(figure).module.__doc__.splitlines()[0]
 
 
 def module_name(figure: str) -> str:

@@ -141,7 +141,7 @@ def numbers(tables: list[list[dict]]) -> dict:
         routes.append(
             {
                 "letter": letter,
-                "symbol": parameters.symbol_of(along),
+                "symbol": parameters.SYMBOLS[along],
                 "place": place_in_words(rows[0], along),
                 "runs": [
                     {"names": f"run{'s' * (len(names) > 1)} {joined(names)}", "first": first}
