@@ -25,12 +25,7 @@ NOTHING = 1e-5
 """Shares below this are not given as numbers: they are errors of the solver."""
 
 Ratio = Annotated[float, number("largest velocity over least", above=1)]
-Share = Annotated[
-    float,
-    number(
-        "least share of the time in which the block is slower than the plate", exclusiveMaximum=1
-    ),
-]
+Share = Annotated[float, number("least share of the time with v < 1", exclusiveMaximum=1)]
 
 
 @claim(8, "aperiodic_events", "section 4", look_at="events")

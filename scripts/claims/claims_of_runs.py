@@ -9,10 +9,7 @@ from scripts.claims.declare import Gamma, among, claim, number, reads, says, tes
 
 METHODS = ["auto", "explicit", "taylor", "radau5", "radau9", "radau13"]
 Method = Annotated[str, among("method of a run", METHODS)]
-Distance = Annotated[
-    float,
-    number("distance from (0, 0, 1) up to which a run has settled there"),
-]
+Distance = Annotated[float, number("distance from (0, 0, 1) up to which a run has settled there")]
 
 SMALL = 1e-3
 """An error that a figure does not show."""

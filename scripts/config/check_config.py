@@ -38,12 +38,12 @@ def checked(config: dict) -> dict:
 def validator_for(rules: dict):
     """A validator for which NaN and infinity are no numbers and which sets missing keys."""
     base = jsonschema.Draft202012Validator
-
-    def is_finite_number(_, value):
-        return _is_finite_number(value)
-
-    def is_whole_number(_, value):
-        return isinstance(value, int) and not isinstance(value, bool)
+    types = base.TYPE_CHECKER.redefine_many(
+        {
+            "number": lambda _, value: _is_finite_number(value),
+            "integer": lambda _, value: isinstance(value, int) and not isinstance(value, bool),
+        }
+    )
 
     def fill_then_check(validator, properties, instance, subschema):
         if validator.is_type(instance, "object"):
@@ -52,13 +52,8 @@ def validator_for(rules: dict):
                     instance.setdefault(key, copy.deepcopy(rules["default"]))
         yield from base.VALIDATORS["properties"](validator, properties, instance, subschema)
 
-    types = base.TYPE_CHECKER.redefine_many(
-        {"number": is_finite_number, "integer": is_whole_number}
-    )
-    extended = jsonschema.validators.extend(
-        base, {"properties": fill_then_check}, type_checker=types
-    )
-    return extended(rules)
+    check = {"properties": fill_then_check}
+    return jsonschema.validators.extend(base, check, type_checker=types)(rules)
 
 
 def _is_finite_number(value) -> bool:
@@ -83,16 +78,16 @@ def in_words(error: jsonschema.ValidationError) -> str:
     if error.validator == "required":
         missing = [key for key in error.validator_value if key not in error.instance]
         return f"{_place(path)}: key {missing} is missing"
-    if error.validator == "type" and "propertyNames" in error.absolute_schema_path:
-        return f"{_place(path)}: name {error.instance!r}; expected text (quote it)"
-    if "propertyNames" in error.absolute_schema_path:
-        return (
-            f"{_place(path)}: name {error.instance!r}; expected small letters, digits and"
-            " underscores, a letter first, at most 64, and not 20 equal parts at the end"
-        )
+    value = error.instance
     known = filter(None, [error.schema.get("description"), range_in_words(error.schema)])
     expected = ", ".join(known) or "keys with values below it"
-    return _value_in_words(path, error.instance, expected)
+    if "propertyNames" in error.absolute_schema_path:
+        expected = expected if isinstance(value, str) else "text (quote it)"
+        return f"{_place(path)}: name {value!r}; expected {expected}"
+    line = f"{_place(path[:-1])}: {path[-1] if path else 'value'} = {value!r}; expected {expected}"
+    if isinstance(value, str) and _is_number(value):
+        line += f" (this is text; write {value} without quotes for the number)"
+    return line
 
 
 def range_in_words(rules: dict) -> str:
@@ -105,13 +100,6 @@ def range_in_words(rules: dict) -> str:
     kind = {"number": "a finite number", "integer": "a whole number"}.get(rules.get("type"), "")
     bounds = [f"{sign} {rules[key]}" for key, sign in SIGNS.items() if key in rules]
     return f"{kind} {' and '.join(bounds)}".strip()
-
-
-def _value_in_words(path: list[str], value, expected: str) -> str:
-    line = f"{_place(path[:-1])}: {path[-1] if path else 'value'} = {value!r}; expected {expected}"
-    if isinstance(value, str) and _is_number(value):
-        line += f" (this is text; write {value} without quotes for the number)"
-    return line
 
 
 def _is_number(text: str) -> bool:
