@@ -58,9 +58,9 @@ def route(results: Results, *, routes: Routes, expected: Classes) -> Finding:
     """Whether these classes follow each other along at least one of the routes."""
     lines = [results.route(name) for name in routes]
     found = [sequences(rows, expected) for rows in lines]
-    told = [in_a_sentence(rows, met) for rows, met in zip(lines, found, strict=True)]
     instead = f"No run shows {', then '.join(expected)}."
-    return decided(any(any(met.values()) for met in found), " ".join(told), instead)
+    evidence = " ".join(map(in_a_sentence, lines, found))
+    return decided(any(any(met.values()) for met in found), evidence, instead)
 
 
 @claim(49, "cycle_to_torus", "section 5", look_at="routes")
@@ -223,7 +223,7 @@ def leads_to(results: Results, *, routes: Routes, before: Classes, after: Class)
     """Whether a class is met beyond others along all of the routes, or along some of them."""
     lines = [results.route(name) for name in routes]
     found = [changes(rows, before, after) for rows in lines]
-    evidence = " ".join(in_a_sentence(rows, met) for rows, met in zip(lines, found, strict=True))
+    evidence = " ".join(map(in_a_sentence, lines, found))
     holds = [any(met.values()) for met in found]
     parameters = " or ".join(dict.fromkeys(f"${parameter_of(rows)}$" for rows in lines))
     instead = f"No run along {parameters} shows {after} beyond {' or '.join(before)}."

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from docutils.core import publish_parts
 
-from scripts.page import mathematics
+from scripts.files import marked_words
 
 SETTINGS = {
     "math_output": "MathML",
@@ -23,7 +23,7 @@ SETTINGS = {
 def as_html(path: str | Path) -> str:
     """The caption as paragraphs."""
     parts = publish_parts(Path(path).read_text(), writer="html5", settings_overrides=SETTINGS)
-    return mathematics.unbroken(parts["body"].strip())
+    return marked_words.unbroken(parts["body"].strip())
 
 
 def as_words(markup: str) -> str:

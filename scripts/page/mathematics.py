@@ -1,14 +1,10 @@
-"""Mathematics on the page: formulas in LaTeX, marked words, numbers without markup."""
+"""Mathematics on the page: formulas in LaTeX, numbers without markup."""
 
 import re
 
 from docutils.utils.math import latex2mathml
 from markupsafe import Markup
 
-from scripts.files.marked_words import to_html as of_words
-from scripts.files.marked_words import unbroken
-
-__all__ = ["in_signs", "of_latex", "of_words", "unbroken"]
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 """Signs of an exponent where there is no markup."""
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
+from scripts.files import marked_words
 from scripts.files.inputs import read
 from scripts.files.outputs import logged, written
 from scripts.files.tsv import read_table
@@ -27,7 +28,7 @@ def render(template: str, **values) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters["mathematics"] = mathematics.of_words
+    environment.filters["mathematics"] = marked_words.to_html
     environment.filters["formula"] = mathematics.of_latex
     return environment.get_template(template).render(**values)
 

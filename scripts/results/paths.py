@@ -21,11 +21,6 @@ def scenes_with(config: dict, key: str) -> list[str]:
     return [name for name, scene in config["scenes"].items() if key in scene]
 
 
-def numbered(parts: int) -> list[str]:
-    """Names of a number of parts, in order."""
-    return [f"{part:04}" for part in range(1, parts + 1)]
-
-
 def exponents_of_scenes(config: dict) -> list[str]:
     """Exponents of all scenes that ask for them."""
     return paths_of_scenes("exponents", scenes_with(config, "exponents"))
@@ -78,8 +73,8 @@ def runs_of_basins(config: dict) -> list[str]:
 
 def parts_of_plane(config: dict, plane: str) -> list[str]:
     """Parts of a plane of the atlas."""
-    parts = numbered(config["atlas"]["parts"])
-    return [f"<results>/attractors/atlas/{plane}/{part}.nc" for part in parts]
+    parts = range(1, config["atlas"]["parts"] + 1)
+    return [f"<results>/attractors/atlas/{plane}/{part:04}.nc" for part in parts]
 
 
 def parts_of_atlas(config: dict) -> list[str]:
