@@ -66,7 +66,7 @@ Routes = Annotated[list[str], Names("route", several=True)]
 Class = Annotated[str, among("class of an attractor", CLASSES)]
 Classes = Annotated[list[str], some("classes of attractors in turn", CLASSES)]
 Gamma = Annotated[float, number("gamma, nondimensional")]
-Residual = Annotated[float, number("largest residual, over the largest term", maximum=1e-2)]
+Residual = Annotated[float, number("residual allowed, over the largest term", maximum=1e-2)]
 Spread = Annotated[float, number("spread up to which the critical epsilon counts as the same")]
 
 
