@@ -23,111 +23,94 @@ def measured_runs(study):
     }
 
 
-# For each rule its table, its script, its inputs and its parameters.
+def table(path, script, params=(), **inputs):
+    """A table: its path, its script in scripts/tables/, and what this gets."""
+    return path, f"tables/{script}.py", dict(params), inputs
+
+
 TABLES = {
-    "attractors_table": (
+    "attractors_table": table(
         "attractors.tsv",
         "attractor_tables",
-        {
-            "runs": paths.paths_of_scenes(
-                "attractors/scenes", paths.scenes_with(config, "attractors")
-            )
-        },
         {"of": "scenes"},
+        runs=paths.paths_of_scenes(
+            "attractors/scenes", paths.scenes_with(config, "attractors")
+        ),
     ),
-    "route_table": (
+    "route_table": table(
         "routes/{line}.tsv",
         "attractor_tables",
-        {"runs": lambda wildcards: paths.runs_of_route(config, wildcards.line)},
         {"of": "route"},
+        runs=lambda wildcards: paths.runs_of_route(config, wildcards.line),
     ),
-    "atlas_table": (
+    "atlas_table": table(
         "atlas.tsv",
         "attractor_tables",
-        {"runs": paths.parts_of_atlas(config)},
         {"of": "atlas"},
+        runs=paths.parts_of_atlas(config),
     ),
-    "atlas_plane_table": (
+    "atlas_plane_table": table(
         "atlas/{atlas_plane}.tsv",
         "attractor_tables",
-        {"runs": lambda wildcards: paths.parts_of_plane(config, wildcards.atlas_plane)},
         {"of": "atlas"},
+        runs=lambda wildcards: paths.parts_of_plane(config, wildcards.atlas_plane),
     ),
-    "basins_table": (
+    "basins_table": table(
         "basins.tsv",
         "basins_table",
-        {
-            "runs": paths.runs_of_basins(config),
-            "routes": paths.tables_of_routes(config),
-        },
-        {},
+        runs=paths.runs_of_basins(config),
+        routes=paths.tables_of_routes(config),
     ),
-    "hopf_points": (
+    "hopf_points": table(
         "hopf-points.tsv",
         "hopf_points_table",
-        {
-            "curves": [f"<results>/hopf/{plane}.nc" for plane in config["hopf_curves"]],
-            "scenes": paths.paths_of_scenes("linear_stability", config["scenes"]),
-        },
-        {},
+        curves=[f"<results>/hopf/{plane}.nc" for plane in config["hopf_curves"]],
+        scenes=paths.paths_of_scenes("linear_stability", config["scenes"]),
     ),
-    "fault_limit_table": (
+    "fault_limit_table": table(
         "fault-limit.tsv",
         "fault_limit_table",
-        {},
         {"xi": config["hopf_curves"]["tau_of_epsilon"]["fixed"]},
     ),
-    "cycle_points": (
+    "cycle_points": table(
         "cycle-points.tsv",
         "cycle_points_table",
-        {
-            "cycles": paths.cycles_of_lines(config),
-            "routes": paths.tables_of_routes(config),
-        },
-        {},
+        cycles=paths.cycles_of_lines(config),
+        routes=paths.tables_of_routes(config),
     ),
-    "linear_stability_table": (
+    "linear_stability_table": table(
         "linear-stability.tsv",
         "linear_stability_table",
-        {"scenes": paths.paths_of_scenes("linear_stability", config["scenes"])},
-        {},
+        scenes=paths.paths_of_scenes("linear_stability", config["scenes"]),
     ),
-    "exponents_table": (
-        "exponents.tsv",
-        "exponents_table",
-        {"runs": paths.exponents_of_scenes(config)},
-        {},
+    "exponents_table": table(
+        "exponents.tsv", "exponents_table", runs=paths.exponents_of_scenes(config)
     ),
-    "dimensions_table": (
-        "dimensions.tsv",
-        "dimensions_table",
-        {},
-        {"presets": config["dimensions"]},
+    "dimensions_table": table(
+        "dimensions.tsv", "dimensions_table", {"presets": config["dimensions"]}
     ),
-    "stability_table": (
+    "stability_table": table(
         "stability.tsv",
         "stability_table",
-        {
-            "measurements": [
-                f"<results>/measurements/stability/{name}.nc" for name in FAMILIES
-            ],
-            "references": [
-                f"<results>/references/stability/{name}.tsv"
-                for name, reference in FAMILIES.items()
-                if reference == "quadruple"
-            ],
-        },
         {"references": FAMILIES},
+        measurements=[
+            f"<results>/measurements/stability/{name}.nc" for name in FAMILIES
+        ],
+        references=[
+            f"<results>/references/stability/{name}.tsv"
+            for name, reference in FAMILIES.items()
+            if reference == "quadruple"
+        ],
     ),
-    "trusted_horizons": (
+    "trusted_horizons": table(
         "trusted-horizons.tsv",
         "trusted_horizons",
-        measured_runs("trust"),
         {"trusted_error": MEASURED["trusted_error"]},
+        **measured_runs("trust"),
     ),
 }
 
-for name, (table, module, inputs, parameters) in TABLES.items():
+for name, (path, module, parameters, inputs) in TABLES.items():
 
     rule:
         name:
@@ -135,15 +118,15 @@ for name, (table, module, inputs, parameters) in TABLES.items():
         input:
             **inputs,
         output:
-            f"<results>/tables/{table}",
+            f"<results>/tables/{path}",
         log:
-            f"<results>/logs/tables/{table.removesuffix('.tsv')}.log",
+            f"<results>/logs/tables/{path.removesuffix('.tsv')}.log",
         priority: PAPER if name == "attractors_table" else 0
         localrule: True
         params:
             **parameters,
-            script=f"tables/{module}.py",
-            code=code_of(f"tables/{module}.py"),
+            script=module,
+            code=code_of(module),
         script:
             "../scripts/{params.script}"
 
