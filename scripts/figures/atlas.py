@@ -14,24 +14,12 @@ from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
 from scripts.drawing import parameters
-from scripts.drawing.class_map import (
-    CELLS,
-    KINDS,
-    draw_classes,
-    legend_of,
-    mark_failures,
-    table_of,
-)
+from scripts.drawing.class_map import CELLS, KINDS, draw_classes, legend_of, mark_failures, table_of
 from scripts.drawing.hopf_plane import SCENE, SUBCRITICAL, draw_piece, mark_scenes
 from scripts.drawing.special_points import STYLES, in_words, words_of
 from scripts.drawing.style import INK
 from scripts.figures.wording import place_in_words, short, with_error
-from scripts.results.paths import (
-    curves_of_atlas,
-    cycles_in_atlas,
-    places_in_atlas,
-    table_of_atlas,
-)
+from scripts.results.paths import curves_of_atlas, cycles_in_atlas, places_in_atlas, table_of_atlas
 from scripts.tables.motion_rows import (
     count_in_words,
     is_computed,
@@ -64,10 +52,7 @@ def params(config: dict) -> dict:
 
 
 def draw(
-    table: list[dict],
-    curves: list[xr.Dataset],
-    cycles: list[xr.Dataset],
-    scenes: dict[str, dict],
+    table: list[dict], curves: list[xr.Dataset], cycles: list[xr.Dataset], scenes: dict[str, dict]
 ) -> Figure:
     """One plane a row: classes, and the largest exponent beside them; Hopf curves over both.
 

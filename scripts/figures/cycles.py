@@ -73,10 +73,7 @@ def draw(
         draw_branches(axes, line, along)
         draw_points(axes, line, along)
         drawn |= {str(artist.get_label()): artist for artist in axes.lines}
-        axes.set(
-            xlabel=parameters.axis_of(along),
-            ylabel="maxima of $v$ (units of $v_0$)",
-        )
+        axes.set(xlabel=parameters.axis_of(along), ylabel="maxima of $v$ (units of $v_0$)")
         # the names of scenes stand above the dots
         axes.margins(x=0.01, y=0.18)
         axes.set_ylim(bottom=0)

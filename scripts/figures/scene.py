@@ -11,12 +11,7 @@ from matplotlib.figure import Figure
 from scripts.drawing import parameters
 from scripts.drawing.spectra import label_peaks, lines_in_words
 from scripts.drawing.style import FAINT
-from scripts.drawing.trajectories import (
-    MOST_MISSED,
-    draw_portrait,
-    draw_velocity,
-    share_missed,
-)
+from scripts.drawing.trajectories import MOST_MISSED, draw_portrait, draw_velocity, share_missed
 from scripts.figures.figure_4 import end_in_words
 from scripts.figures.wording import as_formulas, place_in_words, short, with_error
 from scripts.tables.attractor_tables import rows_of

@@ -56,10 +56,7 @@ def draw(
     """
     rows = len(trajectories)
     figure, panels = plt.subplots(
-        2 * rows + 1,
-        1,
-        figsize=(3.6, 3.1 * rows + 2.0),
-        height_ratios=[1, 1] * rows + [1.7],
+        2 * rows + 1, 1, figsize=(3.6, 3.1 * rows + 2.0), height_ratios=[1, 1] * rows + [1.7]
     )
     known = own_rows(table)
     section = panels[-1]
