@@ -235,7 +235,7 @@ def test_answer_of_the_worker_is_read(monkeypatch, tmp_path):
     lines += "for piece in 1 2; do for i in 1 2 3; do echo 2 $piece $i 0.4 0.$i; done; done"
     write_script(tmp_path / "exponents_worker", lines)
     monkeypatch.setattr(exponents, "BUILD", tmp_path)
-    passed, pieces = exponents.measure_pieces(exponents.MOTIONS[0], [1, 2])
+    passed, pieces = exponents.measure_pieces("cycle", [1, 2])
     assert passed == 100.0
     assert pieces[1].tolist() == [[[0.5, 0.1]] * 3]
     assert pieces[2][1].tolist() == [[0.4, 0.1], [0.4, 0.2], [0.4, 0.3]]
