@@ -12,8 +12,8 @@ import numpy as np
 from symengine import Symbol, exp
 
 
-def equations_of(tau: float, epsilon: float, xi: float, gamma: float) -> tuple[list, list]:
-    """Equation (4) in theta, u and w = ln v, and v as a helper."""
+def compiled(tau: float, epsilon: float, xi: float, gamma: float) -> jitcdde.jitcdde:
+    """The solver of equation (4) in theta, u and w = ln v, with v as a helper."""
     theta, u, w = (jitcdde.y(i) for i in range(3))
     delayed_w = jitcdde.y(2, jitcdde.t - tau) if tau > 0 else w
     v = Symbol("v")
@@ -22,13 +22,7 @@ def equations_of(tau: float, epsilon: float, xi: float, gamma: float) -> tuple[l
         v - 1,
         -(gamma**2) / v * (u + (theta + w) / xi),
     ]
-    return equations, [(v, exp(w))]
-
-
-def compiled(tau: float, epsilon: float, xi: float, gamma: float) -> jitcdde.jitcdde:
-    """The solver of equation (4)."""
-    equations, helpers = equations_of(tau, epsilon, xi, gamma)
-    solver = jitcdde.jitcdde(equations, helpers=helpers, max_delay=tau, verbose=False)
+    solver = jitcdde.jitcdde(equations, helpers=[(v, exp(w))], max_delay=tau, verbose=False)
     solver.compile_C()
     return solver
 
