@@ -1,10 +1,6 @@
-"""One block in JiTCDDE: a scene, compiled once and run on request (compare.py).
-
-With the argument `exponents`: growth of its tangent vectors, a request in JSON (exponents.py).
-"""
+"""One block in JiTCDDE: a scene, compiled once and run on request (compare.py)."""
 
 import contextlib
-import json
 import os
 import sys
 import time
@@ -16,8 +12,8 @@ import numpy as np
 from symengine import Symbol, exp
 
 
-def equations_of(tau: float, epsilon: float, xi: float, gamma: float) -> tuple[list, list]:
-    """Equation (4) in theta, u and w = ln v, and v as a helper."""
+def compiled(tau: float, epsilon: float, xi: float, gamma: float) -> jitcdde.jitcdde:
+    """The solver of equation (4) in theta, u and w = ln v, with v as a helper."""
     theta, u, w = (jitcdde.y(i) for i in range(3))
     delayed_w = jitcdde.y(2, jitcdde.t - tau) if tau > 0 else w
     v = Symbol("v")
@@ -26,13 +22,7 @@ def equations_of(tau: float, epsilon: float, xi: float, gamma: float) -> tuple[l
         v - 1,
         -(gamma**2) / v * (u + (theta + w) / xi),
     ]
-    return equations, [(v, exp(w))]
-
-
-def compiled(tau: float, epsilon: float, xi: float, gamma: float) -> jitcdde.jitcdde:
-    """The solver of equation (4)."""
-    equations, helpers = equations_of(tau, epsilon, xi, gamma)
-    solver = jitcdde.jitcdde(equations, helpers=helpers, max_delay=tau, verbose=False)
+    solver = jitcdde.jitcdde(equations, helpers=[(v, exp(w))], max_delay=tau, verbose=False)
     solver.compile_C()
     return solver
 
@@ -84,39 +74,9 @@ def serve_scene(out: TextIO) -> None:
         print(f"answer: {reply}", file=out, flush=True)
 
 
-def measure_growth(request: dict) -> dict:
-    """CPU seconds after the transient, and growth of the vectors and length of each interval."""
-    equations, helpers = equations_of(*(request[key] for key in ("tau", "epsilon", "xi", "gamma")))
-    solver = jitcdde.jitcdde_lyap(
-        equations,
-        helpers=helpers,
-        n_lyap=request["vectors"],
-        max_delay=request["tau"],
-        verbose=False,
-    )
-    solver.compile_C()
-    prepare(solver, request["past"], request["tolerance"])
-    solver.step_on_discontinuities()
-    interval = request["interval"]
-    begins = solver.t
-    while solver.t < begins + request["t_transient"]:
-        solver.integrate(solver.t + interval)
-    growth, length = [], []
-    end = solver.t + request["t_measured"]
-    start = time.process_time()
-    while solver.t < end:
-        _, exponents, passed = solver.integrate(solver.t + interval)
-        growth.append([float(value * passed) for value in exponents])
-        length.append(float(passed))
-    return {"seconds": time.process_time() - start, "growth": growth, "length": length}
-
-
 if __name__ == "__main__":
     warnings.simplefilter("ignore")
     # other output of JiTCDDE must not be taken for an answer
     with os.fdopen(os.dup(1), "w") as answers, contextlib.redirect_stdout(sys.stderr):
         os.dup2(2, 1)
-        if sys.argv[1:] == ["exponents"]:
-            json.dump(measure_growth(json.load(sys.stdin)), answers)
-        else:
-            serve_scene(answers)
+        serve_scene(answers)

@@ -19,19 +19,12 @@ from scripts.tables.accuracy import Reference, distances, read_references
 HORIZONS = ROOT / "results" / "tables" / "trusted-horizons.tsv"
 START_LIMIT = 120.0
 """Seconds in which a worker must have started, which may include compilation."""
+DESOLVE = ["Rscript", "--vanilla", str(HERE / "desolve_worker.R"), str(BUILD / "block.so")]
 SOLVERS = {
     "ours": [str(BUILD / "our_worker"), "auto"],
     "jitcdde": [str(HERE / ".venv" / "bin" / "python"), "-I", str(HERE / "jitcdde_worker.py")],
-    **{
-        name: [
-            "Rscript",
-            "--vanilla",
-            str(HERE / "desolve_worker.R"),
-            str(BUILD / "block.so"),
-            kind,
-        ]
-        for name, kind in (("desolve", "1"), ("desolve_interpol_2", "2"))
-    },
+    "desolve": [*DESOLVE, "1"],
+    "desolve_interpol_2": [*DESOLVE, "2"],
 }
 """Commands of the solvers, ours first; deSolve by default and with its better interpolation."""
 

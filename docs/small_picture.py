@@ -1,6 +1,12 @@
 """A figure at half its size and with 256 colours, small enough to be committed.
 
-docs/small_picture.py FIGURE.png PICTURE.png
+    python docs/small_picture.py FIGURE.png PICTURE.png
+
+draws docs/work-precision.png from results/figures/work_precision.png, and docs/atlas.png from
+results/figures/atlas.png. For docs/page.png, after `setup/setup.sh tests/browser`:
+
+    tests/browser/.venv/bin/python docs/page_picture.py results/index.html build/page.png
+    python docs/small_picture.py build/page.png docs/page.png
 """
 
 import sys

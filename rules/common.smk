@@ -89,7 +89,7 @@ def figures_on_page():
     return [
         {
             "name": name,
-            "category": registry.category_of(name),
+            "category": registry.find(name).category,
             "caption": f"{plan.results}/figures/{name}.rst",
             "drawing": f"{plan.results}/figures/{name}.svg",
             "shows_classes": registry.shows_classes(name),

@@ -12,20 +12,24 @@ for figure in plan.figures:
             png=report(
                 f"<results>/figures/{figure}.png",
                 caption=Path.cwd() / fill_in(registry.caption_of(figure)),
-                category=registry.category_of(figure),
+                category=registry.find(figure).category,
                 labels={"figure": registry.title_of(figure).rstrip(".")},
             ),
             svg=f"<results>/figures/{figure}.svg",
         log:
             f"<results>/logs/figures/{figure}.log",
-        priority: PAPER if registry.category_of(figure) == "Figures" else 0
+        priority: PAPER if registry.find(figure).category == "Figures" else 0
         localrule: True
         params:
             **fill_in(registry.params_of(figure, config)),
-            script=registry.script_of(figure),
-            code=code_of(registry.script_of(figure), *tables_read(figure)),
+            module=registry.module_name(figure),
+            code=code_of(
+                f"figures/{registry.module_name(figure)}.py",
+                *modules_of("figures/make_figure.py"),
+                *tables_read(figure),
+            ),
         script:
-            "../scripts/{params.script}"
+            "../scripts/figures/make_figure.py"
 
 
 rule captions:

@@ -3,223 +3,138 @@ from scripts.claims.ledger import inputs_for
 from scripts.namelists.study_cases import measured_study
 from scripts.results import paths
 
+FAMILIES = {
+    name: family["reference"]
+    for name, family in config["stability"]["families"].items()
+}
+"""What each family of cases is compared with."""
 MEASURED = measured_study(config)
 
 
-rule attractors_table:
-    """Table of the attractors of the scenes, with their classes."""
-    input:
-        runs=paths.attractors_of_scenes(config),
-    output:
-        "<results>/tables/attractors.tsv",
-    log:
-        "<results>/logs/tables/attractors.log",
-    priority: PAPER
-    localrule: True
-    params:
-        of="scenes",
-        code=code_of("tables/attractor_tables.py"),
-    script:
-        "../scripts/tables/attractor_tables.py"
+def measured_runs(study):
+    """Inputs of a table of measured runs: those of a study, and references of the same cases."""
+    return {
+        "measurements": [
+            f"<results>/measurements/{study}/{case}.nc" for case in MEASURED["cases"]
+        ],
+        "references": [
+            f"<results>/references/trust/{case}.tsv" for case in MEASURED["cases"]
+        ],
+    }
 
 
-rule route_table:
-    """Table of the attractors along a route: one parameter changes, all others are fixed."""
-    input:
+def table(path, script, params=(), **inputs):
+    """A table: its path, its script in scripts/tables/, and what this gets."""
+    return path, f"tables/{script}.py", dict(params), inputs
+
+
+TABLES = {
+    "attractors_table": table(
+        "attractors.tsv",
+        "attractor_tables",
+        {"of": "scenes"},
+        runs=paths.paths_of_scenes(
+            "attractors/scenes", paths.scenes_with(config, "attractors")
+        ),
+    ),
+    "route_table": table(
+        "routes/{line}.tsv",
+        "attractor_tables",
+        {"of": "route"},
         runs=lambda wildcards: paths.runs_of_route(config, wildcards.line),
-    output:
-        "<results>/tables/routes/{line}.tsv",
-    log:
-        "<results>/logs/tables/routes/{line}.log",
-    localrule: True
-    params:
-        of="route",
-        code=code_of("tables/attractor_tables.py"),
-    script:
-        "../scripts/tables/attractor_tables.py"
-
-
-rule basins_table:
-    """Table of the attractors that are reached from random histories."""
-    input:
+    ),
+    "atlas_table": table(
+        "atlas.tsv",
+        "attractor_tables",
+        {"of": "atlas"},
+        runs=paths.parts_of_atlas(config),
+    ),
+    "atlas_plane_table": table(
+        "atlas/{atlas_plane}.tsv",
+        "attractor_tables",
+        {"of": "atlas"},
+        runs=lambda wildcards: paths.parts_of_plane(config, wildcards.atlas_plane),
+    ),
+    "basins_table": table(
+        "basins.tsv",
+        "basins_table",
         runs=paths.runs_of_basins(config),
         routes=paths.tables_of_routes(config),
-    output:
-        "<results>/tables/basins.tsv",
-    log:
-        "<results>/logs/tables/basins.log",
-    localrule: True
-    params:
-        code=code_of("tables/basins_table.py"),
-    script:
-        "../scripts/tables/basins_table.py"
-
-
-rule atlas_table:
-    """Table of the atlas: the class of motion at points of epsilon and tau."""
-    input:
-        runs=paths.parts_of_atlas(config),
-    output:
-        "<results>/tables/atlas.tsv",
-    log:
-        "<results>/logs/tables/atlas.log",
-    localrule: True
-    params:
-        of="atlas",
-        code=code_of("tables/attractor_tables.py"),
-    script:
-        "../scripts/tables/attractor_tables.py"
-
-
-use rule atlas_table as atlas_plane_table with:
-    input:
-        runs=lambda wildcards: paths.parts_of_plane(config, wildcards.atlas_plane),
-    output:
-        "<results>/tables/atlas/{atlas_plane}.tsv",
-    log:
-        "<results>/logs/tables/atlas/{atlas_plane}.log",
-
-
-rule hopf_points:
-    """Table of the special points on the Hopf curves."""
-    input:
-        curves=paths.curves_of_planes(config),
+    ),
+    "hopf_points": table(
+        "hopf-points.tsv",
+        "hopf_points_table",
+        curves=[f"<results>/hopf/{plane}.nc" for plane in config["hopf_curves"]],
         scenes=paths.paths_of_scenes("linear_stability", config["scenes"]),
-    output:
-        "<results>/tables/hopf-points.tsv",
-    log:
-        "<results>/logs/tables/hopf-points.log",
-    localrule: True
-    params:
-        code=code_of("tables/hopf_points_table.py"),
-    script:
-        "../scripts/tables/hopf_points_table.py"
-
-
-rule fault_limit_table:
-    """Table of the least epsilon of all Hopf curves over gamma, at the xi of Figure 2."""
-    output:
-        "<results>/tables/fault-limit.tsv",
-    log:
-        "<results>/logs/tables/fault-limit.log",
-    localrule: True
-    params:
-        xi=lambda wildcards: config["hopf_curves"]["tau_of_epsilon"]["fixed"],
-        code=code_of("tables/fault_limit_table.py"),
-    script:
-        "../scripts/tables/fault_limit_table.py"
-
-
-rule cycle_points:
-    """Table of the points where cycles bifurcate."""
-    input:
+    ),
+    "fault_limit_table": table(
+        "fault-limit.tsv",
+        "fault_limit_table",
+        {"xi": config["hopf_curves"]["tau_of_epsilon"]["fixed"]},
+    ),
+    "cycle_points": table(
+        "cycle-points.tsv",
+        "cycle_points_table",
         cycles=paths.cycles_of_lines(config),
         routes=paths.tables_of_routes(config),
-    output:
-        "<results>/tables/cycle-points.tsv",
-    log:
-        "<results>/logs/tables/cycle-points.log",
-    localrule: True
-    params:
-        code=code_of("tables/cycle_points_table.py"),
-    script:
-        "../scripts/tables/cycle_points_table.py"
-
-
-rule linear_stability_table:
-    """Table of the linear stability of steady sliding in the scenes."""
-    input:
+    ),
+    "linear_stability_table": table(
+        "linear-stability.tsv",
+        "linear_stability_table",
         scenes=paths.paths_of_scenes("linear_stability", config["scenes"]),
-    output:
-        "<results>/tables/linear-stability.tsv",
-    log:
-        "<results>/logs/tables/linear-stability.log",
-    localrule: True
-    params:
-        code=code_of("tables/linear_stability_table.py"),
-    script:
-        "../scripts/tables/linear_stability_table.py"
+    ),
+    "exponents_table": table(
+        "exponents.tsv", "exponents_table", runs=paths.exponents_of_scenes(config)
+    ),
+    "dimensions_table": table(
+        "dimensions.tsv", "dimensions_table", {"presets": config["dimensions"]}
+    ),
+    "stability_table": table(
+        "stability.tsv",
+        "stability_table",
+        {"references": FAMILIES},
+        measurements=[
+            f"<results>/measurements/stability/{name}.nc" for name in FAMILIES
+        ],
+        references=[
+            f"<results>/references/stability/{name}.tsv"
+            for name, reference in FAMILIES.items()
+            if reference == "quadruple"
+        ],
+    ),
+    "trusted_horizons": table(
+        "trusted-horizons.tsv",
+        "trusted_horizons",
+        {"trusted_error": MEASURED["trusted_error"]},
+        **measured_runs("trust"),
+    ),
+}
 
+for name, (path, module, parameters, inputs) in TABLES.items():
 
-rule exponents_table:
-    """Table of the Lyapunov exponents of the scenes."""
-    input:
-        runs=paths.exponents_of_scenes(config),
-    output:
-        "<results>/tables/exponents.tsv",
-    log:
-        "<results>/logs/tables/exponents.log",
-    localrule: True
-    params:
-        code=code_of("tables/exponents_table.py"),
-    script:
-        "../scripts/tables/exponents_table.py"
-
-
-rule dimensions_table:
-    """Table of L/v0, xi, gamma and the paper's delay for a laboratory sample and a fault."""
-    output:
-        "<results>/tables/dimensions.tsv",
-    log:
-        "<results>/logs/tables/dimensions.log",
-    localrule: True
-    params:
-        presets=config["dimensions"],
-        code=code_of("tables/dimensions_table.py"),
-    script:
-        "../scripts/tables/dimensions_table.py"
-
-
-rule stability_table:
-    """Table of the errors of the solver on stiff and extreme cases."""
-    input:
-        measurements=paths.runs_of_families(config),
-        references=paths.references_of_families(config),
-    output:
-        "<results>/tables/stability.tsv",
-    log:
-        "<results>/logs/tables/stability.log",
-    localrule: True
-    params:
-        references={
-            name: family["reference"]
-            for name, family in config["stability"]["families"].items()
-        },
-        code=code_of("tables/stability_table.py"),
-    script:
-        "../scripts/tables/stability_table.py"
-
-
-rule trusted_horizons:
-    """Table of the times up to which runs of the scenes can be compared."""
-    input:
-        measurements=expand(
-            "<results>/measurements/trust/{case}.nc", case=MEASURED["cases"]
-        ),
-        references=expand(
-            "<results>/references/trust/{case}.tsv", case=MEASURED["cases"]
-        ),
-    output:
-        "<results>/tables/trusted-horizons.tsv",
-    log:
-        "<results>/logs/tables/trusted-horizons.log",
-    localrule: True
-    params:
-        trusted_error=MEASURED["trusted_error"],
-        code=code_of("tables/trusted_horizons.py"),
-    script:
-        "../scripts/tables/trusted_horizons.py"
+    rule:
+        name:
+            name
+        input:
+            **inputs,
+        output:
+            f"<results>/tables/{path}",
+        log:
+            f"<results>/logs/tables/{path.removesuffix('.tsv')}.log",
+        priority: PAPER if name == "attractors_table" else 0
+        localrule: True
+        params:
+            **parameters,
+            script=module,
+            code=code_of(module),
+        script:
+            "../scripts/{params.script}"
 
 
 rule work_precision_table:
     """Tables of error against run time, and of error against tolerance."""
     input:
-        measurements=expand(
-            "<results>/measurements/work_precision/{case}.nc", case=MEASURED["cases"]
-        ),
-        references=expand(
-            "<results>/references/trust/{case}.tsv", case=MEASURED["cases"]
-        ),
+        **measured_runs("work_precision"),
     output:
         errors="<results>/tables/work-precision.tsv",
         proportionality="<results>/tables/tolerance-proportionality.tsv",
@@ -241,12 +156,6 @@ rule claims:
             "<results>/tables/claims.tsv",
             caption="../scripts/claims/ledger.rst",
             category="Claims",
-            labels={"content": "Table"},
-        ),
-        page=report(
-            "<results>/tables/claims.html",
-            caption="../scripts/claims/ledger.rst",
-            category="Claims",
             labels={"content": "Verdicts"},
         ),
         json="<results>/tables/claims.json",
@@ -255,6 +164,6 @@ rule claims:
     localrule: True
     params:
         claims=plan.claims,
-        code=code_of("claims/ledger.py", "page/verdicts.html.jinja"),
+        code=code_of("claims/ledger.py"),
     script:
         "../scripts/claims/ledger.py"

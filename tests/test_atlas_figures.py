@@ -138,7 +138,7 @@ def test_special_points_have_markers_by_kind(cycles_drawn):
     for axes in cycles_drawn.axes:
         for label, (kind, places) in expected.items():
             (points,) = labelled(axes, label)
-            assert points.get_marker() == STYLES[kind].marker
+            assert points.get_marker() == STYLES[kind][0]
             assert points.get_xydata().tolist() == places
         (hopf,) = labelled(axes, "Hopf point")
         assert hopf.get_xydata().tolist() == [[0.1, 1.0]]

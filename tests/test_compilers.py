@@ -1,68 +1,43 @@
-"""The table of ./test compilers, from made-up builds."""
+"""What ./test compilers says of builds, which are made up."""
 
-import struct
-from pathlib import Path
+import os
+import shutil
+import subprocess
 
-import compare_builds
 import pytest
+from conftest import ROOT, write_script
 
-
-def made_build(folder: Path, name: str, last: float = 0.25, failed: int = 0) -> Path:
-    """A build with two cases of two samples; `last` is the last value of the second."""
-    build = folder / name
-    found = build / "CMakeFiles" / "3.25.1" / "CMakeFortranCompiler.cmake"
-    found.parent.mkdir(parents=True)
-    found.write_text(
-        'set(CMAKE_Fortran_COMPILER_ID "GNU")\nset(CMAKE_Fortran_COMPILER_VERSION "12.2.0")\n'
-    )
-    tests = "1: a [PASSED]\n1: b [PASSED]\n" + "2: c [FAILED]\n" * failed
-    summary = f"{100 - 50 * failed}% tests passed, {failed} tests failed out of 2\n"
-    (build / "log").write_text(f"{tests}\n{summary}")
-    rows = {
-        "cycle by explicit": [[0.0, 1.0, 2.0, 0.1], [1.0, 1.0, 2.0, 0.1]],
-        "slips by auto": [[0.0, 1.0, 2.0, 0.2], [5.0, 1.0, -40.0, last]],
-    }
-    lines = [
-        f"{case}: {' '.join(struct.pack('>d', value).hex().upper() for value in row)}\n"
-        for case in rows
-        for row in rows[case]
-    ]
-    (build / "trajectories.txt").write_text("".join(lines))
-    return build
-
-
-def test_same_bits_and_no_failures_are_well(tmp_path, capsys):
-    assert compare_builds.main([made_build(tmp_path, name) for name in ("one", "two")]) == 0
-    said = capsys.readouterr()
-    cells = [cell.strip() for cell in said.out.splitlines()[2].split("  ") if cell.strip()]
-    assert cells == ["two", "GNU 12.2.0", "2 of 2", "2 of 2", "yes", "0"]
-    assert said.err == ""
+CMAKE = """[[ $1 == --build ]] || exit 0
+mkdir -p $2/bin
+echo "echo cycle: $(<bits-$(basename $2))" >$2/bin/trajectory_bits
+chmod +x $2/bin/trajectory_bits"""
 
 
 @pytest.mark.parametrize(
-    ("first", "second", "failed", "shown"),
+    ("second", "failing", "said"),
     [
-        # one other bit, with its place and size
-        (0.25, 0.25 + 2.0**-54, 0, "no         5.6e-17 (slips by auto, from t = 5)"),
-        # bits are compared, not values
-        (0.0, -0.0, 0, "0.0e+00 (slips by auto, from t = 5)"),
-        # a failed test, also where the bits are the same
-        (0.25, 0.25, 1, "2 of 3"),
+        ("3F", "none", "all tests pass, same bits"),
+        ("40", "none", "other bits: build/gfortran-11/trajectories.txt build/gfortran-12"),
+        ("3F", "gfortran-12", "failed; see build/gfortran-12/log"),
     ],
 )
-def test_build_that_differs_or_fails_is_shown(tmp_path, capsys, first, second, failed, shown):
-    builds = [made_build(tmp_path, "one", first), made_build(tmp_path, "two", second, failed)]
-    assert compare_builds.main(builds) == 1
-    said = capsys.readouterr()
-    assert shown in said.out
-    assert said.err == f"compilers: two is not as it should be; see {tmp_path}/two/log\n"
-
-
-@pytest.mark.parametrize(
-    ("lost", "shown"), [("log", "0 of 0"), ("trajectories.txt", "no trajectories")]
-)
-def test_build_without_its_files_is_shown(tmp_path, capsys, lost, shown):
-    builds = [made_build(tmp_path, name) for name in ("one", "two")]
-    (builds[1] / lost).unlink()
-    assert compare_builds.main(builds) == 1
-    assert shown in capsys.readouterr().out
+def test_builds_that_differ_or_fail_are_named(tmp_path, second, failing, said):
+    """With status 1; all builds are tried."""
+    (tmp_path / "compilers").mkdir()
+    shutil.copy(ROOT / "compilers" / "run", tmp_path / "compilers")
+    (tmp_path / "apt-packages.txt").write_text("gfortran-11\ngfortran-12\n")
+    for name, bits in {"gfortran-11": "3F", "gfortran-12": second, "sanitize": "3F"}.items():
+        (tmp_path / f"bits-{name}").write_text(bits)
+    write_script(tmp_path / "bin" / "cmake", CMAKE)
+    write_script(tmp_path / "bin" / "ctest", f"[[ $2 != build/{failing} ]]")
+    run = subprocess.run(
+        ["compilers/run", "."],
+        cwd=tmp_path,
+        env={**os.environ, "PATH": f"{tmp_path}/bin:{os.environ['PATH']}"},
+        capture_output=True,
+        text=True,
+    )
+    lines = run.stdout.splitlines()
+    assert [line.split(": ")[1] for line in lines] == ["gfortran-11", "gfortran-12", "sanitize"]
+    assert said in lines[1]
+    assert run.returncode == ("same bits" not in lines[1])

@@ -219,9 +219,9 @@ def test_every_document_is_reached_from_the_readme():
 
 
 def test_every_picture_is_shown_and_has_its_command():
-    """Pictures in docs/ stand in a document; docs/draw says how each is drawn."""
-    drawing = (ROOT / "docs" / "draw").read_text()
-    for picture in [name for name in project_files() if fnmatch(name, "docs/*.[ps][nv]g")]:
+    """Pictures in docs/ stand in a document; docs/small_picture.py says how each is drawn."""
+    drawing = (ROOT / "docs" / "small_picture.py").read_text()
+    for picture in [name for name in project_files() if fnmatch(name, "docs/*.png")]:
         name = PurePath(picture).name
         assert any(f"{name})" in text_of(document) for document in DOCUMENTS)
         assert name in drawing

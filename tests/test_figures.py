@@ -31,7 +31,7 @@ def drawn(smoke, smoke_config):
         inputs = registry.inputs_of(name, smoke_config)
         inputs = {key: placed(paths) for key, paths in inputs.items()}
         params = registry.params_of(name, smoke_config)
-        figure = call(registry.module_of(name).draw, inputs, params)
+        figure = call(registry.find(name).module.draw, inputs, params)
         figure.canvas.draw()
         plt.close(figure)
         return figure

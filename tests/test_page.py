@@ -17,8 +17,8 @@ from made_up_page import attractor, claim, run
 from scripts.claims.claims_results import CORRECTED, NOT_REPRODUCED, NOT_TESTABLE, VERDICTS
 from scripts.claims.ledger import paper_claims
 from scripts.figures.registry import FIGURES
+from scripts.files.marked_words import to_html
 from scripts.page import captions, findings, page_content, page_provenance, page_views, write_page
-from scripts.page.mathematics import of_words
 
 
 class Elements(HTMLParser):
@@ -215,7 +215,7 @@ def test_every_claim_stands_in_the_page_once(smoke, page):
     for row in claims:
         assert ids[f"claim-{row['id']}"] == 1
         for words in (f"{row['claim']} {row['verdict']}", row["instead"], row["evidence"]):
-            assert Elements(of_words(words)).text in shown.text
+            assert Elements(to_html(words)).text in shown.text
     for verdict in VERDICTS:
         count = sum(row["verdict"] == verdict for row in claims)
         assert f"{verdict} {count} claim" in shown.text

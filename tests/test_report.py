@@ -16,7 +16,7 @@ def test_report_holds_figures_captions_and_verdicts(smoke, tmp_path):
     assert run.returncode == 0, run.stdout
     with zipfile.ZipFile(report) as parts:
         files = {name.split("/")[-1] for name in parts.namelist()}
-        assert {"claims.html", *(f"{figure}.png" for figure in FIGURES)} <= files
+        assert {"claims.tsv", *(f"{figure}.png" for figure in FIGURES)} <= files
         text = parts.read("report/report.html").decode()
     text = " ".join(text.replace("\\n", " ").split())
     for figure in FIGURES:

@@ -11,7 +11,6 @@ from scripts.results.programs import RUNS
 
 SCRIPTS = [
     *("reproduce", "test", "setup/setup.sh", ".ci/run", "benchmarks/run", "compilers/run"),
-    "docs/draw",
 ]
 LOCKS = [*(".", "setup", "benchmarks", "docs", "tests/browser", "tests/formats", "profiles/slurm")]
 """Folders with a lock of Python packages."""

@@ -36,13 +36,8 @@ from scripts.tables.motion_rows import is_computed, parameter_of
 KINDS = {"supercritical": -1, "subcritical": 1}
 """Kinds of a Hopf bifurcation by the sign of the first Lyapunov coefficient."""
 Kinds = Annotated[list[str], some("kinds of Hopf bifurcations", list(KINDS))]
-Share = Annotated[
-    float,
-    number("interval of epsilon, over its end, up to which it counts as none, a finite number > 0"),
-]
-Motion = Annotated[
-    float, number("largest v - 1 up to which the block is at rest, a finite number > 0")
-]
+Share = Annotated[float, number("interval of epsilon, over its end, up to which it counts as none")]
+Motion = Annotated[float, number("largest v - 1 up to which the block is at rest")]
 
 
 @claim(1, "hopf_by_delay", "abstract", look_at="linear-stability.tsv")

@@ -7,7 +7,7 @@ import numpy as np
 from scripts.claims.claims_results import Finding, Results, decided, decided_after_correction, short
 from scripts.claims.declare import claim, number, reads, says, tested_with
 
-Difference = Annotated[float, number("largest difference that counts as none, a finite number > 0")]
+Difference = Annotated[float, number("largest difference that counts as none")]
 
 
 @claim(13, "mu0_is_steady_friction", "section 1, below (1.2)", look_at="figure_8")

@@ -58,9 +58,9 @@ def route(results: Results, *, routes: Routes, expected: Classes) -> Finding:
     """Whether these classes follow each other along at least one of the routes."""
     lines = [results.route(name) for name in routes]
     found = [sequences(rows, expected) for rows in lines]
-    told = [in_a_sentence(rows, met) for rows, met in zip(lines, found, strict=True)]
     instead = f"No run shows {', then '.join(expected)}."
-    return decided(any(any(met.values()) for met in found), " ".join(told), instead)
+    evidence = " ".join(map(in_a_sentence, lines, found))
+    return decided(any(any(met.values()) for met in found), evidence, instead)
 
 
 @claim(49, "cycle_to_torus", "section 5", look_at="routes")
@@ -69,16 +69,12 @@ def route(results: Results, *, routes: Routes, expected: Classes) -> Finding:
 @reads("routes", "cycle_points")
 def torus_route(results: Results, *, routes: Routes, expected: Classes) -> Finding:
     """Whether these classes follow each other, a cycle and a torus at a torus bifurcation."""
-    lines = [results.route(name) for name in routes]
-    found = [at_bifurcations(rows, sequences(rows, expected), results) for rows in lines]
-    told = [
-        f"{in_a_sentence(rows, met)} {bifurcations_in_words(rows, results)}"
-        for rows, met in zip(lines, found, strict=True)
-    ]
+    found = [at_bifurcations(results, name, expected) for name in routes]
+    evidence = " ".join(words for _, words in found)
     instead = (
         f"No run shows {', then '.join(expected)} with a torus bifurcation between cycle and torus."
     )
-    return decided(any(any(met.values()) for met in found), " ".join(told), instead)
+    return decided(any(shown for shown, _ in found), evidence, instead)
 
 
 @claim(5, "quasiperiodic_route", "abstract; section 3, below Figure 2", look_at="routes")
@@ -223,7 +219,7 @@ def leads_to(results: Results, *, routes: Routes, before: Classes, after: Class)
     """Whether a class is met beyond others along all of the routes, or along some of them."""
     lines = [results.route(name) for name in routes]
     found = [changes(rows, before, after) for rows in lines]
-    evidence = " ".join(in_a_sentence(rows, met) for rows, met in zip(lines, found, strict=True))
+    evidence = " ".join(map(in_a_sentence, lines, found))
     holds = [any(met.values()) for met in found]
     parameters = " or ".join(dict.fromkeys(f"${parameter_of(rows)}$" for rows in lines))
     instead = f"No run along {parameters} shows {after} beyond {' or '.join(before)}."
@@ -252,15 +248,12 @@ def delays_in_turn(results: Results, *, scenes: Scenes, expected: Classes, route
     delays = [results.stability_of(scene)["tau"] for scene in scenes]
     grow = all(before < after for before, after in pairwise(delays))
     met = [f"{in_words(row)} at {short(tau)}" for row, tau in zip(own, delays, strict=True)]
-    rows = results.route(route)
-    found = at_bifurcations(rows, sequences(rows, expected), results)
-    shown = f"{in_a_sentence(rows, found)} {bifurcations_in_words(rows, results)}"
+    shows, shown = at_bifurcations(results, route, expected)
     evidence = (
         f"The paper's delays in its order, with other parameters changed, too: {', '.join(met)}."
         f" These delays {'grow' if grow else 'do not grow'} from one to the next. Only"
         f" the delay changes on the route {route}. {shown}"
     )
-    shows = any(found.values())
     instead = "At fixed parameters a longer delay gives this order."
     if not shows:
         instead = f"Nor does the route {route} show this order."
@@ -268,10 +261,17 @@ def delays_in_turn(results: Results, *, scenes: Scenes, expected: Classes, route
     return decided(holds, evidence, instead, partly=shows)
 
 
-def at_bifurcations(rows: list[dict], found: Turns, results: Results) -> Turns:
-    """Those of the stretches in which a torus bifurcation lies between each cycle and torus."""
-    places = torus_bifurcations(rows, results)
-    return {
+def at_bifurcations(results: Results, route: str, expected: Classes) -> tuple[bool, str]:
+    """Whether a run of a route shows these classes in turn, and what is found, in words.
+
+    Between each cycle and torus lies a torus bifurcation: a pair of multipliers of a stable cycle
+    crosses the unit circle.
+    """
+    rows = results.route(route)
+    along = parameter_of(rows)
+    fixed = {key: rows[0][key] for key in PARAMETERS if key != along}
+    places = [point[along] for point in torus_points(results, fixed)]
+    found = {
         run: [
             turn
             for turn in turns
@@ -281,26 +281,15 @@ def at_bifurcations(rows: list[dict], found: Turns, results: Results) -> Turns:
                 if (before.motion, after.motion) == ("cycle", "torus")
             )
         ]
-        for run, turns in found.items()
+        for run, turns in sequences(rows, expected).items()
     }
-
-
-def torus_bifurcations(rows: list[dict], results: Results) -> list[float]:
-    """Where stable cycles on the line of a route have torus bifurcations."""
-    along = parameter_of(rows)
-    place = {key: rows[0][key] for key in PARAMETERS if key != along}
-    return [point[along] for point in torus_points(results, place)]
-
-
-def bifurcations_in_words(rows: list[dict], results: Results) -> str:
-    """Where a pair of multipliers of a stable cycle crosses the unit circle on a route."""
-    places = torus_bifurcations(rows, results)
-    if not places:
-        return "No torus bifurcation of a stable cycle is known on this line."
-    return (
-        "A pair of multipliers of a stable cycle leaves the unit circle at"
-        f" {places_along(parameter_of(rows), places)}."
-    )
+    words = "No torus bifurcation of a stable cycle is known on this line."
+    if places:
+        words = (
+            "A pair of multipliers of a stable cycle leaves the unit circle at"
+            f" {places_along(along, places)}."
+        )
+    return any(found.values()), f"{in_a_sentence(rows, found)} {words}"
 
 
 def sequences(rows: list[dict], expected: Classes) -> Turns:

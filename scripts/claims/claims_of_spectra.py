@@ -8,7 +8,7 @@ from scripts.claims.claims_results import Finding, Results, decided, short
 from scripts.claims.declare import Scene, among, claim, reads, says, tested_with
 
 KINDS = ["periodic", "quasiperiodic", "continuum"]
-Kind = Annotated[str, among("kind of a spectrum, ", KINDS)]
+Kind = Annotated[str, among("kind of a spectrum", KINDS)]
 
 SMALL = 0.02
 """A harmonic below this share of the highest peak is not seen in a figure with a linear axis."""

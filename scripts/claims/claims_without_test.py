@@ -2,52 +2,38 @@
 
 from scripts.claims.declare import not_testable
 
-not_testable(
-    9,
-    "source_of_aperiodicity",
-    "abstract; sections 4 and 5",
-    "The delay may explain why earthquakes do not recur periodically.",
-    "The claim is about earthquakes; neither the paper nor this project uses earthquake data.",
-)
-not_testable(
-    10,
-    "neurons",
-    "sections 1 and 5",
-    "The stick phase of the block resembles the refractory time of a neuron.",
-    "The claim is an analogy; the paper names no quantity that could be compared.",
-)
-not_testable(
-    11,
-    "dde_biftool",
-    "section 1",
-    "The results were confirmed with DDE-BIFTOOL.",
-    "The paper shows neither output nor settings of its run.",
-)
-not_testable(
-    47,
-    "ground_motion",
-    "section 4",
-    "Aperiodic motion of this kind may be partly responsible for irregular ground motion.",
-    "The claim is about ground motion, which the model does not contain.",
-)
-not_testable(
-    55,
-    "memory_of_real_faults",
-    "section 5",
-    "The results confirm that delayed memory is a natural feature of real earthquakes.",
-    "A model cannot confirm a property of real faults without data from faults.",
-)
-not_testable(
-    56,
-    "gutenberg_richter",
-    "sections 1 and 5",
-    "The sizes of events in a spring-block model follow the power law of Gutenberg and Richter.",
-    "The paper says it of models with many blocks; one block has one place only.",
-)
-not_testable(
-    57,
-    "omori_utsu",
-    "section 5",
-    "Spring-block models follow the law of Omori and Utsu.",
-    "The law is about aftershocks elsewhere on the fault; one block has one place only.",
-)
+CLAIMS = {
+    (9, "source_of_aperiodicity", "abstract; sections 4 and 5"): (
+        "The delay may explain why earthquakes do not recur periodically.",
+        "The claim is about earthquakes; neither the paper nor this project uses earthquake data.",
+    ),
+    (10, "neurons", "sections 1 and 5"): (
+        "The stick phase of the block resembles the refractory time of a neuron.",
+        "The claim is an analogy; the paper names no quantity that could be compared.",
+    ),
+    (11, "dde_biftool", "section 1"): (
+        "The results were confirmed with DDE-BIFTOOL.",
+        "The paper shows neither output nor settings of its run.",
+    ),
+    (47, "ground_motion", "section 4"): (
+        "Aperiodic motion of this kind may be partly responsible for irregular ground motion.",
+        "The claim is about ground motion, which the model does not contain.",
+    ),
+    (55, "memory_of_real_faults", "section 5"): (
+        "The results confirm that delayed memory is a natural feature of real earthquakes.",
+        "A model cannot confirm a property of real faults without data from faults.",
+    ),
+    (56, "gutenberg_richter", "sections 1 and 5"): (
+        "The sizes of events in a spring-block model follow the power law of Gutenberg and"
+        " Richter.",
+        "The paper says it of models with many blocks; one block has one place only.",
+    ),
+    (57, "omori_utsu", "section 5"): (
+        "Spring-block models follow the law of Omori and Utsu.",
+        "The law is about aftershocks elsewhere on the fault; one block has one place only.",
+    ),
+}
+"""By number, name and place in the paper: the claim, and why it cannot be tested."""
+
+for about, words_and_reason in CLAIMS.items():
+    not_testable(*about, *words_and_reason)

@@ -29,7 +29,7 @@ class Names:
 
     def schema(self, known: list[str]) -> dict:
         """What the parameter may be, if these names are known."""
-        one = among(f"name of a {self.kind}, ", known)
+        one = among(f"name of a {self.kind}", known)
         if not self.several:
             return one
         words = f"names of {self.kind}s, at least one, each once"
@@ -40,7 +40,7 @@ class Names:
 
 def among(words: str, values: list[str]) -> dict:
     """JSON schema of one of these values."""
-    return {"enum": values, "description": f"{words}one of: {', '.join(values)}"}
+    return {"enum": values, "description": words}
 
 
 def some(words: str, values: list[str]) -> dict:
@@ -50,7 +50,7 @@ def some(words: str, values: list[str]) -> dict:
 
 
 def number(words: str, above: float = 0, **bounds: float) -> dict:
-    """JSON schema of a number in a range, which the words give."""
+    """JSON schema of a number in a range."""
     return {"type": "number", "exclusiveMinimum": above, "description": words, **bounds}
 
 
@@ -63,21 +63,11 @@ Plane = Annotated[str, Names("plane")]
 Planes = Annotated[list[str], Names("plane", several=True)]
 Route = Annotated[str, Names("route")]
 Routes = Annotated[list[str], Names("route", several=True)]
-Class = Annotated[str, among("class of an attractor, ", CLASSES)]
+Class = Annotated[str, among("class of an attractor", CLASSES)]
 Classes = Annotated[list[str], some("classes of attractors in turn", CLASSES)]
-Gamma = Annotated[float, number("gamma, nondimensional, a finite number > 0")]
-Residual = Annotated[
-    float,
-    number(
-        "residual up to which an equation counts as holding, over its largest term,"
-        " a finite number in (0, 1e-2]",
-        maximum=1e-2,
-    ),
-]
-Spread = Annotated[
-    float,
-    number("spread of the critical epsilon up to which it counts as the same, a finite number > 0"),
-]
+Gamma = Annotated[float, number("gamma, nondimensional")]
+Residual = Annotated[float, number("residual allowed, over the largest term", maximum=1e-2)]
+Spread = Annotated[float, number("spread up to which the critical epsilon counts as the same")]
 
 
 @dataclass(frozen=True)
@@ -167,8 +157,8 @@ def _add(name: str, number: int, about: dict) -> None:
     _CLAIMS[name] = number, about
 
 
-def declared_claims() -> dict[str, dict]:
-    """Claims of the modules that are imported, by name, in the order of their numbers."""
+def paper_claims() -> dict[str, dict]:
+    """Claims of the paper in the form of a user's file, by name, in the order of their numbers."""
     return {
         name: about for name, (_, about) in sorted(_CLAIMS.items(), key=lambda item: item[1][0])
     }

@@ -3,8 +3,6 @@
 import json
 from pathlib import Path
 
-from jinja2 import Environment, StrictUndefined
-
 from scripts.claims import (  # noqa: F401  (they declare the claims)
     claims_of_attractors,
     claims_of_bifurcations,
@@ -17,17 +15,8 @@ from scripts.claims import (  # noqa: F401  (they declare the claims)
     claims_of_spectra,
     claims_without_test,
 )
-from scripts.claims.claims_results import (
-    CORRECTED,
-    FILES,
-    NOT_REPRODUCED,
-    NOT_TESTABLE,
-    REPRODUCED,
-    Finding,
-    Results,
-    read_results,
-)
-from scripts.claims.declare import TESTS, Names, Test, declared_claims
+from scripts.claims.claims_results import FILES, NOT_TESTABLE, Finding, Results, read_results
+from scripts.claims.declare import TESTS, Names, Test, paper_claims  # noqa: F401
 from scripts.config.check_config import in_words, validator_for
 from scripts.config.read_config import ConfigError
 from scripts.files import marked_words
@@ -35,18 +24,10 @@ from scripts.files.outputs import logged, written
 from scripts.files.tsv import write_table
 from scripts.results.paths import cycles_of_lines, exponents_of_scenes, runs_of_basins
 
-TEMPLATE = Path(__file__).parents[2] / "page" / "verdicts.html.jinja"
-SHOWN = [NOT_REPRODUCED, CORRECTED, REPRODUCED, NOT_TESTABLE]
-"""Verdicts in the order of the page: failing claims first."""
 TABLES = [Path(path).name for path in FILES.values() if path.endswith(".tsv") and "{" not in path]
 """Tables that a claim may tell the reader to look at."""
 KINDS = ("scene", "plane", "route")
 """What parameters of tests name."""
-
-
-def paper_claims() -> dict[str, dict]:
-    """The claims of the paper in the form of a user's file, by name, in the paper's order."""
-    return declared_claims()
 
 
 def check_user_claims(said: dict, config: dict, shown: set[str]) -> dict:
@@ -197,18 +178,12 @@ def path_of(shown: str, folder: str) -> str:
     return f"{folder}/tables/{shown}" if is_table else f"{folder}/figures/{shown}.png"
 
 
-def write_ledger(rows: list[dict], tsv: str | Path, data: str | Path, page: str | Path) -> None:
-    """Write the rows in plain words to a table, and with marked mathematics to JSON and HTML."""
+def write_ledger(rows: list[dict], tsv: str | Path, data: str | Path) -> None:
+    """Write the rows in plain words to a table, and with marked mathematics to JSON."""
     plain = [{key: marked_words.to_plain(value) for key, value in row.items()} for row in rows]
     write_table(tsv, plain)
     with written(data) as unfinished:
         unfinished.write_text(json.dumps(rows, indent=2) + "\n")
-    by_verdict = {verdict: [row for row in rows if row["verdict"] == verdict] for verdict in SHOWN}
-    environment = Environment(autoescape=True, trim_blocks=True, undefined=StrictUndefined)
-    environment.filters["mathematics"] = marked_words.to_html
-    template = environment.from_string(TEMPLATE.read_text())
-    with written(page) as unfinished:
-        unfinished.write_text(template.render(verdicts=by_verdict) + "\n")
 
 
 if __name__ == "__main__":
@@ -217,4 +192,4 @@ if __name__ == "__main__":
         results = read_results(dict(snakemake.input.items()))
         folder = str(Path(output.tsv).parents[1])
         table = rows_of(snakemake.params.claims, results, folder)
-        write_ledger(table, output.tsv, output.json, output.page)
+        write_ledger(table, output.tsv, output.json)

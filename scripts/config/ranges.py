@@ -9,14 +9,14 @@ SCHEMA = Path(__file__).parents[2] / "config" / "schema.yaml"
 
 
 @cache
-def rules_of(schema: Path) -> dict:
-    """A schema, not to be changed."""
-    return read(schema)
+def rules() -> dict:
+    """The schema of the configuration, not to be changed."""
+    return read(SCHEMA)
 
 
 @cache
 def range_of(parameter: str) -> dict[str, float]:
     """The bound `above` which a parameter lies, or the `least` that it may be."""
-    rules = rules_of(SCHEMA)["$defs"][parameter]
-    bounds = {"above": rules.get("exclusiveMinimum"), "least": rules.get("minimum")}
+    bounded = rules()["$defs"][parameter]
+    bounds = {"above": bounded.get("exclusiveMinimum"), "least": bounded.get("minimum")}
     return {name: float(bound) for name, bound in bounds.items() if bound is not None}

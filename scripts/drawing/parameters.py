@@ -1,6 +1,12 @@
 """Parameters and numbers as figures write them, with true minus signs."""
 
-SYMBOLS = {"tau": r"\tau", "epsilon": r"\varepsilon", "xi": r"\xi", "gamma": r"\gamma"}
+from scripts.namelists.study_cases import PARAMETERS
+
+SYMBOLS = {
+    **{"tau": r"\tau", "epsilon": r"\varepsilon", "xi": r"\xi", "gamma": r"\gamma"},
+    **{"theta": r"\theta", "u": "u", "v": "v"},
+}
+"""Of the parameters, and of the values before the start."""
 NAMES = {
     "tau": "delay",
     "epsilon": "sensitivity of the velocity relaxation",
@@ -10,8 +16,6 @@ NAMES = {
     "u": "displacement before the start",
     "v": "velocity before the start",
 }
-OF_HISTORY = {"theta": r"\theta", "u": "u", "v": "v"}
-"""Symbols of the values before the start."""
 LEAST_PLAIN, LEAST_POWER = 1e-3, 1e4
 """Numbers between these are written plainly, others with a power of ten."""
 
@@ -34,18 +38,11 @@ def true_minus(text: str) -> str:
 def in_words(place: dict, *left_out: str) -> str:
     """The parameters of a place as formulas, without some of them."""
     return ", ".join(
-        f"${symbol} = {number(place[key])}$"
-        for key, symbol in SYMBOLS.items()
-        if key not in left_out
+        f"${SYMBOLS[key]} = {number(place[key])}$" for key in PARAMETERS if key not in left_out
     )
-
-
-def symbol_of(parameter: str) -> str:
-    """The symbol of a parameter, or of a value before the start, in a formula."""
-    return (SYMBOLS | OF_HISTORY)[parameter]
 
 
 def axis_of(parameter: str) -> str:
     """Name and symbol of a parameter, the delay with its unit."""
     unit = " (units of $L/v_0$)" if parameter == "tau" else ""
-    return f"{NAMES[parameter]} ${symbol_of(parameter)}${unit}"
+    return f"{NAMES[parameter]} ${SYMBOLS[parameter]}${unit}"

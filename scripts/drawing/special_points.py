@@ -1,24 +1,14 @@
 """How special points of cycles, and the curves of these, are drawn by their kind."""
 
-from dataclasses import dataclass
-
 import xarray as xr
 
-
-@dataclass(frozen=True)
-class PointStyle:
-    """Of a kind of special points."""
-
-    marker: str
-    colour: str
-
-
 STYLES = {
-    "fold": PointStyle("D", "#7a1fa2"),
-    "period_doubling": PointStyle("s", "#b00000"),
-    "torus": PointStyle("^", "#006837"),
-    "branching": PointStyle("X", "#606060"),
+    "fold": ("D", "#7a1fa2"),
+    "period_doubling": ("s", "#b00000"),
+    "torus": ("^", "#006837"),
+    "branching": ("X", "#606060"),
 }
+"""Marker and colour of each kind."""
 
 
 def in_words(kind: str) -> str:

@@ -81,22 +81,8 @@ def draw_portrait(axes: Axes, trajectory: xr.Dataset, shown: float) -> None:
     end = float(trajectory.t[-1])
     start = max(end - shown, trajectory.attrs["t_transient"])
     attractor = trajectory.sel(t=slice(start, end))
-    axes.plot(
-        transient.u,
-        transient.v,
-        color=FAINT,
-        lw=0.2,
-        label="transient",
-        rasterized=True,
-    )
-    axes.plot(
-        attractor.u,
-        attractor.v,
-        color="C1",
-        lw=0.35,
-        label="attractor",
-        rasterized=True,
-    )
+    axes.plot(transient.u, transient.v, color=FAINT, lw=0.2, label="transient", rasterized=True)
+    axes.plot(attractor.u, attractor.v, color="C1", lw=0.35, label="attractor", rasterized=True)
     axes.plot(0, 1, "+", color=INK, ms=5, mew=0.7, ls="", label="steady sliding")
     extent = transient.v.max() - transient.v.min()
     if attractor.v.max() - attractor.v.min() < 0.01 * extent:

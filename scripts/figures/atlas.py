@@ -14,25 +14,12 @@ from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
 from scripts.drawing import parameters
-from scripts.drawing.class_map import (
-    CELLS,
-    KINDS,
-    draw_classes,
-    legend_of,
-    mark_failures,
-    table_of,
-)
+from scripts.drawing.class_map import CELLS, KINDS, draw_classes, legend_of, mark_failures, table_of
 from scripts.drawing.hopf_plane import SCENE, SUBCRITICAL, draw_piece, mark_scenes
 from scripts.drawing.special_points import STYLES, in_words, words_of
 from scripts.drawing.style import INK
-from scripts.figures.make_figure import make_figure
 from scripts.figures.wording import place_in_words, short, with_error
-from scripts.results.paths import (
-    curves_of_atlas,
-    cycles_in_atlas,
-    places_in_atlas,
-    table_of_atlas,
-)
+from scripts.results.paths import curves_of_atlas, cycles_in_atlas, places_in_atlas, table_of_atlas
 from scripts.tables.motion_rows import (
     count_in_words,
     is_computed,
@@ -43,7 +30,7 @@ from scripts.tables.motion_rows import (
 
 LINEAR, LARGEST = 1e-3, 0.1
 """Exponents closer to zero are coloured on a linear scale, larger ones all alike."""
-CURVES = {kind: {"color": style.colour, "lw": 0.9} for kind, style in STYLES.items()}
+CURVES = {kind: {"color": colour, "lw": 0.9} for kind, (_, colour) in STYLES.items()}
 """Of special points of cycles, by their kind."""
 EDGE = [withStroke(linewidth=1.7, foreground="white")]
 """Around curves of cycles, so that they are seen over dark cells."""
@@ -65,10 +52,7 @@ def params(config: dict) -> dict:
 
 
 def draw(
-    table: list[dict],
-    curves: list[xr.Dataset],
-    cycles: list[xr.Dataset],
-    scenes: dict[str, dict],
+    table: list[dict], curves: list[xr.Dataset], cycles: list[xr.Dataset], scenes: dict[str, dict]
 ) -> Figure:
     """One plane a row: classes, and the largest exponent beside them; Hopf curves over both.
 
@@ -185,7 +169,3 @@ def numbers(table: list[dict]) -> dict:
             }
         )
     return {"planes": planes}
-
-
-if __name__ == "__main__":
-    make_figure(draw, snakemake)

@@ -15,14 +15,8 @@ from scripts.drawing import parameters
 from scripts.drawing.along_parameter import mark_scenes, maxima_of
 from scripts.drawing.special_points import STYLES, in_words, words_of
 from scripts.drawing.style import FAINT, INK
-from scripts.figures.make_figure import make_figure
 from scripts.figures.wording import count, counted_at, place_in_words, short
-from scripts.results.paths import (
-    cycles_of_lines,
-    places_in_atlas,
-    sweeps_beside_cycles,
-    sweeps_on_lines,
-)
+from scripts.results.paths import cycles_of_lines, places_in_atlas, sweeps_on_lines
 from scripts.tables.cycle_branches import branch_of
 
 HEIGHT = 1.7
@@ -48,7 +42,8 @@ SLIDING = {"color": FAINT, "lw": 0.8, "label": "steady sliding", "zorder": 0}
 
 def inputs(config: dict) -> dict:
     """Cycles of each line, and the sweeps of routes on the same lines."""
-    return {"cycles": cycles_of_lines(config), "sweeps": sweeps_beside_cycles(config)}
+    sweeps = [path for on_line in sweeps_on_lines(config).values() for path in on_line]
+    return {"cycles": cycles_of_lines(config), "sweeps": sweeps}
 
 
 def params(config: dict) -> dict:
@@ -78,10 +73,7 @@ def draw(
         draw_branches(axes, line, along)
         draw_points(axes, line, along)
         drawn |= {str(artist.get_label()): artist for artist in axes.lines}
-        axes.set(
-            xlabel=parameters.axis_of(along),
-            ylabel="maxima of $v$ (units of $v_0$)",
-        )
+        axes.set(xlabel=parameters.axis_of(along), ylabel="maxima of $v$ (units of $v_0$)")
         # the names of scenes stand above the dots
         axes.margins(x=0.01, y=0.18)
         axes.set_ylim(bottom=0)
@@ -131,17 +123,17 @@ def draw_points(axes: Axes, cycles: xr.Dataset, along: str) -> None:
     x, branch = cycles[along].values, cycles.branch.values
     sizes = [np.ptp(x[branch == number]) for number in cycles.special_branch.values]
     large = np.array(sizes) > SMALL * np.ptp(axes.get_xlim())
-    for kind, style in STYLES.items():
+    for kind, (marker, colour) in STYLES.items():
         these = cycles.isel(special=(kinds == kind) & large)
         if these.sizes["special"]:
             axes.plot(
                 these[f"special_{along}"],
                 these.special_v_most,
                 ls="",
-                marker=style.marker,
+                marker=marker,
                 ms=3.6,
                 mfc="white",
-                mec=style.colour,
+                mec=colour,
                 mew=0.9,
                 label=in_words(kind),
                 zorder=5,
@@ -175,7 +167,7 @@ def numbers(cycles: list[xr.Dataset]) -> dict:
         lines.append(
             {
                 "letter": letter,
-                "symbol": parameters.symbol_of(along),
+                "symbol": parameters.SYMBOLS[along],
                 "place": place_in_words(line.attrs, along),
                 "branches": line.sizes["branches"],
                 "points": [count(len(places), name) for name, places in at.items()],
@@ -199,7 +191,3 @@ def stable_stretches(cycles: xr.Dataset, along: str) -> list[str]:
                 found.add((float(values.min()), float(values.max())))
     words = [(short(first), short(last)) for first, last in sorted(found)]
     return [first if first == last else f"{first} to {last}" for first, last in words]
-
-
-if __name__ == "__main__":
-    make_figure(draw, snakemake)

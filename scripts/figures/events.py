@@ -7,7 +7,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from scripts.drawing import parameters
-from scripts.figures.make_figure import make_figure
 from scripts.figures.wording import short
 from scripts.results.paths import paths_of_scenes, scenes_of
 
@@ -103,7 +102,3 @@ def spread_in_words(times: xr.DataArray) -> str:
     """The coefficient of variation in percent, if it differs from zero."""
     percent = 100 * float(times.std() / times.mean())
     return f"{short(percent, 2)} %" if percent >= 0.01 else "less than 0.01 %"
-
-
-if __name__ == "__main__":
-    make_figure(draw, snakemake)

@@ -9,7 +9,6 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from scripts.drawing.style import FAINT
-from scripts.figures.make_figure import make_figure
 from scripts.figures.wording import with_error
 from scripts.results.paths import exponents_of_scenes
 
@@ -144,7 +143,3 @@ def numbers(runs: list[xr.Dataset], table: list[dict]) -> dict:
             }
         )
     return {"scenes": scenes}
-
-
-if __name__ == "__main__":
-    make_figure(draw, snakemake)

@@ -6,7 +6,6 @@ from matplotlib.figure import Figure
 
 from scripts.drawing import parameters
 from scripts.drawing.style import FAINT, INK
-from scripts.figures.make_figure import make_figure
 from scripts.tables.fault_limit_table import FAULTS, PAPER
 
 MOST = 1e6
@@ -72,7 +71,3 @@ def numbers(table: list[dict]) -> dict:
     """Rows at the paper's gamma and at the least one of real faults."""
     rows = {row["gamma"]: row for row in table}
     return {"at_paper": rows[PAPER], "at_faults": rows[FAULTS[0]]}
-
-
-if __name__ == "__main__":
-    make_figure(draw, snakemake)

@@ -7,7 +7,6 @@ from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch, Polygon, Rectangle
 
 from scripts.drawing.style import FAINT, INK
-from scripts.figures.make_figure import make_figure
 
 BLOCK = (2.6, 0.9, 2.2, 1.2)
 """Left, bottom, width and height of the block."""
@@ -56,21 +55,13 @@ def draw() -> Figure:
 
     axes.add_patch(Rectangle(PLATE[:2], *PLATE[2:], facecolor=FAINT, edgecolor=INK))
     axes.text(
-        PLATE[0] + PLATE[2] / 2,
-        PLATE[1] + PLATE[3] / 2,
-        "loader plate",
-        ha="center",
-        va="center",
+        PLATE[0] + PLATE[2] / 2, PLATE[1] + PLATE[3] / 2, "loader plate", ha="center", va="center"
     )
     axes.plot([ARM, ARM], [PLATE[1], middle - 0.25], color=INK, lw=3, solid_capstyle="butt")
     coil = spring(left=left + width, right=ARM, y=middle, turns=9, width=0.24)
     axes.plot(*coil.T, color=INK, lw=1.1)
     axes.text(
-        (left + width + ARM) / 2,
-        middle + 0.42,
-        "spring, stiffness $k$",
-        ha="center",
-        va="bottom",
+        (left + width + ARM) / 2, middle + 0.42, "spring, stiffness $k$", ha="center", va="bottom"
     )
 
     arrow(axes, (8.3, 3.85), (9.9, 3.85))
@@ -78,18 +69,8 @@ def draw() -> Figure:
     arrow(axes, (left + width - 0.8, 2.45), (left + width + 0.4, 2.45))
     axes.text(left + width - 0.95, 2.45, "velocity $v$", ha="right", va="center")
     arrow(axes, (left - 0.1, 0.42), (left - 1.2, 0.42))
-    axes.text(
-        left,
-        0.42,
-        r"friction $\mu(v, \theta)$ on the rough surface",
-        ha="left",
-        va="center",
-    )
+    axes.text(left, 0.42, r"friction $\mu(v, \theta)$ on the rough surface", ha="left", va="center")
 
     axes.set(xlim=(0.1, 10.5), ylim=(0.05, 4.15), aspect="equal")
     axes.axis("off")
     return figure
-
-
-if __name__ == "__main__":
-    make_figure(draw, snakemake)

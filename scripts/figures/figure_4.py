@@ -8,7 +8,6 @@ from matplotlib.figure import Figure
 
 from scripts.drawing import parameters
 from scripts.drawing.trajectories import draw_portrait, draw_velocity, title_columns
-from scripts.figures.make_figure import make_figure
 from scripts.figures.wording import short
 from scripts.results.paths import paths_of_scenes, scenes_of
 from scripts.tables.motion_rows import class_in_words, own_rows
@@ -17,17 +16,18 @@ COLUMNS = ("from the start", "at the end", "phase portrait")
 VARIABLES = ("u", "v")
 
 
-def inputs(config: dict, figure: str = "figure_4") -> dict:
+def inputs(config: dict) -> dict:
     """Trajectories of the rows, and classes of motion."""
     return {
         "table": "<results>/tables/attractors.tsv",
-        "trajectories": paths_of_scenes("trajectories", scenes_of(config, figure)),
+        "trajectories": paths_of_scenes("trajectories", scenes_of(config, *config["figures"])),
     }
 
 
-def params(config: dict, figure: str = "figure_4") -> dict:
+def params(config: dict) -> dict:
     """Rows with the paper's words, and the times shown."""
-    return {"settings": config["figures"][figure]}
+    (settings,) = config["figures"].values()
+    return {"settings": settings}
 
 
 def draw(trajectories: list[xr.Dataset], table: list[dict], settings: dict) -> Figure:
@@ -88,7 +88,3 @@ def end_in_words(v: xr.DataArray, motion: dict) -> str:
     if motion["class"] == "cycle" and not math.isnan(frequency):
         words += f" with a period of {short(1 / frequency)}"
     return words
-
-
-if __name__ == "__main__":
-    make_figure(draw, snakemake)

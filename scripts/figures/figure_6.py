@@ -8,7 +8,6 @@ from matplotlib.ticker import MaxNLocator
 
 from scripts.drawing.spectra import label_peaks, lines_in_words
 from scripts.drawing.trajectories import title_columns
-from scripts.figures.make_figure import make_figure
 from scripts.figures.wording import short
 from scripts.results.paths import paths_of_scenes, scenes_of
 
@@ -19,14 +18,15 @@ LEAST_SHOWN = 1e-10
 COLUMNS = ("logarithmic scale", "the same on a linear scale")
 
 
-def inputs(config: dict, figure: str = "figure_6") -> dict:
+def inputs(config: dict) -> dict:
     """Spectra of the rows."""
-    return {"spectra": paths_of_scenes("spectra", scenes_of(config, figure))}
+    return {"spectra": paths_of_scenes("spectra", scenes_of(config, *config["figures"]))}
 
 
-def params(config: dict, figure: str = "figure_6") -> dict:
+def params(config: dict) -> dict:
     """Rows with the paper's words, and the frequencies shown."""
-    return {"settings": config["figures"][figure]}
+    (settings,) = config["figures"].values()
+    return {"settings": settings}
 
 
 def draw(spectra: list[xr.Dataset], settings: dict) -> Figure:
@@ -97,7 +97,3 @@ def peaks_in_words(spectrum: xr.Dataset) -> dict:
         "bases": [short(value, 4) for value in spectrum.base_frequency.values],
         "off_lines": short(100 * spectrum.attrs["continuum_share"], 2),
     }
-
-
-if __name__ == "__main__":
-    make_figure(draw, snakemake)

@@ -7,7 +7,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from scripts.drawing.style import FAINT, INK
-from scripts.figures.make_figure import make_figure
 from scripts.figures.wording import short
 
 ARROW = {"arrowstyle": "<->", "shrinkA": 0, "shrinkB": 0}
@@ -88,7 +87,3 @@ def numbers(response: xr.Dataset) -> dict:
         "least": short(1e6 * attributes["v0"]),
         "most": short(1e6 * (attributes["v0"] + attributes["delta_v"])),
     }
-
-
-if __name__ == "__main__":
-    make_figure(draw, snakemake)

@@ -1,7 +1,8 @@
-"""Calls of the functions of figures, with the results and settings that their arguments name."""
+"""The figure of a rule; functions of figures get what their arguments name."""
 
 import inspect
 from collections.abc import Callable, Mapping
+from importlib import import_module
 from pathlib import Path
 
 import xarray as xr
@@ -26,7 +27,8 @@ def call(function: Callable, inputs: Mapping, params: Mapping):
     )
 
 
-def make_figure(draw: Callable, job) -> None:
-    """Draw and save the figure of a rule; `job` is the object `snakemake` of the script."""
-    with logged(job.log[0]):
-        save(call(draw, dict(job.input.items()), dict(job.params.items())), job.output)
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        inputs, params = dict(snakemake.input.items()), dict(snakemake.params.items())
+        module = import_module(f"scripts.figures.{params['module']}")
+        save(call(module.draw, inputs, params), snakemake.output)

@@ -9,10 +9,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from scripts.drawing.hopf_plane import SCENE, SUBCRITICAL, draw_piece, mark_scenes
-from scripts.drawing.parameters import axis_of, in_words, symbol_of
+from scripts.drawing.parameters import SYMBOLS, axis_of, in_words
 from scripts.drawing.special_points import words_of
 from scripts.drawing.style import INK
-from scripts.figures.make_figure import make_figure
 from scripts.figures.wording import counted_at, place_in_words, short
 from scripts.results.paths import places_in_plane
 
@@ -25,15 +24,15 @@ MARKERS = {
 }
 
 
-def inputs(config: dict, plane: str = "") -> dict:
-    """Hopf curves of a plane, or of the only one that the configuration lists."""
-    (plane,) = [plane] if plane else config["hopf_curves"]
+def inputs(config: dict) -> dict:
+    """Hopf curves of the plane that the configuration lists."""
+    (plane,) = config["hopf_curves"]
     return {"curves": f"<results>/hopf/{plane}.nc"}
 
 
-def params(config: dict, plane: str = "") -> dict:
+def params(config: dict) -> dict:
     """Scenes that lie in the plane."""
-    (plane,) = [plane] if plane else config["hopf_curves"]
+    (plane,) = config["hopf_curves"]
     return {"scenes": places_in_plane(config, plane)}
 
 
@@ -135,7 +134,7 @@ def numbers(curves: xr.Dataset, scenes: dict[str, dict]) -> dict:
     }
     return {
         "place": place_in_words(curves.attrs, "epsilon", ordinate),
-        "ordinate": f":math:`{symbol_of(ordinate)}`",
+        "ordinate": f":math:`{SYMBOLS[ordinate]}`",
         "branches": np.unique(curves.branch).size,
         "points": curves.sizes["point"],
         "subcritical": int((curves.l1 > 0).sum()),
@@ -154,7 +153,3 @@ def numbers(curves: xr.Dataset, scenes: dict[str, dict]) -> dict:
 def ends_of(values: xr.DataArray) -> tuple[str, str]:
     """The least and the largest of values that may be none."""
     return (short(values.min()), short(values.max())) if values.size else ("none", "none")
-
-
-if __name__ == "__main__":
-    make_figure(draw, snakemake)

@@ -14,12 +14,13 @@ the module's docstring is the title of the figure. It has
 Arguments of draw and numbers are named as inputs and params. An input is passed as its contents: an
 xarray.Dataset, the rows of a table, or a list of these. Only draw must be there.
 
-Figures of a user's file are named KIND/NAME, for example scenes/strong_delay. Their configuration
-has the entry NAME alone in its section.
+A figure may show one entry of a section of the configuration, as figure_5 shows the second entry of
+`figures` by the module of figure_4. Figures of a user's file are named KIND/ENTRY, for example
+scenes/strong_delay.
 """
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import ModuleType
 
@@ -30,12 +31,8 @@ from scripts.figures import (
     exponents,
     fault_limit,
     figure_1,
-    figure_2,
-    figure_3,
     figure_4,
-    figure_5,
     figure_6,
-    figure_7,
     figure_8,
     plane,
     routes,
@@ -46,47 +43,57 @@ from scripts.figures import (
 )
 
 PROJECT = Path(__file__).parents[2]
-OF_THE_PAPER = {
-    "Figures": [figure_1, figure_2, figure_3, figure_4, figure_5, figure_6, figure_7, figure_8],
-    "Supplement": [exponents, fault_limit, events],
-    "Solver": [stability, work_precision],
-    "Atlas": [atlas, true_torus, routes, cycles],
-}
-"""By their category on the page and in the report."""
 
 
 @dataclass(frozen=True)
-class Kind:
-    """Figures that a user's file adds, one for each entry of a section."""
+class Figure:
+    """A figure, or a kind of figures that a user's file adds, one for each entry of a section."""
 
     category: str
+    """The heading on the page and in the report."""
     module: ModuleType
-    section: tuple[str, ...]
-    """Keys of the section in the configuration."""
+    section: tuple[str, ...] = ()
+    """Keys of the section in the configuration of which the module shows one entry."""
+    entry: str = ""
 
 
+OF_THE_PAPER = {
+    "figure_1": Figure("Figures", figure_1),
+    "figure_2": Figure("Figures", plane, ("hopf_curves",), "tau_of_epsilon"),
+    "figure_3": Figure("Figures", plane, ("hopf_curves",), "xi_of_epsilon"),
+    "figure_4": Figure("Figures", figure_4, ("figures",), "figure_4"),
+    "figure_5": Figure("Figures", figure_4, ("figures",), "figure_5"),
+    "figure_6": Figure("Figures", figure_6, ("figures",), "figure_6"),
+    "figure_7": Figure("Figures", figure_6, ("figures",), "figure_7"),
+    "figure_8": Figure("Figures", figure_8),
+    "exponents": Figure("Supplement", exponents),
+    "fault_limit": Figure("Supplement", fault_limit),
+    "events": Figure("Supplement", events),
+    "stability": Figure("Solver", stability),
+    "work_precision": Figure("Solver", work_precision),
+    "atlas": Figure("Atlas", atlas),
+    "true_torus": Figure("Atlas", true_torus),
+    "routes": Figure("Atlas", routes),
+    "cycles": Figure("Atlas", cycles),
+}
+"""By name, in the order of the page."""
+FIGURES = list(OF_THE_PAPER)
+TITLES = {
+    "figure_2": "Figure 2: Hopf curves tau(epsilon) at fixed xi and gamma.",
+    "figure_3": "Figure 3: Hopf curves xi(epsilon) at fixed tau and gamma.",
+    "figure_5": "Figure 5: velocity and phase portrait, rows a (the paper's torus) and b (chaos).",
+    "figure_7": "Figure 7: power spectrum of the chaotic scene.",
+}
+"""Of figures by the module of another one; else the first line of the module is the title."""
 OF_USERS = {
-    "scenes": Kind("Scenes", scene, ("scenes",)),
-    "exponents": Kind("Exponents", exponents, ("scenes",)),
-    "planes": Kind("Hopf curves", plane, ("hopf_curves",)),
-    "routes": Kind("Routes", routes, ("routes", "lines")),
-    "cycles": Kind("Cycles", cycles, ("cycles", "lines")),
-    "atlas": Kind("Atlas", atlas, ("atlas", "planes")),
+    "scenes": Figure("Scenes", scene, ("scenes",)),
+    "exponents": Figure("Exponents", exponents, ("scenes",)),
+    "planes": Figure("Hopf curves", plane, ("hopf_curves",)),
+    "routes": Figure("Routes", routes, ("routes", "lines")),
+    "cycles": Figure("Cycles", cycles, ("cycles", "lines")),
+    "atlas": Figure("Atlas", atlas, ("atlas", "planes")),
 }
 """By kind."""
-
-
-def name_of(module: ModuleType) -> str:
-    """Name of a module of this folder."""
-    return module.__name__.rpartition(".")[2]
-
-
-CATEGORIES = {
-    name_of(module): category for category, modules in OF_THE_PAPER.items() for module in modules
-}
-MODULES = {name_of(module): module for modules in OF_THE_PAPER.values() for module in modules}
-FIGURES = list(MODULES)
-"""Names of the paper's figures."""
 
 
 def user_figures(config: dict, names: dict[str, list[str]]) -> list[str]:
@@ -96,29 +103,36 @@ def user_figures(config: dict, names: dict[str, list[str]]) -> list[str]:
     return [f"{kind}/{name}" for kind in OF_USERS for name in names[kind]]
 
 
-def module_of(figure: str) -> ModuleType:
-    """The module of a figure."""
-    kind, _, name = figure.partition("/")
-    return OF_USERS[kind].module if name else MODULES[figure]
+def find(figure: str) -> Figure:
+    """The figure of this name."""
+    kind, _, entry = figure.partition("/")
+    return replace(OF_USERS[kind], entry=entry) if entry else OF_THE_PAPER[figure]
 
 
-def config_of(figure: str, config: dict) -> dict:
-    """The configuration, for a figure of a user's file with one entry alone in its section."""
-    kind, _, name = figure.partition("/")
-    return with_entry_alone(config, OF_USERS[kind].section, name) if name else config
-
-
-def with_entry_alone(config: dict, section: Sequence[str], name: str) -> dict:
+def with_entry_alone(config: dict, section: Sequence[str], entry: str) -> dict:
     """The configuration with one entry alone in the section with these keys."""
+    if not section:
+        return {entry: config[entry]}
     key, *below = section
-    alone = with_entry_alone(config[key], below, name) if below else {name: config[key][name]}
-    return {**config, key: alone}
+    return {**config, key: with_entry_alone(config[key], below, entry)}
+
+
+def ask_module(figure: str, function: str, config: dict) -> dict:
+    """What `inputs` or `params` of a figure's module returns; empty if it has no such function."""
+    found = find(figure)
+    if found.entry:
+        config = with_entry_alone(config, found.section, found.entry)
+    return getattr(found.module, function, lambda _: {})(config)
 
 
 def inputs_of(figure: str, config: dict) -> dict[str, str | list[str]]:
     """Results that a figure reads, by name."""
-    module = module_of(figure)
-    return module.inputs(config_of(figure, config)) if hasattr(module, "inputs") else {}
+    return ask_module(figure, "inputs", config)
+
+
+def params_of(figure: str, config: dict) -> dict:
+    """What else a figure needs of the configuration, by name."""
+    return ask_module(figure, "params", config)
 
 
 def files_of(figure: str, config: dict) -> list[str]:
@@ -130,41 +144,25 @@ def files_of(figure: str, config: dict) -> list[str]:
     ]
 
 
-def params_of(figure: str, config: dict) -> dict:
-    """What else a figure needs of the configuration, by name."""
-    module = module_of(figure)
-    return module.params(config_of(figure, config)) if hasattr(module, "params") else {}
-
-
-def numbers_of(figure: str) -> Callable[..., dict]:
-    """The function that gives the numbers of a caption."""
-    return getattr(module_of(figure), "numbers", lambda: {})
-
-
-def category_of(figure: str) -> str:
-    """The heading of a figure on the page and in the report."""
-    kind, _, name = figure.partition("/")
-    return OF_USERS[kind].category if name else CATEGORIES[figure]
-
-
 def shows_classes(figure: str) -> bool:
     """Whether the colours of a figure are those of classes of motion."""
-    return getattr(module_of(figure), "SHOWS_CLASSES", False)
+    return getattr(find(figure).module, "SHOWS_CLASSES", False)
 
 
 def title_of(figure: str) -> str:
-    """The first line of a figure's docstring, which says what is drawn."""
-    return module_of(figure).__doc__.splitlines()[0]
+    """What is drawn."""
+    return TITLES.get(figure) or find(figure).module.__doc__.splitlines()[0]
 
 
-def script_of(figure: str) -> str:
-    """Path of a figure's module in the folder of scripts."""
-    return f"figures/{name_of(module_of(figure))}.py"
+def module_name(figure: str) -> str:
+    """Name of a figure's module in this folder."""
+    return find(figure).module.__name__.rpartition(".")[2]
 
 
 def template_of(figure: str) -> str:
     """Path of the caption's template in the project."""
-    return f"scripts/figures/{name_of(module_of(figure))}.rst"
+    name = figure if figure in OF_THE_PAPER else module_name(figure)
+    return f"scripts/figures/{name}.rst"
 
 
 def caption_of(figure: str) -> str:
@@ -178,7 +176,7 @@ def variables_used(config: dict, scene: str, figures: Sequence[str] = tuple(FIGU
     for figure in figures:
         files = files_of(figure, config)
         if f"<results>/trajectories/{scene}.nc" in files:
-            used |= set(module_of(figure).VARIABLES)
+            used |= set(find(figure).module.VARIABLES)
         if f"<results>/spectra/{scene}.nc" in files:
             used.add("v")
     return used

@@ -13,7 +13,6 @@ from scripts.drawing import parameters
 from scripts.drawing.along_parameter import mark_scenes, maxima_of
 from scripts.drawing.class_map import draw_strips, legend_of
 from scripts.drawing.style import FAINT
-from scripts.figures.make_figure import make_figure
 from scripts.figures.wording import joined, place_in_words, short
 from scripts.results.paths import places_in_atlas, runs_of_routes, tables_of_routes
 from scripts.tables.attractor_tables import same_attractor
@@ -142,7 +141,7 @@ def numbers(tables: list[list[dict]]) -> dict:
         routes.append(
             {
                 "letter": letter,
-                "symbol": parameters.symbol_of(along),
+                "symbol": parameters.SYMBOLS[along],
                 "place": place_in_words(rows[0], along),
                 "runs": [
                     {"names": f"run{'s' * (len(names) > 1)} {joined(names)}", "first": first}
@@ -170,7 +169,3 @@ def coexist(rows: list[dict]) -> bool:
     """Whether runs at the same parameters reached different motions."""
     decided = [row for row in rows if row["class"] != UNDECIDED and not has_problem(row)]
     return any(not same_attractor(decided[0], row) for row in decided[1:])
-
-
-if __name__ == "__main__":
-    make_figure(draw, snakemake)

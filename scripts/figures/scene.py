@@ -11,14 +11,8 @@ from matplotlib.figure import Figure
 from scripts.drawing import parameters
 from scripts.drawing.spectra import label_peaks, lines_in_words
 from scripts.drawing.style import FAINT
-from scripts.drawing.trajectories import (
-    MOST_MISSED,
-    draw_portrait,
-    draw_velocity,
-    share_missed,
-)
+from scripts.drawing.trajectories import MOST_MISSED, draw_portrait, draw_velocity, share_missed
 from scripts.figures.figure_4 import end_in_words
-from scripts.figures.make_figure import make_figure
 from scripts.figures.wording import as_formulas, place_in_words, short, with_error
 from scripts.tables.attractor_tables import rows_of
 from scripts.tables.motion_rows import UNDECIDED, class_in_words, has_problem, kind_of
@@ -223,7 +217,3 @@ def motion_in_words(row: dict) -> str:
         return "chaotic"
     several = f" with {row['period']:g} points in its section"
     return f"a {class_in_words(row)}" + several * (kind_of(row) != row["class"])
-
-
-if __name__ == "__main__":
-    make_figure(draw, snakemake)

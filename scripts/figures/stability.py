@@ -8,7 +8,6 @@ from matplotlib.figure import Figure
 
 from scripts.drawing.parameters import number
 from scripts.drawing.style import FAINT, INK
-from scripts.figures.make_figure import make_figure
 from scripts.figures.wording import short
 
 GRID = "grid_"
@@ -136,7 +135,3 @@ def numbers(table: list[dict]) -> dict:
         )
     values = sorted({row["tolerance"] for row in table})
     return {"methods": methods, "tolerance": ", ".join(map(short, values))}
-
-
-if __name__ == "__main__":
-    make_figure(draw, snakemake)

@@ -12,8 +12,7 @@ from scripts.drawing import parameters
 from scripts.drawing.spectra import label_peaks, lines_in_words
 from scripts.drawing.trajectories import draw_velocity
 from scripts.figures.figure_6 import peaks_in_words
-from scripts.figures.make_figure import make_figure
-from scripts.figures.wording import short, with_error
+from scripts.figures.wording import count, short, with_error
 from scripts.results.paths import paths_of_scenes, scenes_of
 from scripts.tables.exponents_table import sign
 from scripts.tables.motion_rows import class_in_words, own_rows
@@ -25,7 +24,6 @@ POINT = 1e-3
 """Maxima that differ by less are one point."""
 STYLES = {"point": {"color": "C0", "ms": 5}, "curve": {"color": "C1", "ms": 2}}
 """Of points of the section."""
-NUMBERS = {0: "no", 1: "one", 2: "two", 3: "three"}
 VARIABLES = ("v",)
 
 
@@ -56,12 +54,9 @@ def draw(
 
     One panel a row, so that the figure is as narrow as a telephone.
     """
-    count = len(trajectories)
+    rows = len(trajectories)
     figure, panels = plt.subplots(
-        2 * count + 1,
-        1,
-        figsize=(3.6, 3.1 * count + 2.0),
-        height_ratios=[1, 1] * count + [1.7],
+        2 * rows + 1, 1, figsize=(3.6, 3.1 * rows + 2.0), height_ratios=[1, 1] * rows + [1.7]
     )
     known = own_rows(table)
     section = panels[-1]
@@ -96,7 +91,7 @@ def title_of(row: dict, bounds: np.ndarray, place: str) -> str:
     each = [f"$\\lambda_{i}$ = {in_power_of_ten(*pair)}" for i, pair in there.items()]
     name = row["scene"].replace("_", " ")
     return (
-        f"scene {name}: {row['class']}, {NUMBERS[zeros]} zero exponent{'' if zeros == 1 else 's'}"
+        f"scene {name}: {row['class']}, {count(zeros, 'zero exponent')}"
         f"\n{place}\n{', '.join(each[:2])}\n{', '.join(each[2:])}"
     )
 
@@ -148,7 +143,3 @@ def numbers(table: list[dict], spectra: list[xr.Dataset], settings: dict) -> dic
             "bases": peaks_in_words(spectrum)["bases"],
         }
     return {"rows": rows}
-
-
-if __name__ == "__main__":
-    make_figure(draw, snakemake)

@@ -7,7 +7,6 @@ from pathlib import Path
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
-from scripts.figures.make_figure import make_figure
 from scripts.figures.wording import count, short
 
 MARKERS = "osD^vx+ph<>"
@@ -133,7 +132,3 @@ def numbers(table: list[dict], others: list[dict], date: str) -> dict:
         "ratios": [short(f(ratios), 2) for f in (min, max)] if ratios else [],
         "date": date,
     }
-
-
-if __name__ == "__main__":
-    make_figure(draw, snakemake)

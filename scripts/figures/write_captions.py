@@ -26,7 +26,8 @@ ENVIRONMENT.filters |= FILTERS
 def caption_of(figure: str, inputs: dict, params: dict, claims: list[dict]) -> str:
     """The caption of a figure; in the template `paper` says whether it is one of the paper's."""
     text = (registry.PROJECT / registry.template_of(figure)).read_text(encoding="utf-8")
-    numbers = call(registry.numbers_of(figure), inputs, params)
+    numbers_of = getattr(registry.find(figure).module, "numbers", lambda: {})
+    numbers = call(numbers_of, inputs, params)
     return render(text, paper=figure in registry.FIGURES, claims=claims, **numbers)
 
 

@@ -20,27 +20,30 @@ def drawn_histories(count: int, ranges: dict) -> list[dict]:
     ]
 
 
-def judged_groups(observation: dict, spectra: dict, points: dict[str, dict]) -> dict[str, dict]:
-    """The namelist groups of points and of how attractors are found and judged there."""
-    solver = {key: observation[key] for key in ("method", "tolerance", "most_steps")}
-    others = {key: observation[key] for key in observation if key not in ("kept", *solver)}
-    return {"observation": {**others, **spectra}, "solver": solver, **points}
-
-
-def points_groups(
+def survey_groups(
+    config: dict,
+    section: str,
     name: str,
     *,
     place: dict,
     histories: list[dict],
-    kept: int,
     sweep: str = "none",
     refinements: int = 0,
 ) -> dict[str, dict]:
-    """The namelist groups of points and histories; parameters of the place are values or axes."""
+    """The namelist of points and histories, and of how attractors are found and judged there.
+
+    Parameters of the place are values or axes.
+    """
+    observation = dict(config[section]["observation"])
+    how = {"sweep": sweep, "refinements": refinements, "kept": observation.pop("kept")}
+    solver = {key: observation.pop(key) for key in ("method", "tolerance", "most_steps")}
     axes = {parameter: axis_of(place[parameter]) for parameter in PARAMETERS}
-    columns = {key: [history[key] for history in histories] for key in HISTORY}
-    how = {"sweep": sweep, "refinements": refinements, "kept": kept}
-    return {"points": {"name": name, **axes, **how}, "histories": columns}
+    return {
+        "observation": {**observation, **config["spectra"]},
+        "solver": solver,
+        "points": {"name": name, **axes, **how},
+        "histories": {key: [history[key] for history in histories] for key in HISTORY},
+    }
 
 
 def axis_of(given: float | dict) -> dict:
@@ -64,14 +67,8 @@ def scene_groups(config: dict, scene: str) -> dict:
     settings, study = config["scenes"][scene], config["attractors"]
     count = settings.get("attractors", {}).get("histories", study["count"])
     others = drawn_histories(count - 1, study["histories"])
-    observation = study["observation"]
-    points = points_groups(
-        scene,
-        place=settings,
-        histories=[settings["history"], *others],
-        kept=observation["kept"],
-    )
-    return judged_groups(observation, config["spectra"], points)
+    histories = [settings["history"], *others]
+    return survey_groups(config, "attractors", scene, place=settings, histories=histories)
 
 
 def atlas_groups(config: dict, plane: str, part: int) -> dict:
@@ -82,18 +79,14 @@ def atlas_groups(config: dict, plane: str, part: int) -> dict:
     atlas = config["atlas"]
     settings, refinements = atlas["planes"][plane], atlas["refinements"]
     delays = part_of(atlas["tau_count"], atlas["parts"], part, 2**refinements)
-    points = points_groups(
-        f"{plane} part {part} of {atlas['parts']}",
-        place={
-            **settings,
-            "epsilon": {"window": atlas["epsilon_window"], "count": atlas["epsilon_count"]},
-            "tau": {"window": settings["tau_window"], "count": atlas["tau_count"], "part": delays},
-        },
-        histories=[atlas["history"]],
-        kept=atlas["observation"]["kept"],
-        refinements=refinements,
+    columns = {"window": atlas["epsilon_window"], "count": atlas["epsilon_count"]}
+    lines = {"window": settings["tau_window"], "count": atlas["tau_count"], "part": delays}
+    name = f"{plane} part {part} of {atlas['parts']}"
+    place = {**settings, "epsilon": columns, "tau": lines}
+    histories = [atlas["history"]]
+    return survey_groups(
+        config, "atlas", name, place=place, histories=histories, refinements=refinements
     )
-    return judged_groups(atlas["observation"], config["spectra"], points)
 
 
 def route_groups(config: dict, line: str, run: str) -> dict:
@@ -109,23 +102,17 @@ def route_groups(config: dict, line: str, run: str) -> dict:
     if along in HISTORY:
         values = np.linspace(*window, count).tolist()
         histories = [{**histories[0], along: value} for value in values]
-    points = points_groups(
-        f"{line} {run}",
-        place={**settings, along: {"window": window, "count": count}},
-        histories=histories,
-        kept=routes["observation"]["kept"],
-        sweep=run if run in routes["sweeps"] else "none",
+    place = {**settings, along: {"window": window, "count": count}}
+    sweep = run if run in routes["sweeps"] else "none"
+    return survey_groups(
+        config, "routes", f"{line} {run}", place=place, histories=histories, sweep=sweep
     )
-    return judged_groups(routes["observation"], config["spectra"], points)
 
 
 def basin_groups(config: dict, place: str) -> dict:
     """Namelist of a place where motions coexist: random histories."""
     basins = config["basins"]
-    points = points_groups(
-        place,
-        place=basins["places"][place],
-        histories=drawn_histories(basins["count"], basins["histories"]),
-        kept=basins["observation"]["kept"],
+    histories = drawn_histories(basins["count"], basins["histories"])
+    return survey_groups(
+        config, "basins", place, place=basins["places"][place], histories=histories
     )
-    return judged_groups(basins["observation"], config["spectra"], points)

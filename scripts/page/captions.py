@@ -6,7 +6,7 @@ from pathlib import Path
 
 from docutils.core import publish_parts
 
-from scripts.page import mathematics
+from scripts.files import marked_words
 
 SETTINGS = {
     "math_output": "MathML",
@@ -23,18 +23,15 @@ SETTINGS = {
 def as_html(path: str | Path) -> str:
     """The caption as paragraphs."""
     parts = publish_parts(Path(path).read_text(), writer="html5", settings_overrides=SETTINGS)
-    return mathematics.unbroken(parts["body"].strip())
+    return marked_words.unbroken(parts["body"].strip())
 
 
 def as_words(markup: str) -> str:
     """The text of some HTML on one line, formulas in plain signs without spaces."""
-    closed = re.sub(r"(?s)<math.*?</math>", lambda formula: _closed(formula[0]), markup)
+    closed = re.sub(
+        r"(?s)<math.*?</math>", lambda formula: re.sub(r">\s+<", "><", formula[0]), markup
+    )
     return " ".join(html.unescape(re.sub(r"<[^>]*>", "", closed)).split())
-
-
-def _closed(formula: str) -> str:
-    """A formula without the spaces between its signs."""
-    return re.sub(r">\s+<", "><", formula)
 
 
 def first_sentence(markup: str) -> str:

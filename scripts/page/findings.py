@@ -3,13 +3,14 @@
 from collections.abc import Callable
 
 from scripts.claims.claims_results import short
+from scripts.figures.wording import count
 from scripts.tables.fault_limit_table import FAULTS, PAPER
+from scripts.tables.motion_rows import class_in_words, own_rows
 
 TORUS, TRUE_TORUS = "torus", "true_torus"
 """The scene that the paper calls a torus, and one that has a longer delay."""
 MAIN_CLAIMS = ("delay_alone_makes_chaos", "quasiperiodic_route")
 """Claims of the abstract that stand below the findings."""
-COUNTS = {0: "no", 1: "one", 2: "two", 3: "three"}
 ZERO = 3
 """Standard errors within which an exponent is zero."""
 
@@ -25,13 +26,13 @@ def list_findings(claims: list[dict], tables: dict[str, list[dict]]) -> list[dic
 
 def describe_torus(tables: dict[str, list[dict]]) -> dict:
     """The motion at the paper's torus, and at a longer delay."""
-    paper, longer = (first_motion(tables["attractors"], name) for name in (TORUS, TRUE_TORUS))
+    motions = own_rows(tables["attractors"])
+    paper, longer = motions[TORUS], motions[TRUE_TORUS]
     return {
-        "title": f"The paper's torus is a {name_class(paper)}.",
+        "title": f"The paper's torus is a {class_in_words(paper)}.",
         "words": f"At $tau = {short(paper['tau'])}$ it has {describe_motion(paper)}. At"
         f" $tau = {short(longer['tau'])}$, with all else the same, the motion is a"
-        f" {name_class(longer)}:"
-        f" it has {describe_motion(longer)}.",
+        f" {class_in_words(longer)}: it has {describe_motion(longer)}.",
     }
 
 
@@ -62,27 +63,17 @@ def describe_real_faults(tables: dict[str, list[dict]]) -> dict:
         method: [row for row in runs if row["method"] == method and row["status"] == "ok"]
         for method in ("auto", "explicit")
     }
-    count = sum(row["method"] == "auto" for row in runs)
+    started = sum(row["method"] == "auto" for row in runs)
     steps = max((row["steps"] for row in done["auto"]), default=0)
-    share = "All" if len(done["auto"]) == count else f"{len(done['auto'])} of"
+    share = "All" if len(done["auto"]) == started else f"{len(done['auto'])} of"
     return {
         "title": "The paper's range of $gamma$ is accessible."
         if done["auto"]
         else "The paper's range of $gamma$ is not accessible.",
-        "words": f"The paper leaves out $gamma = {least:.0e}$ to {most:.0e}. {share} {count} runs"
+        "words": f"The paper leaves out $gamma = {least:.0e}$ to {most:.0e}. {share} {started} runs"
         f" there reach their end, each in at most {steps:.0f} steps. With explicit steps alone"
         f" {len(done['explicit']) or 'none'} do.",
     }
-
-
-def first_motion(rows: list[dict], scene: str) -> dict:
-    """The attractor that a scene's history reaches."""
-    return next(row for row in rows if row["scene"] == scene and row["history"] == 1)
-
-
-def name_class(row: dict) -> str:
-    """The class in the words of the page."""
-    return "limit cycle" if row["class"] == "cycle" else row["class"]
 
 
 def describe_motion(row: dict) -> str:
@@ -91,8 +82,7 @@ def describe_motion(row: dict) -> str:
     zeros = sum(abs(value) <= ZERO * error for value, error in pairs)
     bases = [f"$f{i} = {short(row[f'f{i}'])}$" for i in (1, 2) if row[f"f{i}"] > 0]
     frequency = "fundamental frequency" if len(bases) == 1 else "fundamental frequencies"
-    exponents = "Lyapunov exponent" if zeros == 1 else "Lyapunov exponents"
-    found = f"{COUNTS[zeros]} zero {exponents}"
+    found = count(zeros, "zero Lyapunov exponent")
     return f"{found} and the {frequency} {' and '.join(bases)}" if bases else found
 
 

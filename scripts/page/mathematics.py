@@ -1,14 +1,10 @@
-"""Mathematics on the page: formulas in LaTeX, marked words, numbers without markup."""
+"""Mathematics on the page: formulas in LaTeX, numbers without markup."""
 
 import re
 
 from docutils.utils.math import latex2mathml
 from markupsafe import Markup
 
-from scripts.files.marked_words import to_html as of_words
-from scripts.files.marked_words import unbroken
-
-__all__ = ["in_signs", "of_latex", "of_words", "unbroken"]
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 """Signs of an exponent where there is no markup."""
 
@@ -20,14 +16,9 @@ def of_latex(formula: str, *, block: bool = False) -> Markup:
 
 def in_signs(numbers: str) -> str:
     """Numbers with powers of ten and minus signs as in print, where there is no markup."""
-    powers = re.sub(
-        r"(\d[\d.]*)e([+-]\d+)",
-        lambda found: _power(found[1], str(int(found[2])).translate(RAISED)),
-        numbers,
-    )
-    return powers.replace("-", "−")
 
+    def power(found: re.Match) -> str:
+        factor = "" if found[1] == "1" else f"{found[1]} × "
+        return f"{factor}10{str(int(found[2])).translate(RAISED)}"
 
-def _power(mantissa: str, exponent: str) -> str:
-    """A number with a power of ten; its exponent is written already."""
-    return f"10{exponent}" if mantissa == "1" else f"{mantissa} × 10{exponent}"
+    return re.sub(r"(\d[\d.]*)e([+-]\d+)", power, numbers).replace("-", "−")

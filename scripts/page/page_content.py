@@ -21,20 +21,15 @@ MAIN, LAST = "Figures", "Solver"
 
 
 def read_claims(path: str | Path, folder: Path) -> list[dict]:
-    """Claims with their verdicts and links to their tables; links begin in the folder."""
+    """Claims with links to the tables they rest on; links begin in the folder.
+
+    Those that do not hold as printed stand before the others.
+    """
     claims = json.loads(Path(path).read_text())
-    return [with_table(claim, folder) for claim in failing_first(claims)]
-
-
-def failing_first(claims: list[dict]) -> list[dict]:
-    """The claims in their order, but those that do not hold as printed before the others."""
+    for claim in claims:
+        is_table = claim["look_at"].endswith(".tsv")
+        claim["table"] = os.path.relpath(claim["look_at"], folder) if is_table else ""
     return sorted(claims, key=lambda claim: (*FIRST, claim["verdict"]).index(claim["verdict"]))
-
-
-def with_table(claim: dict, folder: Path) -> dict:
-    """The claim with a link to the table it rests on, if it rests on one."""
-    table = claim["look_at"] if claim["look_at"].endswith(".tsv") else ""
-    return {**claim, "table": os.path.relpath(table, folder) if table else ""}
 
 
 def describe_figures(figures: list[dict], claims: list[dict], folder: Path) -> list[dict]:

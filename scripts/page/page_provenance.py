@@ -1,11 +1,23 @@
 """Where results come from: programs, compiler, works to cite, and seconds of each kind."""
 
-import csv
 from collections import Counter
+from importlib import metadata
 from pathlib import Path
 
 from scripts.config.read_config import read as read_yaml
 from scripts.files.inputs import read
+from scripts.files.tsv import read_table
+
+PACKAGES = [
+    *("snakemake", "ruamel.yaml", "jsonschema", "f90nml", "numpy", "xarray", "netCDF4"),
+    *("matplotlib", "jinja2", "MarkupSafe", "docutils"),
+]
+"""Python packages that results or the page go through."""
+
+
+def packages() -> dict[str, str]:
+    """Version of each package."""
+    return {name: metadata.version(name) for name in PACKAGES}
 
 
 def programs(files: list[str]) -> list[dict]:
@@ -53,20 +65,19 @@ def seconds(folder: Path) -> list[dict]:
     runs_of = {}
     for path in sorted(folder.rglob("*.tsv")):
         kind = path.relative_to(folder).parts[0]
-        with path.open(newline="") as file:
-            runs_of.setdefault(kind, []).extend(csv.DictReader(file, delimiter="\t"))
+        runs_of.setdefault(kind, []).extend(read_table(path))
     return [
         {
             "kind": kind,
             "jobs": len(runs),
-            "seconds": sum(float(run["s"]) for run in runs),
-            "longest": max(float(run["s"]) for run in runs),
-            "memory": max((float(run["max_rss"]) for run in runs if known(run)), default=None),
+            "seconds": sum(run["s"] for run in runs),
+            "longest": max(run["s"] for run in runs),
+            "memory": max(filter(is_known, (run["max_rss"] for run in runs)), default=None),
         }
         for kind, runs in runs_of.items()
     ]
 
 
-def known(run: dict) -> bool:
+def is_known(memory: float | str) -> bool:
     """Whether a run lasted long enough for its memory to be seen."""
-    return run["max_rss"] not in ("", "-", "NA")
+    return isinstance(memory, float) and memory >= 0

@@ -6,9 +6,10 @@ import math
 import numpy as np
 import xarray as xr
 
+from scripts.files.marked_words import GREEK
 from scripts.files.tsv import as_text
 from scripts.page.mathematics import in_signs
-from scripts.tables.motion_rows import UNDECIDED, has_problem, kind_of
+from scripts.tables.motion_rows import AXES_FIRST, UNDECIDED, has_problem, kind_of
 
 SHOWN = 1000.0
 """Time up to the end of a run that can be zoomed into."""
@@ -17,14 +18,12 @@ DRAWN = ["v", "u"]
 MOST_POINTS = 12_000
 """Of a trajectory. Of longer ones every second, third, ... sample is kept, or the last ones where
 samples follow the motion."""
-SIGNS = {"epsilon": "ε", "tau": "τ", "xi": "ξ", "gamma": "γ"}
-"""Parameters by their names in files."""
 
 
 def describe_parameters(values: dict) -> str:
     """Parameters as a line of text."""
     return ", ".join(
-        f"{sign} = {in_signs(as_text(float(values[key])))}" for key, sign in SIGNS.items()
+        f"{GREEK[key]} = {in_signs(as_text(float(values[key])))}" for key in AXES_FIRST
     )
 
 

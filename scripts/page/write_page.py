@@ -6,17 +6,11 @@ from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
+from scripts.files import marked_words
 from scripts.files.inputs import read
 from scripts.files.outputs import logged, written
 from scripts.files.tsv import read_table
-from scripts.page import (
-    findings,
-    mathematics,
-    packages,
-    page_content,
-    page_provenance,
-    page_views,
-)
+from scripts.page import findings, mathematics, page_content, page_provenance, page_views
 from scripts.page.page_assets import ASSETS, PROJECT
 from scripts.tables.motion_rows import COLOURS
 
@@ -34,7 +28,7 @@ def render(template: str, **values) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters["mathematics"] = mathematics.of_words
+    environment.filters["mathematics"] = marked_words.to_html
     environment.filters["formula"] = mathematics.of_latex
     return environment.get_template(template).render(**values)
 
@@ -68,7 +62,7 @@ def content(given, params, folder: Path) -> dict:
         "colours": COLOURS,
         "commit": params.commit,
         "programs": page_provenance.programs(sorted(data)),
-        "packages": {"Python": platform.python_version(), **packages.versions()},
+        "packages": {"Python": platform.python_version(), **page_provenance.packages()},
         "measured": [figure for figure in figures if figure["measured"]],
     }
 

@@ -21,24 +21,9 @@ def scenes_with(config: dict, key: str) -> list[str]:
     return [name for name, scene in config["scenes"].items() if key in scene]
 
 
-def numbered(parts: int) -> list[str]:
-    """Names of a number of parts, in order."""
-    return [f"{part:04}" for part in range(1, parts + 1)]
-
-
 def exponents_of_scenes(config: dict) -> list[str]:
     """Exponents of all scenes that ask for them."""
     return paths_of_scenes("exponents", scenes_with(config, "exponents"))
-
-
-def attractors_of_scenes(config: dict) -> list[str]:
-    """Attractors of all scenes that ask for them."""
-    return paths_of_scenes("attractors/scenes", scenes_with(config, "attractors"))
-
-
-def curves_of_planes(config: dict) -> list[str]:
-    """Hopf curves of all planes."""
-    return [f"<results>/hopf/{plane}.nc" for plane in config["hopf_curves"]]
 
 
 def runs_of_route(config: dict, line: str) -> list[str]:
@@ -81,11 +66,6 @@ def sweeps_on_lines(config: dict) -> dict[str, list[str]]:
     }
 
 
-def sweeps_beside_cycles(config: dict) -> list[str]:
-    """Sweeps on the lines of cycles, as one list."""
-    return [path for paths in sweeps_on_lines(config).values() for path in paths]
-
-
 def runs_of_basins(config: dict) -> list[str]:
     """Runs at the places where motions coexist."""
     return [f"<results>/attractors/basins/{place}.nc" for place in config["basins"]["places"]]
@@ -93,8 +73,8 @@ def runs_of_basins(config: dict) -> list[str]:
 
 def parts_of_plane(config: dict, plane: str) -> list[str]:
     """Parts of a plane of the atlas."""
-    parts = numbered(config["atlas"]["parts"])
-    return [f"<results>/attractors/atlas/{plane}/{part}.nc" for part in parts]
+    parts = range(1, config["atlas"]["parts"] + 1)
+    return [f"<results>/attractors/atlas/{plane}/{part:04}.nc" for part in parts]
 
 
 def parts_of_atlas(config: dict) -> list[str]:
@@ -126,21 +106,6 @@ def cycles_in_atlas(config: dict) -> list[str]:
         f"<results>/cycles/{name}.nc"
         for name, line in config["cycles"]["lines"].items()
         if (line.get("xi"), line.get("gamma")) in planes
-    ]
-
-
-def runs_of_families(config: dict) -> list[str]:
-    """Measured runs of all families of cases."""
-    families = config["stability"]["families"]
-    return [f"<results>/measurements/stability/{family}.nc" for family in families]
-
-
-def references_of_families(config: dict) -> list[str]:
-    """Reference files of the families that have one."""
-    return [
-        f"<results>/references/stability/{name}.tsv"
-        for name, family in config["stability"]["families"].items()
-        if family["reference"] == "quadruple"
     ]
 
 

@@ -4,7 +4,7 @@ A new program is an entry here: its rules follow from it (rules/programs.smk).
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import KW_ONLY, dataclass, field
 from pathlib import PurePath
 
 from scripts.namelists import attractor_surveys
@@ -17,7 +17,7 @@ from scripts.namelists import program_groups as groups
 BUILD, PAPER, LONGEST, LONG = 10, 3, 2, 1
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Run:
     """One kind of run: a program, its namelist and its output (paths in the results)."""
 
@@ -27,6 +27,7 @@ class Run:
     """Path of the output, with wildcards."""
     groups: Callable[..., dict]
     """Groups of the namelist by the configuration and the values of the wildcards."""
+    _: KW_ONLY
     namelist: str = ""
     """Path of the namelist if it is another run's."""
     needs: dict[str, str] = field(default_factory=dict)
@@ -48,103 +49,55 @@ class Run:
         return self.namelist or f"namelists/{self.stem}.nml"
 
 
+LONG_RUN = {"priority": LONG, "takes_minutes": True}
 RUNS = [
+    Run("trajectory", "trajectory", "trajectories/{scene}.nc", groups.scene_groups, priority=PAPER),
     Run(
-        rule="trajectory",
-        program="trajectory",
-        output="trajectories/{scene}.nc",
-        groups=groups.scene_groups,
-        priority=PAPER,
-    ),
-    Run(
-        rule="slip_events",
-        program="slip_events",
-        output="slip_events/{scene}.nc",
+        *("slip_events", "slip_events", "slip_events/{scene}.nc", groups.scene_groups),
         namelist="namelists/trajectories/{scene}.nml",
-        groups=groups.scene_groups,
     ),
     Run(
-        rule="spectrum",
-        program="spectrum",
-        output="spectra/{scene}.nc",
-        groups=groups.spectrum_groups,
+        *("spectrum", "spectrum", "spectra/{scene}.nc", groups.spectrum_groups),
         needs={"trajectory": "trajectories/{scene}.nc"},
         priority=PAPER,
     ),
+    Run("hopf_curves", "hopf", "hopf/{plane}.nc", groups.hopf_groups, priority=PAPER),
     Run(
-        rule="hopf_curves",
-        program="hopf",
-        output="hopf/{plane}.nc",
-        groups=groups.hopf_groups,
+        *("velocity_step", "velocity_step", "friction/velocity_step.nc"),
+        groups.velocity_step_groups,
         priority=PAPER,
     ),
     Run(
-        rule="velocity_step",
-        program="velocity_step",
-        output="friction/velocity_step.nc",
-        groups=groups.velocity_step_groups,
-        priority=PAPER,
+        *("linear_stability", "linear_stability", "linear_stability/{scene}.nc"),
+        groups.linear_stability_groups,
     ),
     Run(
-        rule="linear_stability",
-        program="linear_stability",
-        output="linear_stability/{scene}.nc",
-        groups=groups.linear_stability_groups,
-    ),
-    Run(
-        rule="cycles_runs",
-        program="cycles",
-        output="cycles/{cycle_line}.nc",
-        groups=groups.cycles_groups,
+        *("cycles_runs", "cycles", "cycles/{cycle_line}.nc", groups.cycles_groups),
         priority=LONGEST,
         takes_minutes=True,
     ),
-    Run(
-        rule="exponents_runs",
-        program="exponents",
-        output="exponents/{scene}.nc",
-        groups=groups.exponents_groups,
-        priority=LONG,
-        takes_minutes=True,
-    ),
+    Run("exponents_runs", "exponents", "exponents/{scene}.nc", groups.exponents_groups, **LONG_RUN),
     Run(  # the paper's figures 4 and 5 show the classes of the scenes
-        rule="scene_attractors",
-        program="attractors",
-        output="attractors/scenes/{scene}.nc",
-        groups=attractor_surveys.scene_groups,
+        *("scene_attractors", "attractors", "attractors/scenes/{scene}.nc"),
+        attractor_surveys.scene_groups,
         priority=PAPER,
         takes_minutes=True,
     ),
     Run(
-        rule="attractors_runs",
-        program="attractors",
-        output="attractors/{survey}/{part}.nc",
-        groups=groups.attractors_groups,
-        priority=LONG,
-        takes_minutes=True,
+        *("attractors_runs", "attractors", "attractors/{survey}/{part}.nc"),
+        groups.attractors_groups,
+        **LONG_RUN,
     ),
     Run(
-        rule="reference",
-        program="reference",
-        output="references/{study}/{case}.tsv",
-        groups=groups.reference_groups,
-        priority=LONG,
-        takes_minutes=True,
+        *("reference", "reference", "references/{study}/{case}.tsv", groups.reference_groups),
+        **LONG_RUN,
     ),
-    Run(
-        rule="measurement",
-        program="measure",
-        output="measurements/{study}/{case}.nc",
-        groups=groups.measurement_groups,
-    ),
+    Run("measurement", "measure", "measurements/{study}/{case}.nc", groups.measurement_groups),
     Run(  # the methods take turns, so that what else the machine does hits all alike
-        rule="work_precision_runs",
-        program="measure",
-        output="measurements/work_precision/{case}.nc",
-        groups=groups.work_precision_groups,
+        *("work_precision_runs", "measure", "measurements/work_precision/{case}.nc"),
+        groups.work_precision_groups,
         horizons="tables/trusted-horizons.tsv",
-        priority=LONG,
-        takes_minutes=True,
+        **LONG_RUN,
     ),
 ]
 KINDS = {

@@ -26,11 +26,10 @@ def row_of(run: dict, reference: Reference) -> dict:
         "error_max": largest(errors) if run["status"] == "ok" else np.nan,
         "steps": run["steps_accepted"],
         "rejections": run["steps_rejected"],
-        "evaluations": run["evaluations"],
-        "factorisations": run["factorisations"],
-        "switches": run["switches"],
-        "seconds": run["seconds"],
-        "reason": run["reason"],
+        **{
+            name: run[name]
+            for name in ("evaluations", "factorisations", "switches", "seconds", "reason")
+        },
     }
 
 

@@ -46,8 +46,6 @@ class Plan:
     """The folder of the results."""
     is_users: bool
     """Whether the run is for a user's file."""
-    names: dict[str, list[str]]
-    """Names of the entries of a user's file, by section."""
     figures: list[str]
     """Figures, in the order of the page."""
     claims: dict[str, dict]
@@ -124,7 +122,7 @@ def plan_of_paper(config: dict, folder: str) -> Plan:
     """All of the paper."""
     used = {scene: registry.variables_used(config, scene) for scene in config["scenes"]}
     config = set_variables(config, used, least=[])
-    return Plan(config, folder, False, {}, registry.FIGURES, paper_claims())
+    return Plan(config, folder, False, registry.FIGURES, paper_claims())
 
 
 def plan_of_user(whole: dict, names: dict[str, list[str]], folder: str) -> Plan:
@@ -138,14 +136,7 @@ def plan_of_user(whole: dict, names: dict[str, list[str]], folder: str) -> Plan:
         raise ConfigError(
             f"{folder}: the file adds no scene, plane, route, atlas, cycles, family or claim"
         )
-    return Plan(
-        restrict(config, names, names_in(claims)),
-        folder,
-        True,
-        names,
-        figures,
-        claims,
-    )
+    return Plan(restrict(config, names, names_in(claims)), folder, True, figures, claims)
 
 
 def set_variables(config: dict, used: dict[str, set[str]], *, least: list[str]) -> dict:

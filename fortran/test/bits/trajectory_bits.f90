@@ -1,5 +1,5 @@
 !> Trajectories to the last bit, so that those of different compilers can be compared
-!> (compilers/compare_builds.py): a line a sample with case, time, theta, u and ln v, numbers as the
+!> (compilers/run): a line a sample with case, time, theta, u and ln v, numbers as the
 !> hexadecimal digits of their bits.
 program trajectory_bits
    use, intrinsic :: iso_fortran_env, only: output_unit
