@@ -1,19 +1,17 @@
 !> A delayed logistic reaction that diffuses between cells, y_i' = 1.8 y_i (1 - z_i) + d (y_(i-1) -
 !> 2 y_i + y_(i+1)) without flux at the ends, z_i = y_i(t - 1), or y_i itself without delay.
 module lines_of_cells
-   use dde, only: dde_problem_type
    use dde_kinds, only: wp
+   use test_problems, only: constant_past, fill
    implicit none (type, external)
    private
    public :: cells
 
    !> The cells.
-   type, extends(dde_problem_type) :: cells
+   type, extends(constant_past) :: cells
       !> Diffusion between neighbours
       real(wp) :: diffusion = 0.0_wp
    contains
-      procedure :: initial => one_wave
-      procedure :: history => one_wave_before
       procedure :: rhs => reaction_and_diffusion
    end type cells
 
@@ -23,40 +21,22 @@ module lines_of_cells
 
 contains
 
-   !> The problem with its parameters.
+   !> The problem with its parameters, from one wave.
    type(cells) function new_cells(n, diffusion, delayed) result(problem)
       integer, intent(in) :: n
       real(wp), intent(in) :: diffusion
       logical, intent(in) :: delayed
       integer :: i
 
-      problem%n = n
       problem%diffusion = diffusion
       allocate (problem%lag(merge(n, 0, delayed)), source=1.0_wp)
-      allocate (problem%component(size(problem%lag)))
-      do i = 1, size(problem%component)
-         problem%component(i) = i
+      allocate (problem%component(size(problem%lag)), problem%past(n))
+      do i = 1, n
+         if (delayed) problem%component(i) = i
+         problem%past(i) = 1.0_wp + 0.5_wp*cos(2.0_wp*acos(0.0_wp)*(i - 0.5_wp)/n)
       end do
+      call fill(problem, n, first=problem%past)
    end function new_cells
-
-   pure subroutine one_wave(self, y)
-      class(cells), intent(in) :: self
-      real(wp), intent(out) :: y(self%n)
-      integer :: i
-
-      do i = 1, self%n
-         y(i) = self%history(0.0_wp, i)
-      end do
-   end subroutine one_wave
-
-   pure function one_wave_before(self, t, component) result(value)
-      class(cells), intent(in) :: self
-      real(wp), intent(in) :: t
-      integer, intent(in) :: component
-      real(wp) :: value
-
-      value = 1.0_wp + 0.5_wp*cos(2.0_wp*acos(0.0_wp)*(component - 0.5_wp)/self%n)
-   end function one_wave_before
 
    pure subroutine reaction_and_diffusion(self, t, y, z, dydt)
       class(cells), intent(in) :: self
