@@ -203,8 +203,8 @@ contains
                call expect_success(error, failure)
                known = [maxval(roots%re), sum(roots%re) - maxval(roots%re) - minval(roots%re), &
                         minval(roots%re)]
-               call sliding_exponents(build_block(0.0_wp, epsilon, xi, all_gamma(j)), 3, exponents, &
-                                      failure)
+               call sliding_exponents(build_block(0.0_wp, epsilon, xi, all_gamma(j)), 3, &
+                                      exponents, failure)
             end associate
             call expect_success(error, failure)
             if (allocated(error)) return
@@ -231,8 +231,8 @@ contains
             do k = 0, 1
                associate (omega => all_omega(i), gamma => all_gamma(j))
                   p = block_with_pair(omega, 0.8_wp, gamma, k)
-                  call sliding_exponents(build_block(p%tau, p%epsilon, p%xi, p%gamma), 30, exponents, &
-                                         failure)
+                  call sliding_exponents(build_block(p%tau, p%epsilon, p%xi, p%gamma), 30, &
+                                         exponents, failure)
                   call expect_success(error, failure)
                   if (allocated(error)) return
                   call expect(error, count(abs(exponents%value) <= 1.0e-9_wp) == 2, &
