@@ -23,7 +23,6 @@ module test_dde_behaviour
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_behaviour(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

@@ -6,7 +6,7 @@ module test_dde_breaks
    use expectations, only: expect, expect_close, expect_success
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use piecewise_problems, only: delayed_pulse, jumping_history, many_delays
+   use piecewise_problems, only: delayed_pulse, jumping_history, many_delays, piecewise
    use pseudo_random, only: uniform
    use solving, only: at_tolerance, run
    use test_problems, only: fill, linear
@@ -20,7 +20,6 @@ module test_dde_breaks
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_breaks(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -36,13 +35,14 @@ contains
    subroutine test_pulse(error)
       type(error_type), allocatable, intent(out) :: error
       type(continuation_type) :: state
-      type(delayed_pulse) :: problem
+      type(piecewise) :: problem
       type(integration_options) :: options
       type(integration_result) :: outcome
       real(wp), parameter :: ends(4) = [50.05_wp, 50.1_wp, 51.0_wp, 55.0_wp]
       integer :: i, part
 
       call fill(problem, 2, [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], [1.0_wp], [1])
+      problem%kind = delayed_pulse
       do i = 1, size(methods)
          options = at_tolerance(1.0e-3_wp, methods(i))
          options%break_at = [50.1_wp, 50.0_wp, 80.0_wp]
@@ -105,9 +105,10 @@ contains
       type(error_type), allocatable, intent(out) :: error
       integer, parameter :: counts(5) = [10, 12, 20, 50, 100]
       type(integration_result) :: fine, outcome
-      type(many_delays) :: problem
+      type(piecewise) :: problem
       integer :: i, k
 
+      problem%kind = many_delays
       do i = 1, size(counts)
          call fill(problem, 1, [1.0_wp], [1.0_wp], uniform(i, counts(i), 0.5_wp, 1.5_wp), &
                    [(1, k=1, counts(i))])

@@ -20,7 +20,6 @@ module test_dde_continuation
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_continuation(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

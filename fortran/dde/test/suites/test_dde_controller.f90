@@ -21,7 +21,6 @@ module test_dde_controller
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_controller(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

@@ -1,16 +1,18 @@
-!> The past: look-ups in a ring of polynomials of two kinds, growth, and forgetting.
+!> The past: look-ups in a ring of polynomials of two kinds, growth, and forgetting; and runs that
+!> need more memory than there is, which end with an error.
 module test_dde_history
-   use, intrinsic :: iso_c_binding, only: c_long
-   use dde, only: integration_options, integration_result
+   use, intrinsic :: iso_c_binding, only: c_int, c_long
+   use dde, only: integrate, integration_options, integration_result, out_of_memory
    use dde_cursor, only: cursor_type
    use dde_history, only: history_type
    use dde_time, only: instant, instant_at, later
-   use dde_errors, only: text
-   use expectations, only: expect, expect_between, expect_close
+   use dde_errors, only: failure_type => error_type, text
+   use expectations, only: expect, expect_between, expect_close, expect_failure
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use solving, only: run
-   use test_problems, only: linear, sine, wille_baker
+   use solving, only: at_tolerance, run
+   use test_problems, only: fill, linear, wille_baker
+   use undelayed_problems, only: undelayed
    implicit none (type, external)
    private
    public :: collect_dde_history
@@ -27,36 +29,28 @@ module test_dde_history
          import :: c_long
          implicit none (type, external)
       end function peak_memory
+
+      !> Let this process take this number of bytes more, or without limit if they are negative.
+      integer(c_int) function limit_memory(more) result(done) bind(c)
+         import :: c_int, c_long
+         implicit none (type, external)
+         !> Bytes
+         integer(c_long), value :: more
+      end function limit_memory
    end interface
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_history(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("before the initial time", test_before), &
-                   new_unittest("look-ups in a ring", test_ring), &
+      testsuite = [new_unittest("look-ups in a ring", test_ring), &
                    new_unittest("what is forgotten", test_forget), &
                    new_unittest("what is given back", test_recall), &
-                   new_unittest("memory of an integration", test_memory_of_integration)]
+                   new_unittest("memory of an integration", test_memory_of_integration), &
+                   new_unittest("no memory for matrices", test_matrices), &
+                   new_unittest("no memory for the past", test_past)]
    end subroutine collect_dde_history
-
-   !> Before the initial time the problem's history is asked, at the right time.
-   subroutine test_before(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(cursor_type) :: cursor
-      type(history_type) :: past
-      type(sine) :: problem
-      real(wp) :: z(1, 1)
-
-      problem = sine()
-      past = history_type(problem, instant_at(0.0_wp))
-      cursor = cursor_type(problem)
-      call cursor%set(problem, past, instant_at(0.25_wp), 0.5_wp)
-      call cursor%values(problem, past, [0.5_wp], z)
-      call expect_close(error, z(:, 1), [sin(0.75_wp - problem%lag(1))], 1.0e-15_wp, "history")
-   end subroutine test_before
 
    !> Three delays of two components over 2000 steps of different lengths, of which 50 at a time
    !> matter; the same where 600 matter, so that the ring doubles four times; and where steps become
@@ -239,4 +233,49 @@ contains
       problem = wille_baker(n=3, lag=lag, component=component, past=[-1.0_wp, -2.0_wp, -3.0_wp], &
                             first=[0.0_wp, 0.0_wp, 0.0_wp])
    end function delayed
+
+   !> Matrices of 2e6 rows take more bytes than a process can address.
+   subroutine test_matrices(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(failure_type), allocatable :: failure
+      type(integration_result) :: outcome
+      character(len=8), parameter :: methods(3) = [character(len=8) :: "radau5", "radau9", &
+                                                   "radau13"]
+      integer, parameter :: n = 2000000
+      type(undelayed) :: problem
+      integer :: i
+
+      call fill(problem, n, spread(0.0_wp, 1, n), spread(0.0_wp, 1, n))
+      do i = 1, size(methods)
+         call integrate(problem, 0.0_wp, 1.0_wp, at_tolerance(1.0e-6_wp, methods(i)), outcome, &
+                        failure)
+         call expect_failure(error, failure, "no memory for another ")
+         call expect(error, outcome%reason == out_of_memory, "the reason, of "//methods(i))
+         call expect(error, .not. allocated(outcome%y), "no state of "//methods(i))
+      end do
+   end subroutine test_matrices
+
+   !> The past doubles until there is no memory for it. The state of the last step is kept.
+   subroutine test_past(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: n = 64
+      integer(c_long), parameter :: limit = 64*1024*1024_c_long
+      type(failure_type), allocatable :: failure
+      type(integration_options) :: options
+      type(integration_result) :: outcome
+      type(linear) :: problem
+      integer :: i
+
+      problem = linear(n, spread(1.0_wp, 1, n), [(i, i=1, n)], spread(0.0_wp, 1, n), &
+                       spread(0.0_wp, 1, n))
+      options = at_tolerance(1.0e-6_wp)
+      options%longest_step = 1.0e-5_wp
+      ! an address sanitizer cannot be limited
+      if (limit_memory(limit) == 0) return
+      call integrate(problem, 0.0_wp, 1.0_wp, options, outcome, failure)
+      call expect(error, limit_memory(-1_c_long) == 1, "the limit is lifted")
+      call expect_failure(error, failure, "no memory for another ")
+      call expect(error, outcome%reason == out_of_memory, "the reason")
+      call expect(error, outcome%t > 0.0_wp .and. size(outcome%y) == n, "the last step")
+   end subroutine test_past
 end module test_dde_history

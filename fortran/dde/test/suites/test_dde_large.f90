@@ -4,6 +4,7 @@ module test_dde_large
    use dde, only: integration_result
    use dde_jacobian, only: jacobian_type
    use dde_lapack, only: lapack_is_there
+   use dde_methods, only: price_of_trial
    use dde_tolerance, only: tolerance_type
    use dde_work, only: work_type
    use dde_errors, only: text
@@ -18,11 +19,11 @@ module test_dde_large
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_large(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("differences", test_differences)]
+      testsuite = [new_unittest("differences", test_differences), &
+                   new_unittest("the cost of auto", test_auto)]
       ! a build without LAPACK refuses banded Jacobians
       if (.not. lapack_is_there) return
       testsuite = [testsuite, new_unittest("a banded Jacobian", test_banded), &
@@ -126,4 +127,35 @@ contains
       end do
    end subroutine test_stack
 
+   !> Where the explicit method is better `auto` stays with it, however stiff steps may look; where
+   !> the implicit one is, it does not take much more.
+   subroutine test_auto(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: diffusion(2) = [1.0_wp, 1000.0_wp]
+      type(integration_result) :: auto, explicit, implicit
+      type(cells) :: problem
+      real(wp) :: price
+      integer :: banded, i, n
+
+      do banded = 0, merge(1, 0, lapack_is_there)
+         do n = 30, 150, 120
+            do i = 1, size(diffusion)
+               problem = cells(n, diffusion(i), delayed=.true.)
+               if (banded == 1) problem%lower = 1
+               if (banded == 1) problem%upper = 1
+               call run(error, problem, 0.0_wp, 3.0_wp, at_tolerance(1.0e-5_wp, "explicit"), &
+                        explicit)
+               call run(error, problem, 0.0_wp, 3.0_wp, at_tolerance(1.0e-5_wp, "radau9"), implicit)
+               call run(error, problem, 0.0_wp, 3.0_wp, at_tolerance(1.0e-5_wp, "auto"), auto)
+               if (allocated(error)) return
+               associate (better => min(explicit%work, implicit%work))
+                  price = price_of_trial(problem, tolerance_type(n, 1.0e-5_wp, 1.0e-5_wp))
+                  call expect(error, auto%work <= 1.5_wp*better + 2*price, &
+                              text(auto%work)//" by auto, "//text(explicit%work) &
+                              //" by explicit, "//text(implicit%work)//" by radau9")
+               end associate
+            end do
+         end do
+      end do
+   end subroutine test_auto
 end module test_dde_large

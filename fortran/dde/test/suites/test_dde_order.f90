@@ -10,7 +10,7 @@ module test_dde_order
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use rooted_trees, only: grow_trees, tree_counts, tree_system
    use single_step, only: interpolated, take_step
-   use undelayed_problems, only: decay
+   use undelayed_problems, only: decay, undelayed
    implicit none (type, external)
    private
    public :: collect_dde_order
@@ -23,30 +23,15 @@ module test_dde_order
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_order(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("number of trees", test_tree_counts), &
-                   new_unittest("200 conditions of the step", test_step_conditions), &
+      testsuite = [new_unittest("200 conditions of the step", test_step_conditions), &
                    new_unittest("85 conditions of the interpolant", test_interpolant_conditions), &
                    new_unittest("conditions of the estimates", test_estimate_conditions), &
                    new_unittest("estimate of the error", test_estimate), &
                    new_unittest("estimate of far too long steps", test_long_steps)]
    end subroutine collect_dde_order
-
-   !> The trees of each order are as many as there are known to be.
-   subroutine test_tree_counts(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(tree_system) :: trees
-      integer :: order
-
-      trees = grow_trees(size(tree_counts))
-      do order = 1, size(tree_counts)
-         call expect(error, count(trees%order == order) == tree_counts(order), &
-                     "number of trees of order "//text(order))
-      end do
-   end subroutine test_tree_counts
 
    !> The step gives h**order/density for every tree up to order 8, but not for those of order 9;
    !> with and without the time of its stages.
@@ -59,6 +44,8 @@ contains
       integer :: i
 
       trees = grow_trees(9)
+      call expect(error, all([(count(trees%order == i) == tree_counts(i), i=1, 9)]), &
+                  "the trees of each order are as many as there are known to be")
       do i = 1, 2
          trees%by_the_clock = i == 2
          step = explicit_step_type(trees)
@@ -150,7 +137,7 @@ contains
    !> tolerance, not even near 5.66, where e5 changes its sign and e3 is large.
    subroutine test_long_steps(error)
       type(error_type), allocatable, intent(out) :: error
-      type(decay) :: problem
+      type(undelayed) :: problem
       type(explicit_step_type) :: step
       real(wp) :: estimate, tolerance, worst
       integer :: digits, i

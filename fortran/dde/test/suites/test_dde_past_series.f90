@@ -21,7 +21,6 @@ module test_dde_past_series
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_past_series(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

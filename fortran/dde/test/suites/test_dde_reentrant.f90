@@ -1,6 +1,6 @@
 !> Integrations side by side give the same bits as one after the other.
 module test_dde_reentrant
-   use dde, only: dde_problem_type, integrate, integration_result, sampler_type, table_sampler
+   use dde, only: dde_problem_type, integrate, integration_result, table_sampler
    use dde_errors, only: failure_type => error_type, text
    use expectations, only: expect, expect_success
    use fast_problems, only: follower
@@ -32,24 +32,12 @@ module test_dde_reentrant
       type(failure_type), allocatable :: failure
    end type run_type
 
-   !> A sampler that integrates another problem at each sample it takes.
-   type, extends(sampler_type) :: busy_sampler
-      !> The other integration
-      type(run_type) :: other
-      !> Samples taken
-      integer :: taken = 0
-   contains
-      procedure :: take => integrate_other
-   end type busy_sampler
-
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_reentrant(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("in threads", test_threads), &
-                   new_unittest("one inside the other", test_nested)]
+      testsuite = [new_unittest("in threads", test_threads)]
    end subroutine collect_dde_reentrant
 
    !> Sixty-four integrations in four threads, twice over.
@@ -60,7 +48,7 @@ contains
 
       do i = 1, runs
          call prepare(i, alone(i))
-         call perform(alone(i))
+         call integrate_one(alone(i))
          call expect_success(error, alone(i)%failure)
       end do
       do round = 1, 2
@@ -71,7 +59,7 @@ contains
          !$omp parallel do num_threads(4) schedule(dynamic, 1) reduction(max: threads)
          do i = 1, runs
             !$ threads = omp_get_num_threads()
-            call perform(together(i))
+            call integrate_one(together(i))
          end do
          !$omp end parallel do
          !$ call expect(error, threads > 1, "more than one thread")
@@ -80,40 +68,6 @@ contains
          end do
       end do
    end subroutine test_threads
-
-   !> A sampler that integrates while it is handed a sample disturbs nothing.
-   subroutine test_nested(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(busy_sampler) :: busy
-      type(run_type) :: inner, outer, outer_alone
-
-      call prepare(3, inner)
-      call perform(inner)
-      call prepare(2, outer_alone)
-      call perform(outer_alone)
-      call prepare(2, outer)
-      busy%wanted = [1]
-      busy%next = 10.0_wp
-      call prepare(3, busy%other)
-      call integrate(outer%problem, 0.0_wp, t_end, at_tolerance(1.0e-9_wp), outer%outcome, &
-                     outer%failure, busy)
-      call expect_success(error, outer%failure)
-      call expect(error, busy%taken == 4, "four samples are taken")
-      call expect_same(error, busy%other, inner, "the inner integration")
-      call expect(error, same_bits(outer%outcome%y, outer_alone%outcome%y), &
-                  "the outer integration gives the same bits")
-   end subroutine test_nested
-
-   !> Integrate another problem to its end.
-   subroutine integrate_other(self, y)
-      class(busy_sampler), intent(inout) :: self
-      real(wp), intent(in) :: y(:)
-
-      self%taken = self%taken + 1
-      self%next = self%next + 30.0_wp
-      call prepare(3, self%other)
-      call perform(self%other)
-   end subroutine integrate_other
 
    !> Integration number i.
    subroutine prepare(i, run)
@@ -139,12 +93,12 @@ contains
    end subroutine prepare
 
    !> Integrate.
-   subroutine perform(run)
-      type(run_type), intent(inout) :: run
+   subroutine integrate_one(one)
+      type(run_type), intent(inout) :: one
 
-      call integrate(run%problem, 0.0_wp, t_end, at_tolerance(1.0e-9_wp), run%outcome, &
-                     run%failure, run%table)
-   end subroutine perform
+      call integrate(one%problem, 0.0_wp, t_end, at_tolerance(1.0e-9_wp), one%outcome, &
+                     one%failure, one%table)
+   end subroutine integrate_one
 
    !> Two integrations did the same to the last bit.
    subroutine expect_same(error, one, other, what)

@@ -17,7 +17,6 @@ module test_dde_refusals
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_refusals(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

@@ -6,7 +6,7 @@ module test_dde_sizes
    use expectations, only: expect, expect_close
    use dde_kinds, only: wp
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use piecewise_problems, only: logistic, relaxing
+   use piecewise_problems, only: logistic, piecewise, relaxing
    use solving, only: at_tolerance, run
    use stiff_problems, only: prothero_robinson
    use test_problems, only: fill
@@ -20,7 +20,6 @@ module test_dde_sizes
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_sizes(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -61,14 +60,15 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(integration_options) :: options
       type(integration_result) :: large, small
-      type(relaxing) :: problem
+      type(piecewise) :: problem
       integer :: i
 
+      problem%kind = relaxing
       do i = 1, 5
          call fill(problem, 2, [0.0_wp, 0.0_wp], [1.0_wp, 1.0_wp])
-         problem%unit = 1.0_wp
+         problem%k = 1.0_wp
          call run(error, problem, 0.0_wp, 1.0_wp, at_tolerance(1.0e-8_wp, methods(i)), large)
-         problem%unit = 1.0e-30_wp
+         problem%k = 1.0e-30_wp
          problem%first(1) = 1.0e-30_wp
          options = at_tolerance(1.0e-8_wp, methods(i))
          options%each_absolute = [1.0e-38_wp, 1.0e-8_wp]

@@ -13,7 +13,7 @@ module test_dde_solutions
    use single_step, only: take_step
    use solving, only: at_tolerance, solve
    use test_problems, only: linear, sine, wille_baker
-   use undelayed_problems, only: oscillator, swing
+   use undelayed_problems, only: swing, undelayed
    implicit none (type, external)
    private
    public :: collect_dde_solutions
@@ -24,7 +24,6 @@ module test_dde_solutions
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_solutions(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
@@ -101,7 +100,7 @@ contains
    subroutine test_smooth_joint(error)
       type(error_type), allocatable, intent(out) :: error
       type(explicit_step_type) :: step
-      type(oscillator) :: problem
+      type(undelayed) :: problem
       real(wp), parameter :: h = 0.75_wp
       real(wp) :: a(0:7), estimate, slope(2, 0:1), y(2, 0:1)
       integer :: i, place

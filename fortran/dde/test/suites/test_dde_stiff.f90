@@ -18,7 +18,6 @@ module test_dde_stiff
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_stiff(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

@@ -16,7 +16,6 @@ module test_dde_time
 
 contains
 
-   !> All tests of this suite.
    subroutine collect_dde_time(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 

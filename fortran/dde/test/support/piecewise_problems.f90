@@ -4,14 +4,8 @@ module piecewise_problems
    use test_problems, only: constant_past, linear
    implicit none (type, external)
    private
-   public :: delayed_pulse, jumping_history, logistic, many_delays, relaxing, switching
+   public :: delayed_pulse, jumping_history, logistic, many_delays, piecewise, relaxing
    public :: switching_kinds
-
-   !> y1' = 100 for 50 <= t < 50.1, else 0; y2' = y1(t - 1). From (0, 0), y2(55) = 39.5.
-   type, extends(constant_past) :: delayed_pulse
-   contains
-      procedure :: rhs => pulse_rhs
-   end type delayed_pulse
 
    !> y' = y(t - 1), y = 0 for t < -1/2, 1 for -1/2 <= t < 0, y(0) = 0: y(5/2) = 7/8.
    type, extends(linear) :: jumping_history
@@ -28,42 +22,24 @@ module piecewise_problems
       procedure :: series => logistic_series
    end type logistic
 
-   !> y' = -y - (sum of all delayed values)/24.
-   type, extends(constant_past) :: many_delays
-   contains
-      procedure :: rhs => mean_rhs
-   end type many_delays
-
-   !> y2' = -y2, y1' = -1000 (y1^2/unit - unit y2^2): y1 is near unit y2.
-   type, extends(constant_past) :: relaxing
-      !> Size of y1
-      real(wp) :: unit = 1.0_wp
-   contains
-      procedure :: rhs => relaxing_rhs
-   end type relaxing
-
-   !> Number of different problems below.
+   !> Number of problems that jump or change their stiffness again and again.
    integer, parameter :: switching_kinds = 6
+   !> Other problems. y1' = 100 for 50 <= t < 50.1, else 0; y2' = y1(t - 1): from (0, 0),
+   !> y2(55) = 39.5. Then y' = -y - (sum of all delayed values)/24. Then y2' = -y2,
+   !> y1' = -1000 (y1^2/k - k y2^2): y1 is near k y2.
+   integer, parameter :: delayed_pulse = 7, many_delays = 8, relaxing = 9
 
-   !> Stiff problems, with rate k, that jump or change their stiffness again and again.
-   type, extends(constant_past) :: switching
+   !> One of these problems.
+   type, extends(constant_past) :: piecewise
       !> Which one
       integer :: kind = 1
-      !> The fast rate
+      !> The fast rate, or the size of y1
       real(wp) :: k = 1000.0_wp
    contains
-      procedure :: rhs => switching_rhs
-   end type switching
+      procedure :: rhs => piecewise_rhs
+   end type piecewise
 
 contains
-
-   pure subroutine pulse_rhs(self, t, y, z, dydt)
-      class(delayed_pulse), intent(in) :: self
-      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
-      real(wp), intent(out) :: dydt(self%n)
-
-      dydt = [merge(100.0_wp, 0.0_wp, t >= 50.0_wp .and. t < 50.1_wp), z(1)]
-   end subroutine pulse_rhs
 
    pure function step_history(self, t, component) result(value)
       class(jumping_history), intent(in) :: self
@@ -99,26 +75,8 @@ contains
       end do
    end subroutine logistic_series
 
-   pure subroutine mean_rhs(self, t, y, z, dydt)
-      class(many_delays), intent(in) :: self
-      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
-      real(wp), intent(out) :: dydt(self%n)
-
-      dydt = -y - sum(z)/24
-   end subroutine mean_rhs
-
-   pure subroutine relaxing_rhs(self, t, y, z, dydt)
-      class(relaxing), intent(in) :: self
-      real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
-      real(wp), intent(out) :: dydt(self%n)
-
-      associate (x => y(1)/self%unit)
-         dydt = [-1000.0_wp*self%unit*(x**2 - y(2)**2), -y(2)]
-      end associate
-   end subroutine relaxing_rhs
-
-   pure subroutine switching_rhs(self, t, y, z, dydt)
-      class(switching), intent(in) :: self
+   pure subroutine piecewise_rhs(self, t, y, z, dydt)
+      class(piecewise), intent(in) :: self
       real(wp), intent(in) :: t, y(self%n), z(size(self%lag))
       real(wp), intent(out) :: dydt(self%n)
 
@@ -138,9 +96,15 @@ contains
       case (5) ! a thermostat
          dydt(1) = -self%k*(y(1) - 2*y(2))
          dydt(2) = merge(1.0_wp, -1.0_wp, z(1) < 0.5_wp) - 0.1_wp*y(2)
+      case (delayed_pulse)
+         dydt = [merge(100.0_wp, 0.0_wp, t >= 50.0_wp .and. t < 50.1_wp), z(1)]
+      case (many_delays)
+         dydt = -y - sum(z)/24
+      case (relaxing)
+         dydt = [-1000.0_wp*self%k*((y(1)/self%k)**2 - y(2)**2), -y(2)]
       case default ! a steep delayed feedback
          dydt(1) = self%k*(1.0_wp/(1.0_wp + max(z(1), 0.0_wp)**20) - y(1))
          dydt(2) = y(1) - y(2)
       end select
-   end subroutine switching_rhs
+   end subroutine piecewise_rhs
 end module piecewise_problems
