@@ -213,6 +213,9 @@ contains
             call expect(error, all(abs(exponents%error) <= 0.0_wp), "no error bars")
          end do
       end do
+      call sliding_exponents(build_block(0.0_wp, 0.3_wp, 1.0_wp, 10.0_wp), 3, exponents, failure)
+      call expect_success(error, failure)
+      call expect(error, size(exponents) == 2, "the third root is below the last bound, -8")
    end subroutine test_cubic
 
    !> On the Hopf set in closed form a pair of roots is imaginary. At the first delay and
