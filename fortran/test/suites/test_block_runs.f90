@@ -36,7 +36,6 @@ contains
                    new_unittest("a block without slow series", test_plain), &
                    new_unittest("steps longer than the delay", test_short_delay), &
                    new_unittest("at rest", test_rest), &
-                   new_unittest("a damped oscillation", test_damped), &
                    new_unittest("down to where v is 1e-34", test_fall), &
                    new_unittest("conserved at infinite gamma", test_conserved), &
                    new_unittest("in the middle of a slip", test_slip), &
@@ -176,22 +175,6 @@ contains
          end do
       end do
    end subroutine test_rest
-
-   !> As long as an oscillation that dies out can be seen no implicit step is tried: it is 1e-3 at
-   !> the end.
-   subroutine test_damped(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(integration_result) :: outcome
-      type(spring_block_type) :: problem
-      integer :: digits
-
-      problem = build_block(tau=0.0_wp, epsilon=0.3_wp, xi=0.8_wp, gamma=0.8_wp, v=1.1_wp)
-      do digits = 5, 11, 2
-         call run(error, problem, 0.0_wp, 400.0_wp, at_tolerance(10.0_wp**(-digits), "auto"), &
-                  outcome)
-         call expect(error, outcome%implicit_steps == 0, "1e-"//text(digits))
-      end do
-   end subroutine test_damped
 
    !> After a slip at great epsilon v falls to 1e-34 within 1e-29 of time, less than moves even a
    !> compensated time. A false solution of a step's equations would throw the block far off; on the

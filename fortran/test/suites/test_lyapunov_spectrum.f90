@@ -6,13 +6,11 @@ module test_lyapunov_spectrum
                   integration_result, table_sampler
    use dde_errors, only: failure_type => error_type
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
-   use exponent_averages, only: average_growth, exponent_type
    use dde_kinds, only: wp
    use lyapunov_spectrum, only: extend_growth, growth_settings_type, growth_type, &
                                 interval_observer_type, measure_growth
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use progress_recorder, only: expect_counted, recorder
-   use steady_sliding, only: sliding_exponents
    use solving, only: at_tolerance, run
    use spring_block, only: index_of_ln_v, spring_block_type
    use test_problems, only: linear
@@ -37,8 +35,7 @@ contains
 
       testsuite = [new_unittest("in one go and in two halves", test_two_halves), &
                    new_unittest("from where a run ended", test_arrived), &
-                   new_unittest("halved intervals, steady sliding", test_halved_at_rest), &
-                   new_unittest("halved intervals, divergence of the flow", test_divergence), &
+                   new_unittest("halved intervals", test_divergence), &
                    new_unittest("vectors lost give a bound or an error", test_lost), &
                    new_unittest("an observer", test_observed), &
                    new_unittest("refusals", test_refusals), &
@@ -134,34 +131,6 @@ contains
                         tolerance, "growth")
       call expect_close(error, arrived%time(1), t_arrived, 0.0_wp, "the run that ended")
    end subroutine compare_goes
-
-   !> Steady sliding at gamma = 100: an interval of 0.02 is too long for the third vector, a part
-   !> of it is not; the exponents are the roots of the cubic.
-   subroutine test_halved_at_rest(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(exponent_type), allocatable :: exponents(:), known(:)
-      type(failure_type), allocatable :: failure
-      type(growth_settings_type) :: settings
-      type(growth_type) :: measured
-      real(wp), parameter :: trace = -(1.0_wp + 100.0_wp**2/0.5_wp)
-
-      settings = four_intervals(0.02_wp)
-      call measure_growth(stiff(0.0_wp), settings, at_tolerance(1.0e-8_wp, "radau9"), measured, &
-                          failure)
-      call expect_success(error, failure)
-      call sliding_exponents(stiff(0.0_wp), 3, known, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
-      call expect(error, size(known) == 2, "two roots are above -8")
-      call expect(error, all(shape(measured%growth) == [3, 4]), "growth in each of four intervals")
-      call expect_between(error, measured%least_share, 1.0e-7_wp, 1.0e-2_wp, "share")
-      exponents = average_growth(measured%growth, measured%length, settings%blocks, &
-                                 flow=.false.)
-      ! a part of the vector, exp(-12.5) of which is left, is known to a tenth at least
-      call expect_close(error, exponents(3)%value/(trace - sum(known%value)), 1.0_wp, &
-                        0.1_wp/12.5_wp, "the third over the root")
-      call expect_close(error, sum(exponents(:2)%value), sum(known%value), 1.0e-2_wp, "the pair")
-   end subroutine test_halved_at_rest
 
    !> An observer sees the whole time once, also where intervals are halved, and changes nothing.
    subroutine test_observed(error)

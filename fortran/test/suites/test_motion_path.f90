@@ -10,7 +10,7 @@ module test_motion_path
    use dde_kinds, only: wp
    use expectations, only: expect, expect_between, expect_close
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
-   use motion_classes, only: cycle_motion, fixed_point
+   use motion_classes, only: cycle_motion
    use motion_path, only: find_kept_points, follow_path
    use solving, only: at_tolerance, run
    use spring_block, only: index_of_ln_v, index_of_u, spring_block_type
@@ -26,7 +26,6 @@ contains
       testsuite = [new_unittest("solution", test_solution), &
                    new_unittest("fast slip events", test_slip_events), &
                    new_unittest("path of an attractor", test_attractor), &
-                   new_unittest("no path", test_none), &
                    new_unittest("lines", test_lines), &
                    new_unittest("line of circle", test_circle)]
    end subroutine collect_motion_path
@@ -116,18 +115,6 @@ contains
          call expect_close(error, maxval(ln_v), log(found%motion%maxima(1)), 0.02_wp, "largest v")
       end associate
    end subroutine test_attractor
-
-   !> Steady sliding has no path, and neither has a motion of which none is asked for.
-   subroutine test_none(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(attractor_type) :: found
-
-      call search(disturbed_block(0.0_wp, 0.3_wp, 0.8_wp), observed(50.0_wp), found, error)
-      call expect(error, found%class == fixed_point .and. .not. allocated(found%path), &
-                  "steady sliding")
-      call search(disturbed_block(0.0_wp, 0.5_wp, 0.8_wp), observed(0.0_wp), found, error)
-      call expect(error, found%class /= fixed_point .and. .not. allocated(found%path), "not asked")
-   end subroutine test_none
 
    !> How attractors are found here.
    pure type(attractor_settings_type) function observed(t_path) result(settings)

@@ -14,7 +14,6 @@ module test_stability_changes
    use mctc_env_testing, only: error_type, new_unittest, unittest_type
    use pseudo_random, only: uniform
    use root_counts, only: pairs_beside, roots_right_of
-   use spring_block, only: spring_block_type
    use stability_changes, only: changes_with_epsilon, changes_with_tau, stability_change_type
    use steady_sliding, only: settles, sliding_exponents
    implicit none (type, external)
@@ -148,13 +147,6 @@ contains
       if (modulo(i, 3) == 0) p%gamma = 10.0_wp**(14.0_wp*x(4) - 2.0_wp)
    end function random_block
 
-   !> A block at the steady state.
-   pure type(spring_block_type) function steady(tau, epsilon, xi, gamma) result(block)
-      real(wp), intent(in) :: tau, epsilon, xi, gamma
-
-      block = build_block(tau=tau, epsilon=epsilon, xi=xi, gamma=gamma)
-   end function steady
-
    !> An oscillation of ln v that grows at a rate, from an amplitude, in 400 units of time.
    pure function oscillation(amplitude, rate) result(w)
       real(wp), intent(in) :: amplitude, rate
@@ -211,8 +203,8 @@ contains
                call expect_success(error, failure)
                known = [maxval(roots%re), sum(roots%re) - maxval(roots%re) - minval(roots%re), &
                         minval(roots%re)]
-               call sliding_exponents(steady(0.0_wp, epsilon, xi, all_gamma(j)), 3, exponents, &
-                                      failure)
+               call sliding_exponents(build_block(0.0_wp, epsilon, xi, all_gamma(j)), 3, &
+                                      exponents, failure)
             end associate
             call expect_success(error, failure)
             if (allocated(error)) return
@@ -221,6 +213,9 @@ contains
             call expect(error, all(abs(exponents%error) <= 0.0_wp), "no error bars")
          end do
       end do
+      call sliding_exponents(build_block(0.0_wp, 0.3_wp, 1.0_wp, 10.0_wp), 3, exponents, failure)
+      call expect_success(error, failure)
+      call expect(error, size(exponents) == 2, "the third root is below the last bound, -8")
    end subroutine test_cubic
 
    !> On the Hopf set in closed form a pair of roots is imaginary. At the first delay and
@@ -239,8 +234,8 @@ contains
             do k = 0, 1
                associate (omega => all_omega(i), gamma => all_gamma(j))
                   p = block_with_pair(omega, 0.8_wp, gamma, k)
-                  call sliding_exponents(steady(p%tau, p%epsilon, p%xi, p%gamma), 30, exponents, &
-                                         failure)
+                  call sliding_exponents(build_block(p%tau, p%epsilon, p%xi, p%gamma), 30, &
+                                         exponents, failure)
                   call expect_success(error, failure)
                   if (allocated(error)) return
                   call expect(error, count(abs(exponents%value) <= 1.0e-9_wp) == 2, &
