@@ -4,6 +4,7 @@ import hashlib
 from pathlib import Path
 
 from scripts.figures import registry
+from scripts.namelists.study_cases import measured_study
 from scripts.results.programs import BUILD, PAPER, RUNS
 from scripts.workflow.script_imports import modules_of
 
@@ -103,3 +104,17 @@ def figures_on_page():
         }
         for name in plan.figures
     ]
+
+
+def table(path, script, params=(), **inputs):
+    """A table: its path, its script in scripts/tables/, and what this gets."""
+    return path, f"tables/{script}.py", dict(params), inputs
+
+
+def measured_runs(study):
+    """Inputs of a table of measured runs: those of a study, and references of the same cases."""
+    cases = measured_study(config)["cases"]
+    return {
+        "measurements": [f"<results>/measurements/{study}/{case}.nc" for case in cases],
+        "references": [f"<results>/references/trust/{case}.tsv" for case in cases],
+    }

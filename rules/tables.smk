@@ -1,6 +1,5 @@
 # Tables of results.
 from scripts.claims.ledger import inputs_for
-from scripts.namelists.study_cases import measured_study
 from scripts.results import paths
 
 FAMILIES = {
@@ -8,26 +7,8 @@ FAMILIES = {
     for name, family in config["stability"]["families"].items()
 }
 """What each family of cases is compared with."""
-MEASURED = measured_study(config)
 
-
-def measured_runs(study):
-    """Inputs of a table of measured runs: those of a study, and references of the same cases."""
-    return {
-        "measurements": [
-            f"<results>/measurements/{study}/{case}.nc" for case in MEASURED["cases"]
-        ],
-        "references": [
-            f"<results>/references/trust/{case}.tsv" for case in MEASURED["cases"]
-        ],
-    }
-
-
-def table(path, script, params=(), **inputs):
-    """A table: its path, its script in scripts/tables/, and what this gets."""
-    return path, f"tables/{script}.py", dict(params), inputs
-
-
+# For each rule its table.
 TABLES = {
     "attractors_table": table(
         "attractors.tsv",
@@ -105,7 +86,7 @@ TABLES = {
     "trusted_horizons": table(
         "trusted-horizons.tsv",
         "trusted_horizons",
-        {"trusted_error": MEASURED["trusted_error"]},
+        {"trusted_error": config["work_precision"]["trusted_error"]},
         **measured_runs("trust"),
     ),
 }
