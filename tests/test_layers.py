@@ -133,7 +133,7 @@ def test_facade_of_the_solver_uses_the_solver_only():
         ("study", "use dde_integrator, only: integrate"),
         ("study", "use cases_input, only: read_cases"),
         ("study", "use file_system, only: rename_file"),
-        ("methods", "use hopf_input, only: hopf_settings_type"),
+        ("methods", "use hopf_files, only: hopf_settings_type"),
         ("methods", "use netcdf, only: nf90_open"),
         ("methods", "use dde_integrator"),
         ("methods", "use file_system, only: rename_file"),

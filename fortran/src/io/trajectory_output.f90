@@ -54,9 +54,7 @@ contains
 
    !> Begin the file of a scene.
    function new_writer(path, scene) result(writer)
-      !> Path of the file
       character(len=*), intent(in) :: path
-      !> The scene
       type(scene_type), intent(in) :: scene
       type(trajectory_writer_type) :: writer
       integer :: dimension, i, variables
@@ -131,9 +129,7 @@ contains
    !> Write what is left, the scene and what the integration did, and complete the file.
    subroutine finish(self, outcome, error)
       class(trajectory_writer_type), intent(inout) :: self
-      !> What the integration did
       type(integration_result), intent(in) :: outcome
-      !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
 
       call self%flush()

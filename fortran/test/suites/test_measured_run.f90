@@ -3,7 +3,6 @@ module test_measured_run
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use block_parameters, only: block_history_type, block_parameters_type
    use dde, only: dde_problem_type, integration_result, table_sampler, value_not_finite
-   use double_numbers, only: as_double, evenly_spaced
    use dde_errors, only: failure_type => error_type
    use expectations, only: expect, expect_between, expect_close, expect_failure, expect_success
    use fixed_step_rk4, only: integrate_rk4
@@ -31,7 +30,6 @@ contains
                    new_unittest("order of rk4 without delay", test_order_without_delay), &
                    new_unittest("samples of rk4", test_rk4_samples), &
                    new_unittest("refusals of rk4", test_rk4_refusals), &
-                   new_unittest("double numbers", test_double_numbers), &
                    new_unittest("sample times", test_sample_times), &
                    new_unittest("measured run", test_one_run), &
                    new_unittest("measured run that stops", test_stopped_run), &
@@ -147,23 +145,20 @@ contains
       call expect_close(error, outcome%t, 0.9_wp, 1.0e-12_wp, "time reached")
    end subroutine test_rk4_refusals
 
-   !> In double precision every number stays what it is.
-   subroutine test_double_numbers(error)
-      type(error_type), allocatable, intent(out) :: error
-      real(wp), parameter :: numbers(6) = [0.0_wp, 0.1_wp, -pi, 1.0e-300_wp, 1.0e300_wp, 7.0_wp]
-
-      call expect_close(error, as_double(numbers), numbers, 0.0_wp, "numbers")
-   end subroutine test_double_numbers
-
    !> The last one is t_end, also where the quotient rounds down.
    subroutine test_sample_times(error)
       type(error_type), allocatable, intent(out) :: error
+      type(case_type) :: case
       real(wp), allocatable :: time(:)
 
-      time = evenly_spaced(0.1_wp, 0.3_wp)
+      case%sample_interval = 0.1_wp
+      case%t_end = 0.3_wp
+      time = case%sample_times()
       call expect(error, size(time) == 4, "four times")
       call expect_close(error, time(4), 0.3_wp, 0.0_wp, "last time")
-      time = evenly_spaced(2.0_wp, 5.0_wp)
+      case%sample_interval = 2.0_wp
+      case%t_end = 5.0_wp
+      time = case%sample_times()
       call expect(error, size(time) == 3, "multiples up to the end")
       call expect_close(error, time(3), 4.0_wp, 0.0_wp, "last multiple")
    end subroutine test_sample_times

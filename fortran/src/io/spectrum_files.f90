@@ -1,16 +1,31 @@
-!> Spectrum files.
-module spectrum_output
+!> What the program `spectrum` reads and writes: source and method of a spectrum; the spectrum.
+module spectrum_files
    use base_frequencies, only: bases_type
    use dde_errors, only: error_type, text
    use dde_kinds, only: int64, wp
+   use namelist_input, only: namelist_file_type, word_length
    use netcdf_output, only: output_file_type
    use spectral_peaks, only: base_peak, combination_peak, harmonic_peak, other_peak, peak_type, &
                              second_base_peak
-   use spectrum_input, only: spectrum_settings_type
    use spectrum_verdict, only: continuum_share, line_share, spectrum_kind, spectrum_kind_name
+   use value_checks, only: check_count, missing, missing_count
    implicit none (type, external)
    private
-   public :: write_spectrum
+   public :: read_spectrum_settings, spectrum_settings_type, write_spectrum
+
+   !> Method of a spectrum.
+   type :: spectrum_settings_type
+      !> 'hann' or 'boxcar'
+      character(len=word_length) :: window = ""
+      !> Number of Welch segments
+      integer :: segments = missing_count
+      !> Share of a segment that the next one repeats
+      real(wp) :: overlap = missing
+      !> Least height of a peak over the highest peak's
+      real(wp) :: peak_floor = missing
+      !> Least height of a peak over the valleys beside it
+      real(wp) :: peak_prominence = missing
+   end type spectrum_settings_type
 
    !> Kinds of peaks
    integer, parameter :: kinds(5) = [base_peak, harmonic_peak, second_base_peak, &
@@ -20,6 +35,31 @@ module spectrum_output
                                                    "second_base", "combination", "other"]
 
 contains
+
+   !> Read and check source and method of a spectrum.
+   subroutine read_spectrum_settings(path, trajectory_path, spectrum, error)
+      !> Path of the namelist file
+      character(len=*), intent(in) :: path
+      !> Trajectory file to read
+      character(len=:), allocatable, intent(out) :: trajectory_path
+      !> The method
+      type(spectrum_settings_type), intent(out) :: spectrum
+      !> They cannot be read, or a value is out of range
+      type(error_type), allocatable, intent(out) :: error
+      character(len=4096) :: trajectory
+      type(namelist_file_type) :: file
+      namelist /settings/ trajectory, spectrum
+      namelist /without_path/ spectrum
+
+      trajectory = ""
+      call file%open(path, error)
+      if (allocated(error)) return
+      read (file%unit, nml=settings, iostat=file%status, iomsg=file%reason)
+      write (file%copy, nml=without_path, delim="quote")
+      call file%close(error)
+      call check_count(error, path//": spectrum", "segments", spectrum%segments, at_least=1)
+      trajectory_path = trim(trajectory)
+   end subroutine read_spectrum_settings
 
    !> Write a spectrum with its labelled peaks and what it is.
    subroutine write_spectrum(path, scene, settings, frequency, power, variance, peaks, bases, error)
@@ -77,4 +117,4 @@ contains
       call file%attribute("spectrum_kind", spectrum_kind_name(spectrum_kind(power, peaks, bases)))
       call file%finish(error)
    end subroutine write_spectrum
-end module spectrum_output
+end module spectrum_files
