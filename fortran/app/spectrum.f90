@@ -42,15 +42,6 @@ program spectrum_program
    peaks = find_peaks(frequency, power, settings%peak_floor, settings%peak_prominence)
    call label_peaks(peaks, frequency(2), bases)
    call write_spectrum(output_path, trim(trajectory%scene), settings, frequency, power, &
-                       variance(v), peaks, bases, error)
+                       sum((v - sum(v)/size(v))**2)/size(v), peaks, bases, error)
    call stop_on(error)
-
-contains
-
-   !> Mean square distance from the mean.
-   pure real(wp) function variance(x) result(value)
-      real(wp), intent(in) :: x(:)
-
-      value = sum((x - sum(x)/size(x))**2)/size(x)
-   end function variance
 end program spectrum_program

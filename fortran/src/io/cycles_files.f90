@@ -105,6 +105,7 @@ contains
       !> Error if the file could not be written
       type(error_type), allocatable, intent(out) :: error
       type(output_file_type) :: file
+      integer :: rows
 
       call file%create(path, "Cycles along a line of parameters: stable and unstable branches")
       associate (line => settings%line)
@@ -113,7 +114,11 @@ contains
       end associate
       call file%attribute("degree", int(settings%degree, int64))
       call put_orbits(file, settings%line%along, found)
-      call put_left_out(file, settings%line%along, left_out)
+      rows = file%dimension("left_out", size(left_out))
+      call file%words(rows, "left_out_origin", left_out%origin, "where it starts")
+      call file%column(rows, "left_out_"//trim(parameter_names(settings%line%along)), left_out%at, &
+                       "parameter along the line")
+      call file%words(rows, "left_out_reason", left_out%reason, "why no branch was followed")
       call put_points(file, found)
       call put_hopf(file, hopf)
       call put_curves(file, curves)
@@ -175,20 +180,6 @@ contains
       call file%words(rows, "branch_origin", words(:, 1), "where the branch starts")
       call file%words(rows, "branch_ending", words(:, 2), "why it ends")
    end subroutine put_orbits
-
-   !> Starts from which no branch was followed.
-   subroutine put_left_out(file, along, left_out)
-      type(output_file_type), intent(inout) :: file
-      integer, intent(in) :: along
-      type(left_out_type), intent(in) :: left_out(:)
-      integer :: rows
-
-      rows = file%dimension("left_out", size(left_out))
-      call file%words(rows, "left_out_origin", left_out%origin, "where it starts")
-      call file%column(rows, "left_out_"//trim(parameter_names(along)), left_out%at, &
-                       "parameter along the line")
-      call file%words(rows, "left_out_reason", left_out%reason, "why no branch was followed")
-   end subroutine put_left_out
 
    !> Special points.
    subroutine put_points(file, found)

@@ -1,7 +1,7 @@
 !> What the program `exponents` reads and writes: a scene and how its exponents are measured; these.
 module exponents_files
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-   use block_attributes, only: put_history, put_parameters
+   use block_attributes, only: put_scene
    use dde, only: integration_options
    use dde_errors, only: error_type
    use dde_kinds, only: int64, wp
@@ -121,9 +121,7 @@ contains
                          "absolute value up to which an exponent has no sign")
          call file%table(ids([1, 4]), "block_value", blocks, "exponent in each block")
          call file%table(ids([1, 3]), "running_average", averages, "plain average up to a time")
-         call file%attribute("scene", trim(scene%name))
-         call put_parameters(file, scene%parameters)
-         call put_history(file, scene%history)
+         call put_scene(file, scene)
          call file%attribute("method", trim(scene%method))
          call file%attribute("t_begin", first%t_begin)
          call file%attribute("t_end", settings%t_end)
