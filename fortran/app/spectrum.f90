@@ -7,8 +7,8 @@ program spectrum_program
    use program_arguments, only: check_input, get_paths, stop_on
    use spectral_peaks, only: find_peaks, peak_type
    use spectrum, only: power_spectrum
-   use spectrum_files, only: read_spectrum_settings, spectrum_settings_type, write_spectrum
-   use trajectory_input, only: read_trajectory, trajectory_type
+   use spectrum_files, only: read_spectrum_settings, read_trajectory, spectrum_settings_type, &
+                             trajectory_type, write_spectrum
    implicit none (type, external)
    character(len=:), allocatable :: namelist_path, output_path, trajectory_path
    type(bases_type) :: bases

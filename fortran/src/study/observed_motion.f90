@@ -32,7 +32,7 @@ module observed_motion
       !> Number of samples received, and how many of them are kept
       integer :: received = 0, kept = 0
    contains
-      procedure :: take, go_on
+      procedure :: take
    end type even_sampler_type
 
    !> A motion as far as it was observed.
@@ -117,7 +117,11 @@ contains
       type(continuation_type), intent(inout) :: continuation
 
       self%events%received = self%events_kept
-      call self%sampler%go_on(continuation%time(1))
+      associate (sampler => self%sampler)
+         if (sampler%kept == 0) sampler%begun = continuation%time(1)
+         sampler%received = sampler%kept
+         sampler%next = sampler%begun + (sampler%kept + 1)*sampler%interval
+      end associate
       call integrate(problem, continuation%time(1), time, options, outcome, error, &
                      sampler=self%sampler, watcher=self%events, continuation=continuation)
    end subroutine observe_interval
@@ -160,16 +164,6 @@ contains
 
       values = self%sampler%rows(component, :self%sampler%kept)
    end function samples
-
-   !> Begin to sample now, or go on after the last sample that is kept.
-   pure subroutine go_on(self, now)
-      class(even_sampler_type), intent(inout) :: self
-      real(wp), intent(in) :: now
-
-      if (self%kept == 0) self%begun = now
-      self%received = self%kept
-      self%next = self%begun + (self%kept + 1)*self%interval
-   end subroutine go_on
 
    !> Keep a sample, and wait for the next one.
    subroutine take(self, y)
